@@ -89,7 +89,7 @@ pub fn rendered(
         samples,
         transport,
         is_transparent: false,
-        spreads_fireflies: false,
+        is_filtered: false,
     };
     let mut painter = Painter::open(scene, task, &Quiet)?;
     Ok(painter.render(scene, &|| false, &|_| {})?.image)

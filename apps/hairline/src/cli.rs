@@ -132,10 +132,10 @@ pub struct Render {
     /// Objects that light may go by on its way besides the one that is seen, with shadows. [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64))]
     pub bounces: Option<u32>,
-    /// Whether light that few rays of a pixel found is spread over the pixels around, which keeps the picture's mean. For shadows and
-    /// bounces of more than 4 samples; the scratches' light is left as it is.
+    /// Whether what rays found of shadows and of other objects' light is filtered over each surface: less grain. Scratches, textures and highlights
+    /// stay as sharp as they are, and more samples leave less to filter.
     #[arg(long, value_enum, default_value_t = Switch::On)]
-    pub firefly_filter: Switch,
+    pub filter: Switch,
     /// Before a transparent background: the picture's alpha is the share of each pixel that surfaces cover. The environment lights them
     /// and is not seen.
     #[arg(long)]

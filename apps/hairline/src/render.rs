@@ -32,7 +32,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         backend: arguments.backend.into(),
         samples: arguments.samples,
         transport: transport(arguments.shadows, arguments.bounces, &method)?,
-        spreads_fireflies: arguments.firefly_filter == Switch::On,
+        is_filtered: arguments.filter == Switch::On,
         is_transparent: arguments.transparent,
     };
     let motion = Motion::of(&arguments.sequence, arguments.time)?;

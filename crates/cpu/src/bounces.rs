@@ -1,19 +1,32 @@
-//! Light that goes from one object to another: what a ray meets is shaded by the closed forms as a pixel is, with scratches and shadows, and may
-//! go on from there (docs/model.md, section 11).
+//! Light that goes from one object to another: what a ray meets is shaded by the closed forms, and may go on from there (docs/model.md,
+//! section 11). One source lights its base, and one pair of a scratch and a source stands for all its scratches: there is one ray anyway.
 
-use crate::gather::gather;
 use crate::light_view::LightViews;
-use crate::project::Projected;
-use crate::resolve::Sample;
-use crate::shade_scratches::{Picks, ScratchPoint, ScratchShader};
+use crate::resolve::{PointLight, Sample, kept};
+use crate::shade_scratches::{Picks, ScratchPoint, pick_one_pair};
 use crate::shadows::{Rounds, ShadowPoint, Shadows};
 use crate::surface::{SurfacePoint, surface_point};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use hairline_index::Hit;
 use hairline_optics::mask::ScratchSums;
 
-impl Shadows<'_> {
-    /// Radiance that arrives at a point from an object that a ray of it has met. None if there is no object, or light may not go by so many.
+/// What a thread needs for what rays meet, filled anew for each: one for each object that light may go by.
+pub(crate) struct HitRoom<'a> {
+    views: LightViews<'a>,
+    picks: Picks,
+}
+
+impl<'a> Shadows<'a> {
+    /// Room for a thread.
+    pub fn rooms(&self) -> Vec<HitRoom<'a>> {
+        let room = || HitRoom {
+            views: LightViews::new(self.prepared.scene),
+            picks: Picks::new(),
+        };
+        (0..self.options.bounces).map(|_| room()).collect()
+    }
+
+    /// Radiance that arrives at a point from an object that a ray of it has met.
     /// The ray stands for a solid angle: what it meets is averaged over that, and a small bright image in a mirror makes no bright dots.
     pub(crate) fn light_of_object(
         &self,
@@ -21,10 +34,13 @@ impl Shadows<'_> {
         ray: u32,
         origin_m: DVec3,
         direction: DVec3,
-        hit: Option<Hit>,
+        hit: Hit,
         solid_angle_sr: f64,
-    ) -> Option<DVec3> {
-        let hit = hit.filter(|_| at.depth < self.options.bounces)?;
+        rooms: &mut [HitRoom<'a>],
+    ) -> DVec3 {
+        let Some((HitRoom { views, picks }, rooms)) = rooms.split_first_mut() else {
+            return DVec3::ZERO;
+        };
         let scene = self.prepared.scene;
         let position_m = origin_m + direction * hit.distance_m;
         let across = |normal: DVec3, width_m: f64| {
@@ -40,77 +56,40 @@ impl Shadows<'_> {
         // Rays meet other places each: the scratches of one place stand for those of a wide footprint, which are many.
         let scratches_m = width(0.0).min(point.coherence_um * 1e-6);
         point.footprint_axes_m = across(point.normal, scratches_m);
-        let mut views = LightViews::new(scene);
         views.look_from(&point);
         let ray = 2 * at.rounds.now.first + ray;
         let seed = (at.seed ^ ray.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) ^ at.depth;
-        let mut sums = [ScratchSums::default()];
-        let mut picks = [Picks::new()];
         let is_scratched = self.prepared.draft.is_none() && self.prepared.is_scratched(&hit);
         let has_gratings = self.prepared.has_gratings(&hit);
         if is_scratched || has_gratings {
             views.ready_for_scratches(&point);
         }
-        if is_scratched {
-            picks[0].clear(self.sources(&views, at.depth + 1), 1, u64::from(seed));
-            self.add_scratches(&point, &views, hit.object, &mut sums, &mut picks);
-        }
         let onwards = ShadowPoint {
             point: &point,
             object: hit.object,
             pixel: None,
-            views: &views,
+            views,
             rounds: Rounds::all(1),
             seed,
             depth: at.depth + 1,
         };
-        let shadowed = self.shadowed(&onwards, is_scratched.then_some(&picks[0]));
-        let [mut sums] = sums;
-        shadowed.weaken(&mut sums);
-        let coherence = self.prepared.depth_coherence(hit.object);
-        let mut masked = sums.resolve(self.options.method.mask, coherence);
-        if has_gratings {
-            let [picks] = &mut picks;
-            masked = self.gratings(&onwards, picks).under(masked);
+        let mut sums = ScratchSums::default();
+        let mut light = PointLight {
+            base: self.base(&onwards, rooms),
+            ..PointLight::default()
+        };
+        if is_scratched {
+            picks.clear(1, onwards.picks_seed());
+            let point = ScratchPoint::of_ray(&point, hit.object, views);
+            pick_one_pair(self.prepared, &point, &mut sums, picks);
+            light.scratches = self.by_picks(&onwards, picks, rooms);
         }
-        let sample = Sample::surface(&point, &masked, &shadowed.base, 0.0);
-        Some(sample.base + sample.scratches)
-    }
-
-    fn add_scratches(
-        &self,
-        point: &SurfacePoint,
-        views: &LightViews,
-        object: u32,
-        sums: &mut [ScratchSums],
-        picks: &mut [Picks],
-    ) {
-        // All that may be there: a place in the picture they have none.
-        let mut list = Vec::new();
-        gather(self.prepared, object, point, |segment| {
-            list.push(Projected {
-                segment: segment as u32,
-                object,
-                reach_px: f32::INFINITY,
-                ..Projected::default()
-            });
-        });
-        let points = [ScratchPoint {
-            point,
-            object,
-            at_px: DVec2::ZERO,
-            views,
-            index: 0,
-        }];
-        let mut counts = crate::counts::Counts::default();
-        ScratchShader::new().shade(
-            self.prepared,
-            &points,
-            list.iter(),
-            sums,
-            Some(picks),
-            &mut counts,
-        );
+        light.gratings = has_gratings.then(|| self.gratings(&onwards, picks, rooms));
+        let coherence = self.prepared.depth_coherence(hit.object);
+        let kept = kept(&sums, self.options.method.mask, coherence);
+        let sample = Sample::surface(&point, hit.object, &kept, light, 0.0);
+        let [base, scratches] = sample.light();
+        (base + scratches).max(DVec3::ZERO)
     }
 }
 

@@ -28,6 +28,7 @@ mod camera_beam;
 pub mod closed_form;
 mod counts;
 pub mod draft;
+mod found;
 mod gather;
 mod light_view;
 mod options;

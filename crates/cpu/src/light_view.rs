@@ -7,6 +7,7 @@ use hairline_optics::band::{
     Cap, Outline, OutlineEdge, TUBE_CORNERS, band_moves, polygon_facing, sphere_cap, tube_outline,
 };
 use hairline_scene::{Light, LightShape, Scene, Texture};
+use std::f64::consts::PI;
 use std::ops::Range;
 
 /// One light from a point.
@@ -52,6 +53,21 @@ impl LightView {
                 highest.map_or(bound.axis, |corner| {
                     (0.9 * corner + 0.1 * bound.axis).normalize()
                 })
+            }
+        }
+    }
+
+    /// About how large it looks, steradians: of a polygon as if it were small.
+    pub fn solid_angle_sr(&self, views: &LightViews) -> f64 {
+        match self {
+            Self::Sphere { cap, .. } => 2.0 * PI * (1.0 - cap.cos_radius),
+            Self::Polygon { vertices, .. } => {
+                let corners = &views.vertices[vertices.clone()];
+                let next = corners.iter().cycle().skip(1);
+                let area: DVec3 = corners.iter().zip(next).map(|(a, b)| a.cross(*b)).sum();
+                let middle = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
+                let distance = middle.length().max(1e-6);
+                (0.5 * area.dot(middle).abs() / distance.powi(3)).min(2.0 * PI)
             }
         }
     }

@@ -38,17 +38,19 @@ impl Prepared<'_> {
         };
         let mut tile = Tile::new(&picture, &|| false);
         let sample = tile.render_pixel(column, row);
+        let [base, scratches] = sample.light().map(|rgb| rgb.as_vec3().to_array());
         let Counts { pairs, .. } = tile.counts;
         Some(PixelReading {
             image: Image {
                 size_px: [1, 1],
-                base: vec![sample.base.as_vec3().to_array()],
-                scratches: vec![sample.scratches.as_vec3().to_array()],
+                base: vec![base],
+                scratches: vec![scratches],
                 density: vec![sample.density.as_vec3().to_array()],
                 depth_m: vec![sample.depth_m as f32],
                 normal: vec![sample.normal.as_vec3().to_array()],
                 alpha: None,
                 noise: None,
+                found: None,
             },
             hit: picture.visibility.hit(column, row).copied(),
             segments: pairs as f64 / f64::from(samples),

@@ -1,46 +1,120 @@
-//! Stage 7, resolve: the mask, the sum of base and scratches, and the mean over a pixel's samples. Twin: resolve.wgsl.
+//! Stage 7, resolve: the mask, the layers of a sample's light, and the mean over a pixel's samples. Twin: resolve.wgsl.
 
+use crate::found::LayerLight;
 use crate::shade_base::BaseRadiance;
+use crate::shade_gratings::ShadedGratings;
+use crate::shadows::BaseLight;
 use crate::surface::SurfacePoint;
 use glam::DVec3;
-use hairline_optics::mask::Masked;
+use hairline_image::FoundPixel;
+use hairline_optics::mask::{Mask, Masked, ScratchSums};
 
 /// What one sample adds to the film, or the sum of several.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sample {
-    pub base: DVec3,
-    pub scratches: DVec3,
+    /// The background, and what surfaces emit.
+    pub rest: DVec3,
+    pub diffuse: LayerLight,
+    pub specular: LayerLight,
+    pub scratches: LayerLight,
     pub density: DVec3,
     /// Not of unit length.
     pub normal: DVec3,
     /// 0 for the background.
     pub depth_m: f64,
+    /// And 1; 0 for the background.
+    pub object: u32,
+    pub roughness: f64,
+}
+
+/// The light of a point on a surface, before scratches and gratings take theirs.
+#[derive(Default)]
+pub(crate) struct PointLight {
+    pub base: BaseLight,
+    pub scratches: LayerLight,
+    pub gratings: Option<(ShadedGratings, LayerLight)>,
+}
+
+impl PointLight {
+    /// Where no ray is cast.
+    pub fn open(base: BaseRadiance, sums: &ScratchSums, gratings: Option<ShadedGratings>) -> Self {
+        Self {
+            base: BaseLight {
+                specular: LayerLight::open(base.specular),
+                diffuse: LayerLight::open(base.diffuse),
+            },
+            scratches: LayerLight::open(sums.radiance.into()),
+            gratings: gratings.map(|it| (it, LayerLight::open(it.radiance))),
+        }
+    }
+}
+
+/// What is left of scratches of radiance 1 where they weaken one another, and what they take of the base.
+pub(crate) fn kept(sums: &ScratchSums, mask: Mask, depth_coherence: f64) -> Masked {
+    let even = ScratchSums {
+        radiance: [1.0; 3],
+        ..*sums
+    };
+    even.resolve(mask, depth_coherence)
 }
 
 impl Sample {
     pub fn background(radiance: DVec3) -> Self {
         Self {
-            base: radiance,
+            rest: radiance,
             ..Self::default()
         }
     }
 
-    /// A point of a surface, at a depth along the view axis.
+    /// A point of a surface, at a depth along the view axis. `kept` has what would be left of scratches of radiance 1, and what they take of the base.
     pub fn surface(
         point: &SurfacePoint,
-        masked: &Masked,
-        light: &BaseRadiance,
+        object: u32,
+        kept: &Masked,
+        light: PointLight,
         depth_m: f64,
     ) -> Self {
-        let taken = DVec3::from(masked.taken);
-        // A groove interrupts the reflecting surface; what shines from under it passes.
-        let fresnel = point.reflectance(point.wo.z);
+        let Masked {
+            scratches: kept,
+            taken,
+        } = *kept;
+        let mut taken = DVec3::from(taken);
+        let mut scratches = light.scratches.times(kept.into());
+        if let Some((gratings, of_gratings)) = light.gratings {
+            // Scratches lie on top: they take of what gratings send as of what the mirror does.
+            let left = DVec3::ONE - taken;
+            scratches += of_gratings.times(left);
+            taken = DVec3::ONE - left * (DVec3::ONE - gratings.taken);
+        }
         Self {
-            base: point.emission + light.diffuse + light.specular * (DVec3::ONE - taken),
-            scratches: DVec3::from(masked.scratches) * fresnel,
+            rest: point.emission,
+            diffuse: light.base.diffuse,
+            // A groove interrupts the reflecting surface; what shines from under it passes.
+            specular: light.base.specular.times(DVec3::ONE - taken),
+            scratches: scratches.times(point.reflectance(point.wo.z)),
             density: taken,
             normal: point.normal,
             depth_m,
+            object: object + 1,
+            roughness: point.roughness,
+        }
+    }
+
+    /// Base and scratches where rays have told what is left of them.
+    pub fn light(&self) -> [DVec3; 2] {
+        let base = self.rest + self.diffuse.left() + self.specular.left();
+        [base, self.scratches.left()]
+    }
+
+    /// What rays found of it.
+    pub fn found(&self) -> FoundPixel {
+        FoundPixel {
+            rest: self.rest.as_vec3().to_array(),
+            roughness: self.roughness as f32,
+            object: self.object,
+            diffuse: self.diffuse.in_picture(),
+            specular: self.specular.in_picture(),
+            scratches: self.scratches.in_picture(),
         }
     }
 }
@@ -56,11 +130,20 @@ pub(crate) struct Pixel {
 
 impl Pixel {
     pub fn add(&mut self, sample: &Sample) {
-        self.sum.base += sample.base;
-        self.sum.scratches += sample.scratches;
-        self.sum.density += sample.density;
-        self.sum.normal += sample.normal;
-        self.sum.depth_m += sample.depth_m;
+        let sum = &mut self.sum;
+        sum.rest += sample.rest;
+        sum.diffuse += sample.diffuse;
+        sum.specular += sample.specular;
+        sum.scratches += sample.scratches;
+        sum.density += sample.density;
+        sum.normal += sample.normal;
+        sum.depth_m += sample.depth_m;
+        sum.roughness += sample.roughness;
+        sum.object = match (self.samples, sum.object) {
+            (0, _) => sample.object,
+            (_, object) if object == sample.object => object,
+            _ => FoundPixel::SEVERAL_OBJECTS,
+        };
         self.samples += 1;
         self.covered += u32::from(sample.depth_m > 0.0);
     }
@@ -70,13 +153,19 @@ impl Pixel {
         if self.samples == 0 {
             return None;
         }
-        let per_sample = 1.0 / f64::from(self.samples);
+        let samples = f64::from(self.samples);
+        let per_sample = 1.0 / samples;
+        let covered = f64::from(self.covered.max(1));
         Some(Sample {
-            base: self.sum.base * per_sample,
-            scratches: self.sum.scratches * per_sample,
+            rest: self.sum.rest * per_sample,
+            diffuse: self.sum.diffuse.mean(samples),
+            specular: self.sum.specular.mean(samples),
+            scratches: self.sum.scratches.mean(samples),
             density: self.sum.density * per_sample,
             normal: self.sum.normal.normalize_or_zero(),
-            depth_m: self.sum.depth_m / f64::from(self.covered.max(1)),
+            depth_m: self.sum.depth_m / covered,
+            object: self.sum.object,
+            roughness: self.sum.roughness / covered,
         })
     }
 }

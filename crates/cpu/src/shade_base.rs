@@ -220,6 +220,15 @@ impl<'p, 'a> Base<'p, 'a> {
         }
     }
 
+    /// What is sent of light of radiance 1 from all around.
+    pub fn albedo(&self) -> BaseRadiance {
+        let bare = BaseRadiance {
+            specular: self.lobe.albedo,
+            diffuse: self.body,
+        };
+        self.coated(bare, |coat| coat.albedo)
+    }
+
     /// Radiance towards the viewer, before scratches take theirs, of all lights and the environment. For `sphere` see
     /// [`Self::by_light`].
     pub fn radiance(

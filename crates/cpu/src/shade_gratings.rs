@@ -7,7 +7,6 @@ use crate::shade_scratches::{Frame, Pick, Picks, ROW_PROFILE, RowSpread, Scratch
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{Along, BandPlace, OutlineRoots};
-use hairline_optics::mask::Masked;
 use hairline_scene::{GrooveGround, GroovePlace};
 
 /// All gratings under a point.
@@ -65,18 +64,20 @@ impl ShadedGratings {
                 point.coherence_um,
             );
             let scale = density / covered.max(1.0);
-            let around = views.views.len() + 1;
-            let mut add = |source: usize, row: &RowAt, sent: DVec3| {
+            let around = views.views.len();
+            // Of a source, or of what the base loses.
+            let mut add = |source: Option<usize>, row: &RowAt, sent: DVec3| {
                 let sent = scale * row.share * sent;
-                if source < around {
-                    sum.radiance += sent;
+                let pick = || row.pick(scale);
+                match source {
+                    Some(_) => sum.radiance += sent,
+                    None => sum.taken += sent,
                 }
-                if let Some(picks) = &mut picks
-                    && source < picks.sources.len()
-                {
-                    picks.add(source, sent, |radiance| row.pick(radiance));
+                match (&mut picks, source) {
+                    (Some(picks), Some(source)) => picks.add_light(source, sent, pick),
+                    (Some(picks), None) => picks.add_energy(sent, pick),
+                    (None, _) => {}
                 }
-                sent
             };
             let row = |seen: GroovePlace| RowAt::new(point, seen, table);
             let own = row(seen.of_one_spot());
@@ -84,7 +85,7 @@ impl ShadedGratings {
             for view in 0..views.views.len() {
                 let place = BandPlace::everywhere();
                 if let Some(sent) = own_light.light(&stds, place, views, view, &mut roots) {
-                    add(view, &own, sent);
+                    add(Some(view), &own, sent);
                 }
                 let half = (point.wo + views.views[view].bound().axis).with_z(0.0);
                 let along = point.world_from_surface(half);
@@ -92,14 +93,14 @@ impl ShadedGratings {
                     && let Some(sent) =
                         (across.light(prepared, point)).light(&stds, place, views, view, &mut roots)
                 {
-                    add(view, &across, sent);
+                    add(Some(view), &across, sent);
                 }
             }
             let mut add_around = |row: &RowAt, light: &ScratchLight| {
                 if let Some(environment) = environment {
-                    add(around - 1, row, light.environment(point, environment));
+                    add(Some(around), row, light.environment(point, environment));
                 }
-                sum.taken += add(around, row, light.all_around());
+                add(None, row, light.all_around());
             };
             add_around(&own, &own_light);
             for row in grating.all_ways(seen, normal).map(row) {
@@ -107,16 +108,6 @@ impl ShadedGratings {
             }
         }
         sum
-    }
-
-    /// Scratches lie on top: they take of what gratings send as of what the mirror does.
-    pub fn under(&self, scratches: Masked) -> Masked {
-        let left = DVec3::ONE - DVec3::from(scratches.taken);
-        let radiance = DVec3::from(scratches.scratches) + left * self.radiance;
-        Masked {
-            scratches: radiance.to_array(),
-            taken: (DVec3::ONE - left * (DVec3::ONE - self.taken)).to_array(),
-        }
     }
 }
 
@@ -148,7 +139,7 @@ impl RowAt {
     }
 
     /// Its rays start anywhere under the pixel.
-    fn pick(&self, radiance: DVec3) -> Pick {
+    fn pick(&self, scale: f64) -> Pick {
         Pick {
             tangent: self.tangent,
             place: BandPlace::everywhere(),
@@ -159,7 +150,9 @@ impl RowAt {
             },
             profile: ROW_PROFILE,
             row: Some(self.row),
-            radiance,
+            share: scale * self.share,
+            source: 0,
+            radiance: DVec3::ZERO,
         }
     }
 }

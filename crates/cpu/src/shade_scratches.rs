@@ -8,6 +8,7 @@ mod chord_depths;
 mod drawn_light;
 mod lanes;
 mod light_bounds;
+mod one_pair;
 mod picks;
 mod picture_chords;
 mod point;
@@ -19,15 +20,16 @@ use crate::prepared::Prepared;
 use crate::project::Projected;
 use glam::DVec3;
 use hairline_index::IndexedSegment;
-use hairline_optics::band::{Along, BandPlace, OutlineRoots};
+use hairline_optics::band::OutlineRoots;
 use hairline_optics::mask::ScratchSums;
 use hairline_optics::vectors::with_widest;
 use lanes::{GROUPS, Group, LANES, Line, Seen};
 use light_bounds::LightBounds;
 use scratch_light::scratch_energy;
 
-pub(crate) use drawn_light::DrawnLight;
-pub(crate) use picks::{Pick, Picks, SourcePicks};
+pub(crate) use drawn_light::{Choice, DrawnLight};
+pub(crate) use one_pair::pick_one_pair;
+pub(crate) use picks::{Pick, Picks};
 pub(crate) use point::{Frame, ScratchPoint};
 pub(crate) use row_spread::{ROW_PROFILE, RowSpread};
 pub(crate) use scratch_light::ScratchLight;
@@ -144,36 +146,17 @@ impl Shading<'_, '_> {
             let frame = &self.shader.frames[first + lane];
             let table = &self.prepared.tables.tables[point.point.table];
             let mut radiance = DVec3::ZERO;
-            let around = point.views.views.len() + 1;
-            let picks = self.picks.as_deref();
-            let bounces = picks.is_some_and(|p| p[point.index].sources.len() > around);
-            if bounces || !self.shader.lit.is_empty() || environment.is_some() {
+            let energy = scratch_energy(segment.profile, table, point.point.wo.z);
+            let mut picks = self.picks.as_mut().map(|picks| &mut picks[point.index]);
+            if picks.is_some() || !self.shader.lit.is_empty() || environment.is_some() {
                 let tangent = seen.tangent(lane);
-                let place = BandPlace::new(
-                    frame.steps_um.map(|step| tangent.perp_dot(step)),
-                    seen.offset_um[lane],
-                    seen.variance_um2[lane],
-                );
+                let place = seen.place(lane, frame);
                 let light = ScratchLight::new(point.point.wo, tangent, table, segment.profile);
-                let mut picks = self.picks.as_mut().map(|picks| &mut picks[point.index]);
+                let pick = || seen.pick(lane, frame, segment, share.segment);
                 let mut add = |source: usize, sent: DVec3| {
-                    if source < around {
-                        radiance += sent;
-                    }
+                    radiance += sent;
                     if let Some(picks) = &mut picks {
-                        let pick = |radiance| Pick {
-                            tangent,
-                            place,
-                            along: Along {
-                                steps_um: frame.steps_um.map(|step| tangent.dot(step)),
-                                blur_um: segment.blur_um.into(),
-                                ends: seen.ends(lane),
-                            },
-                            profile: segment.profile,
-                            row: None,
-                            radiance,
-                        };
-                        picks.add(source, share.segment * sent, pick);
+                        picks.add_light(source, share.segment * sent, pick);
                     }
                 };
                 for &index in &self.shader.lit {
@@ -192,11 +175,10 @@ impl Shading<'_, '_> {
                     let sent = light.environment(point.point, environment);
                     add(point.views.views.len(), sent);
                 }
-                if bounces {
-                    add(around, light.all_around());
+                if let Some(picks) = picks {
+                    picks.add_energy(share.segment * DVec3::from(energy), pick);
                 }
             }
-            let energy = scratch_energy(segment.profile, table, point.point.wo.z);
             self.sums[point.index].add(share, energy, radiance.to_array());
         }
     }

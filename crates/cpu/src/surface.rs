@@ -141,6 +141,15 @@ impl SurfacePoint<'_> {
         DMat3::from_cols(x, y, z).transpose()
     }
 
+    /// The same under a filter that is so many times as wide.
+    pub fn with_footprint_of(self, times: f64) -> Self {
+        Self {
+            footprint_axes_m: self.footprint_axes_m.map(|axis| axis * times),
+            normal_turns: self.normal_turns.map(|turn| turn * times),
+            ..self
+        }
+    }
+
     /// The point alone, for scratches that are not averaged over the pixel.
     pub fn without_footprint(self) -> Self {
         Self {

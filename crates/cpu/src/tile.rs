@@ -7,24 +7,29 @@ use crate::light_view::LightViews;
 use crate::options::RenderOptions;
 use crate::prepared::Prepared;
 use crate::published::Published;
-use crate::resolve::{Pixel, Sample};
+use crate::resolve::{Pixel, PointLight, Sample, kept};
 use crate::shade_base::{Base, transformed_sphere};
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{BATCH, Picks, ScratchPoint, ScratchShader};
-use crate::shadows::{PixelFilter, Rounds, ShadowPoint, Shadows};
+use crate::shadows::{HitRoom, PixelFilter, Rounds, ShadowPoint, Shadows};
 use crate::silhouettes::is_smooth;
 use crate::surface::{SurfacePoint, surface_point};
 use crate::visibility::{Visibility, center, coverage};
 use glam::{DVec2, DVec3};
-use hairline_image::{Batch, Image};
+use hairline_image::{Found, FoundPixel, Image};
 use hairline_index::Hit;
-use hairline_optics::mask::ScratchSums;
+use hairline_optics::mask::{Masked, ScratchSums};
 use hairline_scene::CameraFrame;
 use hairline_scene::camera::pixel_jitter;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// Samples of a pixel that share scratches.
+const SAMPLES_AT_ONCE: usize = 16;
+/// The least cosine between normals that are those of one surface.
+const ALIKE_COS: f64 = 0.95;
 
 /// Pixels to a side.
 const SIDE: usize = TILE_PX as usize;
@@ -61,9 +66,65 @@ struct Point<'a> {
     /// Rays to each light.
     rounds: Rounds,
     seen: Seen<'a>,
+    scratches: Shared,
+    /// The surface as its scratches are seen, where that is by another filter, and that filter.
+    wide: Option<SurfacePoint<'a>>,
+    wide_std_px: f64,
 }
 
-impl Point<'_> {
+/// For which samples of a pixel a sample has the scratches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shared {
+    /// For so many, itself among them.
+    Among(u32),
+    /// Another one of the batch has them.
+    With(usize),
+}
+
+impl<'a> Point<'a> {
+    /// Where its rays start, if it sees a surface.
+    fn shadow_point<'p>(
+        &'p self,
+        camera: &'p CameraFrame,
+        views: &'p LightViews<'a>,
+    ) -> Option<ShadowPoint<'p, 'a>> {
+        let Seen::Surface { hit, point, .. } = &self.seen else {
+            return None;
+        };
+        Some(ShadowPoint {
+            point,
+            object: hit.object,
+            pixel: Some(PixelFilter {
+                camera,
+                at_px: self.at_px,
+                std_px: self.std_px,
+            }),
+            views,
+            rounds: self.rounds,
+            seed: self.seed(),
+            depth: 0,
+        })
+    }
+
+    /// The same for its scratches; none if another sample has them.
+    fn scratched_point<'p>(
+        &'p self,
+        camera: &'p CameraFrame,
+        views: &'p LightViews<'a>,
+    ) -> Option<ShadowPoint<'p, 'a>> {
+        let Shared::Among(samples) = self.scratches else {
+            return None;
+        };
+        let mut at = self.shadow_point(camera, views)?;
+        at.point = self.wide.as_ref().unwrap_or(at.point);
+        at.rounds.now.count *= samples;
+        at.rounds.all *= samples;
+        if let Some(pixel) = &mut at.pixel {
+            pixel.std_px = self.wide_std_px;
+        }
+        Some(at)
+    }
+
     /// For random numbers: another one for each sample of each pixel.
     fn seed(&self) -> u32 {
         let mixed = |a: u32, b: f64| {
@@ -90,6 +151,27 @@ pub(crate) enum Seen<'a> {
     },
 }
 
+impl Seen<'_> {
+    /// Whether both see one surface, as far as scratches tell.
+    fn is_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (
+                Self::Surface { hit, point, .. },
+                Self::Surface {
+                    hit: other_hit,
+                    point: other,
+                    ..
+                },
+            ) => {
+                hit.object == other_hit.object
+                    && point.material == other.material
+                    && point.normal.dot(other.normal) > ALIKE_COS
+            }
+            _ => false,
+        }
+    }
+}
+
 /// The room that a thread needs for a tile, filled anew for each.
 pub(crate) struct Tile<'a> {
     picture: &'a Picture<'a>,
@@ -104,6 +186,7 @@ pub(crate) struct Tile<'a> {
     /// Where there are shadows.
     picks: Option<Vec<Picks>>,
     grating_picks: Picks,
+    rooms: Vec<HitRoom<'a>>,
     shader: ScratchShader,
     pixels: [Pixel; SIDE * SIDE],
     pub counts: Counts,
@@ -126,6 +209,7 @@ impl<'a> Tile<'a> {
                 .as_ref()
                 .map(|_| (0..BATCH).map(|_| Picks::new()).collect()),
             grating_picks: Picks::new(),
+            rooms: picture.shadows.as_ref().map_or(Vec::new(), |it| it.rooms()),
             shader: ScratchShader::new(),
             pixels: [Pixel::default(); SIDE * SIDE],
             counts: Counts::default(),
@@ -177,15 +261,63 @@ impl<'a> Tile<'a> {
             self.add(column, row, pixel, center(x, y), 1, hit);
             return;
         }
-        for sample in picture.options.batch().range() {
-            let at_px = center(x, y) + pixel_jitter(sample, samples);
-            let camera = &picture.camera;
-            let direction = camera.camera_ray(at_px).normalize();
-            let triangles = &picture.prepared.triangles;
-            let coverage = coverage(x, y, sample);
-            let rays = &mut self.rays;
-            let hit = rays.intersect(triangles, camera, at_px, direction, coverage);
-            self.add(column, row, pixel, at_px, samples, hit);
+        let range = picture.options.batch().range();
+        for first in range.clone().step_by(SAMPLES_AT_ONCE) {
+            let chunk = first..range.end.min(first + SAMPLES_AT_ONCE as u32);
+            if self.batch.len() + chunk.len() > BATCH {
+                self.shade(column, row);
+            }
+            let in_batch = self.batch.len();
+            for sample in chunk {
+                let at_px = center(x, y) + pixel_jitter(sample, samples);
+                let camera = &picture.camera;
+                let direction = camera.camera_ray(at_px).normalize();
+                let triangles = &picture.prepared.triangles;
+                let coverage = coverage(x, y, sample);
+                let rays = &mut self.rays;
+                let hit = rays.intersect(triangles, camera, at_px, direction, coverage);
+                self.add(column, row, pixel, at_px, samples, hit);
+            }
+            self.share_scratches(in_batch, center(x, y));
+        }
+    }
+
+    /// Has one sample stand for the scratches of all that see the same surface, of those of a pixel from `first` on: the one nearest to the
+    /// pixel's middle, with the pixel's whole filter. Scratches are most of the work, and a pixel without an edge has them once, too.
+    fn share_scratches(&mut self, first: usize, middle_px: DVec2) {
+        let prepared = self.picture.prepared;
+        let filter = prepared.scene.render.filter_std_px;
+        let off = |point: &Point| point.at_px.distance_squared(middle_px);
+        let mut order: Vec<usize> = (first..self.batch.len()).collect();
+        order.sort_by(|&a, &b| off(&self.batch[a]).total_cmp(&off(&self.batch[b])));
+        let mut leaders: Vec<usize> = Vec::new();
+        for i in order {
+            let is_scratched = match &self.batch[i].seen {
+                Seen::Surface { hit, .. } => prepared.is_scratched(hit),
+                Seen::Background(_) => false,
+            };
+            if !is_scratched {
+                continue;
+            }
+            let like = |&&leader: &&usize| self.batch[leader].seen.is_like(&self.batch[i].seen);
+            match leaders.iter().find(like).copied() {
+                Some(leader) => {
+                    self.batch[i].scratches = Shared::With(leader);
+                    if let Shared::Among(samples) = &mut self.batch[leader].scratches {
+                        *samples += 1;
+                    }
+                }
+                None => leaders.push(i),
+            }
+        }
+        for leader in leaders {
+            let point = &mut self.batch[leader];
+            if let (Shared::Among(2..), Seen::Surface { point: at, .. }) =
+                (point.scratches, &point.seen)
+            {
+                point.wide = Some(at.with_footprint_of(filter / point.std_px));
+                point.wide_std_px = filter;
+            }
         }
     }
 
@@ -203,21 +335,25 @@ impl<'a> Tile<'a> {
             self.shade(column, row);
         }
         let seen = self.picture.surface(at_px, samples, hit);
-        // A pixel without an edge has one sample, and the rays of all. Two rays at least: one half of them guesses for the other.
+        // A pixel without an edge has one sample, and the rays of all.
         let options = &self.picture.options;
         let rounds = match samples {
             1 => Rounds {
                 now: options.batch(),
                 all: options.samples.max(1),
             },
-            _ => Rounds::all(2),
+            _ => Rounds::all(1),
         };
+        let std_px = self.picture.prepared.scene.render.footprint_std_px(samples);
         self.batch.push(Point {
             pixel,
             at_px,
-            std_px: self.picture.prepared.scene.render.footprint_std_px(samples),
+            std_px,
             rounds,
             seen,
+            scratches: Shared::Among(1),
+            wide: None,
+            wide_std_px: std_px,
         });
     }
 
@@ -240,20 +376,19 @@ impl<'a> Tile<'a> {
         let prepared = self.picture.prepared;
         let is_tiled = matches!(self.picture.by, By::Tiles(_));
         for (point, views) in self.batch.iter().zip(&mut self.views) {
-            if let Seen::Surface { point, hit, .. } = &point.seen {
-                views.look_from(point);
+            if let Seen::Surface { point: at, hit, .. } = &point.seen {
+                views.look_from(at);
                 if is_tiled && (prepared.is_scratched(hit) || prepared.has_gratings(hit)) {
-                    views.ready_for_scratches(point);
+                    views.ready_for_scratches(point.wide.as_ref().unwrap_or(at));
                 }
             }
         }
         self.sums.fill(ScratchSums::default());
-        if let (Some(picks), Some(shadows)) = (&mut self.picks, &self.picture.shadows) {
-            for ((point, views), picks) in self.batch.iter().zip(&self.views).zip(picks) {
-                let sources = shadows.sources(views, 0);
-                let Batch { first, count } = point.rounds.now;
-                let seed = u64::from(first) << 32 | u64::from(point.seed());
-                picks.clear(sources, count, seed);
+        for (i, point) in self.batch.iter().enumerate() {
+            if let Some(picks) = &mut self.picks
+                && let Some(at) = point.scratched_point(&self.picture.camera, &self.views[i])
+            {
+                picks[i].clear(at.rounds.now.count, at.picks_seed());
             }
         }
         if let By::Tiles(lists) = &self.picture.by {
@@ -263,9 +398,12 @@ impl<'a> Tile<'a> {
                 .zip(&self.views)
                 .enumerate()
                 .filter_map(|(index, (point, views))| match &point.seen {
-                    Seen::Surface { point: at, hit, .. } if prepared.is_scratched(hit) => {
+                    Seen::Surface { point: at, hit, .. }
+                        if prepared.is_scratched(hit)
+                            && matches!(point.scratches, Shared::Among(_)) =>
+                    {
                         Some(ScratchPoint {
-                            point: at,
+                            point: point.wide.as_ref().unwrap_or(at),
                             object: hit.object,
                             at_px: point.at_px,
                             views,
@@ -292,7 +430,11 @@ impl<'a> Tile<'a> {
             if self.picture.shadows.is_some() && self.gives_up() {
                 return;
             }
-            let (point, views, sums) = (&self.batch[i], &self.views[i], &self.sums[i]);
+            let (point, views) = (&self.batch[i], &self.views[i]);
+            let mut sums = match point.scratches {
+                Shared::Among(_) => self.sums[i],
+                Shared::With(leader) => self.sums[leader],
+            };
             let sample = match &point.seen {
                 Seen::Background(radiance) => Sample::background(*radiance),
                 Seen::Surface {
@@ -300,54 +442,63 @@ impl<'a> Tile<'a> {
                     point: at,
                     depth_m,
                 } => {
-                    let (masked, light) = match (&self.picture.by, &self.picture.shadows) {
-                        (By::Tiles(_), shadows) => {
-                            let mut sums = *sums;
-                            let has_gratings = prepared.has_gratings(hit);
-                            let gratings;
-                            let light = match shadows {
-                                None => {
-                                    gratings = has_gratings.then(|| {
-                                        ShadedGratings::new(prepared, at, hit.object, views, None)
-                                    });
-                                    Base::new(at).radiance(environment, views, transformed_sphere)
-                                }
-                                Some(shadows) => {
-                                    let is_scratched = prepared.is_scratched(hit);
-                                    let picks = self.picks.as_ref().map(|picks| &picks[i]);
-                                    let shadow_point = ShadowPoint {
-                                        point: at,
-                                        object: hit.object,
-                                        pixel: Some(PixelFilter {
-                                            camera: &self.picture.camera,
-                                            at_px: point.at_px,
-                                            std_px: point.std_px,
-                                        }),
-                                        views,
-                                        rounds: point.rounds,
-                                        seed: point.seed(),
-                                        depth: 0,
-                                    };
-                                    let picks = picks.filter(|_| is_scratched);
-                                    let shadowed = shadows.shadowed(&shadow_point, picks);
-                                    shadowed.weaken(&mut sums);
-                                    gratings = has_gratings.then(|| {
-                                        shadows.gratings(&shadow_point, &mut self.grating_picks)
-                                    });
-                                    shadowed.base
-                                }
-                            };
-                            let coherence = prepared.depth_coherence(hit.object);
-                            let masked = sums.resolve(mask, coherence);
-                            let masked = gratings.map_or(masked, |gratings| gratings.under(masked));
-                            (masked, light)
-                        }
-                        (By::Published(published), _) => (
-                            published.scratches(at, hit, views),
-                            Base::new(at).radiance(environment, views, Published::base_sphere),
-                        ),
+                    let has_gratings = prepared.has_gratings(hit);
+                    let samples = match point.scratches {
+                        Shared::Among(samples) => f64::from(samples),
+                        Shared::With(_) => 0.0,
                     };
-                    Sample::surface(at, &masked, &light, *depth_m)
+                    let coherence = prepared.depth_coherence(hit.object);
+                    let (kept, light) = match (&self.picture.by, &self.picture.shadows) {
+                        (By::Tiles(_), Some(shadows)) => {
+                            let Some(shadow_point) =
+                                point.shadow_point(&self.picture.camera, views)
+                            else {
+                                continue;
+                            };
+                            let mut light = PointLight {
+                                base: shadows.base(&shadow_point, &mut self.rooms),
+                                ..PointLight::default()
+                            };
+                            if let Some(picks) = &self.picks
+                                && let Some(at) = point.scratched_point(&self.picture.camera, views)
+                                && prepared.is_scratched(hit)
+                            {
+                                light.scratches = shadows.by_picks(&at, &picks[i], &mut self.rooms);
+                                // To the bit, where nothing is hidden.
+                                light.scratches.open = sums.radiance.into();
+                                light.scratches = light.scratches.times(DVec3::splat(samples));
+                            }
+                            if has_gratings {
+                                let picks = &mut self.grating_picks;
+                                let gratings =
+                                    shadows.gratings(&shadow_point, picks, &mut self.rooms);
+                                light.gratings = Some(gratings);
+                            }
+                            (kept(&sums, mask, coherence), light)
+                        }
+                        (By::Tiles(_), None) => {
+                            let gratings = has_gratings.then(|| {
+                                ShadedGratings::new(prepared, at, hit.object, views, None)
+                            });
+                            let base = Base::new(at);
+                            let base = base.radiance(environment, views, transformed_sphere);
+                            let mut light = PointLight::open(base, &sums, gratings);
+                            light.scratches = light.scratches.times(DVec3::splat(samples));
+                            (kept(&sums, mask, coherence), light)
+                        }
+                        (By::Published(published), _) => {
+                            let masked = published.scratches(at, hit, views);
+                            let base = Base::new(at);
+                            let base = base.radiance(environment, views, Published::base_sphere);
+                            sums.radiance = masked.scratches;
+                            let kept = Masked {
+                                scratches: [1.0; 3],
+                                ..masked
+                            };
+                            (kept, PointLight::open(base, &sums, None))
+                        }
+                    };
+                    Sample::surface(at, hit.object, &kept, light, *depth_m)
                 }
             };
             self.pixels[point.pixel].add(&sample);
@@ -371,6 +522,12 @@ impl<'a> Picture<'a> {
             .iter()
             .map(|row| self.rows.end.min((row + 1) * SIDE) - self.rows.start.max(row * SIDE))
             .collect();
+        if self.shadows.is_some() && image.found.is_none() {
+            image.found = Some(Found {
+                rounds: self.options.batch().count,
+                pixels: vec![FoundPixel::default(); image.pixel_count()],
+            });
+        }
         let mut layers = Layers::of(image);
         let parts: Vec<(usize, Layers)> = tile_rows
             .into_iter()
@@ -459,11 +616,15 @@ struct Layers<'i> {
     density: &'i mut [[f32; 3]],
     depth_m: &'i mut [f32],
     normal: &'i mut [[f32; 3]],
+    /// Empty without shadows.
+    found: &'i mut [FoundPixel],
 }
 
 impl<'i> Layers<'i> {
     fn of(image: &'i mut Image) -> Self {
+        let found = image.found.as_mut();
         Self {
+            found: found.map_or(&mut [], |found| &mut found.pixels),
             base: &mut image.base,
             scratches: &mut image.scratches,
             density: &mut image.density,
@@ -485,12 +646,21 @@ impl<'i> Layers<'i> {
             density: split(&mut self.density, pixels),
             depth_m: split(&mut self.depth_m, pixels),
             normal: split(&mut self.normal, pixels),
+            found: match self.found.len() {
+                0 => &mut [],
+                _ => split(&mut self.found, pixels),
+            },
         }
     }
 
     fn set(&mut self, pixel: usize, sample: &Sample) {
-        self.base[pixel] = sample.base.as_vec3().to_array();
-        self.scratches[pixel] = sample.scratches.as_vec3().to_array();
+        if let Some(found) = self.found.get_mut(pixel) {
+            *found = sample.found();
+            [self.base[pixel], self.scratches[pixel]] = found.light();
+        } else {
+            let light = sample.light();
+            [self.base[pixel], self.scratches[pixel]] = light.map(|rgb| rgb.as_vec3().to_array());
+        }
         self.density[pixel] = sample.density.as_vec3().to_array();
         self.depth_m[pixel] = sample.depth_m as f32;
         self.normal[pixel] = sample.normal.as_vec3().to_array();

@@ -5,8 +5,10 @@ use std::ops::Range;
 
 use crate::{Image, Noise};
 
-/// Samples in a batch of [`Batches`].
+/// Samples in a batch of [`Batches`] whose pictures are averaged.
 pub const BATCH_SAMPLES: u32 = 4;
+/// Samples at most in a batch of what rays find: their closed forms are computed once for each batch.
+pub const BATCH_ROUNDS: u32 = 16;
 
 /// Some of the samples of each pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +28,7 @@ impl Batch {
         }
     }
 
-    /// Those that `samples`, at least 1, are added up in; more than a batch are rounded up to whole ones.
+    /// Those that `samples`, at least 1, are averaged in; more than a batch are rounded up to whole ones.
     pub fn of(samples: u32) -> impl Iterator<Item = Self> {
         let count = samples.clamp(1, BATCH_SAMPLES);
         let batches = samples.max(1).div_ceil(count);
@@ -42,7 +44,7 @@ impl Batch {
     }
 }
 
-/// The mean of the batches that were added so far.
+/// The mean of the batches that were added so far. What rays found in them ([`crate::Found`]) adds up: then the mean is that of all their rays.
 ///
 /// ```
 /// use hairline_image::{Batches, Image};
@@ -65,9 +67,22 @@ pub struct Batches {
     samples: u32,
     size: u32,
     done: u32,
+    /// Batches.
+    added: u32,
 }
 
 impl Batches {
+    /// Nothing yet of `samples` rounds of rays for each pixel, at least 1: the batches are as large as can be.
+    pub fn of_rounds(samples: u32) -> Self {
+        Self {
+            image: None,
+            samples: samples.max(1),
+            size: BATCH_ROUNDS,
+            done: 0,
+            added: 0,
+        }
+    }
+
     /// Nothing yet of `samples` for each pixel, at least 1; more than a batch are rounded up to whole ones.
     pub fn new(samples: u32) -> Self {
         let size = samples.clamp(1, BATCH_SAMPLES);
@@ -76,6 +91,7 @@ impl Batches {
             samples: samples.max(1).next_multiple_of(size),
             size,
             done: 0,
+            added: 0,
         }
     }
 
@@ -93,7 +109,7 @@ impl Batches {
     pub fn next(&self) -> Option<Batch> {
         (self.done < self.samples).then_some(Batch {
             first: self.done,
-            count: self.size,
+            count: self.size.min(self.samples - self.done),
         })
     }
 
@@ -133,13 +149,21 @@ impl Batches {
     /// # Panics
     /// If it has another size than those before it.
     pub fn add(&mut self, batch: Image) {
-        let before = self.done / self.size;
-        self.done += self.size;
+        let found = batch.found.as_ref().map(|found| found.rounds);
+        let before = self.added;
+        self.added += 1;
+        self.done += found.unwrap_or(self.size);
         let Some(image) = &mut self.image else {
             self.image = Some(self.first(batch));
             return;
         };
         assert_eq!(image.size_px, batch.size_px, "a batch of another size");
+        if let (Some(found), Some(more)) = (&mut image.found, &batch.found) {
+            found.add(more);
+            add_surfaces(image, &batch, before);
+            image.show_found();
+            return;
+        }
         let Some(noise) = &mut image.noise else {
             unreachable!("there is more than one batch")
         };
@@ -158,29 +182,37 @@ impl Batches {
                 add_batch(&mut means[i], &mut variances[i], wide(added[i]), before);
             }
             noise.samples[i] += self.size;
-            // Only batches that see a surface know of its depth.
-            let depth_m = &mut image.depth_m[i];
-            match (*depth_m, batch.depth_m[i]) {
-                (0.0, added) => *depth_m = added,
-                (_, 0.0) => {}
-                (mean, added) => *depth_m += (added - mean) / (before + 1) as f32,
-            }
-            if image.normal[i] != batch.normal[i] {
-                let sum =
-                    [0, 1, 2].map(|c| image.normal[i][c] * before as f32 + batch.normal[i][c]);
-                let length = sum.iter().map(|x| x * x).sum::<f32>().sqrt();
-                image.normal[i] = sum.map(|x| x / length.max(f32::MIN_POSITIVE));
-            }
         }
+        add_surfaces(image, &batch, before);
     }
 
     fn first(&self, mut image: Image) -> Image {
-        if self.samples > self.size {
+        if image.found.is_some() {
+            image.show_found();
+        } else if self.samples > self.size {
             let mut noise = Noise::new(image.size_px, self.size);
             noise.samples.fill(self.size);
             image.noise = Some(noise);
         }
         image
+    }
+}
+
+/// Takes in what a batch sees of surfaces; `before` batches came before.
+fn add_surfaces(image: &mut Image, batch: &Image, before: u32) {
+    for i in 0..batch.depth_m.len() {
+        // Only batches that see a surface know of its depth.
+        let depth_m = &mut image.depth_m[i];
+        match (*depth_m, batch.depth_m[i]) {
+            (0.0, added) => *depth_m = added,
+            (_, 0.0) => {}
+            (mean, added) => *depth_m += (added - mean) / (before + 1) as f32,
+        }
+        if image.normal[i] != batch.normal[i] {
+            let sum = [0, 1, 2].map(|c| image.normal[i][c] * before as f32 + batch.normal[i][c]);
+            let length = sum.iter().map(|x| x * x).sum::<f32>().sqrt();
+            image.normal[i] = sum.map(|x| x / length.max(f32::MIN_POSITIVE));
+        }
     }
 }
 

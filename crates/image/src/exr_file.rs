@@ -158,6 +158,7 @@ pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes),
         normal: part(crate::Layer::Normal)?.rgb,
         alpha: file.find([ALPHA; 3]).map(|it| plane(&it)),
         noise: None,
+        found: None,
     };
     image.noise = file.noise(path)?;
     check_lengths(&image, path)?;

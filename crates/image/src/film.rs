@@ -1,5 +1,7 @@
 //! Images in memory: the layers of a render, and plain pictures.
 
+use crate::found::Found;
+
 /// What a renderer makes: one value a pixel in each layer, row by row from the top. All layers are equally long.
 ///
 /// The beauty is not stored: it is [`Image::base`] plus [`Image::scratches`] by construction.
@@ -25,6 +27,8 @@ pub struct Image {
     pub alpha: Option<Vec<f32>>,
     /// How sure the colours are, where they are Monte Carlo estimates.
     pub noise: Option<Noise>,
+    /// What rays found, where there were any: for pictures of further rays, and for the filter. No file holds it.
+    pub found: Option<Found>,
 }
 
 /// How sure a Monte Carlo estimate is. All vectors are as long as the image's layers.
@@ -138,6 +142,7 @@ impl Image {
             normal: vec![[0.0; 3]; count],
             alpha: None,
             noise: None,
+            found: None,
         }
     }
 

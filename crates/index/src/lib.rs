@@ -47,6 +47,6 @@ pub use method::Method;
 pub use scratch_index::ScratchIndex;
 pub use segment_tree::{ScratchNode, SegmentTree};
 pub use triangle_beam::TriangleBeam;
-pub use triangle_index::{TriangleIndex, TriangleNode};
+pub use triangle_index::{TriangleIndex, TriangleNode, intersect_triangle};
 pub use triangle_lists::TriangleLists;
 pub use watch::Watch;

@@ -273,8 +273,9 @@ fn non_zero(direction: Vec3A) -> Vec3A {
     }))
 }
 
-/// T. Moeller, B. Trumbore, *Fast, Minimum Storage Ray/Triangle Intersection*, 1997; both sides.
-fn intersect_triangle(
+/// The distance along a direction at which a line from `origin` meets a triangle, either side of it, and the barycentric coordinates of the second
+/// and third corner there: T. Moeller, B. Trumbore, *Fast, Minimum Storage Ray/Triangle Intersection*, 1997.
+pub fn intersect_triangle(
     origin: DVec3,
     direction: DVec3,
     [a, b, c]: &[DVec3; 3],

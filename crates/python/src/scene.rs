@@ -238,7 +238,7 @@ impl Built {
             )?,
             samples,
             transport,
-            spreads_fireflies: true,
+            is_filtered: true,
             is_transparent: transparent,
         };
         let ended = watched::run(host, |told| {

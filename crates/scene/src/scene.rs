@@ -41,7 +41,7 @@ impl Transport {
     pub fn batches(self, camera: &Camera, samples: u32) -> Option<Batches> {
         match (camera.has_lens(), self.shadows) {
             (true, _) => Some(Batches::new(samples.max(LENS_SAMPLES))),
-            (false, true) => Some(Batches::new(samples)),
+            (false, true) => Some(Batches::of_rounds(samples)),
             (false, false) => None,
         }
     }

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use anyhow::anyhow;
 use hairline_cpu::closed_form::{self, Prepared};
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
-use hairline_image::{Batch, Image, Notes, spread_fireflies};
+use hairline_image::{Batch, Image, Notes, filter_found};
 use hairline_index::method::{Method, Structure};
 use hairline_index::{ScratchIndex, TriangleIndex, Watch};
 use hairline_scene::{DEFAULT_TRANSPORT, Scene, ScratchTables, Transport};
@@ -43,8 +43,8 @@ pub struct Task {
     pub samples: u32,
     /// The ways of light.
     pub transport: Transport,
-    /// Whether what few rays found is spread over the pixels around ([`spread_fireflies`]).
-    pub spreads_fireflies: bool,
+    /// Whether what rays found is filtered ([`filter_found`]).
+    pub is_filtered: bool,
     /// Whether the picture has [`Image::alpha`]: nothing is seen behind surfaces then, the environment neither.
     pub is_transparent: bool,
 }
@@ -206,8 +206,18 @@ impl<'a> Painter<'a> {
             return self.render_direct(scene, is_stopped, progress);
         };
         let wanted = batches.samples();
+        // Each point of a lens has a picture of its own, with edges of its own.
+        let has_lens = scene.camera.has_lens();
+        let is_filtered = self.task.is_filtered;
         batches.fill(progress, |batch, progress| {
-            self.render_batch(scene, wanted, Some(batch), is_stopped, progress)
+            let mut image = self.render_batch(scene, wanted, Some(batch), is_stopped, progress)?;
+            if let Some(image) = image.as_mut().filter(|_| has_lens) {
+                if is_filtered {
+                    filter_found(image);
+                }
+                image.found = None;
+            }
+            Ok::<_, Failure>(image)
         })?;
         let samples = batches.done();
         let mut image = batches.into_image().ok_or_else(|| {
@@ -215,9 +225,10 @@ impl<'a> Painter<'a> {
                 "interrupted before the first samples were done; there is nothing to write"
             ))
         })?;
-        if self.task.spreads_fireflies {
-            spread_fireflies(&mut image);
+        if is_filtered {
+            filter_found(&mut image);
         }
+        image.found = None;
         Ok(Rendered {
             image,
             samples,

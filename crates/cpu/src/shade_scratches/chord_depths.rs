@@ -7,6 +7,7 @@ use hairline_optics::band_environment::row_part_count;
 use hairline_optics::table::TableRow;
 
 /// The antiderivative over q, with a depth for each part of a chord of a grating.
+#[derive(Clone)]
 pub(super) struct PartedChord<'a> {
     width_um: f64,
     low: f64,

@@ -22,7 +22,7 @@ pub(crate) struct DrawnLight {
 }
 
 /// One of many, drawn by the luminance of what each sends.
-struct Choice {
+pub(crate) struct Choice {
     /// What all of them send.
     total: DVec3,
     /// The sum of the luminances.
@@ -32,7 +32,7 @@ struct Choice {
 }
 
 impl Choice {
-    fn new(pick_u: f64) -> Self {
+    pub fn new(pick_u: f64) -> Self {
         Self {
             total: DVec3::ZERO,
             weight: 0.0,
@@ -41,7 +41,7 @@ impl Choice {
     }
 
     /// Whether the next one is taken in place of those before.
-    fn offer(&mut self, sent: DVec3) -> bool {
+    pub fn offer(&mut self, sent: DVec3) -> bool {
         let weight = luminance(sent);
         self.total += sent;
         if !(weight > 0.0) {
@@ -57,16 +57,22 @@ impl Choice {
         };
         is_taken
     }
+
+    /// The sum of the luminances.
+    pub fn total(&self) -> f64 {
+        self.weight
+    }
 }
 
-/// One of many lines, drawn by what comes along them, and a place on it.
-struct Offers {
+/// One of many lines, drawn by what comes along them.
+struct Offers<F> {
     chord: DrawnChord,
     lines: Choice,
-    taken: Option<(BandLine, f64, DVec3)>,
+    /// The line, the parts of it that light covers, and the antiderivative of what comes from there.
+    taken: Option<(BandLine, DrawnChord, F)>,
 }
 
-impl Offers {
+impl<F: Fn(f64) -> DVec3> Offers<F> {
     fn new(pick_u: f64) -> Self {
         Self {
             chord: DrawnChord::default(),
@@ -76,29 +82,18 @@ impl Offers {
     }
 
     /// Offers the part of a line between roots. `spectrum` is the antiderivative of what comes from there.
-    fn offer(
-        &mut self,
-        line: BandLine,
-        roots: impl Iterator<Item = (f64, f64)>,
-        spectrum: impl Fn(f64) -> [f64; 3],
-        chord_u: f64,
-    ) {
-        let of_luminance = |q: f64| luminance(spectrum(q).into());
-        self.chord.find(roots, of_luminance);
+    fn offer(&mut self, line: BandLine, roots: impl Iterator<Item = (f64, f64)>, spectrum: F) {
+        self.chord.find(roots, |q| luminance(spectrum(q)));
         let parts = self.chord.intervals();
-        let sent =
-            parts.map(|(low, high)| DVec3::from(spectrum(high)) - DVec3::from(spectrum(low)));
-        if !self.lines.offer(sent.sum()) {
-            return;
+        let sent = parts.map(|(low, high)| spectrum(high) - spectrum(low));
+        if self.lines.offer(sent.sum()) {
+            self.taken = Some((line, std::mem::take(&mut self.chord), spectrum));
         }
-        self.taken = self.chord.draw(of_luminance, chord_u).map(|(low, high)| {
-            let sent = DVec3::from(spectrum(high)) - DVec3::from(spectrum(low));
-            (line, 0.5 * (low + high), sent)
-        });
     }
 
-    fn taken(self, frame: BandFrame) -> Option<DrawnLight> {
-        let (direction, here) = self.place()?;
+    /// A direction on the line that was taken, drawn by `chord_u`.
+    fn taken(&self, frame: BandFrame, chord_u: f64) -> Option<DrawnLight> {
+        let (direction, here) = self.place(chord_u)?;
         let total = self.lines.total;
         let mean = total / luminance(total);
         // Channels that get nothing have no colour to differ in.
@@ -110,9 +105,12 @@ impl Offers {
     }
 
     /// The direction in the frame of the scratch, and the colour of what comes from there, of luminance 1.
-    fn place(&self) -> Option<(DVec3, DVec3)> {
-        let (line, q, sent) = self.taken?;
-        Some((line.direction_at(q), sent / luminance(sent)))
+    fn place(&self, chord_u: f64) -> Option<(DVec3, DVec3)> {
+        let (line, chord, spectrum) = self.taken.as_ref()?;
+        let (low, high) = chord.draw(|q| luminance(spectrum(q)), chord_u)?;
+        let sent = spectrum(high) - spectrum(low);
+        let direction = line.direction_at(0.5 * (low + high));
+        Some((direction, sent / luminance(sent)))
     }
 }
 
@@ -131,11 +129,10 @@ impl ScratchLight<'_> {
         let motion = self.motion(place, views, view);
         let wo = self.wo + motion.shift * DVec3::X;
         let stds = motion.band(*stds).stds;
-        let mut roots = OutlineRoots::default();
-        let mut offers = Offers::new(pick_u);
         // One line of each part of the band, and of these one by what comes along it.
         match light {
             LightView::Sphere { cap, .. } => {
+                let mut offers = Offers::new(pick_u);
                 let cap = cap.turned(self.frame);
                 let (lowest, highest) = sphere_band_extent(wo, cap);
                 let lines = band_lines(wo.x, lowest, highest, stds);
@@ -143,8 +140,9 @@ impl ScratchLight<'_> {
                     let line = lines.drawn_line(wo, i, line_u);
                     let on_line = sphere_chord(line, cap);
                     let spectrum = self.spectrum(line, on_line.range(line));
-                    offers.offer(line, on_line.signed(line), spectrum, chord_u);
+                    offers.offer(line, on_line.signed(line), move |q| spectrum(q).into());
                 }
+                offers.taken(self.frame, chord_u)
             }
             LightView::Polygon {
                 vertices,
@@ -153,15 +151,22 @@ impl ScratchLight<'_> {
                 sets,
                 ..
             } => {
+                let mut offers = Offers::new(pick_u);
+                let mut roots = OutlineRoots::default();
                 let outline = views.outline(vertices, *away, *facing, *sets);
+                let picture = views.picture(light);
                 let (lowest, highest) = outline.band_extent(self.frame, wo.x);
                 let lines = band_lines(wo.x, lowest, highest, stds);
                 for i in 0..lines.count {
                     let line = lines.drawn_line(wo, i, line_u);
                     outline.roots(self.frame, line, &mut roots);
                     let spectrum = self.spectrum(line, roots.range);
-                    let Some(picture) = views.picture(light) else {
-                        offers.offer(line, roots.signed().iter().copied(), spectrum, chord_u);
+                    let of = |radiance: DVec3| {
+                        let spectrum = spectrum.clone();
+                        move |q: f64| radiance * DVec3::from(spectrum(q))
+                    };
+                    let Some(picture) = picture else {
+                        offers.offer(line, roots.signed().iter().copied(), of(DVec3::ONE));
                         continue;
                     };
                     let of_luminance = |q: f64| luminance(spectrum(q).into());
@@ -169,13 +174,12 @@ impl ScratchLight<'_> {
                         self.picture_parts(line, &roots, picture, of_luminance)
                     {
                         let ends = [(-1.0, low), (1.0, high)];
-                        let spectrum = |q: f64| (radiance * DVec3::from(spectrum(q))).into();
-                        offers.offer(line, ends.into_iter(), spectrum, chord_u);
+                        offers.offer(line, ends.into_iter(), of(radiance));
                     }
                 }
+                offers.taken(self.frame, chord_u)
             }
         }
-        offers.taken(self.frame)
     }
 
     /// A direction by way of the environment, as [`Self::draw_light`]; two numbers in [0, 1). One cell is drawn by what comes from it, one of its
@@ -222,8 +226,8 @@ impl ScratchLight<'_> {
         let response = response(&part);
         let mut offers = Offers::new(0.0);
         let ends = [(-1.0, part.q_low), (1.0, part.q_high)];
-        offers.offer(line, ends.into_iter(), |q| response(q).into(), part_u);
-        let (direction, by_groove) = offers.place()?;
+        offers.offer(line, ends.into_iter(), response);
+        let (direction, by_groove) = offers.place(part_u)?;
         let over_chance = cells.weight * parts.weight / (of_cell * of_part);
         let sent = from(direction, 0.0) * by_groove * (luminance(offers.lines.total) * over_chance);
         let color = sent / cells.total;
@@ -234,16 +238,18 @@ impl ScratchLight<'_> {
         })
     }
 
-    /// The same for light that is the same from all around.
-    pub fn draw_all_around(&self, [pick_u, cell_u]: [f64; 2]) -> Option<DrawnLight> {
+    /// The same for light of radiance 1 from all around, and what all of that sends.
+    pub fn draw_all_around(&self, [pick_u, cell_u]: [f64; 2]) -> Option<(DrawnLight, DVec3)> {
         let line = BandLine::new(self.wo, 0.0);
         let mut offers = Offers::new(pick_u);
         self.for_cells(|cell| {
             let row = self.row(cell.direction.z);
             let ends = [(-1.0, cell.q_low), (1.0, cell.q_high)];
-            let spectrum = |q: f64| row.at(self.width_um() * q);
-            offers.offer(line, ends.into_iter(), spectrum, cell_u);
+            let width_um = self.width_um();
+            let spectrum = move |q: f64| DVec3::from(row.at(width_um * q));
+            offers.offer(line, ends.into_iter(), spectrum);
         });
-        offers.taken(self.frame)
+        let total = offers.lines.total;
+        Some((offers.taken(self.frame, cell_u)?, total))
     }
 }

@@ -1,11 +1,13 @@
 //! Eight points at once: whether they see a segment, and where it lies under their footprints. Loops over lanes have no branches and
 //! no calls, so that compilers turn them into vector instructions.
 
+use super::picks::Pick;
 use super::point::{Frame, ScratchPoint, share};
 use crate::project::Projected;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
+use hairline_optics::band::{Along, BandPlace};
 use hairline_optics::footprint::ScratchShare;
 
 /// Points of a group.
@@ -221,6 +223,35 @@ impl Seen {
     /// The ends of the segment, in standard deviations of what lies along it.
     pub fn ends(&self, lane: usize) -> [f64; 2] {
         [self.low[lane], self.high[lane]]
+    }
+
+    /// Where it lies under the footprint of a point.
+    pub fn place(&self, lane: usize, frame: &Frame) -> BandPlace {
+        let tangent = self.tangent(lane);
+        BandPlace::new(
+            frame.steps_um.map(|step| tangent.perp_dot(step)),
+            self.offset_um[lane],
+            self.variance_um2[lane],
+        )
+    }
+
+    /// As rays start from it, with its share.
+    pub fn pick(&self, lane: usize, frame: &Frame, segment: &IndexedSegment, share: f64) -> Pick {
+        let tangent = self.tangent(lane);
+        Pick {
+            tangent,
+            place: self.place(lane, frame),
+            along: Along {
+                steps_um: frame.steps_um.map(|step| tangent.dot(step)),
+                blur_um: segment.blur_um.into(),
+                ends: self.ends(lane),
+            },
+            profile: segment.profile,
+            row: None,
+            share,
+            source: 0,
+            radiance: DVec3::ZERO,
+        }
     }
 
     /// The share that a point sees; none if it doesn't.

@@ -1,5 +1,5 @@
-//! Scratches that stand for all: for each light a few, each drawn with the probability of its part of the light that the scratches of a point
-//! send. Shadow rays start from them.
+//! Scratches that stand for all: a few pairs of a scratch and a light, each drawn with the probability of its part of the light that the scratches
+//! of a point send, and a few scratches by what they take of the base. Rays start from them.
 
 use super::row_spread::RowSpread;
 use crate::sampling::luminance;
@@ -19,79 +19,132 @@ pub(crate) struct Pick {
     pub profile: Profile,
     /// Of a grating; none for a scratch.
     pub row: Option<RowSpread>,
-    /// What it sends by way of the light.
+    /// Of the point that it covers.
+    pub share: f64,
+    /// Place of its light in [`LightViews::views`](crate::light_view::LightViews::views); that behind the last for the environment.
+    pub source: usize,
+    /// What it sends by way of the source, or takes of the base.
     pub radiance: DVec3,
 }
 
-/// One light's.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct SourcePicks {
-    /// What all scratches send by way of the light.
-    pub radiance: DVec3,
-    /// The sum of the scratches' luminances.
-    pub luminance: f64,
+/// A few of many, each drawn with the probability of its luminance.
+#[derive(Default)]
+pub(crate) struct Reservoirs {
+    /// The sum of all luminances.
+    total: f64,
     /// The least of the picks' thresholds.
     next: f64,
-    /// What the luminance must exceed for the pick to be drawn anew, and the pick.
+    /// What the total must exceed for the pick to be drawn anew, and the pick.
     picks: Vec<(f64, Option<Pick>)>,
 }
 
-/// Those of a point: a source for each of [`LightViews::views`], one for the environment, and with bounces one for light of radiance 1 from
-/// all around.
+impl Reservoirs {
+    fn clear(&mut self, count: u32) {
+        self.total = 0.0;
+        self.next = 0.0;
+        self.picks.clear();
+        self.picks.resize(count as usize, (0.0, None));
+    }
+
+    /// Weighted reservoirs (M.-T. Chao, 1982): the newest replaces a pick with the probability of its share of the sum. A pick drawn at a
+    /// sum s stays up to a sum S with the probability s/S, so one random number tells the sum at which it ends.
+    #[inline]
+    fn add(&mut self, random: &mut Pcg32, luminance: f64, pick: impl FnOnce() -> Pick) {
+        self.total += luminance.max(0.0);
+        if self.total <= self.next {
+            return;
+        }
+        let pick = pick();
+        self.next = f64::INFINITY;
+        for (threshold, kept) in &mut self.picks {
+            if self.total > *threshold {
+                *kept = Some(pick);
+                *threshold = self.total / (1.0 - random.random::<f64>());
+            }
+            self.next = self.next.min(*threshold);
+        }
+    }
+
+    /// The sum of the luminances that were drawn from.
+    pub fn total(&self) -> f64 {
+        self.total
+    }
+
+    /// That of a round: all or none are there.
+    pub fn get(&self, round: u32) -> Option<&Pick> {
+        self.picks.get(round as usize)?.1.as_ref()
+    }
+}
+
+/// Those of a point.
 pub(crate) struct Picks {
-    pub sources: Vec<SourcePicks>,
+    /// What all send by way of all sources.
+    pub radiance: DVec3,
+    /// What all take of the base.
+    pub energy: DVec3,
+    /// Pairs of a scratch and a source, by what the one sends of the other.
+    pub lit: Reservoirs,
+    /// Scratches by the energy that they take.
+    pub by_energy: Reservoirs,
     random: Pcg32,
 }
 
 impl Picks {
     pub fn new() -> Self {
         Self {
-            sources: Vec::new(),
+            radiance: DVec3::ZERO,
+            energy: DVec3::ZERO,
+            lit: Reservoirs::default(),
+            by_energy: Reservoirs::default(),
             random: Pcg32::seed_from_u64(0),
         }
     }
 
-    /// Empties it for a point with so many sources, `count` picks for each.
-    pub fn clear(&mut self, sources: usize, count: u32, seed: u64) {
+    /// Empties it for a point, `count` picks of each kind.
+    pub fn clear(&mut self, count: u32, seed: u64) {
         self.random = Pcg32::seed_from_u64(seed);
-        self.sources.resize_with(sources, Default::default);
-        for source in &mut self.sources {
-            source.radiance = DVec3::ZERO;
-            source.luminance = 0.0;
-            source.next = 0.0;
-            source.picks.clear();
-            source.picks.resize(count as usize, (0.0, None));
-        }
+        (self.radiance, self.energy) = (DVec3::ZERO, DVec3::ZERO);
+        self.lit.clear(count);
+        self.by_energy.clear(count);
     }
 
     /// Adds what a scratch sends by way of a source.
-    ///
-    /// Weighted reservoirs (M.-T. Chao, 1982): the newest replaces a pick with the probability of its share of the sum. A pick drawn at a
-    /// sum s stays up to a sum S with the probability s/S, so one random number tells the sum at which it ends.
     #[inline]
-    pub fn add(&mut self, source: usize, radiance: DVec3, pick: impl Fn(DVec3) -> Pick) {
-        let source = &mut self.sources[source];
-        source.radiance += radiance;
-        source.luminance += luminance(radiance).max(0.0);
-        if source.luminance <= source.next {
-            return;
-        }
-        let pick = pick(radiance);
-        source.next = f64::INFINITY;
-        for (threshold, kept) in &mut source.picks {
-            if source.luminance > *threshold {
-                *kept = Some(pick);
-                *threshold = source.luminance / (1.0 - self.random.random::<f64>());
-            }
-            source.next = source.next.min(*threshold);
-        }
+    pub fn add_light(&mut self, source: usize, radiance: DVec3, pick: impl FnOnce() -> Pick) {
+        self.radiance += radiance;
+        let pick = || Pick {
+            source,
+            radiance,
+            ..pick()
+        };
+        self.lit.add(&mut self.random, luminance(radiance), pick);
     }
-}
 
-impl SourcePicks {
-    /// Those that were drawn: all or none.
-    pub fn picks(&self) -> impl Iterator<Item = &Pick> {
-        self.picks.iter().filter_map(|(_, pick)| pick.as_ref())
+    /// Adds what a scratch takes of the base.
+    #[inline]
+    pub fn add_energy(&mut self, energy: DVec3, pick: impl FnOnce() -> Pick) {
+        self.energy += energy;
+        let pick = || Pick {
+            radiance: energy,
+            ..pick()
+        };
+        self.by_energy
+            .add(&mut self.random, luminance(energy), pick);
+    }
+
+    /// Has the one pick by a bound of its light stand for all: `light` tells what it sends by way of its source.
+    pub fn light_one(&mut self, light: impl FnOnce(&Pick) -> DVec3) {
+        let (mut radiance, bounds) = (DVec3::ZERO, self.lit.total);
+        if let Some((_, Some(pick))) = self.lit.picks.first_mut() {
+            radiance = light(pick) * (bounds / luminance(pick.radiance));
+            pick.radiance = radiance;
+        }
+        self.radiance = radiance;
+        self.lit.total = luminance(radiance);
+        if !(self.lit.total > 0.0) {
+            self.radiance = DVec3::ZERO;
+            self.lit.picks.clear();
+        }
     }
 }
 
@@ -106,9 +159,9 @@ mod tests {
         let parts = [0.1, 0.0, 0.4, 0.2, 0.3];
         let (mut counts, rounds, each) = ([0.0; 5], 4000, 5);
         for seed in 0..rounds {
-            picks.clear(1, each, seed);
+            picks.clear(each, seed);
             for (i, part) in parts.into_iter().enumerate() {
-                picks.add(0, DVec3::splat(part), |radiance| Pick {
+                picks.add_light(i, DVec3::splat(part), || Pick {
                     tangent: DVec2::X,
                     place: BandPlace::new([0.0; 2], 0.0, 1.0),
                     along: Along {
@@ -117,15 +170,17 @@ mod tests {
                         ends: [0.0; 2],
                     },
                     profile: Profile {
-                        width_um: i as f32,
+                        width_um: 1.0,
                         depth_nm: 0.0,
                     },
                     row: None,
-                    radiance,
+                    share: 1.0,
+                    source: 0,
+                    radiance: DVec3::ZERO,
                 });
             }
-            for pick in picks.sources[0].picks() {
-                counts[pick.profile.width_um as usize] += 1.0;
+            for round in 0..each {
+                counts[picks.lit.get(round).unwrap().source] += 1.0;
             }
         }
         let all = f64::from(rounds as u32 * each);

@@ -1,7 +1,9 @@
 //! A direction of a light's chords, drawn in proportion to what the scratch sends from there.
 
-/// Halvings of an interval that find a place: to 1e-7 of its length, finer than a fringe of the widest scratches.
-const HALVINGS: u32 = 24;
+/// Steps that find a place: within a fringe of the widest scratches.
+const STEPS: u32 = 10;
+/// Half the length of the interval about it, over that of the part of the line: a derivative of what comes from there.
+const SHORT: f64 = 3e-8;
 
 /// The parts of a line that a light covers, as intervals of q.
 #[derive(Clone, Debug, Default)]
@@ -65,14 +67,25 @@ impl DrawnChord {
                 continue;
             }
             let target = antiderivative(low) + left;
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                if antiderivative(middle) < target {
-                    low = middle;
+            let short = (high - low) * SHORT;
+            let (mut below, mut above) = (-left, (sent - left).max(0.0));
+            // The Illinois variant of false position (M. Dowell, P. Jarratt, 1971).
+            for _ in 0..STEPS {
+                if !(above > below) {
+                    break;
+                }
+                let at = (low * above - high * below) / (above - below);
+                let off = antiderivative(at) - target;
+                if off < 0.0 {
+                    (low, below) = (at, off);
+                    above *= 0.5;
                 } else {
-                    high = middle;
+                    (high, above) = (at, off);
+                    below *= 0.5;
                 }
             }
+            let at = if -below < above { low } else { high };
+            (low, high) = (at - short, at + short);
             return Some((low, high));
         }
         None

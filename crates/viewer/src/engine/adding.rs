@@ -1,6 +1,6 @@
 //! Samples that add up while nothing moves, in the batches and to the picture of `hairline render`.
 
-use hairline_image::{Batch, Batches, Image, spread_fireflies};
+use hairline_image::{Batch, Batches, Image, filter_found};
 
 use super::request::Order;
 use super::steps::SHADOW_SAMPLES;
@@ -10,18 +10,18 @@ use super::steps::SHADOW_SAMPLES;
 pub(super) struct Adding(Option<(Order, Batches)>);
 
 impl Adding {
-    /// Adds a picture of a batch. Returns the mean of those that there are, with its fireflies spread, and how many samples it has.
+    /// Adds a picture of a batch. Returns the mean of those that there are, filtered, and how many samples it has.
     pub fn add(&mut self, order: &Order, batch: Batch, image: Image) -> (Image, u32) {
         let before = self.0.take();
         let before = before.filter(|(of, _)| batch.first > 0 && of.has_same_pixels(order));
         let (_, batches) = self.0.insert(before.unwrap_or_else(|| {
-            let none = Batches::new(SHADOW_SAMPLES);
+            let none = Batches::of_rounds(SHADOW_SAMPLES);
             (order.clone(), none)
         }));
         batches.add(image);
         let mean = batches.image().cloned();
         let mut mean = mean.unwrap_or_else(|| unreachable!("one was added"));
-        spread_fireflies(&mut mean);
+        filter_found(&mut mean);
         (mean, batches.done())
     }
 }

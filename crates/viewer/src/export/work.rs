@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use hairline_cpu::closed_form::TILE_PX;
 use hairline_editor::navigate;
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
-use hairline_image::{Display, Image, Output, spread_fireflies};
+use hairline_image::{Display, Image, Output, filter_found};
 use hairline_index::method::Method;
 use hairline_scene::{Description, Scene, Transport};
 
@@ -171,7 +171,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         let Some(mut image) = image else {
             return Ok(false);
         };
-        spread_fireflies(&mut image);
+        filter_found(&mut image);
         if stop.is_asked() {
             return Ok(false);
         }

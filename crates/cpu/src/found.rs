@@ -1,0 +1,174 @@
+//! What the rays of a sample find of one layer of its light: which share of the closed form is seen, and what comes by way of other objects
+//! (docs/model.md, section 11). In the picture: [`hairline_image::FoundLight`].
+
+use crate::sampling::luminance;
+use glam::{DVec2, DVec3};
+use hairline_image::FoundLight;
+use std::ops::AddAssign;
+
+/// One layer: of a sample, or summed over several.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct LayerLight {
+    /// The closed form: what is sent where nothing hides a source.
+    pub open: DVec3,
+    /// What would be sent of light of radiance 1 from all around.
+    pub around: DVec3,
+    /// The mean weight of the rays: `open`, but for noise.
+    pub weight: DVec3,
+    /// Of the rays that see their source.
+    pub seen: DVec3,
+    /// Light of other objects.
+    pub bounced: DVec3,
+    /// The sums over rounds of what a round tells of the share that is seen, and of its square.
+    share_moments: DVec2,
+    /// The same of the luminance of `bounced` over that of `around`.
+    bounced_moments: DVec2,
+}
+
+impl LayerLight {
+    /// Where no ray is cast.
+    pub fn open(open: DVec3) -> Self {
+        Self {
+            open,
+            ..Self::default()
+        }
+    }
+
+    /// What passes through a filter of each channel.
+    pub fn times(self, factor: DVec3) -> Self {
+        Self {
+            open: self.open * factor,
+            around: self.around * factor,
+            weight: self.weight * factor,
+            seen: self.seen * factor,
+            bounced: self.bounced * factor,
+            ..self
+        }
+    }
+
+    /// The mean over so many samples, of which this is the sum.
+    pub fn mean(self, samples: f64) -> Self {
+        self.times(DVec3::splat(1.0 / samples))
+    }
+
+    /// As the picture keeps it.
+    pub fn in_picture(&self) -> FoundLight {
+        let [open, around, weight, seen, bounced] =
+            [self.open, self.around, self.weight, self.seen, self.bounced]
+                .map(|rgb| rgb.as_vec3().to_array());
+        FoundLight {
+            open,
+            around,
+            weight,
+            seen,
+            bounced,
+            share_moments: self.share_moments.as_vec2().to_array(),
+            bounced_moments: self.bounced_moments.as_vec2().to_array(),
+        }
+    }
+
+    /// The share that is seen, by channel, as [`FoundLight::share`].
+    fn share(&self) -> DVec3 {
+        let ratio = |part: f64, all: f64| (all > 0.0).then(|| (part / all).clamp(0.0, 1.0));
+        let of_all = ratio(luminance(self.seen), luminance(self.weight)).unwrap_or(1.0);
+        DVec3::from_array(std::array::from_fn(|c| {
+            ratio(self.seen[c], self.weight[c]).unwrap_or(of_all)
+        }))
+    }
+
+    /// What is left, with the light of other objects.
+    pub fn left(&self) -> DVec3 {
+        self.open * self.share() + self.bounced
+    }
+}
+
+impl AddAssign for LayerLight {
+    fn add_assign(&mut self, other: Self) {
+        self.open += other.open;
+        self.around += other.around;
+        self.weight += other.weight;
+        self.seen += other.seen;
+        self.bounced += other.bounced;
+        self.share_moments += other.share_moments;
+        self.bounced_moments += other.bounced_moments;
+    }
+}
+
+/// The rays of a layer, round by round.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct LayerRays {
+    sum: LayerLight,
+    /// Of the round in hand.
+    weight: DVec3,
+    seen: DVec3,
+    bounced: DVec3,
+    rounds: u32,
+}
+
+impl LayerRays {
+    pub fn new(open: DVec3, around: DVec3) -> Self {
+        Self {
+            sum: LayerLight {
+                open,
+                around,
+                ..LayerLight::default()
+            },
+            ..Self::default()
+        }
+    }
+
+    /// A ray to a source. Weights add up to the closed form of all sources in the mean.
+    pub fn add(&mut self, weight: DVec3, is_seen: bool) {
+        self.weight += weight;
+        if is_seen {
+            self.seen += weight;
+        }
+    }
+
+    /// What a ray brings from another object.
+    pub fn bounce(&mut self, light: DVec3) {
+        self.bounced += light;
+    }
+
+    pub fn end_round(&mut self) {
+        let sum = &mut self.sum;
+        sum.weight += self.weight;
+        sum.seen += self.seen;
+        sum.bounced += self.bounced;
+        // A round without a ray tells what those before it do.
+        let by_luminance = |seen: DVec3, all: DVec3| {
+            let all = luminance(all);
+            (all > 0.0).then(|| (luminance(seen) / all).clamp(0.0, 1.0))
+        };
+        let share = by_luminance(self.seen, self.weight)
+            .or_else(|| by_luminance(sum.seen, sum.weight))
+            .unwrap_or(1.0);
+        sum.share_moments += DVec2::new(share, share * share);
+        let around = luminance(sum.around);
+        if around > 0.0 {
+            let bounced = luminance(self.bounced) / around;
+            sum.bounced_moments += DVec2::new(bounced, bounced * bounced);
+        }
+        (self.weight, self.seen, self.bounced) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        self.rounds += 1;
+    }
+
+    /// The mean over the rounds. Where no ray went to a lit source, `probe` tells whether all of it is seen.
+    pub fn light(self, probe: impl FnOnce() -> bool) -> LayerLight {
+        let Self {
+            mut sum, rounds, ..
+        } = self;
+        if sum.weight == DVec3::ZERO && sum.open != DVec3::ZERO {
+            sum.weight = sum.open;
+            if probe() {
+                sum.seen = sum.open;
+            }
+        } else {
+            let per_round = 1.0 / f64::from(rounds.max(1));
+            sum.weight *= per_round;
+            sum.seen *= per_round;
+        }
+        sum.bounced *= 1.0 / f64::from(rounds.max(1));
+        sum
+    }
+}

@@ -1,0 +1,319 @@
+//! Rays of the base: in each round one by its lobes, which may meet any source or another object, and one to each source. Their weights are those of
+//! multiple importance sampling (E. Veach, 1997).
+
+use super::lobes::Lobes;
+use super::{HitRoom, Purpose, ShadowPoint, Shadows, normals};
+use crate::found::{LayerLight, LayerRays};
+use crate::light_view::LightViews;
+use crate::sampling::lights::LightHit;
+use crate::sampling::luminance;
+use crate::shade_base::{Base, BaseRadiance, transformed_sphere};
+use crate::shade_scratches::Choice;
+use glam::{DVec2, DVec3};
+use hairline_index::Hit;
+use std::f64::consts::PI;
+
+/// The base of a sample.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct BaseLight {
+    /// Reflected at the surface; scratches take from it.
+    pub specular: LayerLight,
+    /// From the body under it.
+    pub diffuse: LayerLight,
+}
+
+/// What shines on the base.
+#[derive(Clone, Copy)]
+struct Source {
+    /// None for the environment.
+    light: Option<u32>,
+    /// Where nothing hides it.
+    open: BaseRadiance,
+    /// One over the probability with which it was drawn.
+    per_chance: f64,
+}
+
+/// Both layers.
+#[derive(Default)]
+struct BaseRays {
+    specular: LayerRays,
+    diffuse: LayerRays,
+}
+
+impl BaseRays {
+    fn add(&mut self, weight: BaseRadiance, is_seen: bool) {
+        self.specular.add(weight.specular, is_seen);
+        self.diffuse.add(weight.diffuse, is_seen);
+    }
+}
+
+/// A ray by the lobes.
+struct LobeRay {
+    /// World space.
+    direction: DVec3,
+    origin_m: DVec3,
+    pdf: f64,
+    /// The BRDF times the cosine.
+    sent: BaseRadiance,
+    /// What it meets; none where nobody has followed it.
+    followed: Option<Option<Hit>>,
+}
+
+/// A direction to a source, and what it stands for.
+struct Candidate {
+    direction: DVec3,
+    distance_m: f64,
+    weight: BaseRadiance,
+}
+
+/// Rays that carry a smaller share of their source's light are cast as seldom: they count for more then.
+const FAINT: f64 = 0.1;
+
+impl<'a> Shadows<'a> {
+    /// What is left of the base's light, and what other objects send.
+    pub fn base(&self, at: &ShadowPoint, rooms: &mut [HitRoom<'a>]) -> BaseLight {
+        let base = Base::new(at.point);
+        let lobes = Lobes::new(&base, at.point);
+        let sources = if at.depth == 0 {
+            self.sources(at, &base)
+        } else {
+            self.one_source(at, &base, &lobes).into_iter().collect()
+        };
+        let open = sources.iter().fold(BaseRadiance::default(), |sum, it| {
+            sum + it.open.times(DVec3::splat(it.per_chance))
+        });
+        let around = base.albedo();
+        let mut rays = BaseRays {
+            specular: LayerRays::new(open.specular, around.specular),
+            diffuse: LayerRays::new(open.diffuse, around.diffuse),
+        };
+        for round in 0..at.rounds.now.count {
+            self.base_round(at, &lobes, round, &sources, &mut rays, rooms);
+            rays.specular.end_round();
+            rays.diffuse.end_round();
+        }
+        let probe = || self.sees_highest(at, sources.first().and_then(|it| it.light));
+        BaseLight {
+            specular: rays.specular.light(probe),
+            diffuse: rays.diffuse.light(probe),
+        }
+    }
+
+    /// The sources that light the base.
+    fn sources(&self, at: &ShadowPoint, base: &Base) -> Vec<Source> {
+        let lights = at.views.on_base();
+        let by_light = |light| {
+            (
+                Some(light),
+                base.by_light(light, at.views, transformed_sphere),
+            )
+        };
+        let environment = self.prepared.scene.environment.as_ref();
+        let around = environment.map(|environment| (None, base.by_environment(environment)));
+        (lights.map(by_light).chain(around))
+            .map(|(light, open)| Source {
+                light,
+                open,
+                per_chance: 1.0,
+            })
+            .filter(|it| it.open.specular != DVec3::ZERO || it.open.diffuse != DVec3::ZERO)
+            .collect()
+    }
+
+    /// One source that stands for all, drawn by a cheap bound of its light.
+    fn one_source(&self, at: &ShadowPoint, base: &Base, lobes: &Lobes) -> Option<Source> {
+        let environment = self.prepared.scene.environment.as_ref();
+        let around = environment.map(|it| {
+            let albedo = base.albedo();
+            luminance((albedo.specular + albedo.diffuse) * it.irradiance(at.point.normal)) / PI
+        });
+        let [pick, ..] = at.random(Purpose::Source, 0);
+        let mut choice = Choice::new(pick);
+        let mut taken = None;
+        for light in at.views.on_base() {
+            let views = at.views;
+            let seen = |views: &LightViews| Some(lobes.likely(views.light(light)?, views));
+            let bound = seen(views).or_else(|| seen(views.under_coat()));
+            let bound = bound.unwrap_or(0.0);
+            if choice.offer(DVec3::splat(bound)) {
+                taken = Some((Some(light), bound));
+            }
+        }
+        if let Some(around) = around
+            && choice.offer(DVec3::splat(around))
+        {
+            taken = Some((None, around));
+        }
+        let (light, bound) = taken?;
+        let open = match light {
+            Some(light) => base.by_light(light, at.views, transformed_sphere),
+            None => environment.map(|it| base.by_environment(it))?,
+        };
+        let is_lit = open.specular != DVec3::ZERO || open.diffuse != DVec3::ZERO;
+        is_lit.then(|| Source {
+            light,
+            open,
+            per_chance: choice.total() / bound,
+        })
+    }
+
+    fn base_round(
+        &self,
+        at: &ShadowPoint,
+        lobes: &Lobes,
+        round: u32,
+        sources: &[Source],
+        rays: &mut BaseRays,
+        rooms: &mut [HitRoom<'a>],
+    ) {
+        let point = at.point;
+        let [u, v, ..] = at.random(Purpose::Origin, round);
+        let on_surface_m = self.under_the_pixel(at, normals(u, v));
+        let [u, v, pick, _] = at.random(Purpose::Lobe, round);
+        let mut drawn = lobes.sample(pick, DVec2::new(u, v)).map(|wi| {
+            let direction = point.world_from_surface(wi);
+            LobeRay {
+                direction,
+                origin_m: self.off_the_surface(point, on_surface_m, direction),
+                pdf: lobes.pdf(wi),
+                sent: lobes.eval(wi),
+                followed: None,
+            }
+        });
+        if at.depth < self.options.bounces
+            && let Some(ray) = &mut drawn
+        {
+            let (origin_m, direction) = (ray.origin_m, ray.direction);
+            let hit = self.prepared.triangles.intersect_solid(origin_m, direction);
+            ray.followed = Some(hit);
+            let each_sr = 1.0 / (f64::from(at.rounds.all) * ray.pdf);
+            if let Some(hit) = hit {
+                let ray_number = 2 * round;
+                let brought =
+                    self.light_of_object(at, ray_number, origin_m, direction, hit, each_sr, rooms);
+                let light = ray.sent.times(brought / ray.pdf);
+                rays.specular.bounce(light.specular);
+                rays.diffuse.bounce(light.diffuse);
+            }
+        }
+        for source in sources {
+            let (to_source, by_lobes) = match source.light {
+                Some(light) => self.to_light(at, lobes, light, round, drawn.as_ref()),
+                None => self.to_environment(at, lobes, round, drawn.as_ref()),
+            };
+            let per_chance = source.per_chance;
+            let sent = |it: &Candidate| luminance(it.weight.specular + it.weight.diffuse).max(0.0);
+            let followed = drawn.as_ref().and_then(|ray| ray.followed);
+            let [_, _, _, chance] = at.random(Purpose::of_source(source.light), round);
+            let sees = |it: &Candidate| self.sees(point, on_surface_m, it.direction, it.distance_m);
+            let mut add = |it: &Candidate, factor: f64, is_seen: bool| {
+                rays.add(it.weight.times(DVec3::splat(factor * per_chance)), is_seen);
+            };
+            match (followed, to_source, by_lobes) {
+                // Who has followed the ray by the lobes knows what it meets; the other one is cast if it carries enough.
+                (Some(hit), to_source, by_lobes) => {
+                    if let Some(it) = by_lobes {
+                        let is_seen = hit.is_none_or(|hit| hit.distance_m > it.distance_m);
+                        add(&it, 1.0, is_seen);
+                    }
+                    if let Some(it) = to_source {
+                        let all = luminance(source.open.specular + source.open.diffuse);
+                        let share = (sent(&it) / (FAINT * all)).min(1.0);
+                        if chance < share {
+                            add(&it, 1.0 / share, sees(&it));
+                        }
+                    }
+                }
+                // One of both stands for the other (J. Talbot, D. Cline, P. Egbert, Importance Resampling for Global Illumination, 2005).
+                (None, Some(a), Some(b)) => {
+                    let (of_a, of_b) = (sent(&a), sent(&b));
+                    let all = of_a + of_b;
+                    if all > 0.0 {
+                        let (it, own) = if chance * all < of_a {
+                            (a, of_a)
+                        } else {
+                            (b, of_b)
+                        };
+                        add(&it, all / own, sees(&it));
+                    }
+                }
+                (None, Some(it), None) | (None, None, Some(it)) => add(&it, 1.0, sees(&it)),
+                (None, None, None) => {}
+            }
+        }
+    }
+
+    /// Directions to a light: one drawn on it, and that of the lobes where it meets it.
+    fn to_light(
+        &self,
+        at: &ShadowPoint,
+        lobes: &Lobes,
+        light: u32,
+        round: u32,
+        drawn: Option<&LobeRay>,
+    ) -> (Option<Candidate>, Option<Candidate>) {
+        let (point, light) = (at.point, light as usize);
+        let from = point.position_m;
+        let [u, v, ..] = at.random(Purpose::Light(light as u32), round);
+        let on_light = self
+            .lights
+            .sample(light, from, DVec2::new(u, v))
+            .and_then(|to| {
+                let wi = point.surface_from_world(to.direction);
+                let weight = to.radiance / (to.pdf + lobes.pdf(wi));
+                lobes.are_above(wi).then(|| Candidate {
+                    direction: to.direction,
+                    distance_m: to.distance_m,
+                    weight: lobes.eval(wi).times(weight),
+                })
+            });
+        let by_lobes = drawn.and_then(|ray| {
+            let LightHit {
+                distance_m,
+                radiance,
+            } = self.lights.hit(light, from, ray.direction)?;
+            let pdf = ray.pdf + self.lights.pdf(light, from, ray.direction);
+            Some(Candidate {
+                direction: ray.direction,
+                distance_m,
+                weight: ray.sent.times(radiance / pdf),
+            })
+        });
+        (on_light, by_lobes)
+    }
+
+    /// The same for the environment without its suns, which are lights.
+    fn to_environment(
+        &self,
+        at: &ShadowPoint,
+        lobes: &Lobes,
+        round: u32,
+        drawn: Option<&LobeRay>,
+    ) -> (Option<Candidate>, Option<Candidate>) {
+        let point = at.point;
+        let (Some(environment), Some(sampler)) =
+            (&self.prepared.scene.environment, self.environment)
+        else {
+            return (None, None);
+        };
+        let radiance = |direction| environment.prefiltered_lod(direction, 0.0);
+        let [u, v, ..] = at.random(Purpose::Environment, round);
+        let (direction, pdf) = sampler.sample(DVec2::new(u, v));
+        let wi = point.surface_from_world(direction);
+        let candidate = |direction, weight| Candidate {
+            direction,
+            distance_m: f64::INFINITY,
+            weight,
+        };
+        let in_map = lobes.are_above(wi).then(|| {
+            let weight = radiance(direction) / (pdf + lobes.pdf(wi));
+            candidate(direction, lobes.eval(wi).times(weight))
+        });
+        let by_lobes = drawn.map(|ray| {
+            let pdf = ray.pdf + sampler.pdf(ray.direction);
+            let weight = radiance(ray.direction) / pdf;
+            candidate(ray.direction, ray.sent.times(weight))
+        });
+        (in_map, by_lobes)
+    }
+}

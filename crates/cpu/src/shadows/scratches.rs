@@ -1,0 +1,181 @@
+//! Rays by way of scratches and of gratings: in each round one to a source, and one for what other objects send.
+
+use super::{HitRoom, Purpose, ShadowPoint, Shadows, normals};
+use crate::found::{LayerLight, LayerRays};
+use crate::sampling::luminance;
+use crate::shade_gratings::ShadedGratings;
+use crate::shade_scratches::{DrawnLight, Frame, Pick, Picks, ScratchLight};
+use crate::surface::SurfacePoint;
+use glam::DVec3;
+use hairline_optics::gaussian::gaussian;
+
+impl<'a> Shadows<'a> {
+    /// The gratings at a point, with what rays find of their light. `picks` is room for theirs.
+    pub fn gratings(
+        &self,
+        at: &ShadowPoint,
+        picks: &mut Picks,
+        rooms: &mut [HitRoom<'a>],
+    ) -> (ShadedGratings, LayerLight) {
+        // Other numbers than those of the point's scratches.
+        let at = &ShadowPoint {
+            seed: !at.seed,
+            ..*at
+        };
+        picks.clear(at.rounds.now.count, at.picks_seed());
+        let (prepared, point) = (self.prepared, at.point);
+        let open = ShadedGratings::new(prepared, point, at.object, at.views, Some(picks));
+        (open, self.by_picks(at, picks, rooms))
+    }
+
+    /// What is left of what scratches send, before they weaken one another, and what other objects send by way of them.
+    pub fn by_picks(
+        &self,
+        at: &ShadowPoint,
+        picks: &Picks,
+        rooms: &mut [HitRoom<'a>],
+    ) -> LayerLight {
+        let bounces = at.depth < self.options.bounces;
+        // Until it is known what all send from all around, as if that were 1.
+        let around = if bounces { DVec3::ONE } else { DVec3::ZERO };
+        let mut rays = LayerRays::new(picks.radiance, around);
+        let frame = Frame::new(at.point);
+        let mut brought = Brought::default();
+        for round in 0..at.rounds.now.count {
+            if let Some(pick) = picks.lit.get(round) {
+                let weight_of_one = picks.lit.total() / luminance(pick.radiance);
+                self.to_source(at, &frame, round, pick, weight_of_one, &mut rays);
+            }
+            if bounces && let Some(pick) = picks.by_energy.get(round) {
+                rays.bounce(self.from_object(at, round, pick, &mut brought, rooms));
+            }
+            rays.end_round();
+        }
+        let around = picks.energy * brought.per_energy();
+        let mut light = rays.light(|| self.sees_highest(at, None));
+        light.around = around;
+        light.bounced = around * brought.mean();
+        light
+    }
+
+    /// A ray to the source of a pick.
+    fn to_source(
+        &self,
+        at: &ShadowPoint,
+        frame: &Frame,
+        round: u32,
+        pick: &Pick,
+        weight_of_one: f64,
+        rays: &mut LayerRays,
+    ) {
+        let point = at.point;
+        let light = at.views.light_of(pick.source);
+        let by = self.picked(point, pick);
+        let [u, v, w, _] = at.random(Purpose::Scratch, round);
+        let drawn = match light {
+            Some(_) => by.draw_light(&frame.stds, pick.place, at.views, pick.source, [u, v, w]),
+            None => {
+                let environment = self.prepared.scene.environment.as_ref();
+                environment.and_then(|around| by.draw_environment(point, around, [u, v]))
+            }
+        };
+        let Some(DrawnLight { direction, color }) = drawn else {
+            return;
+        };
+        let on_surface_m = self.on_scratch(at, Purpose::ScratchOrigin, round, pick);
+        let direction = point.world_from_surface(direction);
+        let distance_m = light.map_or(f64::INFINITY, |light| {
+            self.lights.reach_m(light, point.position_m, direction)
+        });
+        let is_seen = self.sees(point, on_surface_m, direction, distance_m);
+        rays.add(pick.radiance * color * weight_of_one, is_seen);
+    }
+
+    /// The light of an object by way of a pick.
+    fn from_object(
+        &self,
+        at: &ShadowPoint,
+        round: u32,
+        pick: &Pick,
+        brought: &mut Brought,
+        rooms: &mut [HitRoom<'a>],
+    ) -> DVec3 {
+        let point = at.point;
+        let by = self.picked(point, pick);
+        let [u, v, ..] = at.random(Purpose::Around, round);
+        let Some((drawn, sent)) = by.draw_all_around([u, v]) else {
+            return DVec3::ZERO;
+        };
+        let direction = point.world_from_surface(drawn.direction);
+        let on_surface_m = self.on_scratch(at, Purpose::AroundOrigin, round, pick);
+        let origin_m = self.off_the_surface(point, on_surface_m, direction);
+        let hit = self.prepared.triangles.intersect_solid(origin_m, direction);
+        let light = hit.map_or(DVec3::ZERO, |hit| {
+            self.light_of_object(at, 2 * round + 1, origin_m, direction, hit, 0.0, rooms)
+        });
+        brought.add(pick, pick.share * sent, drawn.color, light);
+        light
+    }
+
+    fn picked(&self, point: &SurfacePoint, pick: &Pick) -> ScratchLight<'_> {
+        let tables = &self.prepared.tables.tables;
+        match pick.row {
+            None => {
+                let table = &tables[point.table];
+                ScratchLight::new(point.wo, pick.tangent, table, pick.profile)
+            }
+            Some(row) => ScratchLight::of_row(point.wo, pick.tangent, &tables[row.table], row),
+        }
+    }
+
+    /// A place on a scratch, drawn by what the pixel sees of it.
+    fn on_scratch(&self, at: &ShadowPoint, purpose: Purpose, round: u32, pick: &Pick) -> DVec3 {
+        let [u, v, w, x] = at.random(purpose, round);
+        let [right, down] = normals(u, v);
+        let normals = [right, down, gaussian().quantile(w)];
+        self.under_the_pixel(at, pick.place.drawn(normals, &pick.along, x))
+    }
+}
+
+/// What rays bring from other objects by way of scratches that were picked by the energy that they take.
+#[derive(Default)]
+struct Brought {
+    /// What the picks send of light of radiance 1 from all around, and the energy that they take, each over that energy's luminance.
+    sent: DVec3,
+    energy: DVec3,
+    /// The parts of `sent` from the directions that were drawn, and these times the light from there.
+    colors: DVec3,
+    light: DVec3,
+}
+
+impl Brought {
+    fn add(&mut self, pick: &Pick, sent: DVec3, color: DVec3, light: DVec3) {
+        let per_luminance = 1.0 / luminance(pick.radiance);
+        let color = (per_luminance * sent * color).max(DVec3::ZERO);
+        self.sent += per_luminance * sent;
+        self.energy += per_luminance * pick.radiance;
+        self.colors += color;
+        self.light += color * light;
+    }
+
+    /// What is sent of light from all around for each unit of energy.
+    fn per_energy(&self) -> DVec3 {
+        over(self.sent, self.energy)
+    }
+
+    /// The mean light. Each ray has a colour of its own; weighed by it, even light looks as all scratches send it together.
+    fn mean(&self) -> DVec3 {
+        over(self.light, self.colors)
+    }
+}
+
+/// 0 where there is nothing to take a part of.
+fn over(part: DVec3, all: DVec3) -> DVec3 {
+    let is_there = all.cmpgt(DVec3::ZERO);
+    DVec3::select(
+        is_there,
+        part / DVec3::select(is_there, all, DVec3::ONE),
+        DVec3::ZERO,
+    )
+    .max(DVec3::ZERO)
+}

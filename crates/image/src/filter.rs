@@ -1,0 +1,346 @@
+//! The filter of what rays found: H. Dammertz, D. Sewtz, J. Hanika, H. Lensch, *Edge-Avoiding A-Trous Wavelet Transform for fast Global Illumination
+//! Filtering*, 2010, with variances as in C. Schied et al., *Spatiotemporal Variance-Guided Filtering*, 2017.
+//!
+//! It works on two signals of each layer: the share of the closed form that is seen, and the mean light of other objects. The closed form, its
+//! textures and its scratches are as sharp after it as before. Pixels are averaged where they see the same surface and where their difference is
+//! noise: as rounds add up, variances fall, and the limit is what rays found.
+
+use rayon::prelude::*;
+
+use crate::Image;
+use crate::found::{Found, FoundLight, FoundPixel, luminance, variance};
+
+/// Passes, each with twice the step of the one before.
+const PASSES: u32 = 5;
+/// Weights of three taps, a quarter and a half: the B-spline.
+const TAPS: [(i32, f32); 3] = [(-1, 0.25), (0, 0.5), (1, 0.25)];
+/// Differences of so many standard deviations count for little. Chosen by measured error.
+const NOISE_STD: f32 = 1.5;
+/// The share of depth by which a surface may leave the plane of a pixel.
+const OFF_PLANE: f32 = 0.01;
+/// The power of the cosine between normals.
+const NORMAL_POWER: i32 = 64;
+/// Steps of the filter in a mirror, pixels, and what a rough surface adds: a mirror image has edges that no guide knows.
+const MIRROR_STEP_PX: f32 = 1.0;
+const ROUGH_STEP_PX: f32 = 40.0;
+
+/// Has base and scratches of a picture say what rays found, filtered. Nothing changes without rays.
+pub fn filter_found(image: &mut Image) {
+    let Some(found) = image.found.take() else {
+        return;
+    };
+    let guides = Guides::new(image, &found);
+    let layers: [(Of, f32); 3] = [
+        (|pixel| &pixel.diffuse, f32::INFINITY),
+        (|pixel| &pixel.specular, ROUGH_STEP_PX),
+        (|pixel| &pixel.scratches, f32::INFINITY),
+    ];
+    let [diffuse, specular, scratches] =
+        layers.map(|(of, per_roughness)| filter_layer(&guides, &found, of, per_roughness));
+    let light = |i: usize, signals: &[Signals], light: &FoundLight| match signals.get(i) {
+        Some(signals) => signals.light(light),
+        None => light.light(),
+    };
+    image
+        .base
+        .par_iter_mut()
+        .zip(image.scratches.par_iter_mut())
+        .enumerate()
+        .for_each(|(i, (base, on_scratches))| {
+            let pixel = &found.pixels[i];
+            let of_body = light(i, &diffuse, &pixel.diffuse);
+            let of_surface = light(i, &specular, &pixel.specular);
+            *base = std::array::from_fn(|c| pixel.rest[c] + (of_body[c] + of_surface[c]));
+            *on_scratches = light(i, &scratches, &pixel.scratches);
+        });
+    image.found = Some(found);
+}
+
+/// A layer of a pixel.
+type Of = fn(&FoundPixel) -> &FoundLight;
+
+/// What is filtered of a layer of a pixel: for each channel and, last, the variance of the luminance; below 0 where there is no signal.
+#[derive(Clone, Copy, Default)]
+struct Signals {
+    /// The share that is seen.
+    share: [f32; 4],
+    /// The mean light of other objects.
+    bounced: [f32; 4],
+}
+
+const NOTHING: [f32; 4] = [0.0, 0.0, 0.0, -1.0];
+
+impl Signals {
+    fn new(light: &FoundLight, rounds: u32) -> Self {
+        let [r, g, b] = light.share();
+        let of_share = if luminance(light.open) > 0.0 {
+            [r, g, b, variance(light.share_moments, rounds)]
+        } else {
+            NOTHING
+        };
+        let of_bounced = if luminance(light.around) > 0.0 {
+            let [r, g, b] = std::array::from_fn(|c| {
+                if light.around[c] > 0.0 {
+                    light.bounced[c] / light.around[c]
+                } else {
+                    0.0
+                }
+            });
+            [r, g, b, variance(light.bounced_moments, rounds)]
+        } else {
+            NOTHING
+        };
+        Self {
+            share: of_share,
+            bounced: of_bounced,
+        }
+    }
+
+    /// What they make of a closed form.
+    fn light(&self, of: &FoundLight) -> [f32; 3] {
+        std::array::from_fn(|c| of.open[c] * self.share[c] + of.around[c] * self.bounced[c])
+    }
+}
+
+/// What tells whether pixels see the same surface.
+struct Guides {
+    size_px: [usize; 2],
+    pixels: Vec<Guide>,
+}
+
+#[derive(Clone, Copy)]
+struct Guide {
+    object: u32,
+    normal: [f32; 3],
+    /// The reciprocal of depth, which is linear over the picture of a plane, and how it changes to the right and down.
+    per_depth: f32,
+    slope: [f32; 2],
+    roughness: f32,
+}
+
+impl Guides {
+    fn new(image: &Image, found: &Found) -> Self {
+        let size_px = image.size_px.map(|n| n as usize);
+        let [width, height] = size_px;
+        let per_depth = |i: usize| match image.depth_m[i] {
+            z if z > 0.0 => 1.0 / z,
+            _ => 0.0,
+        };
+        // Of both sides the one that changes less: the other one may lie beyond an edge.
+        let slope = |i: usize, before: Option<usize>, after: Option<usize>| {
+            let object = found.pixels[i].object;
+            let step = |from: usize, to: usize, other: usize| {
+                (found.pixels[other].object == object).then(|| per_depth(to) - per_depth(from))
+            };
+            let before = before.and_then(|b| step(b, i, b));
+            let after = after.and_then(|a| step(i, a, a));
+            match (before, after) {
+                (Some(a), Some(b)) => {
+                    if a.abs() < b.abs() {
+                        a
+                    } else {
+                        b
+                    }
+                }
+                (Some(a), None) | (None, Some(a)) => a,
+                (None, None) => 0.0,
+            }
+        };
+        let pixels = (0..width * height)
+            .into_par_iter()
+            .map(|i| {
+                let (x, y) = (i % width, i / width);
+                Guide {
+                    object: found.pixels[i].object,
+                    normal: image.normal[i],
+                    per_depth: per_depth(i),
+                    slope: [
+                        slope(i, (x > 0).then(|| i - 1), (x + 1 < width).then(|| i + 1)),
+                        slope(
+                            i,
+                            (y > 0).then(|| i - width),
+                            (y + 1 < height).then(|| i + width),
+                        ),
+                    ],
+                    roughness: found.pixels[i].roughness,
+                }
+            })
+            .collect();
+        Self { size_px, pixels }
+    }
+
+    /// How much pixels see the same surface, from 0 to 1; (dx, dy) leads from one to the other.
+    fn alike(&self, p: &Guide, q: &Guide, [dx, dy]: [i32; 2]) -> f32 {
+        if p.object != q.object || p.object == 0 {
+            return 0.0;
+        }
+        let cos: f32 = (0..3).map(|c| p.normal[c] * q.normal[c]).sum();
+        if cos <= 0.5 {
+            return 0.0;
+        }
+        let on_plane = p.per_depth + p.slope[0] * dx as f32 + p.slope[1] * dy as f32;
+        let off = (q.per_depth - on_plane).abs() / p.per_depth;
+        let off = off / OFF_PLANE;
+        cos.powi(NORMAL_POWER) / (1.0 + off * off)
+    }
+}
+
+/// Nothing where the layer has no noise.
+fn filter_layer(guides: &Guides, found: &Found, of: Of, per_roughness: f32) -> Vec<Signals> {
+    let rounds = found.rounds;
+    let mut signals: Vec<Signals> = found
+        .pixels
+        .par_iter()
+        .map(|pixel| Signals::new(of(pixel), rounds))
+        .collect();
+    let is_noisy = |s: &Signals| {
+        s.share[3] > 0.0
+            || s.bounced[3] > 0.0
+            || (rounds < 2 && (s.share[3] == 0.0 || s.bounced[3] == 0.0))
+    };
+    if !signals.par_iter().any(is_noisy) {
+        return Vec::new();
+    }
+    let steps_px = |guide: &Guide| MIRROR_STEP_PX + per_roughness * guide.roughness;
+    signals = smooth_variances(guides, &signals, rounds);
+    for pass in 0..PASSES {
+        let step = 1i32 << pass;
+        signals = over_pixels(guides, |i, [x, y]| {
+            let own = &signals[i];
+            let guide = &guides.pixels[i];
+            let is_still = own.share[3] <= 0.0 && own.bounced[3] <= 0.0;
+            if is_still || guide.object == 0 || step as f32 > steps_px(guide) {
+                return *own;
+            }
+            let mut sums = [Sum::default(), Sum::default()];
+            for (dy, wy) in TAPS {
+                for (dx, wx) in TAPS {
+                    let to = [x + dx * step, y + dy * step];
+                    let Some(j) = guides.index(to) else { continue };
+                    let alike = if i == j {
+                        1.0
+                    } else {
+                        guides.alike(guide, &guides.pixels[j], [dx * step, dy * step])
+                    };
+                    if alike < 1e-3 {
+                        continue;
+                    }
+                    let other = &signals[j];
+                    sums[0].add(&own.share, &other.share, wx * wy * alike);
+                    sums[1].add(&own.bounced, &other.bounced, wx * wy * alike);
+                }
+            }
+            Signals {
+                share: sums[0].mean(&own.share),
+                bounced: sums[1].mean(&own.bounced),
+            }
+        });
+    }
+    signals
+}
+
+/// A weighted mean of a signal over pixels.
+#[derive(Default)]
+struct Sum {
+    values: [f32; 3],
+    variance: f32,
+    weights: f32,
+}
+
+impl Sum {
+    fn add(&mut self, own: &[f32; 4], other: &[f32; 4], weight: f32) {
+        if other[3] < 0.0 || own[3] < 0.0 {
+            return;
+        }
+        let difference = luminance([own[0] - other[0], own[1] - other[1], own[2] - other[2]]);
+        let noise = (own[3] + other[3]) * (2.0 * NOISE_STD * NOISE_STD);
+        let weight = if difference == 0.0 {
+            weight
+        } else {
+            weight * (-difference * difference / noise.max(1e-20)).exp()
+        };
+        for c in 0..3 {
+            self.values[c] += weight * other[c];
+        }
+        self.variance += weight * weight * other[3];
+        self.weights += weight;
+    }
+
+    fn mean(&self, own: &[f32; 4]) -> [f32; 4] {
+        if !(self.weights > 0.0) {
+            return *own;
+        }
+        let [r, g, b] = self.values.map(|v| v / self.weights);
+        [r, g, b, self.variance / (self.weights * self.weights)]
+    }
+}
+
+/// Variances of few rounds are noisy themselves: each becomes the mean over the pixels around. After one round alone they are those of the
+/// values there.
+fn smooth_variances(guides: &Guides, signals: &[Signals], rounds: u32) -> Vec<Signals> {
+    const REACH_PX: i32 = 2;
+    over_pixels(guides, |i, [x, y]| {
+        let guide = &guides.pixels[i];
+        let mut own = signals[i];
+        if guide.object == 0 {
+            return own;
+        }
+        let mut sums = [[0.0f32; 4]; 2];
+        for dy in -REACH_PX..=REACH_PX {
+            for dx in -REACH_PX..=REACH_PX {
+                let Some(j) = guides.index([x + dx, y + dy]) else {
+                    continue;
+                };
+                let alike = if i == j {
+                    1.0
+                } else {
+                    guides.alike(guide, &guides.pixels[j], [dx, dy])
+                };
+                if alike < 1e-3 {
+                    continue;
+                }
+                let other = &signals[j];
+                for (sum, [r, g, b, variance]) in sums.iter_mut().zip([other.share, other.bounced])
+                {
+                    if variance >= 0.0 {
+                        let value = luminance([r, g, b]);
+                        let added = [1.0, variance, value, value * value];
+                        for (sum, added) in sum.iter_mut().zip(added) {
+                            *sum += alike * added;
+                        }
+                    }
+                }
+            }
+        }
+        for (signal, [weights, variances, values, squares]) in
+            [&mut own.share, &mut own.bounced].into_iter().zip(sums)
+        {
+            if signal[3] >= 0.0 && weights > 0.0 {
+                let mean = values / weights;
+                signal[3] = match rounds {
+                    0 | 1 => (squares / weights - mean * mean).max(0.0),
+                    // A firefly knows that it is one.
+                    _ => signal[3].max(variances / weights),
+                };
+            }
+        }
+        own
+    })
+}
+
+impl Guides {
+    fn index(&self, [x, y]: [i32; 2]) -> Option<usize> {
+        let [width, height] = self.size_px;
+        let is_in = x >= 0 && y >= 0 && (x as usize) < width && (y as usize) < height;
+        is_in.then(|| y as usize * width + x as usize)
+    }
+}
+
+fn over_pixels(guides: &Guides, of: impl Fn(usize, [i32; 2]) -> Signals + Sync) -> Vec<Signals> {
+    let [width, _] = guides.size_px;
+    (0..guides.pixels.len())
+        .into_par_iter()
+        .with_min_len(width.max(1))
+        .map(|i| of(i, [(i % width) as i32, (i / width) as i32]))
+        .collect()
+}

@@ -1,0 +1,228 @@
+//! What rays found of the light of a picture, beside the closed forms. Rays tell which share of a closed form is seen, and which light comes by way
+//! of other objects. Pictures of further rays add up here, and the filter works on it ([`crate::filter`]).
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::{Image, Noise};
+
+/// Of a picture, pixel by pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// Rays of each pixel to each source of its light.
+    pub rounds: u32,
+    /// As many as the image has.
+    pub pixels: Vec<FoundPixel>,
+}
+
+/// Of a pixel. A shader writes the same struct.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct FoundPixel {
+    /// What no ray changes: the background, and what surfaces emit. Linear Rec.709 radiance.
+    pub rest: [f32; 3],
+    /// Perceptual, from 0 to 1.
+    pub roughness: f32,
+    /// The object that is seen, and 1; 0 for the background; [`Self::SEVERAL_OBJECTS`] on edges.
+    pub object: u32,
+    /// By the body of the base.
+    pub diffuse: FoundLight,
+    /// By the surface of the base.
+    pub specular: FoundLight,
+    /// By scratches and gratings.
+    pub scratches: FoundLight,
+}
+
+/// Of one layer of a pixel's light. Linear Rec.709 radiance.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct FoundLight {
+    /// The closed form: what is sent where nothing hides a source.
+    pub open: [f32; 3],
+    /// What would be sent of light of radiance 1 from all around.
+    pub around: [f32; 3],
+    /// The mean weight of the rays to sources: `open`, but for noise.
+    pub weight: [f32; 3],
+    /// The part of `weight` whose rays see their source.
+    pub seen: [f32; 3],
+    /// The light of other objects: the mean of what rays brought.
+    pub bounced: [f32; 3],
+    /// Over the rounds, the sum of the share of luminance that is seen, and of its square.
+    pub share_moments: [f32; 2],
+    /// The same of the luminance of `bounced` over that of `around`.
+    pub bounced_moments: [f32; 2],
+}
+
+impl FoundLight {
+    /// The share of the closed form that is seen, from 0 to 1: the ratio of sums of E. Heitz, S. Hill, M. McGuire, *Combining Analytic Direct
+    /// Illumination and Stochastic Shadows*, 2018. It is consistent, never below 0 nor above 1, and exact where all rays or none see their source.
+    pub fn share(&self) -> [f32; 3] {
+        let of_all = ratio(luminance(self.seen), luminance(self.weight)).unwrap_or(1.0);
+        std::array::from_fn(|c| ratio(self.seen[c], self.weight[c]).unwrap_or(of_all))
+    }
+
+    /// The light that is left, with that of other objects.
+    pub fn light(&self) -> [f32; 3] {
+        let share = self.share();
+        std::array::from_fn(|c| self.open[c] * share[c] + self.bounced[c])
+    }
+
+    /// Adds what further rounds found: `share` is their share of all.
+    fn add(&mut self, other: &Self, share: f32) {
+        let mix = |a: &mut [f32; 3], b: &[f32; 3]| {
+            for c in 0..3 {
+                a[c] += (b[c] - a[c]) * share;
+            }
+        };
+        mix(&mut self.open, &other.open);
+        mix(&mut self.around, &other.around);
+        mix(&mut self.weight, &other.weight);
+        mix(&mut self.seen, &other.seen);
+        mix(&mut self.bounced, &other.bounced);
+        for i in 0..2 {
+            self.share_moments[i] += other.share_moments[i];
+            self.bounced_moments[i] += other.bounced_moments[i];
+        }
+    }
+}
+
+/// The variance of the mean of so many numbers, from their sum and that of their squares; 0 for one, which tells nothing of it.
+pub(crate) fn variance([sum, squares]: [f32; 2], count: u32) -> f32 {
+    if count < 2 {
+        return 0.0;
+    }
+    let n = count as f32;
+    ((squares - sum * sum / n) / (n * (n - 1.0))).max(0.0)
+}
+
+/// None where there is nothing to take a part of.
+fn ratio(part: f32, all: f32) -> Option<f32> {
+    (all > 0.0).then(|| (part / all).clamp(0.0, 1.0))
+}
+
+pub(crate) fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
+impl FoundPixel {
+    /// Stands for the object where samples see several.
+    pub const SEVERAL_OBJECTS: u32 = u32::MAX;
+
+    /// The layers of [`Image`] that it says: base and scratches.
+    pub fn light(&self) -> [[f32; 3]; 2] {
+        let (diffuse, specular) = (self.diffuse.light(), self.specular.light());
+        let base = std::array::from_fn(|c| self.rest[c] + (diffuse[c] + specular[c]));
+        [base, self.scratches.light()]
+    }
+
+    fn add(&mut self, other: &Self, share: f32) {
+        for c in 0..3 {
+            self.rest[c] += (other.rest[c] - self.rest[c]) * share;
+        }
+        self.diffuse.add(&other.diffuse, share);
+        self.specular.add(&other.specular, share);
+        self.scratches.add(&other.scratches, share);
+    }
+}
+
+impl Found {
+    /// Adds what further rounds found of the same picture.
+    pub fn add(&mut self, other: &Self) {
+        self.rounds += other.rounds;
+        let share = other.rounds as f32 / self.rounds.max(1) as f32;
+        for (pixel, other) in self.pixels.iter_mut().zip(&other.pixels) {
+            pixel.add(other, share);
+        }
+    }
+}
+
+impl FoundLight {
+    /// The variance of [`Self::light`] after so many rounds, by channel. Rays to sources and to objects are drawn apart.
+    fn variance(&self, rounds: u32) -> [f32; 3] {
+        let of_share = variance(self.share_moments, rounds);
+        let of_bounced = variance(self.bounced_moments, rounds);
+        std::array::from_fn(|c| {
+            self.open[c] * self.open[c] * of_share + self.around[c] * self.around[c] * of_bounced
+        })
+    }
+}
+
+impl Found {
+    /// How sure base and scratches are, where no filter has changed them. Diffuse and specular light share their rays: their standard deviations
+    /// add up, which is an upper bound.
+    fn noise(&self, image: &Image) -> Noise {
+        let mut noise = Noise::new(image.size_px, 1);
+        noise.samples.fill(self.rounds);
+        for (i, pixel) in self.pixels.iter().enumerate() {
+            let [diffuse, specular, scratches] =
+                [&pixel.diffuse, &pixel.specular, &pixel.scratches]
+                    .map(|light| light.variance(self.rounds));
+            noise.base[i] = std::array::from_fn(|c| {
+                diffuse[c] + specular[c] + 2.0 * (diffuse[c] * specular[c]).sqrt()
+            });
+            noise.scratches[i] = scratches;
+            noise.beauty[i] = std::array::from_fn(|c| noise.base[i][c] + scratches[c]);
+        }
+        noise
+    }
+}
+
+impl Image {
+    /// Has base and scratches say what rays found, without a filter, and tells how sure they are.
+    pub fn show_found(&mut self) {
+        let Some(found) = &self.found else { return };
+        for (i, pixel) in found.pixels.iter().enumerate() {
+            [self.base[i], self.scratches[i]] = pixel.light();
+        }
+        self.noise = (found.rounds > 1).then(|| found.noise(self));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_lies_between_nothing_and_the_closed_form() {
+        let open = [2.0, 3.0, 4.0];
+        let of = |weight, seen| {
+            FoundLight {
+                open,
+                weight,
+                seen,
+                ..FoundLight::default()
+            }
+            .light()
+        };
+        let weight = [0.1, 0.7, 0.3];
+        assert_eq!(of(weight, weight), open);
+        assert_eq!(of(weight, [0.0; 3]), [0.0; 3]);
+        assert_eq!(of([0.0; 3], [0.0; 3]), open);
+        // Colours out of gamut have weights below 0: the other channels speak for them.
+        assert_eq!(of([-0.1, 0.5, 0.5], [-0.1, 0.25, 0.25])[1], 1.5);
+        let wrong = of([1.0, 1.0, 1.0], [-0.1, 0.5, 1.5]);
+        assert_eq!(wrong, [0.0, 1.5, 4.0]);
+    }
+
+    #[test]
+    fn what_all_rounds_see_stays_to_the_bit() {
+        let pixel = |weight: f32| FoundPixel {
+            scratches: FoundLight {
+                open: [0.1, 0.2, 0.3],
+                weight: [weight; 3],
+                seen: [weight; 3],
+                ..FoundLight::default()
+            },
+            ..FoundPixel::default()
+        };
+        let found = |weight, rounds| Found {
+            rounds,
+            pixels: vec![pixel(weight)],
+        };
+        let mut sum = found(0.37, 4);
+        for (i, rounds) in [4, 8, 16].into_iter().enumerate() {
+            sum.add(&found(0.11 * i as f32 + 0.1, rounds));
+        }
+        assert_eq!(sum.rounds, 32);
+        assert_eq!(sum.pixels[0].light()[1], [0.1, 0.2, 0.3]);
+    }
+}
