@@ -29,7 +29,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 /// Samples of a pixel that share scratches.
 const SAMPLES_AT_ONCE: usize = 16;
 /// The least cosine between normals that are those of one surface.
-const ALIKE_COS: f64 = 0.95;
+const ALIKE_COS: f64 = 0.98;
 
 /// Pixels to a side.
 const SIDE: usize = TILE_PX as usize;
@@ -67,9 +67,15 @@ struct Point<'a> {
     rounds: Rounds,
     seen: Seen<'a>,
     scratches: Shared,
-    /// The surface as its scratches are seen, where that is by another filter, and that filter.
-    wide: Option<SurfacePoint<'a>>,
-    wide_std_px: f64,
+    /// Where its scratches are seen, if that is elsewhere or by another filter.
+    wide: Option<Wide<'a>>,
+}
+
+/// A point of a pixel with the pixel's whole filter.
+struct Wide<'a> {
+    point: SurfacePoint<'a>,
+    at_px: DVec2,
+    std_px: f64,
 }
 
 /// For which samples of a pixel a sample has the scratches.
@@ -106,6 +112,11 @@ impl<'a> Point<'a> {
         })
     }
 
+    /// Where its scratches are seen, given where it is itself.
+    fn scratched<'p>(&'p self, own: &'p SurfacePoint<'a>) -> &'p SurfacePoint<'a> {
+        self.wide.as_ref().map_or(own, |wide| &wide.point)
+    }
+
     /// The same for its scratches; none if another sample has them.
     fn scratched_point<'p>(
         &'p self,
@@ -116,11 +127,15 @@ impl<'a> Point<'a> {
             return None;
         };
         let mut at = self.shadow_point(camera, views)?;
-        at.point = self.wide.as_ref().unwrap_or(at.point);
         at.rounds.now.count *= samples;
         at.rounds.all *= samples;
-        if let Some(pixel) = &mut at.pixel {
-            pixel.std_px = self.wide_std_px;
+        if let Some(wide) = &self.wide {
+            at.point = &wide.point;
+            at.pixel = Some(PixelFilter {
+                camera,
+                at_px: wide.at_px,
+                std_px: wide.std_px,
+            });
         }
         Some(at)
     }
@@ -278,14 +293,20 @@ impl<'a> Tile<'a> {
                 let hit = rays.intersect(triangles, camera, at_px, direction, coverage);
                 self.add(column, row, pixel, at_px, samples, hit);
             }
-            self.share_scratches(in_batch, center(x, y));
+            self.share_scratches(in_batch, [x, y]);
         }
     }
 
     /// Has one sample stand for the scratches of all that see the same surface, of those of a pixel from `first` on: the one nearest to the
     /// pixel's middle, with the pixel's whole filter. Scratches are most of the work, and a pixel without an edge has them once, too.
-    fn share_scratches(&mut self, first: usize, middle_px: DVec2) {
-        let prepared = self.picture.prepared;
+    fn share_scratches(&mut self, first: usize, [x, y]: [usize; 2]) {
+        let picture = self.picture;
+        let prepared = picture.prepared;
+        let middle_px = center(x, y);
+        let middle = || {
+            let hit = picture.visibility.hit(x, y)?;
+            Some(picture.surface(middle_px, 1, Some(*hit)))
+        };
         let filter = prepared.scene.render.filter_std_px;
         let off = |point: &Point| point.at_px.distance_squared(middle_px);
         let mut order: Vec<usize> = (first..self.batch.len()).collect();
@@ -310,14 +331,28 @@ impl<'a> Tile<'a> {
                 None => leaders.push(i),
             }
         }
+        let all = (self.batch.len() - first) as u32;
         for leader in leaders {
             let point = &mut self.batch[leader];
-            if let (Shared::Among(2..), Seen::Surface { point: at, .. }) =
+            let (Shared::Among(samples @ 2..), Seen::Surface { point: at, .. }) =
                 (point.scratches, &point.seen)
-            {
-                point.wide = Some(at.with_footprint_of(filter / point.std_px));
-                point.wide_std_px = filter;
-            }
+            else {
+                continue;
+            };
+            // Where all samples see one surface, so does the pixel's middle.
+            let seen = if samples == all { middle() } else { None };
+            point.wide = Some(match seen {
+                Some(Seen::Surface { point: of_middle, .. }) => Wide {
+                    point: of_middle,
+                    at_px: middle_px,
+                    std_px: filter,
+                },
+                _ => Wide {
+                    point: at.with_footprint_of(filter / point.std_px),
+                    at_px: point.at_px,
+                    std_px: filter,
+                },
+            });
         }
     }
 
@@ -353,7 +388,6 @@ impl<'a> Tile<'a> {
             seen,
             scratches: Shared::Among(1),
             wide: None,
-            wide_std_px: std_px,
         });
     }
 
@@ -379,7 +413,7 @@ impl<'a> Tile<'a> {
             if let Seen::Surface { point: at, hit, .. } = &point.seen {
                 views.look_from(at);
                 if is_tiled && (prepared.is_scratched(hit) || prepared.has_gratings(hit)) {
-                    views.ready_for_scratches(point.wide.as_ref().unwrap_or(at));
+                    views.ready_for_scratches(point.scratched(at));
                 }
             }
         }
@@ -403,9 +437,9 @@ impl<'a> Tile<'a> {
                             && matches!(point.scratches, Shared::Among(_)) =>
                     {
                         Some(ScratchPoint {
-                            point: point.wide.as_ref().unwrap_or(at),
+                            point: point.scratched(at),
                             object: hit.object,
-                            at_px: point.at_px,
+                            at_px: point.wide.as_ref().map_or(point.at_px, |it| it.at_px),
                             views,
                             index,
                         })
