@@ -342,7 +342,9 @@ impl<'a> Tile<'a> {
             // Where all samples see one surface, so does the pixel's middle.
             let seen = if samples == all { middle() } else { None };
             point.wide = Some(match seen {
-                Some(Seen::Surface { point: of_middle, .. }) => Wide {
+                Some(Seen::Surface {
+                    point: of_middle, ..
+                }) => Wide {
                     point: of_middle,
                     at_px: middle_px,
                     std_px: filter,

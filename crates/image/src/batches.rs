@@ -38,6 +38,18 @@ impl Batch {
         })
     }
 
+    /// Those that `samples` rounds of rays add up in while somebody looks: the first one is soon there, and later ones are as large as can be.
+    pub fn growing(samples: u32) -> impl Iterator<Item = Self> {
+        let after = move |first: u32| {
+            let count = first.clamp(BATCH_SAMPLES, BATCH_ROUNDS);
+            (first < samples).then(|| Self {
+                first,
+                count: count.min(samples - first),
+            })
+        };
+        std::iter::successors(after(0), move |batch| after(batch.first + batch.count))
+    }
+
     /// Their numbers.
     pub fn range(self) -> Range<u32> {
         self.first..self.first + self.count
@@ -264,6 +276,14 @@ mod tests {
             assert_eq!(batches.samples(), all, "{asked}");
             assert_eq!(batches.next().unwrap(), Batch::all(first), "{asked}");
         }
+    }
+
+    #[test]
+    fn batches_grow_to_all_samples() {
+        let counts = |samples| -> Vec<u32> { Batch::growing(samples).map(|b| b.count).collect() };
+        assert_eq!(counts(64), [4, 4, 8, 16, 16, 16]);
+        assert_eq!(counts(3), [3]);
+        assert_eq!(Batch::growing(64).last().unwrap().range().end, 64);
     }
 
     #[test]

@@ -21,7 +21,7 @@ const OFF_PLANE: f32 = 0.01;
 /// The power of the cosine between normals.
 const NORMAL_POWER: i32 = 64;
 /// Steps of the filter in a mirror, pixels, and what a rough surface adds: a mirror image has edges that no guide knows.
-const MIRROR_STEP_PX: f32 = 1.0;
+const MIRROR_STEP_PX: f32 = 4.0;
 const ROUGH_STEP_PX: f32 = 40.0;
 
 /// Has base and scratches of a picture say what rays found, filtered. Nothing changes without rays.

@@ -1,5 +1,6 @@
 //! Painting by the CPU renderer.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -42,6 +43,8 @@ struct Last {
     order: Order,
     /// That it has.
     samples: u32,
+    /// As it was shown last, by which view.
+    shown: RefCell<Option<(super::View, Picture, Findings)>>,
 }
 
 /// A picture that is not done yet.
@@ -126,6 +129,9 @@ impl Easel for CpuEasel {
             })
             .filter(|_| order.view.reading.shows == Shows::Beauty);
         let options = options(step.samples, step.transport, step.batch);
+        // Rays take a while: the picture before them stays, and the status line tells how far they are.
+        let waiting = self.last.as_ref().filter(is_of_order);
+        let waiting = waiting.filter(|_| step.is_added() && self.shows_parts);
         let mut backdrop = None;
         let mut shown_last = Instant::now();
         let is_done = loop {
@@ -158,6 +164,15 @@ impl Easel for CpuEasel {
                 });
                 shown_last = Instant::now();
             }
+            if let Some(last) = waiting
+                && shown_last.elapsed() > REFRESH
+            {
+                show(Shown {
+                    done: bands.done(),
+                    ..last.shown(order)
+                });
+                shown_last = Instant::now();
+            }
         };
         if !is_done {
             self.begun = Some(Begun {
@@ -176,6 +191,7 @@ impl Easel for CpuEasel {
             step: *step,
             order: order.clone(),
             samples,
+            shown: RefCell::default(),
         };
         show(last.shown(order));
         self.last = Some(last);
@@ -203,9 +219,18 @@ impl Easel for CpuEasel {
 impl Last {
     fn shown(&self, order: &Order) -> Shown {
         let (view, step) = (&order.view, &self.step);
-        let (pixels, findings) = develop(&self.image, view.size_px, &view.display, &view.reading);
+        let mut shown = self.shown.borrow_mut();
+        let (_, picture, findings) = match shown.take() {
+            Some(shown) if shown.0.is_shown_as(view) => shown,
+            _ => {
+                let (pixels, findings) =
+                    develop(&self.image, view.size_px, &view.display, &view.reading);
+                (*view, Picture::Pixels(Arc::new(pixels)), findings)
+            }
+        };
+        *shown = Some((*view, picture.clone(), findings.clone()));
         Shown {
-            picture: Picture::Pixels(Arc::new(pixels)),
+            picture,
             size_px: step.size_px,
             samples: self.samples,
             of_samples: step.batch.map(|_| step.samples),

@@ -97,7 +97,7 @@ pub(super) fn steps(
         add(full_px, best_samples, 1);
         return steps;
     }
-    steps.extend(Batch::of(SHADOW_SAMPLES).map(|batch| Step {
+    steps.extend(Batch::growing(SHADOW_SAMPLES).map(|batch| Step {
         size_px: full_px,
         samples: SHADOW_SAMPLES,
         thin: 1,

@@ -78,15 +78,22 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
         _ if painted.transport != wanted => {
             let left_out = ways(wanted);
             match painted.thin == 1 && painted.size_px == frame.view.size_px {
+                true if painted.done < 1.0 => {
+                    format!("{left_out} follow, {:.0} %", 100.0 * painted.done)
+                }
                 true => format!("{left_out} follow"),
                 false => format!("without {left_out} while it moves"),
             }
         }
         (true, _) => "finished".to_owned(),
         _ if frame.built.is_sketch() => "a sketch of the scratches".to_owned(),
-        (false, samples) if let Some(all) = painted.of_samples => {
-            format!("sample {samples} of {all}")
-        }
+        (false, samples) if let Some(all) = painted.of_samples => match painted.done < 1.0 {
+            true => format!(
+                "sample {samples} of {all}, {:.0} % of the next ones",
+                100.0 * painted.done
+            ),
+            false => format!("sample {samples} of {all}"),
+        },
         _ if painted.done < 1.0 && wanted.shadows => {
             format!("adding {}, {:.0} %", ways(wanted), 100.0 * painted.done)
         }
