@@ -60,7 +60,7 @@ fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
     // A groove interrupts the reflecting surface; what shines from under it passes.
     let light = base_light[at];
     let gratings = under_scratches(grating_sums(group, lane), scratches.taken);
-    value.base = light.body + light.specular * (1.0 - gratings.taken);
+    value.base = base_emission(light) + (light.body + light.specular * (1.0 - gratings.taken));
     value.scratches = scratches.scratches * light.fresnel + gratings.scratches;
     value.density = gratings.taken;
     value.normal = point.normal;
