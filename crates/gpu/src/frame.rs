@@ -160,7 +160,21 @@ pub(crate) fn frame(
             _ => sample,
         },
         pad_1: 0,
+        sample_order: sample_order(view.step_samples(), samples),
+        pad_2: [0; 2],
     }
+}
+
+/// The samples of a step from the one nearest to the pixel's middle, 4 bits each.
+fn sample_order(step: Range<u32>, samples: u32) -> [u32; 2] {
+    let off = |i: &u32| pixel_jitter(step.start + i, samples).length_squared();
+    let mut order: Vec<u32> = (0..step.len() as u32).collect();
+    order.sort_by(|a, b| off(a).total_cmp(&off(b)));
+    let mut packed = [0; 2];
+    for (place, i) in order.into_iter().enumerate() {
+        packed[place / 8] |= i << (4 * (place % 8));
+    }
+    packed
 }
 
 /// Jittered samples lie within half a pixel of the centre to either side, by the diagonal.

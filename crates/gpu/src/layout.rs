@@ -82,6 +82,8 @@ shared! {
         middle_px: [f32; 2],
         coverage_round: u32,
         pad_1: u32,
+        sample_order: [u32; 2],
+        pad_2: [u32; 2],
     }
     /// A corner of a triangle.
     Vertex {

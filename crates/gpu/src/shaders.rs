@@ -193,6 +193,8 @@ modules! {
     VISIBILITY_CUTOUTS = "passes/visibility_cutouts" needs [VISIBILITY, CUTOUTS];
     /// Pass: from the triangle that a pixel sees to its surface point.
     SURFACE = "passes/surface" needs [HIT, FILM, PIXEL_POINT, COVERAGE];
+    /// Pass: which samples of a pixel share scratches.
+    SHARE_SCRATCHES = "passes/share_scratches" needs [FILM, PIXEL_POINT];
     /// Pass: the pixels of each tile that have an edge or a crease.
     EDGES = "passes/edges" needs [FILM];
     /// Pass: from segments to the picture.
@@ -212,7 +214,7 @@ modules! {
     /// Pass: into how many chunks each group's list is cut.
     GROUP_CHUNKS = "passes/group_chunks" needs [GROUPS];
     /// A pixel with a segment that it sees.
-    PAIRS = "scene/pairs" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, METHOD];
+    PAIRS = "scene/pairs" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, METHOD, BINDINGS];
     /// What a pair sends of a light.
     PAIR_LIGHT = "scene/pair_light" needs [PAIRS, OUTLINE_LIGHT, SCRATCH_PICTURE];
     /// A sample with a grating that it sees.
@@ -246,7 +248,7 @@ modules! {
     /// Pass: whether each ray sees its source.
     SHADOW_TRACE = "passes/shadow_trace" needs [RAY_START, FOUND, FILM];
     /// Pass: what rays found, as light.
-    SHADOW_FOUND = "passes/shadow_found" needs [FOUND, SUMS];
+    SHADOW_FOUND = "passes/shadow_found" needs [FOUND, SUMS, PIXEL_POINT];
     /// Pass: and on the film.
     FOUND_FILM = "passes/found_film" needs [FOUND_LIGHT, SCENE, PIXEL_POINT, FILM];
     /// Directions to light by way of a scratch.
@@ -258,7 +260,7 @@ modules! {
     /// Where under its pixel a pair lies.
     PAIR_PLACE = "scene/pair_place" needs [DRAWN_LIGHT, PAIRS];
     /// Pass: where the sums begin by which scratches are picked.
-    SHADOW_PICKS = "passes/shadow_picks" needs [SHADOW, PICKS, FILM];
+    SHADOW_PICKS = "passes/shadow_picks" needs [SHADOW, PICKS, PIXEL_POINT, FILM];
     /// Pass: a ray of each sample by way of a scratch or a grating.
     SHADOW_PICKED_RAYS = "passes/shadow_picked_rays" needs [PAIR_PLACE, GRATING_PAIRS, DRAWN_RAY, PICKS, FILM];
     /// The sums of a sample over its scratches.
@@ -282,7 +284,7 @@ modules! {
     /// Pass: base and scratches by the method of 2018.
     SHADE_PUBLISHED = "published/shade_published" needs [PUBLISHED_GATHER, PUBLISHED_BASE, FILM, PIXEL_POINT];
     /// Pass: what a pixel adds to the film.
-    RESOLVE = "passes/resolve" needs [SCENE, SUMS];
+    RESOLVE = "passes/resolve" needs [SCENE, SUMS, PIXEL_POINT];
     /// Passes: the filter of what rays found.
     FILTER = "passes/filter" needs [FOUND_LIGHT];
     /// Pass: the film on a display.

@@ -154,6 +154,13 @@ impl StripShader {
                 passes.surface.record(gpu, recording, room, film, rows);
             });
         }
+        if view.step > 0 && passes.scratches().is_some() {
+            self.submit(view, |recording| {
+                passes
+                    .surface
+                    .record_shares(gpu, recording, room, film, rows);
+            });
+        }
         let shadows = match &passes.shade {
             Shade::Own { .. } => view.shadows(),
             Shade::Published(_) => None,

@@ -10,10 +10,9 @@
 
 // By a scratch; `energy` is the luminance of what all of them take of the base, by which it was picked. What it sends is that of the sample's
 // scratches before they weaken one another.
-fn ray_by(last: BounceRay, pixel: PixelPoint, index: u32, energy: f32) -> BounceRay {
+fn ray_by(last: BounceRay, pixel: PixelPoint, index: u32, energy: f32, seed: u32) -> BounceRay {
     let segment = segment_from(scratch_segment(index));
     let pair = pair_of(pixel, segment);
-    let seed = shadow_seed(pixel.position_m, shadow_round);
     let from_there = draw_all_around(pair.point, pair.seen, shadow_random(seed, shadow_round, BOUNCE_DIRECTION));
     let drawn = drawn_direction(pair.point, pair.seen, from_there);
     let share = pair.seen.share.segment;
@@ -24,7 +23,7 @@ fn ray_by(last: BounceRay, pixel: PixelPoint, index: u32, energy: f32) -> Bounce
     }
     let place = shadow_random(seed, shadow_round, BOUNCE_PLACE);
     let normals = vec3f(shadow_normals(shadow_random(seed, shadow_round, BOUNCE_START)), gaussian_quantile(clamp(place.x, 1e-6, 1.0 - 1e-6)));
-    let start = pair_place(pair, pixel, segment, normals, place.y);
+    let start = pair_place(pair, pixel, segment, normals, place.y) * select(1.0, scratched_wider(), pixel_shares(pixel));
     let around = share * from_there.total * (energy / own);
     return bounce_ray(last, pair.surface * drawn.direction, around * drawn.color, around, 0.0, start, shadow_round);
 }
@@ -51,8 +50,11 @@ fn bounce_scratch_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_wor
     }
     let packed = picks[GROUP * chunk_starts[frame.group_count] + shadow_round.picks * at + shadow_round.round - shadow_round.first_pick];
     if packed.x != PICK_NONE {
-        let state = pick_state_from(picks[GROUP * chunk_starts[group] + lane]);
-        ray = ray_by(rays[at], pixel, pick_from(packed).segment, state.step * f32(state.per_sample));
+        // Another sample of the pixel may have its scratches.
+        let by = pixel_scratched(pixel, at);
+        let first = by - at + lane + GROUP * group;
+        let state = pick_state_from(picks[GROUP * chunk_starts[first / GROUP] + first % GROUP]);
+        ray = ray_by(rays[at], points[by], pick_from(packed).segment, state.step * f32(state.per_sample), seed);
         if shadow_round.depth > 0u {
             sums.radiance = ray.throughput / way.share;
             let fresnel = coated_reflectance(pixel_fresnel(paints[at]), paints[at].coat, pixel.cos_o);

@@ -47,7 +47,9 @@ fn shadow_found(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     }
     var taken = vec3f(0.0);
     if HAS_SCRATCHES {
-        let sums = sample_sums(group, lane);
+        // Another sample of the pixel may have its scratches.
+        let by = pixel_scratched(points[at], at);
+        let sums = sample_sums_of(by, at, group, lane);
         if sums.cut > 0u {
             atomicAdd(&film.gave_up, sums.cut);
         }
@@ -55,7 +57,7 @@ fn shadow_found(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         let even = ScratchSums(sums.all.share, sums.all.share_by_line, vec3f(1.0), sums.all.energy);
         let left = masked(even, objects[points[at].object - 1u].depth_coherence);
         taken = left.taken;
-        finish(found_at(at, FOUND_SCRATCHES), false, sums.all.radiance, left.scratches * base_light[at].fresnel);
+        finish(found_at(at, FOUND_SCRATCHES), false, sums.all.radiance, left.scratches * base_light[by].fresnel);
     }
     let gratings = grating_sums(group, lane);
     if HAS_GRATINGS {

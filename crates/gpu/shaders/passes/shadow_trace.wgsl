@@ -39,11 +39,13 @@ fn shadow_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     var is_seen = true;
     let ray = rays[at];
     if ray.distance_m > 0.0 {
-        let start = sample_start(triangle_tree, points[at], paints[at].triangle, vec2f(ray.offset_x, ray.offset_y));
+        // Another sample of the pixel may have its scratches.
+        let leaves = select(at, pixel_scratched(points[at], at), shadow_round.way == SHADOW_BY_SCRATCHES);
+        let start = sample_start(triangle_tree, points[leaves], paints[leaves].triangle, vec2f(ray.offset_x, ray.offset_y));
         // To the very place that was drawn: a parallel ray would blur the shadow of what is near a lamp by more than the pixel's filter does.
-        let way_m = points[at].position_m + ray.distance_m * ray.direction - start.position_m;
+        let way_m = points[leaves].position_m + ray.distance_m * ray.direction - start.position_m;
         let distance_m = length(way_m);
-        let from_there = ray_from(start, way_m / distance_m, points[at].normal, shadow_round.extent_m);
+        let from_there = ray_from(start, way_m / distance_m, points[leaves].normal, shadow_round.extent_m);
         let hit = cutout_hit(triangle_tree, from_there, distance_m, start.triangle, true, 0u);
         is_seen = hit.triangle == 0u;
     }

@@ -30,6 +30,7 @@ struct Frame {
     base_light_count: u32,      // of the lights, those that do not shine on scratches alone: they come first
     middle_px: vec2f,           // where in the picture the ray along `forward` is
     coverage_round: u32,        // of all samples of a pixel, which one is looked at; COVERAGE_ANY: it stands for all
+    sample_order: vec2u,        // the samples of the step from the one that is nearest to the pixel's middle, 4 bits each
 }
 
 // The sample sees any surface that covers something.
@@ -177,7 +178,7 @@ struct PixelPoint {
     turns: vec4f,               // how the smooth normal turns over each of them, in the surface frame
     cos_o: f32,                 // of the viewer to the normal
     distance_m: f32,            // to the viewer
-    table_and_place: u32,       // layer of the scratch tables in 16 bits; the pixel's place in its tile, and PIXEL_PARTIAL
+    table_and_place: u32,       // layer of the scratch tables in 16 bits; the pixel's place in its tile, in 6; who has its scratches, in 6; PIXEL_PARTIAL
     leaves: f32,                // how far the surface may be off the plane of shading for each length along it
 }
 
