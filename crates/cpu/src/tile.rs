@@ -308,7 +308,8 @@ impl<'a> Tile<'a> {
             Some(picture.surface(middle_px, 1, Some(*hit)))
         };
         let filter = prepared.scene.render.filter_std_px;
-        let off = |point: &Point| point.at_px.distance_squared(middle_px);
+        // Samples come in pairs that lie as far from it: the first one is taken, however their places are rounded.
+        let off = |point: &Point| (1e9 * point.at_px.distance_squared(middle_px)).round();
         let mut order: Vec<usize> = (first..self.batch.len()).collect();
         order.sort_by(|&a, &b| off(&self.batch[a]).total_cmp(&off(&self.batch[b])));
         let mut leaders: Vec<usize> = Vec::new();

@@ -4,13 +4,11 @@ use wgpu::BufferUsages;
 
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::layout::{BounceRay, Bounced, ShadowRound};
+use crate::layout::{BounceRay, ShadowRound};
 use crate::scan::ScanPasses;
 use crate::strip::{BounceRoom, GROUP, StripRoom};
 
 const RAY_BYTES: u64 = size_of::<BounceRay>() as u64;
-const BOUNCED_BYTES: u64 = size_of::<Bounced>() as u64;
-const BOUNCED_USAGE: BufferUsages = BufferUsages::STORAGE.union(BufferUsages::COPY_DST);
 
 impl BounceRoom {
     pub(crate) async fn new(gpu: &Gpu, scans: &ScanPasses) -> Result<Self, Error> {
@@ -20,9 +18,6 @@ impl BounceRoom {
             round: gpu.buffer("round of bounces", round, uniform).await?,
             rays: gpu
                 .buffer("rays of bounces", RAY_BYTES, BufferUsages::STORAGE)
-                .await?,
-            bounced: gpu
-                .buffer("light of objects", BOUNCED_BYTES, BOUNCED_USAGE)
                 .await?,
             points_max: 1,
             hits: [
@@ -46,13 +41,10 @@ impl BounceRoom {
             // The old ones are given back first. An error on the way leaves none.
             self.points_max = 0;
             self.rays.destroy();
-            self.bounced.destroy();
             let bytes = points * RAY_BYTES;
             self.rays = gpu
                 .buffer("rays of bounces", bytes, BufferUsages::STORAGE)
                 .await?;
-            let bytes = points * BOUNCED_BYTES;
-            self.bounced = gpu.buffer("light of objects", bytes, BOUNCED_USAGE).await?;
             self.points_max = points;
         }
         if self.groups_max < groups {
@@ -76,11 +68,6 @@ impl BounceRoom {
     pub(crate) fn write(&self, gpu: &Gpu, round: &ShadowRound) {
         let bytes = bytemuck::bytes_of(round);
         gpu.queue.write_buffer(&self.round, 0, bytes);
-    }
-
-    /// Forgets the light of objects of so many samples.
-    pub(crate) fn clear(&self, encoder: &mut wgpu::CommandEncoder, points: u64) {
-        encoder.clear_buffer(&self.bounced, 0, Some(points * BOUNCED_BYTES));
     }
 }
 

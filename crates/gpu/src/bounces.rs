@@ -19,10 +19,11 @@ use crate::scene_data::SceneData;
 use crate::shade_scratches::{PickByEnergyPass, ShadeScratchesPass};
 use crate::shaders;
 use crate::shadow_picks::Scratched;
+use crate::shadow_room::ShadowRoom;
 use crate::shadows::Shadows;
-use crate::strip::{StripRoom, TILE_PX, whole};
+use crate::strip::{StripRoom, whole};
 use crate::transfer::Transfer;
-use crate::variant::{Constant, Seen, ShadeVariant};
+use crate::variant::{Constant, Seen, ShadeVariant, Way};
 
 /// What rays to other objects need, beside shadows.
 pub(crate) struct Bounces {
@@ -33,7 +34,6 @@ pub(crate) struct Bounces {
     trace: [ComputePass; 2],
     surface: ComputePass,
     light: ComputePass,
-    film: ComputePass,
     /// Of what rays have met.
     pub shadows: Shadows,
     /// None where the scene has no scratches.
@@ -91,7 +91,7 @@ impl Bounces {
         let base_rays = pass(
             "bounce rays",
             (&shaders::BOUNCE_BASE_RAYS, "bounce_base_rays"),
-            &[Reads, Reads, Writes, Reads, Reads, Uniform],
+            &[Reads, Reads, Writes, Reads, Reads, Uniform, Writes],
         );
         let surface = pass(
             "bounce surface",
@@ -101,12 +101,7 @@ impl Bounces {
         let light = pass(
             "bounce light",
             (&shaders::BOUNCE_LIGHT, "bounce_light"),
-            &[Reads, Reads, Writes, Reads, Reads, Writes, Uniform],
-        );
-        let film = pass(
-            "bounce film",
-            (&shaders::BOUNCE_FILM, "bounce_film"),
-            &[Reads, Reads, Writes],
+            &[Reads, Reads, Reads, Writes, Uniform],
         );
         let gratings = has_gratings.then(|| {
             pass(
@@ -126,7 +121,6 @@ impl Bounces {
             trace,
             surface,
             light,
-            film,
             shadows,
             scratches,
             gratings,
@@ -156,6 +150,7 @@ impl Bounces {
                 whole(&from.samples.chunk_starts),
                 whole(&from.samples.chunk_sums),
                 whole(by.round),
+                whole(&by.seen.found),
             ];
             self.base_rays.run(gpu, recording, &resources, groups);
         }
@@ -207,49 +202,27 @@ impl Bounces {
 
     /// What the hits send, added to what the camera sees.
     pub(crate) fn record_light(&self, gpu: &Gpu, recording: &mut Recording, by: &Bounce) {
-        let hits = &by.to.samples;
+        let Some(hits) = &by.to.shadows else { return };
         let resources = [
             whole(by.rays),
-            whole(&hits.base_light),
-            whole(by.bounced),
-            whole(&hits.chunk_starts),
-            whole(&hits.chunk_sums),
-            whole(by.film),
+            whole(&by.to.samples.base_light),
+            whole(&hits.found),
+            whole(&by.seen.found),
             whole(by.round),
         ];
         self.light
             .run(gpu, recording, &resources, in_a_row(by.groups));
-    }
-
-    /// All of it to the film.
-    pub(crate) fn record_film(
-        &self,
-        gpu: &Gpu,
-        recording: &mut Recording,
-        room: &StripRoom,
-        film: &Film,
-        rows: u32,
-    ) {
-        let Some(bounce_room) = &room.bounces else {
-            return;
-        };
-        let resources = [
-            whole(&bounce_room.bounced),
-            whole(&room.group_starts),
-            whole(&film.buffer),
-        ];
-        let size = [room.width_px, rows].map(|n| n.div_ceil(TILE_PX));
-        self.film.run(gpu, recording, &resources, size);
     }
 }
 
 /// The rays of one round, from samples to what they meet.
 #[derive(Clone, Copy)]
 pub(crate) struct Bounce<'a> {
+    /// What rays found of what the camera sees.
+    pub seen: &'a ShadowRoom,
     pub from: &'a StripRoom,
     pub to: &'a StripRoom,
     pub rays: &'a wgpu::Buffer,
-    pub bounced: &'a wgpu::Buffer,
     pub round: &'a wgpu::Buffer,
     pub film: &'a wgpu::Buffer,
     pub groups: u32,
@@ -257,18 +230,6 @@ pub(crate) struct Bounce<'a> {
     pub depth: u32,
     /// How it leaves what the camera sees.
     pub way: Way,
-}
-
-/// How light leaves a sample. Twin: bounce.wgsl.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Way {
-    Base,
-    Scratches,
-    Gratings,
-}
-
-impl Way {
-    pub(crate) const ALL: [Self; 3] = [Self::Base, Self::Scratches, Self::Gratings];
 }
 
 impl BounceScratches {

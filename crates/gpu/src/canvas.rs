@@ -8,12 +8,11 @@ use hairline_image::Image;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
-use crate::layout::FilmPixel;
 use crate::scan::ScanPasses;
 use crate::strip::StripRoom;
 
 /// Bands of rows, each with a film of its own, so that no binding has to hold the whole picture and that work can stop after
-/// any band. It takes 64 bytes a pixel, and what the passes need for one band at a time.
+/// any band. It takes 64 bytes a pixel, 248 more with shadows, and what the passes need for one band at a time.
 ///
 /// [`Renderer::accumulate`](crate::Renderer::accumulate) adds to it, [`Renderer::show`](crate::Renderer::show) and
 /// [`Renderer::read_shown`](crate::Renderer::read_shown) display it, [`Canvas::image`] reads
@@ -40,7 +39,7 @@ impl Canvas {
         submission_px: u32,
     ) -> Result<Self, Error> {
         let size_px = size_px.map(|n| n.max(1));
-        let band_rows = Film::band_rows(gpu, size_px, submission_px);
+        let band_rows = Film::band_rows(gpu, size_px, submission_px, true);
         let room = StripRoom::new(gpu, scans, size_px[0], band_rows).await?;
         let mut canvas = Self {
             gpu: gpu.clone(),
@@ -82,7 +81,7 @@ impl Canvas {
 
     /// What the picture takes of the device's memory, bytes, without what the passes need for a band.
     pub fn bytes(&self) -> u64 {
-        self.size_px.map(u64::from).iter().product::<u64>() * size_of::<FilmPixel>() as u64
+        self.bands.iter().map(|band| band.film.bytes()).sum()
     }
 
     /// All layers, each pixel's mean over the samples that it has; black where it has none. Waits for what was submitted.
@@ -98,7 +97,7 @@ impl Canvas {
     }
 
     /// Marks a band as being worked on; hands out its film, and the room to work in.
-    pub(crate) fn begin(&mut self, band: usize, step: u32) -> (&Film, &mut StripRoom) {
+    pub(crate) fn begin(&mut self, band: usize, step: u32) -> (&mut Film, &mut StripRoom) {
         let CanvasBand { film, steps } = &mut self.bands[band];
         assert!(
             step == 0 || step == *steps,

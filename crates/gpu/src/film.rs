@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use hairline_image::Image;
+use hairline_image::{Found, FoundPixel, Image};
 use wgpu::BufferUsages;
 
 use crate::device::Gpu;
@@ -13,28 +13,73 @@ use crate::strip::{TILE_PX, strip_rows_max};
 /// Sums over the samples of each pixel of a band.
 pub(crate) struct Film {
     pub buffer: wgpu::Buffer,
+    /// Where the scene has shadows.
+    pub found: Option<FilmFound>,
+    pixels: u64,
+}
+
+/// What rays found: sums over the samples of each pixel, too.
+pub(crate) struct FilmFound {
+    pub buffer: wgpu::Buffer,
+    /// Rays of each pixel to each source.
+    pub rounds: u32,
 }
 
 impl Film {
     /// The rows of each band of a picture of `size_px`, of which about `submission_px` pixels are to be done at a time: whole tiles,
     /// and no more than the device can hold.
-    pub(crate) fn band_rows(gpu: &Gpu, [width, height]: [u32; 2], submission_px: u32) -> u32 {
+    pub(crate) fn band_rows(
+        gpu: &Gpu,
+        [width, height]: [u32; 2],
+        submission_px: u32,
+        has_rays: bool,
+    ) -> u32 {
+        let most = match has_rays {
+            true => found_rows_max(gpu, width).min(strip_rows_max(gpu, width)),
+            false => strip_rows_max(gpu, width),
+        };
         (submission_px / width.max(1))
             .max(1)
             .next_multiple_of(TILE_PX)
-            .min(strip_rows_max(gpu, width))
+            .min(most)
             .min(height)
             .max(1)
     }
 
     /// A film of `rows` rows of `width_px` pixels.
     pub(crate) async fn new(gpu: &Gpu, width_px: u32, rows: u32) -> Result<Self, Error> {
-        let bytes = FILM_PIXELS_OFFSET
-            + u64::from(width_px) * u64::from(rows) * size_of::<FilmPixel>() as u64;
+        let pixels = u64::from(width_px) * u64::from(rows);
+        let bytes = FILM_PIXELS_OFFSET + pixels * size_of::<FilmPixel>() as u64;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         Ok(Self {
             buffer: gpu.buffer("film", bytes, usage).await?,
+            found: None,
+            pixels,
         })
+    }
+
+    /// Makes room for what so many rounds of rays find; none without rays.
+    pub(crate) async fn hold_found(&mut self, gpu: &Gpu, rounds: Option<u32>) -> Result<(), Error> {
+        let Some(rounds) = rounds else {
+            self.found = None;
+            return Ok(());
+        };
+        let buffer = match self.found.take() {
+            Some(found) => found.buffer,
+            None => {
+                let bytes = self.pixels * size_of::<FoundPixel>() as u64;
+                let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+                gpu.buffer("film of rays", bytes, usage).await?
+            }
+        };
+        self.found = Some(FilmFound { buffer, rounds });
+        Ok(())
+    }
+
+    /// What its pixels take of the device's memory.
+    pub(crate) fn bytes(&self) -> u64 {
+        let found = self.found.as_ref().map_or(0, |_| size_of::<FoundPixel>());
+        self.pixels * (size_of::<FilmPixel>() + found) as u64
     }
 
     /// Forgets that loops were cut short.
@@ -58,10 +103,16 @@ impl Film {
         let bytes = gpu.read(&self.buffer, 0..end).await?;
         let (head, pixels) = bytes.split_at(FILM_PIXELS_OFFSET as usize);
         none_gave_up(gpu, bytemuck::pod_read_unaligned(&head[..4]))?;
+        let first = rows.start as usize * width;
         let pixels = pixels
             .chunks_exact(size_of::<FilmPixel>())
             .map(bytemuck::pod_read_unaligned::<FilmPixel>);
-        for (i, pixel) in (rows.start as usize * width..).zip(pixels) {
+        let mut found = match &self.found {
+            Some(found) => found.read(gpu, count).await?,
+            None => Vec::new(),
+        };
+        for (k, pixel) in pixels.enumerate() {
+            let i = first + k;
             let samples = pixel.samples.max(1) as f32;
             image.base[i] = pixel.base.map(|sum| sum / samples);
             image.scratches[i] = pixel.scratches.map(|sum| sum / samples);
@@ -74,9 +125,38 @@ impl Film {
             image.normal[i] = glam::Vec3::from(pixel.normal)
                 .normalize_or_zero()
                 .to_array();
+            if let Some(found) = found.get_mut(k) {
+                *found = found.mean(samples, pixel.coverage);
+                [image.base[i], image.scratches[i]] = found.light();
+            }
+        }
+        if let Some(held) = &self.found {
+            let pixels = image.pixel_count();
+            let all = image.found.get_or_insert_with(|| Found {
+                rounds: held.rounds,
+                pixels: vec![FoundPixel::default(); pixels],
+            });
+            all.pixels[first..first + count].copy_from_slice(&found);
         }
         Ok(())
     }
+}
+
+impl FilmFound {
+    /// The sums of the first pixels.
+    async fn read(&self, gpu: &Gpu, count: usize) -> Result<Vec<FoundPixel>, Error> {
+        let end = (count * size_of::<FoundPixel>()) as u64;
+        let bytes = gpu.read(&self.buffer, 0..end).await?;
+        let pixels = bytes.chunks_exact(size_of::<FoundPixel>());
+        Ok(pixels.map(bytemuck::pod_read_unaligned).collect())
+    }
+}
+
+/// The rows of which the device can hold what rays found: whole tiles.
+fn found_rows_max(gpu: &Gpu, width_px: u32) -> u32 {
+    let row_bytes = u64::from(width_px.max(1)) * size_of::<FoundPixel>() as u64;
+    let rows = (gpu.largest_array() / row_bytes) as u32;
+    (rows / TILE_PX * TILE_PX).max(TILE_PX)
 }
 
 fn none_gave_up(gpu: &Gpu, pixels: u32) -> Result<(), Error> {

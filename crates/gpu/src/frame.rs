@@ -9,6 +9,7 @@ use hairline_scene::{Environment, Scene};
 
 use crate::bounces::Bounces;
 use crate::layout::{ENVIRONMENT_PRESENT, ENVIRONMENT_VISIBLE, Frame};
+use crate::passes::Shade;
 use crate::shadows::Shadows;
 use crate::upload::GpuScene;
 
@@ -29,7 +30,6 @@ pub(crate) struct View<'a> {
     /// Those of them that are taken.
     pub batch: Batch,
     pub without_shadows: bool,
-    pub blurs_visibility: bool,
 }
 
 /// Samples of a pixel that one step shades: more would take more memory than pixels through their centres.
@@ -62,9 +62,10 @@ impl View<'_> {
         bounces.filter(|_| !self.without_shadows)
     }
 
-    /// Whether a ray counts for the neighbours of its pixel: only where each pixel has one.
-    pub(crate) fn blurs(&self) -> bool {
-        self.blurs_visibility && self.step == 0 && self.rounds().count == 1
+    /// Rays that find something of each pixel; none without shadows.
+    pub(crate) fn found_rounds(&self) -> Option<u32> {
+        let is_own = matches!(self.uploaded.passes.shade, Shade::Own { .. });
+        (is_own && self.shadows().is_some()).then_some(self.batch.count)
     }
 
     /// Rays of each sample to each source, of all batches.
@@ -75,11 +76,11 @@ impl View<'_> {
         }
     }
 
-    /// Rays of each sample to each source. A pixel without an edge has one sample; of several, each has two rays: one guesses for the other.
+    /// Rays of each sample to each source. A pixel without an edge has one sample, and the rays of all.
     pub(crate) fn rounds(&self) -> Batch {
         match self.step {
             0 => self.batch,
-            _ => Batch::all(2),
+            _ => Batch::all(1),
         }
     }
 }
@@ -88,8 +89,6 @@ impl View<'_> {
 #[derive(Clone, Copy)]
 pub(crate) struct Rounds {
     pub now: Batch,
-    /// Whether those of neighbours count, too.
-    pub blurs: bool,
     /// Other random numbers for each.
     pub seed: u32,
 }
@@ -161,7 +160,21 @@ pub(crate) fn frame(
             _ => sample,
         },
         pad_1: 0,
+        sample_order: sample_order(view.step_samples(), samples),
+        pad_2: [0; 2],
     }
+}
+
+/// The samples of a step from the one nearest to the pixel's middle, 4 bits each.
+fn sample_order(step: Range<u32>, samples: u32) -> [u32; 2] {
+    let off = |i: &u32| pixel_jitter(step.start + i, samples).length_squared();
+    let mut order: Vec<u32> = (0..step.len() as u32).collect();
+    order.sort_by(|a, b| off(a).total_cmp(&off(b)));
+    let mut packed = [0; 2];
+    for (place, i) in order.into_iter().enumerate() {
+        packed[place / 8] |= i << (4 * (place % 8));
+    }
+    packed
 }
 
 /// Jittered samples lie within half a pixel of the centre to either side, by the diagonal.

@@ -39,6 +39,16 @@ macro_rules! shared {
     };
 }
 
+/// The same of structs that another crate has.
+#[cfg(test)]
+macro_rules! of_image {
+    ($name:ident { $($member:ident),* }) => {{
+        use hairline_image::$name;
+        let offsets = vec![$((stringify!($member), std::mem::offset_of!($name, $member))),*];
+        (stringify!($name), size_of::<$name>(), offsets)
+    }};
+}
+
 // A member whose name begins with `pad` is room that WGSL leaves without a name.
 shared! {
     /// The view of one sample; uniform.
@@ -72,6 +82,8 @@ shared! {
         middle_px: [f32; 2],
         coverage_round: u32,
         pad_1: u32,
+        sample_order: [u32; 2],
+        pad_2: [u32; 2],
     }
     /// A corner of a triangle.
     Vertex {
@@ -210,11 +222,11 @@ shared! {
     /// Radiance of the base.
     BaseLight {
         specular: [f32; 3],
-        pad_0: f32,
+        emission_red: f32,
         body: [f32; 3],
-        pad_1: f32,
+        emission_green: f32,
         fresnel: [f32; 3],
-        pad_2: f32,
+        emission_blue: f32,
     }
     /// Sums over the segments of a chunk, for one pixel.
     ChunkSum {
@@ -237,7 +249,7 @@ shared! {
         extent_m: f32,
         first_round: u32,
         all_rounds: u32,
-        blurs: u32,
+        ends_round: u32,
         first_pick: u32,
         picks: u32,
         seed: u32,
@@ -253,16 +265,20 @@ shared! {
         body: [f32; 3],
         offset_y: f32,
     }
-    /// Sums over the rays of half of the rounds.
-    ShadowHalf {
-        specular: [f32; 3],
+    /// What rays found of a layer of a sample.
+    FoundRays {
+        weight: [f32; 3],
+        round_weight: f32,
+        seen: [f32; 3],
+        round_seen: f32,
+        bounced: [f32; 3],
+        round_bounced: f32,
+        around: [f32; 3],
         pad_0: f32,
-        specular_hidden: [f32; 3],
+        open: [f32; 3],
         pad_1: f32,
-        body: [f32; 3],
-        pad_2: f32,
-        body_hidden: [f32; 3],
-        pad_3: f32,
+        share_moments: [f32; 2],
+        bounced_moments: [f32; 2],
     }
     /// A ray from a sample to other objects.
     BounceRay {
@@ -270,16 +286,12 @@ shared! {
         distance_m: f32,
         throughput: [f32; 3],
         solid_angle_sr: f32,
-        place: [f32; 2],
+        specular: [f32; 3],
         triangle: u32,
+        body: [f32; 3],
         object: u32,
-    }
-    /// Light of other objects that a sample sends.
-    Bounced {
-        base: [f32; 3],
-        pad_0: f32,
-        scratches: [f32; 3],
-        pad_1: f32,
+        place: [f32; 2],
+        pad_0: [f32; 2],
     }
     /// Sums over the samples of a pixel.
     FilmPixel {
@@ -301,6 +313,16 @@ shared! {
     ScanSettings {
         count: u32,
     }
+    /// What a dispatch of the filter takes; uniform.
+    FilterSettings {
+        size_px: [u32; 2],
+        first_row: u32,
+        rows: u32,
+        step: u32,
+        rounds: u32,
+        layer: u32,
+        pad_0: u32,
+    }
     /// How a film is shown; uniform.
     DisplaySettings {
         size_px: [u32; 2],
@@ -314,6 +336,29 @@ mod tests {
     use super::*;
     use crate::shaders;
     use naga::{Module, TypeInner};
+
+    /// Those of this crate and those that a film holds for another one.
+    fn all_host_structs() -> Vec<(&'static str, usize, Vec<(&'static str, usize)>)> {
+        let mut all = host_structs();
+        all.push(of_image!(FoundLight {
+            open,
+            around,
+            weight,
+            seen,
+            bounced,
+            share_moments,
+            bounced_moments
+        }));
+        all.push(of_image!(FoundPixel {
+            rest,
+            roughness,
+            object,
+            diffuse,
+            specular,
+            scratches
+        }));
+        all
+    }
 
     fn reflect() -> Module {
         let text = shaders::compose(&[&shaders::LAYOUT]);
@@ -360,7 +405,7 @@ mod tests {
     #[test]
     fn host_and_shader_structs_are_equal() {
         let module = reflect();
-        let differences: Vec<_> = host_structs()
+        let differences: Vec<_> = all_host_structs()
             .iter()
             .filter_map(|(name, size, members)| difference(&module, name, *size, members))
             .collect();
@@ -384,7 +429,7 @@ mod tests {
     #[test]
     fn no_shader_struct_is_left_out() {
         let module = reflect();
-        let host = host_structs();
+        let host = all_host_structs();
         for (_, ty) in module.types.iter() {
             let name = ty.name.as_deref().unwrap_or("");
             if let TypeInner::Struct { members, .. } = &ty.inner {

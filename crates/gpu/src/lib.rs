@@ -30,6 +30,7 @@ mod edges;
 pub mod engine_tables;
 pub mod error;
 mod film;
+mod filter;
 mod frame;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod headless;

@@ -16,6 +16,7 @@ use crate::device::Gpu;
 use crate::display::{DisplayPass, Shown};
 use crate::error::Error;
 use crate::film::Film;
+use crate::filter::FilterPasses;
 use crate::frame::{SAMPLES_AT_ONCE, View};
 use crate::source::Source;
 use crate::strip::StripRoom;
@@ -28,14 +29,11 @@ use crate::upload::GpuScene;
 pub struct RenderOptions {
     /// Jittered samples of a pixel on an edge or a crease; all other pixels, and all of them for 1, take one through the centre.
     pub samples: u32,
-    /// Which of the samples, and of the rays to each light; none: all. The mean of the pictures of all batches, each as large as the
-    /// others and of an even number, is the picture ([`hairline_image::Batches`]).
+    /// Which of the samples, and of the rays to each light; none: all. The pictures of all batches add up to the picture
+    /// ([`hairline_image::Batches`]).
     pub batch: Option<Batch>,
     /// Leaves out the shadows of a scene that has them.
     pub without_shadows: bool,
-    /// Averages the visibility of lights over neighbouring pixels of a surface where each has one ray alone: less noise, and softer shadows. For
-    /// pictures in motion.
-    pub blurs_visibility: bool,
     /// Pixels in one submission: few enough that no system takes the device for hung (Windows waits two seconds), many
     /// enough that it is busy.
     pub submission_px: u32,
@@ -47,7 +45,6 @@ impl Default for RenderOptions {
             samples: 1,
             batch: None,
             without_shadows: false,
-            blurs_visibility: false,
             submission_px: 1 << 19,
         }
     }
@@ -70,6 +67,8 @@ pub struct Renderer {
     strips: StripShader,
     displays: HashMap<wgpu::TextureFormat, DisplayPass>,
     shown: Option<Shown>,
+    /// Compiled when first needed.
+    filter: Option<FilterPasses>,
     /// What [`Renderer::render`] works on.
     band: Option<(StripRoom, Film)>,
 }
@@ -89,6 +88,7 @@ impl Renderer {
             strips,
             displays: HashMap::new(),
             shown: None,
+            filter: None,
             band: None,
         })
     }
@@ -224,15 +224,17 @@ impl Renderer {
     ) -> Result<Image, Error> {
         let width = scene.render.size_px[0];
         let height = rows.len() as u32;
-        let band = Film::band_rows(&self.gpu, [width, height], options.submission_px);
+        let has_rays = uploaded.shadows.is_some() && !options.without_shadows;
+        let size_px = [width, height];
+        let band = Film::band_rows(&self.gpu, size_px, options.submission_px, has_rays);
         let samples = options.samples.max(1);
         let batch = options.batch.unwrap_or(Batch::all(samples));
         let steps = steps(batch.count);
-        let mut image = Image::new([width, height]);
+        let mut image = Image::new(size_px);
         for first in (0..height).step_by(band as usize) {
             let in_image = first..(first + band).min(height);
             let in_picture = rows.start + in_image.start..rows.start + in_image.end;
-            let (mut room, film) = self.take_band(width, band).await?;
+            let (mut room, mut film) = self.take_band(width, band).await?;
             for step in 0..steps {
                 let view = View {
                     scene,
@@ -242,8 +244,10 @@ impl Renderer {
                     samples,
                     batch,
                     without_shadows: options.without_shadows,
-                    blurs_visibility: options.blurs_visibility,
                 };
+                if step == 0 {
+                    film.hold_found(&self.gpu, view.found_rounds()).await?;
+                }
                 self.strips
                     .shade(&view, &film, &mut room, in_picture.clone())
                     .await?;
@@ -299,9 +303,11 @@ impl Renderer {
             samples,
             batch,
             without_shadows: options.without_shadows,
-            blurs_visibility: options.blurs_visibility,
         };
         let (film, room) = canvas.begin(band, step);
+        if step == 0 {
+            film.hold_found(&self.gpu, view.found_rounds()).await?;
+        }
         self.strips.shade(&view, film, room, rows).await?;
         self.gpu.check()?;
         canvas.finish(band, step + 1);
@@ -309,7 +315,8 @@ impl Renderer {
     }
 
     /// Draws the canvas, as far as it has come, to `target`, which has its size and `format` (8 bits a channel, not sRGB:
-    /// the shader encodes). Every pixel is exposed alike, however many samples it has; what has none is black.
+    /// the shader encodes). Every pixel is exposed alike, however many samples it has; what has none is black. What rays found is filtered
+    /// ([`hairline_image::filter_found`]).
     ///
     /// # Errors
     /// [`Error::Lost`], [`Error::OutOfMemory`].
@@ -325,6 +332,13 @@ impl Renderer {
             Entry::Vacant(entry) => entry.insert(DisplayPass::new(&self.gpu, format).await?),
         };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        if canvas.films().any(|(_, film)| film.found.is_some()) {
+            let filter = match &mut self.filter {
+                Some(filter) => filter,
+                none => none.insert(FilterPasses::new(&self.gpu).await?),
+            };
+            filter.record(&self.gpu, &mut encoder, canvas).await?;
+        }
         pass.record(&self.gpu, &mut encoder, canvas, display, target);
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.check()

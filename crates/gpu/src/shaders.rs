@@ -193,6 +193,8 @@ modules! {
     VISIBILITY_CUTOUTS = "passes/visibility_cutouts" needs [VISIBILITY, CUTOUTS];
     /// Pass: from the triangle that a pixel sees to its surface point.
     SURFACE = "passes/surface" needs [HIT, FILM, PIXEL_POINT, COVERAGE];
+    /// Pass: which samples of a pixel share scratches.
+    SHARE_SCRATCHES = "passes/share_scratches" needs [FILM, PIXEL_POINT];
     /// Pass: the pixels of each tile that have an edge or a crease.
     EDGES = "passes/edges" needs [FILM];
     /// Pass: from segments to the picture.
@@ -212,7 +214,7 @@ modules! {
     /// Pass: into how many chunks each group's list is cut.
     GROUP_CHUNKS = "passes/group_chunks" needs [GROUPS];
     /// A pixel with a segment that it sees.
-    PAIRS = "scene/pairs" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, METHOD];
+    PAIRS = "scene/pairs" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, METHOD, BINDINGS];
     /// What a pair sends of a light.
     PAIR_LIGHT = "scene/pair_light" needs [PAIRS, OUTLINE_LIGHT, SCRATCH_PICTURE];
     /// A sample with a grating that it sees.
@@ -239,10 +241,16 @@ modules! {
     CUTOUTS = "scene/cutouts" needs [SCENE, COVERAGE];
     /// Where rays of a sample start.
     RAY_START = "scene/ray_start" needs [CUTOUTS, PIXEL_POINT, AT_HITS];
-    /// Pass: what each ray meets.
-    SHADOW_TRACE = "passes/shadow_trace" needs [RAY_START, FILM];
-    /// Pass: what is hidden of one source of the base's light.
-    SHADOW_BASE = "passes/shadow_base" needs [BASE, SHADOW, NEAR_RAYS, PIXEL_POINT];
+    /// What rays found of the layers of a sample's light.
+    FOUND = "scene/found" needs [LAYOUT, CONTENTS, LUMINANCE];
+    /// Of a pixel, as the host has it.
+    FOUND_LIGHT = "scene/found_light" needs [FOUND];
+    /// Pass: whether each ray sees its source.
+    SHADOW_TRACE = "passes/shadow_trace" needs [RAY_START, FOUND, FILM];
+    /// Pass: what rays found, as light.
+    SHADOW_FOUND = "passes/shadow_found" needs [FOUND, SUMS, PIXEL_POINT];
+    /// Pass: and on the film.
+    FOUND_FILM = "passes/found_film" needs [FOUND_LIGHT, SCENE, PIXEL_POINT, FILM];
     /// Directions to light by way of a scratch.
     DRAWN_LIGHT = "scene/drawn_light" needs [OUTLINE_LIGHT, LUMINANCE];
     /// The same by a rectangle with a picture.
@@ -252,21 +260,15 @@ modules! {
     /// Where under its pixel a pair lies.
     PAIR_PLACE = "scene/pair_place" needs [DRAWN_LIGHT, PAIRS];
     /// Pass: where the sums begin by which scratches are picked.
-    SHADOW_PICKS = "passes/shadow_picks" needs [SHADOW, PICKS, FILM];
+    SHADOW_PICKS = "passes/shadow_picks" needs [SHADOW, PICKS, PIXEL_POINT, FILM];
     /// Pass: a ray of each sample by way of a scratch or a grating.
     SHADOW_PICKED_RAYS = "passes/shadow_picked_rays" needs [PAIR_PLACE, GRATING_PAIRS, DRAWN_RAY, PICKS, FILM];
-    /// Pass: what is hidden of what gratings send.
-    SHADOW_GRATINGS = "passes/shadow_gratings" needs [SHADOW, NEAR_RAYS];
-    /// Pass: what is hidden of what scratches send.
-    SHADOW_SCRATCHES = "passes/shadow_scratches" needs [SHADOW, NEAR_RAYS];
-    /// Visibility of a pixel's neighbours.
-    NEAR_RAYS = "scene/near_rays" needs [LAYOUT, FILM, LUMINANCE];
     /// The sums of a sample over its scratches.
     SUMS = "scene/sums" needs [LAYOUT, METHOD, MASK, FILM, CONTENTS];
     /// What the passes share that draw rays to other objects.
     BOUNCE = "scene/bounce" needs [SHADOW];
     /// Pass: a ray of each sample to other objects by its base.
-    BOUNCE_BASE_RAYS = "passes/bounce_base_rays" needs [BOUNCE, BASE_LOBES, SUMS, PIXEL_POINT];
+    BOUNCE_BASE_RAYS = "passes/bounce_base_rays" needs [BOUNCE, FOUND, BASE_LOBES, SUMS, PIXEL_POINT];
     /// Pass: the same by a scratch.
     BOUNCE_SCRATCH_RAYS = "passes/bounce_scratch_rays" needs [BOUNCE, PAIR_PLACE, PICKS, SUMS, COAT];
     /// Pass: the same by a grating.
@@ -278,13 +280,13 @@ modules! {
     /// Passes: the scratches that are seen there.
     BOUNCE_GATHER = "passes/bounce_gather" needs [ROWS, FILM, PIXEL_POINT];
     /// Pass: light from there, added to samples.
-    BOUNCE_LIGHT = "passes/bounce_light" needs [SUMS, BOUNCE];
-    /// Pass: and to the film.
-    BOUNCE_FILM = "passes/bounce_film" needs [FILM];
+    BOUNCE_LIGHT = "passes/bounce_light" needs [FOUND, FILM];
     /// Pass: base and scratches by the method of 2018.
     SHADE_PUBLISHED = "published/shade_published" needs [PUBLISHED_GATHER, PUBLISHED_BASE, FILM, PIXEL_POINT];
     /// Pass: what a pixel adds to the film.
-    RESOLVE = "passes/resolve" needs [SCENE, SUMS];
+    RESOLVE = "passes/resolve" needs [SCENE, SUMS, PIXEL_POINT];
+    /// Passes: the filter of what rays found.
+    FILTER = "passes/filter" needs [FOUND_LIGHT];
     /// Pass: the film on a display.
     DISPLAY = "passes/display" needs [LAYOUT, TONE_MAP];
 }

@@ -1,37 +1,27 @@
-//! Passes: which gratings shadow rays go by, the rays, and what is hidden of what gratings send.
+//! Passes: which gratings shadow rays go by, and the rays.
 
-use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
+use crate::compute_pass::Recording;
 use crate::device::Gpu;
 use crate::film::Film;
 use crate::pipelines::Orders;
 use crate::shade_gratings::ShadeGratingsPass;
-use crate::shaders;
 use crate::shadow_picks::{ByPicks, PickedRaysPasses, Scratched, ShadowPicksPass};
 use crate::shadow_room::ShadowRoom;
-use crate::strip::{GROUP, StripRoom, whole};
+use crate::strip::{GROUP, StripRoom};
+use crate::variant::Way;
 
 pub(crate) struct ShadowGratingsPasses {
     begin: ShadowPicksPass,
     pick: ShadeGratingsPass,
     rays: PickedRaysPasses,
-    gratings: ComputePass,
 }
 
 impl ShadowGratingsPasses {
     pub(crate) fn new(orders: &mut Orders) -> Self {
-        use Use::{Reads, Uniform, Writes};
         let begin = ShadowPicksPass::new(orders, "shadow_grating_picks");
-        let uses = [Reads, Reads, Reads, Writes, Uniform];
         Self {
             begin,
             rays: PickedRaysPasses::new(orders, true),
-            gratings: ComputePass::order(
-                orders,
-                "shadow gratings",
-                (&shaders::SHADOW_GRATINGS, "shadow_gratings"),
-                &uses,
-                &[],
-            ),
             pick: ShadeGratingsPass::picks(orders),
         }
     }
@@ -62,22 +52,7 @@ impl ByPicks for ShadowGratingsPasses {
         &self.rays
     }
 
-    fn record_hidden(
-        &self,
-        gpu: &Gpu,
-        recording: &mut Recording,
-        room: &StripRoom,
-        shadow_room: &ShadowRoom,
-        groups: u32,
-    ) {
-        let resources = [
-            whole(&room.samples.points),
-            whole(&shadow_room.halves),
-            whole(&room.samples.chunk_starts),
-            whole(&room.samples.chunk_sums),
-            whole(&shadow_room.round),
-        ];
-        self.gratings
-            .run(gpu, recording, &resources, in_a_row(groups));
+    fn way(&self) -> Way {
+        Way::Gratings
     }
 }

@@ -11,6 +11,7 @@ use crate::pipelines::Orders;
 use crate::shaders;
 use crate::shadow_room::ShadowRoom;
 use crate::strip::{StripRoom, whole};
+use crate::variant::Way;
 
 /// Pass: where the running sums of a group begin by which the second lighting picks.
 pub(crate) struct ShadowPicksPass(ComputePass);
@@ -111,15 +112,8 @@ pub(crate) trait ByPicks {
 
     fn rays(&self) -> &PickedRaysPasses;
 
-    /// Weakens what was sent by what is hidden of it.
-    fn record_hidden(
-        &self,
-        gpu: &Gpu,
-        recording: &mut Recording,
-        room: &StripRoom,
-        shadow_room: &ShadowRoom,
-        groups: u32,
-    );
+    /// How light leaves the samples.
+    fn way(&self) -> Way;
 }
 
 /// What there is to be picked from.

@@ -4,21 +4,24 @@ use wgpu::BufferUsages;
 
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::layout::{ShadowHalf, ShadowRay, ShadowRound};
+use crate::layout::{FoundRays, ShadowRay, ShadowRound};
 
 /// The arrays over samples. They grow to the size that is needed.
 pub(crate) struct ShadowRoom {
     pub round: wgpu::Buffer,
     pub rays: wgpu::Buffer,
-    pub halves: wgpu::Buffer,
+    /// What rays found, layer by layer of each sample.
+    pub found: wgpu::Buffer,
+    found_max: u64,
     points_max: u64,
     pub picks: wgpu::Buffer,
     picks_bytes: u64,
 }
 
-/// Bytes of a sample in the larger of the two arrays.
-const HALVES_BYTES: u64 = 2 * size_of::<ShadowHalf>() as u64;
+/// Bytes of a layer of a sample.
+const FOUND_BYTES: u64 = size_of::<FoundRays>() as u64;
 const RAY_BYTES: u64 = size_of::<ShadowRay>() as u64;
+const FOUND_USAGE: BufferUsages = BufferUsages::STORAGE.union(BufferUsages::COPY_DST);
 /// Of a scratch that is picked, or of the state of a lane of a chunk.
 const PICK_BYTES: u64 = 16;
 /// Picks of a sample that are made at once: each time all pairs are lit once more.
@@ -34,32 +37,44 @@ impl ShadowRoom {
         Ok(Self {
             round: gpu.buffer("round of shadows", round, uniform).await?,
             rays: gpu.buffer("shadow rays", RAY_BYTES, storage).await?,
-            halves: gpu.buffer("sums of rays", HALVES_BYTES, storage).await?,
+            found: gpu
+                .buffer("what rays found", FOUND_BYTES, FOUND_USAGE)
+                .await?,
+            found_max: 1,
             points_max: 1,
             picks: gpu.buffer("picked scratches", PICK_BYTES, storage).await?,
             picks_bytes: PICK_BYTES,
         })
     }
 
-    /// Whether the device can hold what so many samples need.
-    pub(crate) fn fit(gpu: &Gpu, points: u64) -> bool {
-        points * HALVES_BYTES <= gpu.largest_array()
+    /// Whether the device can hold what so many samples of so many layers need.
+    pub(crate) fn fit(gpu: &Gpu, points: u64, layers: u64) -> bool {
+        points * layers * FOUND_BYTES <= gpu.largest_array()
     }
 
-    /// Makes room for so many samples.
-    pub(crate) async fn make_room(&mut self, gpu: &Gpu, points: u64) -> Result<(), Error> {
+    /// Makes room for so many samples of so many layers.
+    pub(crate) async fn make_room(
+        &mut self,
+        gpu: &Gpu,
+        points: u64,
+        layers: u64,
+    ) -> Result<(), Error> {
         let storage = BufferUsages::STORAGE;
         if self.points_max < points {
             // The old ones are given back first. An error on the way leaves none.
             self.points_max = 0;
             self.rays.destroy();
-            self.halves.destroy();
             self.rays = gpu
                 .buffer("shadow rays", points * RAY_BYTES, storage)
                 .await?;
-            let bytes = points * HALVES_BYTES;
-            self.halves = gpu.buffer("sums of rays", bytes, storage).await?;
             self.points_max = points;
+        }
+        if self.found_max < points * layers {
+            self.found_max = 0;
+            self.found.destroy();
+            let bytes = points * layers * FOUND_BYTES;
+            self.found = gpu.buffer("what rays found", bytes, FOUND_USAGE).await?;
+            self.found_max = points * layers;
         }
         Ok(())
     }
@@ -88,6 +103,11 @@ impl ShadowRoom {
             self.picks_bytes = bytes;
         }
         Ok(count as u32)
+    }
+
+    /// Forgets what rays found.
+    pub(crate) fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.clear_buffer(&self.found, 0, None);
     }
 
     /// Says which round is next.

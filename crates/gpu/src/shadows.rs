@@ -1,9 +1,8 @@
 //! Shadows: rays from each sample to the sources of its light, and what is hidden of each (docs/model.md, section 11). Twin:
 //! cpu/src/shadows.rs.
 //!
-//! Source by source of the base, and once for all that scratches send, and once for all that gratings do: in each round a ray of each sample is drawn, then followed; from the
-//! sums over the rounds comes what of the closed form is hidden, and is taken away. Where no ray is hidden that is 0 to the bit. Rays and
-//! sums of one source are all that is kept, 176 bytes a sample, and 16 for each scratch that is picked.
+//! Round by round a ray of each sample goes to each source of the base, one by way of its scratches and one by way of its gratings: one pass draws
+//! them, another one follows them and adds up what they find. The closed forms stay as they are until all is found.
 
 use hairline_scene::Scene;
 use wgpu::BindingResource;
@@ -21,28 +20,24 @@ use crate::shadow_gratings::ShadowGratingsPasses;
 use crate::shadow_picks::ByPicks;
 use crate::shadow_room::ShadowRoom;
 use crate::shadow_scratches::ShadowScratchesPasses;
-use crate::strip::{StripRoom, whole};
+use crate::strip::{StripRoom, TILE_PX, whole};
 use crate::triangle_tree::TriangleTree;
 use crate::variant::{Constant, Seen, ShadeVariant};
 
 /// What rays to the lights of a scene need, beside the scene.
 pub(crate) struct Shadows {
+    /// For each kind of source of the base: none has the code of the others.
+    base: Vec<(Kind, ComputePass)>,
     trace: ComputePass,
-    base: Vec<BasePasses>,
+    found: ComputePass,
+    film: ComputePass,
+    /// Of a sample.
+    pub layers: u64,
     /// By scratches and by gratings, of which the scene has some.
     pub by_picks: Vec<Box<dyn ByPicks>>,
     pub tree: TriangleTree,
     /// How far the scene reaches from the origin of what was uploaded.
     pub extent_m: f32,
-}
-
-/// Passes over a source of the base: neither has the code of sources of other kinds.
-struct BasePasses {
-    /// That of the source.
-    kind: Kind,
-    rays: ComputePass,
-    /// Takes away what is hidden.
-    hidden: ComputePass,
 }
 
 impl Shadows {
@@ -74,23 +69,7 @@ impl Shadows {
     }
 
     fn over(orders: &mut Orders, tree: TriangleTree, extent_m: f32, seen: Seen) -> Self {
-        let rays = [Use::Reads, Use::Reads, Use::Writes, Use::Uniform];
-        let trace = [
-            Use::Reads,
-            Use::Reads,
-            Use::Reads,
-            Use::Writes,
-            Use::Uniform,
-            Use::Integers,
-            Use::Writes,
-        ];
-        let hidden = [
-            Use::Reads,
-            Use::Reads,
-            Use::Reads,
-            Use::Writes,
-            Use::Uniform,
-        ];
+        use Use::{Integers, Reads, Uniform, Writes};
         let has = orders.variant().has;
         let mut by_picks: Vec<Box<dyn ByPicks>> = Vec::new();
         if has.scratches {
@@ -102,40 +81,37 @@ impl Shadows {
         let mut pass = |name, module, uses: &[Use], constants: &[Constant]| {
             ComputePass::order(orders, name, module, uses, constants)
         };
-        let over_base = has.base_lights.of_rays().map(|kind| BasePasses {
-            kind,
-            rays: pass(
-                "shadow rays",
-                (&shaders::SHADOW_BASE_RAYS, "shadow_base_rays"),
-                &rays,
-                &kind.constants(),
-            ),
-            hidden: pass(
-                "shadow base",
-                (&shaders::SHADOW_BASE, "shadow_base"),
-                &hidden,
-                &kind.constants(),
-            ),
+        let over_base = has.base_lights.of_rays().map(|kind| {
+            let module = (&shaders::SHADOW_BASE_RAYS, "shadow_base_rays");
+            let uses = [Reads, Reads, Writes, Uniform];
+            (kind, pass("shadow rays", module, &uses, &kind.constants()))
         });
         let base = over_base.collect();
         Self {
+            base,
             trace: pass(
                 "shadow trace",
                 (&shaders::SHADOW_TRACE, "shadow_trace"),
-                &trace,
+                &[Reads, Reads, Reads, Writes, Uniform, Integers, Writes],
                 &[seen.constant()],
             ),
-            base,
+            found: pass(
+                "found",
+                (&shaders::SHADOW_FOUND, "shadow_found"),
+                &[Reads, Reads, Writes, Reads, Reads, Writes, Uniform],
+                &[],
+            ),
+            film: pass(
+                "found film",
+                (&shaders::FOUND_FILM, "found_film"),
+                &[Reads, Reads, Reads, Reads, Writes, Writes],
+                &[],
+            ),
+            layers: if has.gratings { 4 } else { 3 },
             by_picks,
             tree,
             extent_m,
         }
-    }
-
-    fn base(&self, kind: Kind) -> Option<&BasePasses> {
-        self.base
-            .iter()
-            .find(|passes| passes.kind == kind.of_rays())
     }
 
     /// A ray of each sample to a source of the base, which is of some kind, and what it meets.
@@ -156,7 +132,8 @@ impl Shadows {
             whole(&shadow_room.rays),
             whole(&shadow_room.round),
         ];
-        if let Some(BasePasses { rays, .. }) = self.base(kind) {
+        let own = self.base.iter().find(|(own, _)| *own == kind.of_rays());
+        if let Some((_, rays)) = own {
             rays.run(gpu, recording, &resources, in_a_row(groups));
         }
         self.record_trace(gpu, recording, room, shadow_room, film, groups);
@@ -192,7 +169,7 @@ impl Shadows {
             whole(&room.samples.points),
             whole(&room.samples.paints),
             whole(&shadow_room.rays),
-            whole(&shadow_room.halves),
+            whole(&shadow_room.found),
             whole(&shadow_room.round),
             BindingResource::TextureView(&self.tree.view),
             whole(&film.buffer),
@@ -201,25 +178,49 @@ impl Shadows {
         pass.run(gpu, recording, &resources, in_a_row(groups));
     }
 
-    /// Takes what is hidden of a source of some kind from the base.
-    pub(crate) fn record_base(
+    /// What rays found of samples, as light, once all rounds are done.
+    pub(crate) fn record_found(
         &self,
-        kind: Kind,
         gpu: &Gpu,
         recording: &mut Recording,
         room: &StripRoom,
         shadow_room: &ShadowRoom,
+        film: &Film,
         groups: u32,
     ) {
         let resources = [
             whole(&room.samples.points),
-            whole(&shadow_room.halves),
-            whole(&room.samples.paints),
             whole(&room.samples.base_light),
+            whole(&shadow_room.found),
+            whole(&room.samples.chunk_starts),
+            whole(&room.samples.chunk_sums),
+            whole(&film.buffer),
             whole(&shadow_room.round),
         ];
-        if let Some(BasePasses { hidden, .. }) = self.base(kind) {
-            hidden.run(gpu, recording, &resources, in_a_row(groups));
-        }
+        self.found.run(gpu, recording, &resources, in_a_row(groups));
+    }
+
+    /// And on the film, after what nothing changes.
+    pub(crate) fn record_film(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        room: &StripRoom,
+        film: &Film,
+        rows: u32,
+    ) {
+        let (Some(shadow_room), Some(found)) = (&room.shadows, &film.found) else {
+            return;
+        };
+        let resources = [
+            whole(&room.samples.points),
+            whole(&room.samples.paints),
+            whole(&shadow_room.found),
+            whole(&room.group_starts),
+            whole(&film.buffer),
+            whole(&found.buffer),
+        ];
+        let size = [room.width_px, rows].map(|n| n.div_ceil(TILE_PX));
+        self.film.run(gpu, recording, &resources, size);
     }
 }

@@ -58,7 +58,6 @@ pub(crate) struct StripRoom {
 pub(crate) struct BounceRoom {
     pub round: wgpu::Buffer,
     pub rays: wgpu::Buffer,
-    pub bounced: wgpu::Buffer,
     pub points_max: u64,
     /// By turns: what was met sends rays on, which meet what lies in the other one.
     pub hits: [StripRoom; 2],

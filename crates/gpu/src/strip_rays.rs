@@ -2,7 +2,7 @@
 
 use hairline_image::Batch;
 
-use crate::bounces::{Bounce, Bounces, HITS_SORTED, Way};
+use crate::bounces::{Bounce, Bounces, HITS_SORTED};
 use crate::error::Error;
 use crate::film::Film;
 use crate::frame::{Rounds, View};
@@ -14,12 +14,10 @@ use crate::shadow_room::ShadowRoom;
 use crate::shadows::Shadows;
 use crate::strip::{BounceRoom, GROUP, Lists, Samples, StripRoom, chunks_most};
 use crate::strip_shader::StripShader;
-
-/// Rounds of an environment at least, as on the CPU: one ray cannot tell what hides its dark side from what hides the bright one.
-const ROUNDS_AROUND: u32 = 2;
+use crate::variant::Way;
 
 impl StripShader {
-    /// Takes from the light of the samples what is hidden of it.
+    /// Finds which part of the light of the samples is seen.
     #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
     pub(crate) async fn shade_shadows(
         &self,
@@ -36,36 +34,27 @@ impl StripShader {
             Some(shadow_room) => shadow_room,
             None => ShadowRoom::new(gpu).await?,
         };
-        shadow_room.make_room(gpu, points).await?;
+        shadow_room.make_room(gpu, points, shadows.layers).await?;
+        self.submit(view, |recording| shadow_room.clear(recording.encoder));
         let light_count = view.uploaded.data.light_count;
         let environment = view.scene.environment.iter().map(|_| light_count);
         let kinds = (0..).zip(lights::kinds_on_base(view.scene));
-        let sources = kinds.chain(environment.map(|source| (source, Kind::Environment)));
+        let around = environment.map(|source| (source, Kind::Environment));
+        let sources: Vec<_> = kinds.chain(around).collect();
         let mut next = ShadowRound {
-            source: 0,
-            round: 0,
             rounds: rounds.now.count,
             first_round: rounds.now.first,
-            blurs: rounds.blurs.into(),
             seed: rounds.seed,
             extent_m: shadows.extent_m,
+            way: Way::Base as u32,
             ..ShadowRound::default()
         };
-        // A round at a time, so that no submission takes long.
-        for (source, kind) in sources {
-            // Those of neighbours are several.
-            let is_alone = kind == Kind::Environment && !rounds.blurs;
-            let count = rounds
-                .now
-                .count
-                .max(if is_alone { ROUNDS_AROUND } else { 1 });
-            for round in 0..count {
-                next = ShadowRound {
-                    source,
-                    round,
-                    rounds: count,
-                    ..next
-                };
+        // A ray at a time, so that no submission takes long.
+        for round in 0..rounds.now.count {
+            for (i, &(source, kind)) in sources.iter().enumerate() {
+                next.source = source;
+                next.round = round;
+                next.ends_round = (i + 1 == sources.len()).into();
                 shadow_room.write(gpu, &next);
                 self.submit(view, |recording| {
                     shadows.record_base_round(
@@ -79,16 +68,14 @@ impl StripShader {
                     );
                 });
             }
-            self.submit(view, |recording| {
-                shadows.record_base(kind, gpu, recording, room, &shadow_room, groups);
-            });
         }
-        next.rounds = rounds.now.count;
+        next.ends_round = 1;
         for (source, by) in (light_count + 1..).zip(&shadows.by_picks) {
             let most = shadow_room
                 .make_room_for_picks(gpu, points, by.lanes(on), next.rounds)
                 .await?;
             next.source = source;
+            next.way = by.way() as u32;
             for round in 0..next.rounds {
                 next.round = round;
                 if round % most == 0 {
@@ -112,12 +99,32 @@ impl StripShader {
                     );
                 });
             }
-            self.submit(view, |recording| {
-                by.record_hidden(gpu, recording, room, &shadow_room, groups);
-            });
         }
         room.shadows = Some(shadow_room);
         Ok(())
+    }
+
+    /// Makes light of what so many rounds found.
+    pub(crate) fn finish_found(
+        &self,
+        view: &View<'_>,
+        shadows: &Shadows,
+        room: &StripRoom,
+        film: &Film,
+        groups: u32,
+        rounds: u32,
+    ) {
+        let Some(shadow_room) = &room.shadows else {
+            return;
+        };
+        let all = ShadowRound {
+            rounds,
+            ..ShadowRound::default()
+        };
+        shadow_room.write(&self.gpu, &all);
+        self.submit(view, |recording| {
+            shadows.record_found(&self.gpu, recording, room, shadow_room, film, groups);
+        });
     }
 
     /// Finds the light of other objects that the samples send; false if what their rays meet does not fit on the device.
@@ -137,9 +144,6 @@ impl StripShader {
         };
         let made = bounce_room.make_room(gpu, scans, points, groups, bounces.count);
         made.await?;
-        self.submit(view, |recording| {
-            bounce_room.clear(recording.encoder, points);
-        });
         let Batch {
             first: first_round,
             count: rounds,
@@ -219,10 +223,16 @@ impl StripShader {
                     ..first
                 },
             };
+            let round = ShadowRound {
+                ends_round: (depth + 1 == bounces.count).into(),
+                ..round
+            };
             bounce_room.write(gpu, &round);
             let to = depth as usize % 2;
             self.submit(view, |recording| {
-                let by = bounce(room, bounce_room, film, &round, on.groups);
+                let Some(by) = bounce(room, bounce_room, film, &round, on.groups) else {
+                    return;
+                };
                 if let Some(scratches) = &bounces.scratches
                     && (depth > 0 || by.way == Way::Scratches && round.round == round.first_pick)
                 {
@@ -237,8 +247,9 @@ impl StripShader {
                 return Ok(false);
             };
             self.submit(view, |recording| {
-                let by = bounce(room, bounce_room, film, &round, on.groups);
-                bounces.record_light(gpu, recording, &by);
+                if let Some(by) = bounce(room, bounce_room, film, &round, on.groups) {
+                    bounces.record_light(gpu, recording, &by);
+                }
             });
             on.chunks = chunks;
             on.sorted = HITS_SORTED;
@@ -303,38 +314,38 @@ impl StripShader {
         };
         let rounds = Rounds {
             now: Batch::all(1),
-            blurs: false,
             seed,
         };
         let shaded = self.shade_shadows(view, &bounces.shadows, hits, film, points, &on, rounds);
         shaded.await?;
+        self.finish_found(view, &bounces.shadows, hits, film, groups, 1);
         Ok(Some(chunks))
     }
 }
 
-/// From samples to what their rays meet, which lie in one room and the other by turns.
+/// From samples to what their rays meet, which lie in one room and the other by turns. None before there are shadows.
 fn bounce<'a>(
     room: &'a StripRoom,
     bounce_room: &'a BounceRoom,
     film: &'a Film,
     round: &ShadowRound,
     groups: u32,
-) -> Bounce<'a> {
+) -> Option<Bounce<'a>> {
     let to = round.depth as usize % 2;
-    Bounce {
+    Some(Bounce {
+        seen: room.shadows.as_ref()?,
         from: match round.depth {
             0 => room,
             _ => &bounce_room.hits[1 - to],
         },
         to: &bounce_room.hits[to],
         rays: &bounce_room.rays,
-        bounced: &bounce_room.bounced,
         round: &bounce_room.round,
         film: &film.buffer,
         groups,
         depth: round.depth,
         way: Way::ALL[round.way as usize],
-    }
+    })
 }
 
 /// For the random numbers of what the rays of a round meet: a place may be met again in other rounds.

@@ -114,7 +114,9 @@ impl StripShader {
         };
         let grating_chunks = passes.grating_chunks(groups);
         if !Samples::fit(gpu, points, chunks + grating_chunks)
-            || view.shadows().is_some() && !ShadowRoom::fit(gpu, points)
+            || view
+                .shadows()
+                .is_some_and(|shadows| !ShadowRoom::fit(gpu, points, shadows.layers))
             || view.bounces().is_some() && !BounceRoom::fit(gpu, points)
         {
             return self.halves(strip).map(Some);
@@ -152,6 +154,13 @@ impl StripShader {
                 passes.surface.record(gpu, recording, room, film, rows);
             });
         }
+        if view.step > 0 && passes.scratches().is_some() {
+            self.submit(view, |recording| {
+                passes
+                    .surface
+                    .record_shares(gpu, recording, room, film, rows);
+            });
+        }
         let shadows = match &passes.shade {
             Shade::Own { .. } => view.shadows(),
             Shade::Published(_) => None,
@@ -186,7 +195,6 @@ impl StripShader {
             };
             let rounds = Rounds {
                 now: view.rounds(),
-                blurs: view.blurs(),
                 seed: 0,
             };
             self.shade_shadows(view, shadows, room, film, points, &on, rounds)
@@ -199,11 +207,10 @@ impl StripShader {
             {
                 return self.halves(strip).map(Some);
             }
+            self.finish_found(view, shadows, room, film, groups, rounds.now.count);
             self.submit(view, |recording| {
                 passes.resolve.record(gpu, recording, room, film, rows);
-                if let Some(bounces) = bounces {
-                    bounces.record_film(gpu, recording, room, film, rows);
-                }
+                shadows.record_film(gpu, recording, room, film, rows);
             });
         }
         Ok(None)

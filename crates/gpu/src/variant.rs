@@ -128,6 +128,18 @@ impl Seen {
     }
 }
 
+/// How light leaves a sample. Twin: layout.wgsl.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    Base,
+    Scratches,
+    Gratings,
+}
+
+impl Way {
+    pub(crate) const ALL: [Self; 3] = [Self::Base, Self::Scratches, Self::Gratings];
+}
+
 /// What the overrides of a shader's text are set to, for a scene with everything and for one with nothing, by both methods and all masks:
 /// each set has a name. For compilers other than the device's own.
 pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> {

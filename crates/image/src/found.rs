@@ -114,6 +114,27 @@ impl FoundPixel {
         [base, self.scratches.light()]
     }
 
+    /// The mean over the samples of a pixel, of which this is the sum; `covered` of them see a surface. Each sample has rays of its own: what they
+    /// tell of noise adds up.
+    #[must_use]
+    pub fn mean(mut self, samples: f32, covered: f32) -> Self {
+        let layers = [&mut self.diffuse, &mut self.specular, &mut self.scratches];
+        let sums = layers.into_iter().flat_map(|light| {
+            [
+                &mut light.open,
+                &mut light.around,
+                &mut light.weight,
+                &mut light.seen,
+                &mut light.bounced,
+            ]
+        });
+        for sum in sums.chain([&mut self.rest]) {
+            *sum = sum.map(|v| v / samples);
+        }
+        self.roughness /= covered.max(1.0);
+        self
+    }
+
     fn add(&mut self, other: &Self, share: f32) {
         for c in 0..3 {
             self.rest[c] += (other.rest[c] - self.rest[c]) * share;

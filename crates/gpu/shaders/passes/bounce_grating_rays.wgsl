@@ -1,4 +1,4 @@
-// Pass: for each sample a ray by way of its gratings. A workgroup a group. Twin: cpu/src/shadows.rs.
+// Pass: for each sample a ray by way of its gratings. A workgroup a group. Twin: cpu/src/shadows/scratches.rs.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
@@ -57,23 +57,25 @@ fn bounce_grating_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_wor
         return;
     }
     var by_scratches = vec3f(0.0);
-    if HAS_SCRATCHES {
+    if HAS_SCRATCHES && shadow_round.depth > 0u {
         by_scratches = masked(sample_sums(group, lane).all, objects[pixel.object - 1u].depth_coherence).taken;
     }
-    let way = bounce_way(BOUNCE_BY_GRATINGS, by_scratches, grating_sums(group, lane).taken, shadow_round);
+    let way = bounce_way(SHADOW_BY_GRATINGS, by_scratches, grating_sums(group, lane).taken, shadow_round);
     let seed = shadow_seed(pixel.position_m, shadow_round);
-    if !bounce_goes(way, shadow_random_alike(seed, shadow_round, BOUNCE_WAY).x) {
+    if !bounce_goes(way, shadow_random(seed, shadow_round, BOUNCE_WAY).x) {
         return;
     }
     let paint = paints[at];
     var sent: vec3f;
-    let drawn = draw_grating(pixel, paint, shadow_random_alike(seed, shadow_round, BOUNCE_DIRECTION), &sent);
+    let drawn = draw_grating(pixel, paint, shadow_random(seed, shadow_round, BOUNCE_DIRECTION), &sent);
     if drawn.is_there {
         let axes = mat3x3f(pixel.axis_x, cross(pixel.normal, pixel.axis_x), pixel.normal);
         let fresnel = coated_reflectance(pixel_fresnel(paint), paint.coat, pixel.cos_o);
-        let leaves = (1.0 - by_scratches) * fresnel * sent * drawn.color / (f32(shadow_round.rounds) * way.share);
-        let start = shadow_normals(shadow_random_alike(seed, shadow_round, BOUNCE_START));
-        ray = bounce_ray(axes * drawn.direction, bounce_throughput(rays[at], shadow_round) * leaves, 0.0, start);
+        let around = fresnel * sent;
+        // Zero of samples that the camera sees: shadow_found.wgsl takes it from all of their light.
+        let leaves = (1.0 - by_scratches) * around * drawn.color / way.share;
+        let start = shadow_normals(shadow_random(seed, shadow_round, BOUNCE_START));
+        ray = bounce_ray(rays[at], axes * drawn.direction, leaves, around, 0.0, start, shadow_round);
     }
     rays[at] = ray;
 }

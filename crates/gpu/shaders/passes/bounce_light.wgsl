@@ -1,11 +1,32 @@
-// Pass: what the rays have met sends, added to the samples that the camera sees. A workgroup a group. Twin: cpu/src/bounces.rs.
+// Pass: what the rays have met sends, added to what rays found of the samples that the camera sees. A workgroup a group. Twins:
+// cpu/src/bounces.rs, cpu/src/found.rs.
 
 @group(3) @binding(0) var<storage, read> rays: array<BounceRay>;
+// Of what they met.
 @group(3) @binding(1) var<storage, read> base_light: array<BaseLight>;
-@group(3) @binding(2) var<storage, read_write> bounced: array<Bounced>;
-// 3 and 4: sums.wgsl.
-@group(3) @binding(5) var<storage, read_write> film: Film;
-@group(3) @binding(6) var<uniform> shadow_round: ShadowRound;
+@group(3) @binding(2) var<storage, read> hit_found: array<FoundRays>;
+@group(3) @binding(3) var<storage, read_write> found: array<FoundRays>;
+@group(3) @binding(4) var<uniform> shadow_round: ShadowRound;
+
+fn radiance_at(at: u32) -> vec3f {
+    var radiance = base_emission(base_light[at]);
+    for (var layer = 0u; layer < found_layers(); layer += 1u) {
+        let i = found_at(at, layer);
+        radiance += hit_found[i].open * found_share(hit_found[i].weight, hit_found[i].seen);
+    }
+    return max(found_finite(radiance), vec3f(0.0));
+}
+
+// `noise` is what the light says by itself, without what the sample makes of it.
+fn add_light(i: u32, light: vec3f, noise: vec3f) {
+    found[i].bounced += light;
+    found[i].round_bounced += rgb_luminance(noise);
+    if shadow_round.ends_round != 0u {
+        let all = found[i].round_bounced;
+        found[i].bounced_moments += vec2f(all, all * all);
+        found[i].round_bounced = 0.0;
+    }
+}
 
 @compute @workgroup_size(8, 8)
 fn bounce_light(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
@@ -15,23 +36,21 @@ fn bounce_light(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     }
     let at = group_point(group, lane);
     let ray = rays[at];
-    if !(ray.distance_m > 0.0) {
+    var light = vec3f(0.0);
+    if ray.distance_m > 0.0 {
+        light = found_finite(ray.throughput * radiance_at(at));
+    }
+    if shadow_round.way == SHADOW_BY_BASE {
+        let specular = found_finite(ray.specular * light);
+        let body = found_finite(ray.body * light);
+        add_light(found_at(at, FOUND_SPECULAR), specular, specular);
+        add_light(found_at(at, FOUND_BODY), body, body);
         return;
     }
-    var scratches = Masked(vec3f(0.0), vec3f(0.0));
-    if HAS_SCRATCHES {
-        let sums = sample_sums(group, lane);
-        if sums.cut > 0u {
-            atomicAdd(&film.gave_up, sums.cut);
-        }
-        scratches = masked(sums.all, objects[ray.object].depth_coherence);
+    let layer = found_at(at, found_by(shadow_round.way));
+    if shadow_round.depth == 0u {
+        found[layer].open += found_finite(ray.specular);
+        found[layer].around += found_finite(ray.body);
     }
-    let light = base_light[at];
-    let gratings = under_scratches(grating_sums(group, lane), scratches.taken);
-    let radiance = light.body + light.specular * (1.0 - gratings.taken) + scratches.scratches * light.fresnel + gratings.scratches;
-    if shadow_round.way == BOUNCE_BY_BASE {
-        bounced[at].base += ray.throughput * radiance;
-    } else {
-        bounced[at].scratches += ray.throughput * radiance;
-    }
+    add_light(layer, found_finite(ray.specular * light), light);
 }

@@ -1,4 +1,4 @@
-// Pass: for each sample a ray by way of a scratch that was picked. A workgroup a group. Twin: cpu/src/shadows.rs.
+// Pass: for each sample a ray by way of a scratch that was picked. A workgroup a group. Twin: cpu/src/shadows/scratches.rs.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
@@ -8,13 +8,12 @@
 @group(3) @binding(5) var<uniform> shadow_round: ShadowRound;
 @group(3) @binding(6) var<storage, read> picks: array<vec4u>;
 
-// By a scratch; `energy` is the luminance of what all of them take of the base, by which it was picked. The throughput is that of the sample's
+// By a scratch; `energy` is the luminance of what all of them take of the base, by which it was picked. What it sends is that of the sample's
 // scratches before they weaken one another.
-fn ray_by(pixel: PixelPoint, index: u32, energy: f32) -> BounceRay {
+fn ray_by(last: BounceRay, pixel: PixelPoint, index: u32, energy: f32, seed: u32) -> BounceRay {
     let segment = segment_from(scratch_segment(index));
     let pair = pair_of(pixel, segment);
-    let seed = shadow_seed(pixel.position_m, shadow_round);
-    let from_there = draw_all_around(pair.point, pair.seen, shadow_random_alike(seed, shadow_round, BOUNCE_DIRECTION));
+    let from_there = draw_all_around(pair.point, pair.seen, shadow_random(seed, shadow_round, BOUNCE_DIRECTION));
     let drawn = drawn_direction(pair.point, pair.seen, from_there);
     let share = pair.seen.share.segment;
     let own = rgb_luminance(share * pair_energy(scratch_tables, pair));
@@ -22,10 +21,11 @@ fn ray_by(pixel: PixelPoint, index: u32, energy: f32) -> BounceRay {
     if !drawn.is_there || !(own > 0.0) {
         return ray;
     }
-    let place = shadow_random_alike(seed, shadow_round, BOUNCE_PLACE);
-    let normals = vec3f(shadow_normals(shadow_random_alike(seed, shadow_round, BOUNCE_START)), gaussian_quantile(clamp(place.x, 1e-6, 1.0 - 1e-6)));
-    let start = pair_place(pair, pixel, segment, normals, place.y);
-    return bounce_ray(pair.surface * drawn.direction, share * from_there.total * drawn.color * (energy / own), 0.0, start);
+    let place = shadow_random(seed, shadow_round, BOUNCE_PLACE);
+    let normals = vec3f(shadow_normals(shadow_random(seed, shadow_round, BOUNCE_START)), gaussian_quantile(clamp(place.x, 1e-6, 1.0 - 1e-6)));
+    let start = pair_place(pair, pixel, segment, normals, place.y) * select(1.0, scratched_wider(), pixel_shares(pixel));
+    let around = share * from_there.total * (energy / own);
+    return bounce_ray(last, pair.surface * drawn.direction, around * drawn.color, around, 0.0, start, shadow_round);
 }
 
 @compute @workgroup_size(8, 8)
@@ -43,18 +43,23 @@ fn bounce_scratch_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_wor
     }
     let depth_coherence = objects[pixel.object - 1u].depth_coherence;
     var sums = sample_sums(group, lane).all;
-    let way = bounce_way(BOUNCE_BY_SCRATCHES, masked(sums, depth_coherence).taken, grating_sums(group, lane).taken, shadow_round);
+    let way = bounce_way(SHADOW_BY_SCRATCHES, masked(sums, depth_coherence).taken, grating_sums(group, lane).taken, shadow_round);
     let seed = shadow_seed(pixel.position_m, shadow_round);
-    if !bounce_goes(way, shadow_random_alike(seed, shadow_round, BOUNCE_WAY).x) {
+    if !bounce_goes(way, shadow_random(seed, shadow_round, BOUNCE_WAY).x) {
         return;
     }
     let packed = picks[GROUP * chunk_starts[frame.group_count] + shadow_round.picks * at + shadow_round.round - shadow_round.first_pick];
     if packed.x != PICK_NONE {
-        let state = pick_state_from(picks[GROUP * chunk_starts[group] + lane]);
-        ray = ray_by(pixel, pick_from(packed).segment, state.step * f32(state.per_sample));
-        sums.radiance = ray.throughput / (f32(shadow_round.rounds) * way.share);
-        let fresnel = coated_reflectance(pixel_fresnel(paints[at]), paints[at].coat, pixel.cos_o);
-        ray.throughput = bounce_throughput(rays[at], shadow_round) * masked(sums, depth_coherence).scratches * fresnel;
+        // Another sample of the pixel may have its scratches.
+        let by = pixel_scratched(pixel, at);
+        let first = by - at + lane + GROUP * group;
+        let state = pick_state_from(picks[GROUP * chunk_starts[first / GROUP] + first % GROUP]);
+        ray = ray_by(rays[at], points[by], pick_from(packed).segment, state.step * f32(state.per_sample), seed);
+        if shadow_round.depth > 0u {
+            sums.radiance = ray.throughput / way.share;
+            let fresnel = coated_reflectance(pixel_fresnel(paints[at]), paints[at].coat, pixel.cos_o);
+            ray.throughput = masked(sums, depth_coherence).scratches * fresnel;
+        }
     }
     rays[at] = ray;
 }

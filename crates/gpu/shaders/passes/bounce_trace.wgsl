@@ -19,8 +19,10 @@ fn bounce_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         return;
     }
     let direction = rays[at].direction;
-    let start = sample_start(triangle_tree, points[at], paints[at].triangle, rays[at].place);
-    let from_there = ray_from(start, direction, points[at].normal, shadow_round.extent_m);
+    // Another sample of the pixel may have its scratches.
+    let leaves = select(at, pixel_scratched(points[at], at), shadow_round.way == SHADOW_BY_SCRATCHES);
+    let start = sample_start(triangle_tree, points[leaves], paints[leaves].triangle, rays[at].place);
+    let from_there = ray_from(start, direction, points[leaves].normal, shadow_round.extent_m);
     let hit = cutout_hit(triangle_tree, from_there, distance_m, start.triangle, false, 0u);
     rays[at].distance_m = select(0.0, hit.distance_m, hit.triangle != 0u);
     rays[at].place = hit.barycentric;

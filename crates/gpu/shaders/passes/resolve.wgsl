@@ -49,9 +49,12 @@ fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
         value.base = scene_background(point.normal);
         return value;
     }
+    var by = at;
     var scratches = Masked(vec3f(0.0), vec3f(0.0));
     if HAS_SCRATCHES {
-        let sums = sample_sums(group, lane);
+        // Another sample of the pixel may have its scratches.
+        by = pixel_scratched(point, at);
+        let sums = sample_sums_of(by, at, group, lane);
         if sums.cut > 0u {
             atomicAdd(&film.gave_up, sums.cut);
         }
@@ -60,8 +63,8 @@ fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
     // A groove interrupts the reflecting surface; what shines from under it passes.
     let light = base_light[at];
     let gratings = under_scratches(grating_sums(group, lane), scratches.taken);
-    value.base = light.body + light.specular * (1.0 - gratings.taken);
-    value.scratches = scratches.scratches * light.fresnel + gratings.scratches;
+    value.base = base_emission(light) + (light.body + light.specular * (1.0 - gratings.taken));
+    value.scratches = scratches.scratches * base_light[by].fresnel + gratings.scratches;
     value.density = gratings.taken;
     value.normal = point.normal;
     value.depth_m = point.depth_m;

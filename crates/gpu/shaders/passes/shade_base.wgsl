@@ -18,7 +18,8 @@ fn shade_base(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
     let point = surface_point_from(points[at], paints[at]);
     let light = base_radiance(point);
     let fresnel = coated_reflectance(FresnelRgb(point.f0, point.f90, point.curve), point.coat, point.wo.z);
-    base_light[at] = BaseLight(light.specular, light.diffuse + point.emission, fresnel);
+    let emission = point.emission;
+    base_light[at] = BaseLight(light.specular, emission.x, light.diffuse, emission.y, fresnel, emission.z);
     if loops_were_cut() {
         atomicAdd(&film.gave_up, 1u);
     }

@@ -156,6 +156,26 @@ fn before_lane(lane: u32, own: u32) -> u32 {
     return sum;
 }
 
+// Where the pick of the next stratum of a sample lies. One that has the scratches of others has a pick for each of them.
+fn pick_to(at: u32, state: PickState) -> u32 {
+    let slot = pick_slot(state);
+    if !pixel_shares(points[at]) {
+        return state.per_sample * at + slot;
+    }
+    var left = slot;
+    var to = at;
+    for (var i = max(at, SHARED_REACH) - SHARED_REACH; i <= at + SHARED_REACH; i += 1u) {
+        if pixel_shares(points[i]) && pixel_scratched(points[i], i) == at {
+            to = i;
+            if left == 0u {
+                break;
+            }
+            left -= 1u;
+        }
+    }
+    return to;
+}
+
 // Where a chunk lies.
 struct Chunk {
     group: u32,
@@ -182,7 +202,8 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
     }
     let chunk = chunk_at(chunk_index);
     let own_point = group_point(chunk.group, lane);
-    let has_surface = group_has(chunk.group, lane) && points[own_point].object != 0u;
+    // Another sample of the pixel may have its scratches.
+    let has_surface = group_has(chunk.group, lane) && points[own_point].object != 0u && pixel_scratched(points[own_point], own_point) == own_point;
     let place = pixel_place(points[own_point]);
     if has_surface {
         atomicStore(&is_shaded, 1u);
@@ -201,7 +222,7 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
     var first_pick = 0u;
     if PICKS {
         state = pick_state_from(chunk_words[at]);
-        first_pick = LANES * chunk_starts[frame.group_count] + state.per_sample * own_point;
+        first_pick = LANES * chunk_starts[frame.group_count];
     }
     // Pairs that were queued, and those that have been lit.
     var queued = 0u;
@@ -286,7 +307,7 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                         while pick_is_due(state) {
                             let source = select(range.first + ((item_lit >> 6u) & 7u), frame.light_count, lights_are_around());
                             let segment = entries[chunk.first_entry + (item_lit >> 9u)].y;
-                            chunk_words[first_pick + pick_slot(state)] = pick_packed(segment, source, results[j]);
+                            chunk_words[first_pick + pick_to(own_point, state)] = pick_packed(segment, source, results[j]);
                             state.next += 1u;
                         }
                     }
@@ -306,7 +327,7 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                         state.sum += max(rgb_luminance(results[j - asked]), 0.0);
                         while pick_is_due(state) {
                             let segment = entries[first + nth_bit(marks[lane], j + own - end)].y;
-                            chunk_words[first_pick + pick_slot(state)] = pick_packed(segment, 0u, results[j - asked]);
+                            chunk_words[first_pick + pick_to(own_point, state)] = pick_packed(segment, 0u, results[j - asked]);
                             state.next += 1u;
                         }
                     }

@@ -1,4 +1,4 @@
-// Pass: for each sample a ray to one source of the base's light. A workgroup a group. Twin: cpu/src/shadows.rs, which casts two rays a round
+// Pass: for each sample a ray to one source of the base's light. A workgroup a group. Twin: cpu/src/shadows/base.rs, which casts two rays a round
 // where this one keeps one of several candidates with the probability of its part in their sum (J. Talbot, 2005).
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;

@@ -1,5 +1,5 @@
 // Pass: for each sample a ray by way of a scratch or a grating that was picked, if it goes to a light of the kind that the pass is compiled for. A
-// workgroup a group. Twin: cpu/src/shadows.rs.
+// workgroup a group. Twin: cpu/src/shadows/scratches.rs.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> chunk_starts: array<u32>;
@@ -13,7 +13,7 @@
 override OF_GRATINGS: bool = false;
 
 // The ray of a sample by way of a pick; `luminance` is that of all that scratches send, or gratings.
-fn ray_by(pixel: PixelPoint, triangle: u32, pick: Pick, luminance: f32) -> ShadowRay {
+fn ray_by(pixel: PixelPoint, triangle: u32, pick: Pick, luminance: f32, seed: u32) -> ShadowRay {
     var pair: Pair;
     var segment: Segment;
     if OF_GRATINGS {
@@ -26,19 +26,19 @@ fn ray_by(pixel: PixelPoint, triangle: u32, pick: Pick, luminance: f32) -> Shado
         segment = segment_from(scratch_segment(pick.segment));
         pair = pair_of(pixel, segment);
     }
-    let seed = shadow_seed(pixel.position_m, shadow_round);
-    let line = shadow_random_alike(seed, shadow_round, SHADOW_LINE);
-    let chord = shadow_random_alike(seed, shadow_round, SHADOW_CHORD);
+    let line = shadow_random(seed, shadow_round, SHADOW_LINE);
+    let chord = shadow_random(seed, shadow_round, SHADOW_CHORD);
     let drawn = draw_ray(pair, select(ENVIRONMENT_CELLS, ROW_CELLS, OF_GRATINGS), pick.source, vec3f(line, chord.x));
     var ray: ShadowRay;
     if !drawn.light.is_there {
         return ray;
     }
     // By way of a grating it starts anywhere under the pixel.
-    var start = shadow_normals(shadow_random_alike(seed, shadow_round, SHADOW_START));
+    var start = shadow_normals(shadow_random(seed, shadow_round, SHADOW_START));
     if !OF_GRATINGS {
-        let place = shadow_random_alike(seed, shadow_round, SHADOW_PLACE);
+        let place = shadow_random(seed, shadow_round, SHADOW_PLACE);
         start = pair_place(pair, pixel, segment, vec3f(start, gaussian_quantile(clamp(place.x, 1e-6, 1.0 - 1e-6))), place.y);
+        start *= select(1.0, scratched_wider(), pixel_shares(pixel));
     }
     return ShadowRay(pair.surface * drawn.light.direction, drawn.distance_m, luminance * pick.color * drawn.light.color, start.x, vec3f(0.0), start.y);
 }
@@ -65,7 +65,15 @@ fn shadow_picked_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_work
     if !draws_to(pick.source) {
         return;
     }
-    let begin = select(chunk_starts[group], group, OF_GRATINGS);
-    let state = pick_state_from(picks[GROUP * begin + lane]);
-    rays[at] = ray_by(points[at], paints[at].triangle, pick, state.step * f32(state.per_sample));
+    // Another sample of the pixel may have its scratches.
+    var by = at;
+    var first = GROUP * group + lane;
+    if !OF_GRATINGS {
+        by = pixel_scratched(points[at], at);
+        first = by - at + lane + GROUP * group;
+        first = GROUP * chunk_starts[first / GROUP] + first % GROUP;
+    }
+    let state = pick_state_from(picks[first]);
+    let seed = shadow_seed(points[at].position_m, shadow_round);
+    rays[at] = ray_by(points[by], paints[by].triangle, pick, state.step * f32(state.per_sample), seed);
 }

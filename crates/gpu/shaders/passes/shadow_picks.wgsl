@@ -16,9 +16,21 @@ fn chunk_luminance(chunk: u32, lane: u32) -> f32 {
 }
 
 // The strata whose places a sum has passed.
-fn strata_before(sum: f32, seed: u32, step: f32) -> u32 {
-    let stratum = u32(clamp(sum / max(step, 1e-30), 0.0, f32(shadow_round.picks)));
-    return min(stratum + u32(pick_threshold(seed, stratum, step) < sum), shadow_round.picks);
+fn strata_before(sum: f32, seed: u32, step: f32, count: u32) -> u32 {
+    let stratum = u32(clamp(sum / max(step, 1e-30), 0.0, f32(count)));
+    return min(stratum + u32(pick_threshold(seed, stratum, step) < sum), count);
+}
+
+// For how many samples a sample has the scratches.
+fn sharing(at: u32) -> u32 {
+    if !pixel_shares(points[at]) {
+        return 1u;
+    }
+    var count = 0u;
+    for (var i = max(at, SHARED_REACH) - SHARED_REACH; i <= at + SHARED_REACH; i += 1u) {
+        count += u32(pixel_shares(points[i]) && pixel_scratched(points[i], i) == at);
+    }
+    return count;
 }
 
 @compute @workgroup_size(8, 8)
@@ -33,19 +45,20 @@ fn shadow_picks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     }
     let first_chunk = chunk_starts[group];
     let end_chunk = chunk_starts[group + 1u];
+    let count = shadow_round.picks * sharing(at);
     var all = 0.0;
     for (var chunk = first_chunk; chunk < end_chunk; chunk += 1u) {
         all += chunk_luminance(chunk, lane);
     }
-    let step = all / f32(shadow_round.picks);
+    let step = all / f32(max(count, 1u));
     let seed = sobol_hash(shadow_seed(points[at].position_m, shadow_round) + shadow_round.first_round + shadow_round.first_pick) & 0xffffffu;
     var sum = 0.0;
     var next = 0u;
     for (var chunk = first_chunk; chunk < end_chunk; chunk += 1u) {
         let begin = sum;
         sum += chunk_luminance(chunk, lane);
-        let end = select(strata_before(sum, seed, step), shadow_round.picks, chunk + 1u == end_chunk);
-        picks[GROUP * chunk + lane] = pick_state_packed(PickState(begin, next, end, shadow_round.picks, step, seed));
+        let end = select(strata_before(sum, seed, step, count), count, chunk + 1u == end_chunk);
+        picks[GROUP * chunk + lane] = pick_state_packed(PickState(begin, next, end, count, step, seed));
         next = end;
     }
     let first_pick = GROUP * chunk_starts[frame.group_count] + shadow_round.picks * at;

@@ -1,13 +1,30 @@
-// Pass: follows each sample's ray and adds its weight to the sums of its source. A workgroup a group. Twin: cpu/src/shadows.rs.
+// Pass: follows each sample's ray to a source and adds its weight to what rays found. A workgroup a group. Twins: cpu/src/shadows.rs,
+// cpu/src/found.rs.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
 @group(3) @binding(2) var<storage, read> rays: array<ShadowRay>;
-// Of even rounds and of odd ones, sample by sample.
-@group(3) @binding(3) var<storage, read_write> halves: array<ShadowHalf>;
+@group(3) @binding(3) var<storage, read_write> found: array<FoundRays>;
 @group(3) @binding(4) var<uniform> shadow_round: ShadowRound;
 @group(3) @binding(5) var triangle_tree: texture_2d<u32>;
 @group(3) @binding(6) var<storage, read_write> film: Film;
+
+fn add_ray(i: u32, weight: vec3f, is_seen: bool) {
+    let all = found_finite(weight);
+    let seen = select(vec3f(0.0), all, is_seen);
+    found[i].weight += all;
+    found[i].seen += seen;
+    found[i].round_weight += rgb_luminance(all);
+    found[i].round_seen += rgb_luminance(seen);
+    if shadow_round.ends_round != 0u {
+        // A round without a ray tells what those before it do.
+        let before = found_ratio(rgb_luminance(found[i].seen), rgb_luminance(found[i].weight), 1.0);
+        let share = found_ratio(found[i].round_seen, found[i].round_weight, before);
+        found[i].share_moments += vec2f(share, share * share);
+        found[i].round_weight = 0.0;
+        found[i].round_seen = 0.0;
+    }
+}
 
 @compute @workgroup_size(8, 8)
 fn shadow_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
@@ -19,29 +36,25 @@ fn shadow_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     if points[at].object == 0u {
         return;
     }
-    var is_hidden = false;
+    var is_seen = true;
     let ray = rays[at];
     if ray.distance_m > 0.0 {
-        let start = sample_start(triangle_tree, points[at], paints[at].triangle, vec2f(ray.offset_x, ray.offset_y));
+        // Another sample of the pixel may have its scratches.
+        let leaves = select(at, pixel_scratched(points[at], at), shadow_round.way == SHADOW_BY_SCRATCHES);
+        let start = sample_start(triangle_tree, points[leaves], paints[leaves].triangle, vec2f(ray.offset_x, ray.offset_y));
         // To the very place that was drawn: a parallel ray would blur the shadow of what is near a lamp by more than the pixel's filter does.
-        let way_m = points[at].position_m + ray.distance_m * ray.direction - start.position_m;
+        let way_m = points[leaves].position_m + ray.distance_m * ray.direction - start.position_m;
         let distance_m = length(way_m);
-        let from_there = ray_from(start, way_m / distance_m, points[at].normal, shadow_round.extent_m);
+        let from_there = ray_from(start, way_m / distance_m, points[leaves].normal, shadow_round.extent_m);
         let hit = cutout_hit(triangle_tree, from_there, distance_m, start.triangle, true, 0u);
-        is_hidden = hit.triangle != 0u;
+        is_seen = hit.triangle == 0u;
     }
-    let half = 2u * at + shadow_round.round % 2u;
-    var sum: ShadowHalf;
-    if shadow_round.round > 1u {
-        sum = halves[half];
+    if shadow_round.way == SHADOW_BY_BASE {
+        add_ray(found_at(at, FOUND_SPECULAR), rays[at].specular, is_seen);
+        add_ray(found_at(at, FOUND_BODY), rays[at].body, is_seen);
+    } else {
+        add_ray(found_at(at, found_by(shadow_round.way)), rays[at].specular, is_seen);
     }
-    sum.specular += ray.specular;
-    sum.body += ray.body;
-    if is_hidden {
-        sum.specular_hidden += ray.specular;
-        sum.body_hidden += ray.body;
-    }
-    halves[half] = sum;
     if loops_were_cut() {
         atomicAdd(&film.gave_up, 1u);
     }

@@ -26,7 +26,8 @@ fn shade_published(
     let point = surface_point_from(points[at], paints[at]);
     let light = published_base(point);
     let fresnel = coated_reflectance(FresnelRgb(point.f0, point.f90, point.curve), point.coat, point.wo.z);
-    base_light[at] = BaseLight(light.specular, light.diffuse + point.emission, fresnel);
+    let emission = point.emission;
+    base_light[at] = BaseLight(light.specular, emission.x, light.diffuse, emission.y, fresnel, emission.z);
     if HAS_SCRATCHES {
         let sums = published_scratches(published_seen(point), objects[object - 1u], paints[at].triangle);
         chunk_sums[GROUP * group + lane] = ChunkSum(sums.radiance, sums.share, sums.energy, sums.share_by_line);

@@ -10,6 +10,7 @@ struct BaseLobes {
     share: f32,                 // how often the specular one is drawn from
     body_share: f32,            // and that of the body; the coat's is drawn from else
     albedo: f32,                // of the specular one with F = 1, single scattering
+    around: vec3f,              // what that reflects of light from all around
     coat_share: f32,            // of the surface
     coat_alpha: f32,
     coat_albedo: vec3f,
@@ -54,6 +55,7 @@ fn base_lobes(on_top: SurfacePoint) -> BaseLobes {
     lobes.fresnel = layer.reflecting.fresnel;
     lobes.body = base_body(point, layer);
     lobes.albedo = layer.sharp.albedo;
+    lobes.around = layer.albedo;
     let below = rgb_luminance(lobes.body);
     let share = select(1.0, clamp(specular / max(specular + below, 1e-30), 0.1, 0.9), below > 0.0);
     var left = 1.0;
@@ -123,6 +125,15 @@ fn base_lobes_pdf(lobes: BaseLobes, on_top: vec3f) -> f32 {
         density += (1.0 - lobes.share - lobes.body_share) * ggx_pdf(on_top, lobes.coat_wo, lobes.coat_alpha);
     }
     return density;
+}
+
+// What the base sends of light of radiance 1 from all around. Twin: Base::albedo.
+fn base_lobes_around(lobes: BaseLobes) -> BaseRadiance {
+    let bare = BaseRadiance(lobes.around, lobes.body);
+    if HAS_COATS && lobes.coat_share > 0.0 {
+        return base_coated(lobes.coat_share, lobes.coat_albedo, bare, lobes.coat_albedo);
+    }
+    return bare;
 }
 
 // The BRDF times the cosine.

@@ -1,10 +1,5 @@
 // What the passes share that draw rays to other objects: docs/model.md, section 11. Twin: cpu/src/bounces.rs.
 
-// The ways by which the ray of a sample leaves it. Twin: src/strip_rays.rs.
-const BOUNCE_BY_BASE: u32 = 0u;
-const BOUNCE_BY_SCRATCHES: u32 = 1u;
-const BOUNCE_BY_GRATINGS: u32 = 2u;
-
 // The part of the rays of a sample that goes one way: those whose number is from `low` on and below `low + share`.
 struct BounceWay {
     low: f32,
@@ -18,11 +13,11 @@ fn bounce_way(way: u32, by_scratches: vec3f, by_gratings: vec3f, which: ShadowRo
         return BounceWay(0.0, f32(way == which.way));
     }
     let scratches = bounce_share(by_scratches);
-    if way == BOUNCE_BY_SCRATCHES {
+    if way == SHADOW_BY_SCRATCHES {
         return BounceWay(0.0, scratches);
     }
     let gratings = (1.0 - scratches) * bounce_share(by_gratings);
-    if way == BOUNCE_BY_GRATINGS {
+    if way == SHADOW_BY_GRATINGS {
         return BounceWay(scratches, gratings);
     }
     return BounceWay(scratches + gratings, 1.0 - scratches - gratings);
@@ -37,12 +32,14 @@ fn bounce_goes(way: BounceWay, number: f32) -> bool {
     return number >= way.low && number < way.low + way.share;
 }
 
-// What of light that a sample sends reaches the camera.
-fn bounce_throughput(ray: BounceRay, which: ShadowRound) -> vec3f {
-    return select(ray.throughput, vec3f(1.0), which.depth == 0u);
-}
-
-// A ray as it sets out.
-fn bounce_ray(direction: vec3f, throughput: vec3f, solid_angle_sr: f32, start: vec2f) -> BounceRay {
-    return BounceRay(direction, SHADOW_FAR_M, throughput, solid_angle_sr, start, 0u, 0u);
+// A ray of a sample as it sets out; of one that the camera sees it is the first. `last` has led to the sample, which sends the part
+// `sent` of it; `body` is beside it for the first ray.
+fn bounce_ray(last: BounceRay, direction: vec3f, sent: vec3f, body: vec3f, solid_angle_sr: f32, start: vec2f, which: ShadowRound) -> BounceRay {
+    var ray = BounceRay(direction, SHADOW_FAR_M, vec3f(1.0), solid_angle_sr, sent, 0u, body, 0u, start);
+    if which.depth > 0u {
+        ray.throughput = last.throughput * sent;
+        ray.specular = last.specular;
+        ray.body = last.body;
+    }
+    return ray;
 }

@@ -30,6 +30,7 @@ struct Frame {
     base_light_count: u32,      // of the lights, those that do not shine on scratches alone: they come first
     middle_px: vec2f,           // where in the picture the ray along `forward` is
     coverage_round: u32,        // of all samples of a pixel, which one is looked at; COVERAGE_ANY: it stands for all
+    sample_order: vec2u,        // the samples of the step from the one that is nearest to the pixel's middle, 4 bits each
 }
 
 // The sample sees any surface that covers something.
@@ -177,7 +178,7 @@ struct PixelPoint {
     turns: vec4f,               // how the smooth normal turns over each of them, in the surface frame
     cos_o: f32,                 // of the viewer to the normal
     distance_m: f32,            // to the viewer
-    table_and_place: u32,       // layer of the scratch tables in 16 bits; the pixel's place in its tile, and PIXEL_PARTIAL
+    table_and_place: u32,       // layer of the scratch tables in 16 bits; the pixel's place in its tile, in 6; who has its scratches, in 6; PIXEL_PARTIAL
     leaves: f32,                // how far the surface may be off the plane of shading for each length along it
 }
 
@@ -198,8 +199,15 @@ struct PixelPaint {
 // Radiance of the base to the viewer, before scratches take their part.
 struct BaseLight {
     specular: vec3f,            // reflected at the surface: scratches take from it
-    body: vec3f,                // from under the surface, and emitted
+    emission_red: f32,
+    body: vec3f,                // from under the surface
+    emission_green: f32,
     fresnel: vec3f,             // reflectance of the surface towards the viewer
+    emission_blue: f32,
+}
+
+fn base_emission(light: BaseLight) -> vec3f {
+    return vec3f(light.emission_red, light.emission_green, light.emission_blue);
 }
 
 // Sums over the segments of one chunk of a tile's list, for one pixel. Twin: ScratchSums of mask.wgsl.
@@ -223,15 +231,20 @@ struct ShadowRound {
     round: u32,
     rounds: u32,                // of this picture
     extent_m: f32,              // how far the scene reaches from the origin: what rounding goes by
-    first_round: u32,           // rays of earlier pictures, to be averaged with this one; an even number
+    first_round: u32,           // rays of earlier pictures, to be averaged with this one
     all_rounds: u32,            // of this one and all that it will be averaged with
-    blurs: u32,                 // 1: the single rays of neighbours count beside a pixel's own
+    ends_round: u32,            // 1: no further ray of the round goes this way
     first_pick: u32,            // the round of the first scratch that is picked of each sample
     picks: u32,                 // and how many are picked at once
     seed: u32,                  // other random numbers for each
     depth: u32,                 // how many objects light goes by between the samples and the camera
-    way: u32,                   // of bounces: how light leaves the sample that the camera sees, BOUNCE_BY_BASE and so on
+    way: u32,                   // how light leaves the sample; of bounces, the one that the camera sees
 }
+
+// The ways by which light leaves a sample. Twin: src/variant.rs.
+const SHADOW_BY_BASE: u32 = 0u;
+const SHADOW_BY_SCRATCHES: u32 = 1u;
+const SHADOW_BY_GRATINGS: u32 = 2u;
 
 // A ray from a sample to a source, and the light that it stands for.
 struct ShadowRay {
@@ -243,29 +256,51 @@ struct ShadowRay {
     offset_y: f32,              // and down
 }
 
-// Sums over the rays of half of the rounds.
-struct ShadowHalf {
-    specular: vec3f,
-    specular_hidden: vec3f,     // of those that meet something
-    body: vec3f,
-    body_hidden: vec3f,
+// What rays found of a layer of a sample: sums over rounds; then light, by shadow_found.wgsl.
+struct FoundRays {
+    weight: vec3f,              // of rays to sources; its mean is the closed form
+    round_weight: f32,          // luminances of the round in hand
+    seen: vec3f,                // the part of it whose rays see their source
+    round_seen: f32,
+    bounced: vec3f,             // light of other objects
+    round_bounced: f32,
+    around: vec3f,              // what is sent of light of radiance 1 from all around
+    open: vec3f,                // the closed form; before that, of scratches, what their rays to objects bring of even light
+    share_moments: vec2f,       // of the share that a round sees: sum, and sum of squares
+    bounced_moments: vec2f,     // the same of the luminance of what it brings
+}
+
+// As image/src/found.rs has it, which says what it is. Sums over the samples of a pixel.
+struct FoundLight {
+    open: array<f32, 3>,
+    around: array<f32, 3>,
+    weight: array<f32, 3>,
+    seen: array<f32, 3>,
+    bounced: array<f32, 3>,
+    share_moments: array<f32, 2>,
+    bounced_moments: array<f32, 2>,
+}
+
+struct FoundPixel {
+    rest: array<f32, 3>,
+    roughness: f32,
+    object: u32,
+    diffuse: FoundLight,
+    specular: FoundLight,
+    scratches: FoundLight,
 }
 
 // A ray from a sample to what may send it light; then what it has met.
 struct BounceRay {
     direction: vec3f,           // unit, world space
     distance_m: f32,            // how far it goes; 0: there is no ray, or it met nothing
-    throughput: vec3f,          // what of light along the ray reaches the camera
+    throughput: vec3f,          // what of light along the ray reaches the sample that the camera sees
     solid_angle_sr: f32,        // that it stands for
-    place: vec2f,               // where it starts: standard deviations of the pixel's filter; then where it ends, barycentric
+    specular: vec3f,            // what that sample sends of it by its surface, or by its scratches
     triangle: u32,              // that it met
+    body: vec3f,                // by its body; or what its scratches send of light of radiance 1 from all around
     object: u32,
-}
-
-// Light of other objects that a sample sends to the camera.
-struct Bounced {
-    base: vec3f,
-    scratches: vec3f,
+    place: vec2f,               // where it starts: standard deviations of the pixel's filter; then where it ends, barycentric
 }
 
 // Sums over the samples of a pixel: who reads them divides by their count.
@@ -293,6 +328,16 @@ struct SortSettings {
 
 struct ScanSettings {
     count: u32,
+}
+
+// What a dispatch of the filter takes.
+struct FilterSettings {
+    size_px: vec2u,             // of the picture
+    first_row: u32,             // of the band
+    rows: u32,
+    step: u32,                  // pixels between those that are averaged
+    rounds: u32,                // that found what there is
+    layer: u32,                 // FILTER_DIFFUSE and so on
 }
 
 // How a film is shown.

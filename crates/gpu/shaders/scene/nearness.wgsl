@@ -19,7 +19,8 @@ struct Nearness {
     off_um: f32,                // how far off the plane of shading a segment is seen: surfaces bend under a footprint
 }
 
-fn nearness(point: PixelPoint) -> Nearness {
+fn nearness(sample: PixelPoint) -> Nearness {
+    let point = pixel_as_scratched(sample, frame.list_std_px / frame.footprint_std_px);
     let x = point.footprint_um.xy;
     let y = point.footprint_um.zw;
     let window = point.coherence_um * point.coherence_um;

@@ -31,7 +31,13 @@ fn pair_point(pixel: PixelPoint, table: u32) -> LitPoint {
     );
 }
 
-fn pair_of(pixel: PixelPoint, segment: Segment) -> Pair {
+// How much wider the filter of a pixel is than that of its samples.
+fn scratched_wider() -> f32 {
+    return frame.list_std_px / frame.footprint_std_px;
+}
+
+fn pair_of(sample: PixelPoint, segment: Segment) -> Pair {
+    let pixel = pixel_as_scratched(sample, scratched_wider());
     let axis_y = cross(pixel.normal, pixel.axis_x);
     let a = (segment.start_m - pixel.position_m) * 1e6;
     let b = (segment.end_m - pixel.position_m) * 1e6;

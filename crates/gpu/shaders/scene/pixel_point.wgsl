@@ -112,7 +112,37 @@ fn pixel_table(pixel: PixelPoint) -> u32 {
 }
 
 fn pixel_place(pixel: PixelPoint) -> u32 {
-    return (pixel.table_and_place & ~PIXEL_PARTIAL) >> 16u;
+    return (pixel.table_and_place >> 16u) & 63u;
+}
+
+// Of table_and_place: samples of a pixel that see the same surface share scratches; one of them has these for all.
+const PIXEL_SHARES: u32 = 0x08000000u;
+
+// The sample that has them lies so many places behind this one.
+fn pixel_shared(offset: i32) -> u32 {
+    return PIXEL_SHARES | ((bitcast<u32>(offset) & 31u) << 22u);
+}
+
+fn pixel_shares(pixel: PixelPoint) -> bool {
+    return (pixel.table_and_place & PIXEL_SHARES) != 0u;
+}
+
+// Samples of a pixel that share scratches lie so near to one another.
+const SHARED_REACH: u32 = 15u;
+
+// The sample that has the scratches of the sample `at`: itself or another one of its pixel.
+fn pixel_scratched(pixel: PixelPoint, at: u32) -> u32 {
+    return bitcast<u32>(bitcast<i32>(at) + extractBits(bitcast<i32>(pixel.table_and_place), 22u, 5u));
+}
+
+// A sample as its scratches are seen: for all through the pixel's whole filter, which is so many times as wide as that of a sample.
+fn pixel_as_scratched(pixel: PixelPoint, wider: f32) -> PixelPoint {
+    var wide = pixel;
+    if pixel_shares(pixel) {
+        wide.footprint_um *= wider;
+        wide.turns *= wider;
+    }
+    return wide;
 }
 
 fn pixel_wo(cos_o: f32) -> vec3f {

@@ -41,6 +41,12 @@ fn sample_sums(group: u32, lane: u32) -> SampleSums {
     return SampleSums(sums, cut);
 }
 
+// The same of the sample `by` that has the scratches of the sample `at`.
+fn sample_sums_of(by: u32, at: u32, group: u32, lane: u32) -> SampleSums {
+    let place = by - at + lane + GROUP * group;
+    return sample_sums(place / GROUP, place % GROUP);
+}
+
 fn masked(sums: ScratchSums, depth_coherence: f32) -> Masked {
     if METHOD_MASK == MASK_LINEAR {
         return Masked(sums.radiance, sums.energy);

@@ -185,8 +185,6 @@ impl Easel for GpuEasel {
             samples: step.samples,
             batch: step.batch,
             without_shadows: !step.transport.shadows,
-            // One sample, while something moves.
-            blurs_visibility: step.samples == 1,
             ..RenderOptions::default()
         };
         let Transport { shadows, bounces } = step.transport;

@@ -1,0 +1,258 @@
+// Passes: the filter of what rays found, a layer at a time. Twin: image/src/filter.rs, which names the papers and explains the numbers.
+//
+// The signals of a layer, red, green, blue and the variance of the luminance, below 0 where there is none, go from texture to texture.
+
+@group(0) @binding(0) var<uniform> settings: FilterSettings;
+@group(0) @binding(1) var<storage, read_write> film: Film;
+@group(0) @binding(2) var<storage, read> film_found: array<FoundPixel>;
+@group(0) @binding(3) var guides: texture_2d<u32>;
+@group(0) @binding(4) var shares: texture_2d<f32>;
+@group(0) @binding(5) var bounced: texture_2d<f32>;
+@group(0) @binding(6) var guides_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(7) var shares_out: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(8) var bounced_out: texture_storage_2d<rgba32float, write>;
+
+const FILTER_DIFFUSE: u32 = 0u;
+const FILTER_SPECULAR: u32 = 1u;
+
+const FILTER_NOISE_STD: f32 = 1.5;
+const FILTER_OFF_PLANE: f32 = 0.01;
+const FILTER_NORMAL_POWER: f32 = 64.0;
+const FILTER_MIRROR_STEP_PX: f32 = 1.0;
+const FILTER_ROUGH_STEP_PX: f32 = 40.0;
+const FILTER_VARIANCE_PX: i32 = 2;
+// Pixels that are less alike do not count.
+const FILTER_LEAST_ALIKE: f32 = 1e-3;
+
+// What tells whether pixels see the same surface.
+struct Guide {
+    object: u32,                // and 1
+    per_depth: f32,
+    normal: vec3f,
+    roughness: f32,
+}
+
+fn guide_packed(guide: Guide) -> vec4u {
+    return vec4u(guide.object, bitcast<u32>(guide.per_depth), pack2x16snorm(guide.normal.xy), pack2x16snorm(vec2f(guide.normal.z, guide.roughness)));
+}
+
+fn guide_at(pixel: vec2i) -> Guide {
+    let packed = textureLoad(guides, pixel, 0);
+    let rest = unpack2x16snorm(packed.w);
+    return Guide(packed.x, bitcast<f32>(packed.y), vec3f(unpack2x16snorm(packed.z), rest.x), rest.y);
+}
+
+fn is_in(pixel: vec2i) -> bool {
+    return all(pixel >= vec2i(0)) && all(pixel < vec2i(settings.size_px));
+}
+
+// How the reciprocal of depth changes along a step: of both sides the one that changes less, as the other one may lie beyond an edge.
+fn slope_along(own: Guide, pixel: vec2i, step: vec2i) -> f32 {
+    var least = 1e30;
+    for (var side = -1; side <= 1; side += 2) {
+        let there = pixel + side * step;
+        if is_in(there) {
+            let other = guide_at(there);
+            let slope = f32(side) * (other.per_depth - own.per_depth);
+            if other.object == own.object && abs(slope) < abs(least) {
+                least = slope;
+            }
+        }
+    }
+    return select(least, 0.0, least == 1e30);
+}
+
+fn slope_at(own: Guide, pixel: vec2i) -> vec2f {
+    return vec2f(slope_along(own, pixel, vec2i(1, 0)), slope_along(own, pixel, vec2i(0, 1)));
+}
+
+// How much a pixel so many steps away sees the same surface, from 0 to 1.
+fn alike(own: Guide, slope: vec2f, other: Guide, step: vec2i) -> f32 {
+    if all(step == vec2i(0)) {
+        return 1.0;
+    }
+    let cosine = dot(own.normal, other.normal);
+    if own.object != other.object || own.object == 0u || cosine <= 0.5 {
+        return 0.0;
+    }
+    let on_plane = own.per_depth + dot(slope, vec2f(step));
+    let off = abs(other.per_depth - on_plane) / (own.per_depth * FILTER_OFF_PLANE);
+    return pow(cosine, FILTER_NORMAL_POWER) / (1.0 + off * off);
+}
+
+fn layer_at(at: u32) -> FoundLight {
+    if settings.layer == FILTER_DIFFUSE {
+        return film_found[at].diffuse;
+    }
+    if settings.layer == FILTER_SPECULAR {
+        return film_found[at].specular;
+    }
+    return film_found[at].scratches;
+}
+
+// Of the mean of as many numbers as there are rounds; 0 of one, which tells nothing of it.
+fn variance_of(moments: array<f32, 2>) -> f32 {
+    let count = f32(settings.rounds);
+    return select(0.0, max((moments[1] - moments[0] * moments[0] / count) / (count * (count - 1.0)), 0.0), settings.rounds > 1u);
+}
+
+// From the film of a band to the textures.
+@compute @workgroup_size(8, 8)
+fn filter_signals(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= settings.size_px.x || id.y >= settings.rows {
+        return;
+    }
+    let at = id.y * settings.size_px.x + id.x;
+    let pixel = vec2u(id.x, id.y + settings.first_row);
+    let coverage = film.pixels[at].coverage;
+    let depth_m = film.pixels[at].depth_m;
+    let normal = film.pixels[at].normal;
+    let guide = Guide(
+        film_found[at].object,
+        select(0.0, coverage / max(depth_m, 1e-30), depth_m > 0.0),
+        normal * inverseSqrt(max(dot(normal, normal), 1e-30)),
+        film_found[at].roughness / max(coverage, 1.0),
+    );
+    textureStore(guides_out, pixel, guide_packed(guide));
+    let light = layer_at(at);
+    let nothing = vec4f(0.0, 0.0, 0.0, -1.0);
+    let share = found_share(found_rgb(light.weight), found_rgb(light.seen));
+    let is_lit = rgb_luminance(found_rgb(light.open)) > 0.0;
+    textureStore(shares_out, pixel, select(nothing, vec4f(share, variance_of(light.share_moments)), is_lit));
+    let around = found_rgb(light.around);
+    let mean = select(vec3f(0.0), found_rgb(light.bounced) / max(around, vec3f(1e-30)), around > vec3f(0.0));
+    textureStore(bounced_out, pixel, select(nothing, vec4f(mean, variance_of(light.bounced_moments)), rgb_luminance(around) > 0.0));
+}
+
+// What a signal adds to weights, variances, values and squares.
+fn noise_of(signal: vec4f) -> vec4f {
+    let value = rgb_luminance(signal.xyz);
+    return select(vec4f(0.0), vec4f(1.0, signal.w, value, value * value), signal.w >= 0.0);
+}
+
+fn smoothed(own: f32, sums: vec4f) -> f32 {
+    if own < 0.0 || !(sums.x > 0.0) {
+        return own;
+    }
+    let mean = sums.z / sums.x;
+    // A firefly knows that it is one.
+    return select(max(own, sums.y / sums.x), max(sums.w / sums.x - mean * mean, 0.0), settings.rounds < 2u);
+}
+
+// Variances become means over the pixels around; after one round those of the values there.
+@compute @workgroup_size(8, 8)
+fn filter_variances(@builtin(global_invocation_id) id: vec3u) {
+    let pixel = vec2i(id.xy);
+    if !is_in(pixel) {
+        return;
+    }
+    let own = guide_at(pixel);
+    var share = textureLoad(shares, pixel, 0);
+    var light = textureLoad(bounced, pixel, 0);
+    if own.object != 0u {
+        let slope = slope_at(own, pixel);
+        var share_sums = vec4f(0.0);
+        var light_sums = vec4f(0.0);
+        for (var y = -FILTER_VARIANCE_PX; y <= FILTER_VARIANCE_PX; y += 1) {
+            for (var x = -FILTER_VARIANCE_PX; x <= FILTER_VARIANCE_PX; x += 1) {
+                let there = pixel + vec2i(x, y);
+                if !is_in(there) {
+                    continue;
+                }
+                let weight = alike(own, slope, guide_at(there), vec2i(x, y));
+                if weight >= FILTER_LEAST_ALIKE {
+                    share_sums += weight * noise_of(textureLoad(shares, there, 0));
+                    light_sums += weight * noise_of(textureLoad(bounced, there, 0));
+                }
+            }
+        }
+        share.w = smoothed(share.w, share_sums);
+        light.w = smoothed(light.w, light_sums);
+    }
+    textureStore(shares_out, id.xy, share);
+    textureStore(bounced_out, id.xy, light);
+}
+
+// The weight of a signal for a pixel's own.
+fn weight_of(own: vec4f, other: vec4f, alike: f32) -> f32 {
+    if own.w < 0.0 || other.w < 0.0 {
+        return 0.0;
+    }
+    let difference = rgb_luminance(own.xyz - other.xyz);
+    let noise = (own.w + other.w) * (2.0 * FILTER_NOISE_STD * FILTER_NOISE_STD);
+    return select(alike * exp(-difference * difference / max(noise, 1e-20)), alike, difference == 0.0);
+}
+
+// Adds a signal to values and variance.
+fn weighed(signal: vec4f, weight: f32) -> vec4f {
+    return vec4f(weight * signal.xyz, weight * weight * signal.w);
+}
+
+fn mean_of(own: vec4f, sum: vec4f, weights: f32) -> vec4f {
+    let per_weight = 1.0 / max(weights, 1e-30);
+    return select(own, sum * vec4f(vec3f(per_weight), per_weight * per_weight), weights > 0.0);
+}
+
+// One of the passes with steps of 1, 2, 4 pixels and so on.
+@compute @workgroup_size(8, 8)
+fn filter_step(@builtin(global_invocation_id) id: vec3u) {
+    let pixel = vec2i(id.xy);
+    if !is_in(pixel) {
+        return;
+    }
+    let own = guide_at(pixel);
+    let share = textureLoad(shares, pixel, 0);
+    let light = textureLoad(bounced, pixel, 0);
+    let reaches = settings.layer != FILTER_SPECULAR || f32(settings.step) <= FILTER_MIRROR_STEP_PX + FILTER_ROUGH_STEP_PX * own.roughness;
+    if (share.w <= 0.0 && light.w <= 0.0) || own.object == 0u || !reaches {
+        textureStore(shares_out, id.xy, share);
+        textureStore(bounced_out, id.xy, light);
+        return;
+    }
+    let slope = slope_at(own, pixel);
+    var share_sum = vec4f(0.0);
+    var light_sum = vec4f(0.0);
+    var weights = vec2f(0.0);
+    for (var i = 0; i < 9; i += 1) {
+        let tap = vec2i(i % 3, i / 3) - 1;
+        let step = tap * i32(settings.step);
+        let there = pixel + step;
+        if !is_in(there) {
+            continue;
+        }
+        let same = alike(own, slope, guide_at(there), step);
+        if same < FILTER_LEAST_ALIKE {
+            continue;
+        }
+        // The B-spline.
+        let weight = same * f32((2 - abs(tap.x)) * (2 - abs(tap.y))) / 16.0;
+        let other_share = textureLoad(shares, there, 0);
+        let of_share = weight_of(share, other_share, weight);
+        share_sum += weighed(other_share, of_share);
+        let other_light = textureLoad(bounced, there, 0);
+        let of_light = weight_of(light, other_light, weight);
+        light_sum += weighed(other_light, of_light);
+        weights += vec2f(of_share, of_light);
+    }
+    textureStore(shares_out, id.xy, mean_of(share, share_sum, weights.x));
+    textureStore(bounced_out, id.xy, mean_of(light, light_sum, weights.y));
+}
+
+// From the textures to the film of a band.
+@compute @workgroup_size(8, 8)
+fn filter_film(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= settings.size_px.x || id.y >= settings.rows {
+        return;
+    }
+    let at = id.y * settings.size_px.x + id.x;
+    let pixel = vec2u(id.x, id.y + settings.first_row);
+    let own = layer_at(at);
+    let light = found_rgb(own.open) * textureLoad(shares, pixel, 0).xyz + found_rgb(own.around) * textureLoad(bounced, pixel, 0).xyz;
+    if settings.layer == FILTER_DIFFUSE {
+        film.pixels[at].base = found_rgb(film_found[at].rest) + light;
+    } else if settings.layer == FILTER_SPECULAR {
+        film.pixels[at].base += light;
+    } else {
+        film.pixels[at].scratches = light;
+    }
+}

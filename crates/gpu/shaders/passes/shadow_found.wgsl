@@ -1,0 +1,68 @@
+// Pass: what rays found of each sample, from sums over rounds to light, with what layers take of one another. A workgroup a group. Twins:
+// cpu/src/found.rs, cpu/src/resolve.rs.
+
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> base_light: array<BaseLight>;
+@group(3) @binding(2) var<storage, read_write> found: array<FoundRays>;
+// 3 and 4: sums.wgsl.
+@group(3) @binding(5) var<storage, read_write> film: Film;
+@group(3) @binding(6) var<uniform> shadow_round: ShadowRound;
+
+// A layer whose closed form is `open`, of which the share `kept` reaches the viewer. That of the base knows what it sends of light from all around.
+fn finish(i: u32, is_base: bool, open: vec3f, kept: vec3f) {
+    let per_round = 1.0 / f32(shadow_round.rounds);
+    var weight = found[i].weight * per_round;
+    var seen = found[i].seen * per_round;
+    if all(weight == vec3f(0.0)) {
+        // No ray went to what lights it.
+        weight = open;
+        seen = open;
+    }
+    var around = found[i].around;
+    var bounced = found[i].bounced * per_round;
+    if is_base {
+        let per_around = select(0.0, 1.0 / max(rgb_luminance(around), 1e-30), rgb_luminance(around) > 0.0);
+        found[i].bounced_moments *= vec2f(per_around, per_around * per_around);
+    } else {
+        around *= per_round;
+        // Each ray has a colour of its own; weighed by it, even light looks as all scratches send it together.
+        bounced = select(vec3f(0.0), around * found[i].bounced / max(found[i].open, vec3f(1e-30)), found[i].open > vec3f(0.0));
+    }
+    found[i].open = found_finite(open * kept);
+    found[i].weight = found_finite(weight * kept);
+    found[i].seen = found_finite(seen * kept);
+    found[i].around = found_finite(around * kept);
+    found[i].bounced = max(found_finite(bounced * kept), vec3f(0.0));
+}
+
+@compute @workgroup_size(8, 8)
+fn shadow_found(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    if points[at].object == 0u {
+        return;
+    }
+    var taken = vec3f(0.0);
+    if HAS_SCRATCHES {
+        // Another sample of the pixel may have its scratches.
+        let by = pixel_scratched(points[at], at);
+        let sums = sample_sums_of(by, at, group, lane);
+        if sums.cut > 0u {
+            atomicAdd(&film.gave_up, sums.cut);
+        }
+        // What would be left of scratches of radiance 1.
+        let even = ScratchSums(sums.all.share, sums.all.share_by_line, vec3f(1.0), sums.all.energy);
+        let left = masked(even, objects[points[at].object - 1u].depth_coherence);
+        taken = left.taken;
+        finish(found_at(at, FOUND_SCRATCHES), false, sums.all.radiance, left.scratches * base_light[by].fresnel);
+    }
+    let gratings = grating_sums(group, lane);
+    if HAS_GRATINGS {
+        finish(found_at(at, FOUND_GRATINGS), false, gratings.scratches, 1.0 - taken);
+    }
+    finish(found_at(at, FOUND_SPECULAR), true, base_light[at].specular, 1.0 - under_scratches(gratings, taken).taken);
+    finish(found_at(at, FOUND_BODY), true, base_light[at].body, vec3f(1.0));
+}
