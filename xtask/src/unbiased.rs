@@ -270,7 +270,7 @@ Made by
 
 from six scenes of 48 x 32 pixels in `tests/shadows`, with the linear mask. It is what these commands do, scene by scene:
 
-    hairline render tests/shadows/edge.toml --shadows on --bounces 1 --samples 64 --mask linear --firefly-filter off -o a.exr
+    hairline render tests/shadows/edge.toml --shadows on --bounces 1 --samples 64 --mask linear --filter off -o a.exr
     hairline reference tests/shadows/edge.toml --shadows on --bounces 1 --spp 1024 --mask linear -o b.exr
     hairline compare a.exr b.exr
 

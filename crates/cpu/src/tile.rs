@@ -67,14 +67,13 @@ struct Point<'a> {
     rounds: Rounds,
     seen: Seen<'a>,
     scratches: Shared,
-    /// Where its scratches are seen, if that is elsewhere or by another filter.
+    /// As its scratches are seen, where that is by another filter.
     wide: Option<Wide<'a>>,
 }
 
-/// A point of a pixel with the pixel's whole filter.
+/// A sample's surface through the pixel's whole filter.
 struct Wide<'a> {
     point: SurfacePoint<'a>,
-    at_px: DVec2,
     std_px: f64,
 }
 
@@ -133,7 +132,7 @@ impl<'a> Point<'a> {
             at.point = &wide.point;
             at.pixel = Some(PixelFilter {
                 camera,
-                at_px: wide.at_px,
+                at_px: self.at_px,
                 std_px: wide.std_px,
             });
         }
@@ -293,20 +292,14 @@ impl<'a> Tile<'a> {
                 let hit = rays.intersect(triangles, camera, at_px, direction, coverage);
                 self.add(column, row, pixel, at_px, samples, hit);
             }
-            self.share_scratches(in_batch, [x, y]);
+            self.share_scratches(in_batch, center(x, y));
         }
     }
 
     /// Has one sample stand for the scratches of all that see the same surface, of those of a pixel from `first` on: the one nearest to the
     /// pixel's middle, with the pixel's whole filter. Scratches are most of the work, and a pixel without an edge has them once, too.
-    fn share_scratches(&mut self, first: usize, [x, y]: [usize; 2]) {
-        let picture = self.picture;
-        let prepared = picture.prepared;
-        let middle_px = center(x, y);
-        let middle = || {
-            let hit = picture.visibility.hit(x, y)?;
-            Some(picture.surface(middle_px, 1, Some(*hit)))
-        };
+    fn share_scratches(&mut self, first: usize, middle_px: DVec2) {
+        let prepared = self.picture.prepared;
         let filter = prepared.scene.render.filter_std_px;
         // Samples come in pairs that lie as far from it: the first one is taken, however their places are rounded.
         let off = |point: &Point| (1e9 * point.at_px.distance_squared(middle_px)).round();
@@ -332,30 +325,16 @@ impl<'a> Tile<'a> {
                 None => leaders.push(i),
             }
         }
-        let all = (self.batch.len() - first) as u32;
         for leader in leaders {
             let point = &mut self.batch[leader];
-            let (Shared::Among(samples @ 2..), Seen::Surface { point: at, .. }) =
+            if let (Shared::Among(2..), Seen::Surface { point: at, .. }) =
                 (point.scratches, &point.seen)
-            else {
-                continue;
-            };
-            // Where all samples see one surface, so does the pixel's middle.
-            let seen = if samples == all { middle() } else { None };
-            point.wide = Some(match seen {
-                Some(Seen::Surface {
-                    point: of_middle, ..
-                }) => Wide {
-                    point: of_middle,
-                    at_px: middle_px,
-                    std_px: filter,
-                },
-                _ => Wide {
+            {
+                point.wide = Some(Wide {
                     point: at.with_footprint_of(filter / point.std_px),
-                    at_px: point.at_px,
                     std_px: filter,
-                },
-            });
+                });
+            }
         }
     }
 
@@ -442,7 +421,7 @@ impl<'a> Tile<'a> {
                         Some(ScratchPoint {
                             point: point.scratched(at),
                             object: hit.object,
-                            at_px: point.wide.as_ref().map_or(point.at_px, |it| it.at_px),
+                            at_px: point.at_px,
                             views,
                             index,
                         })
