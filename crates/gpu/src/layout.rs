@@ -15,6 +15,10 @@ pub(crate) const VERTEX_BITANGENT_FLIPPED: u32 = 0x8000_0000;
 /// Where the pixels of a film begin in its buffer, bytes. A count comes first: invocations whose loops were cut short.
 pub(crate) const FILM_PIXELS_OFFSET: u64 = 16;
 
+/// Name, size, and name and offset of each member.
+#[cfg(test)]
+type HostStruct = (&'static str, usize, Vec<(&'static str, usize)>);
+
 macro_rules! shared {
     ($($(#[$doc:meta])* $name:ident { $($member:ident: $type:ty,)* })*) => {
         $(
@@ -27,9 +31,9 @@ macro_rules! shared {
             }
         )*
 
-        /// Size, and name and offset of each member, of every struct.
+        /// Every struct.
         #[cfg(test)]
-        fn host_structs() -> Vec<(&'static str, usize, Vec<(&'static str, usize)>)> {
+        fn host_structs() -> Vec<HostStruct> {
             vec![$((
                 stringify!($name),
                 size_of::<$name>(),
@@ -338,7 +342,7 @@ mod tests {
     use naga::{Module, TypeInner};
 
     /// Those of this crate and those that a film holds for another one.
-    fn all_host_structs() -> Vec<(&'static str, usize, Vec<(&'static str, usize)>)> {
+    fn all_host_structs() -> Vec<HostStruct> {
         let mut all = host_structs();
         all.push(of_image!(FoundLight {
             open,

@@ -100,17 +100,17 @@ fn what_rays_find_is_what_the_cpus_find() {
 /// The same on edges, whose samples share scratches, and rays by way of these.
 #[test]
 fn on_edges_rays_find_what_the_cpus_find() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/pan.toml");
-    let scene = middle_of(Scene::load(&path).unwrap(), 1280, [96, 64]);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/lid.toml");
+    let scene = middle_of(Scene::load(&path).unwrap(), 1280, [120, 88]);
     let Some(on_gpu) = on_gpu(&scene, 16, Some(1)) else {
         return;
     };
     let on_cpu = bounced(&scene, 16, true, 1);
     let one = closed(&scene, 1, false);
-    let is_edge = |i: usize| one.depth_m[i] != on_cpu.depth_m[i];
-    let edges = (0..one.depth_m.len()).filter(|i| is_edge(*i)).count();
-    assert!(edges > 200, "{edges}");
-    compare_found("edges of the pan", &on_gpu, &on_cpu, &is_edge);
+    let is_edge = |i: usize| one.density[i] != on_cpu.density[i];
+    let edges = (0..one.density.len()).filter(|i| is_edge(*i)).count();
+    assert!(edges > 100, "{edges}");
+    compare_found("edges of the lid", &on_gpu, &on_cpu, &is_edge);
 }
 
 /// Bound: four standard deviations of the mean, which the differences of the pixels tell, and half a percent for single precision and for what the

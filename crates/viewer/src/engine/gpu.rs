@@ -6,7 +6,7 @@ use std::time::Duration;
 use egui::ColorImage;
 use hairline_gpu::canvas::Canvas;
 use hairline_gpu::{AdapterKind, Error, Gpu, GpuScene, PassTime, RenderOptions, Renderer};
-use hairline_image::{Batch, Image};
+use hairline_image::{Batch, Image, filter_found};
 use hairline_index::method::Method;
 use hairline_scene::{DEFAULT_SAMPLES, Transport};
 use web_time::Instant;
@@ -23,7 +23,7 @@ use crate::reading::{Findings, develop};
 /// Pixels of one submission on a software driver, between two looks at whether something newer is wanted.
 const SOFTWARE_BAND_PX: u32 = 1 << 16;
 /// On a GPU: well below what any system takes for hung.
-const HARDWARE_BAND_PX: u32 = 1 << 21;
+const HARDWARE_BAND_PX: u32 = 1 << 20;
 /// Samples on edges; fewer of them are no better than the one sample through the pixels' centres that came before.
 const FEWEST_SHOWN: u32 = 4;
 /// Between two pictures of one that becomes finer.
@@ -88,7 +88,9 @@ impl GpuEasel {
         let picture = if let Some((mean, _)) = &self.mean {
             developed(mean)
         } else if order.view.reading.needs_layers() {
-            developed(&canvas.image().await?)
+            let mut image = canvas.image().await?;
+            filter_found(&mut image);
+            developed(&image)
         } else if self.is_shared {
             let view = target(&gpu, size_px).await?;
             self.renderer
