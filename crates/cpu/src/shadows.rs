@@ -79,6 +79,8 @@ pub(crate) struct PixelFilter<'p> {
     pub camera: &'p CameraFrame,
     pub at_px: DVec2,
     pub std_px: f64,
+    /// Whether there is no edge near the pixel: nothing else hides what it averages.
+    pub is_smooth: bool,
 }
 
 /// What the random numbers of a ray are for. Each has four.
@@ -183,13 +185,21 @@ impl<'a> Shadows<'a> {
             camera,
             at_px,
             std_px,
+            is_smooth,
         }) = at.pixel
         else {
             return at.point.raised_m;
         };
-        let ray = camera.camera_ray(at_px + DVec2::from(stds) * std_px);
+        let beside_px = DVec2::from(stds) * std_px;
+        let ray = camera.camera_ray(at_px + beside_px);
         let (from_m, direction) = (camera.position_m, ray.normalize());
-        match self.near_hit(at, from_m, direction) {
+        // The pixels around see the same surface; what lies beyond them may be hidden.
+        let is_near = is_smooth && beside_px.abs().max_element() < 1.0;
+        let on_triangle = || (self.on_triangle(at, from_m, direction)).filter(|_| is_near);
+        let triangles = &self.prepared.triangles;
+        let hit =
+            on_triangle().or_else(|| triangles.intersect_object(at.object, from_m, direction));
+        match hit {
             Some(hit) => {
                 let position_m = from_m + direction * hit.distance_m;
                 raised_m(self.prepared.scene, position_m, -direction, &hit)
@@ -198,21 +208,19 @@ impl<'a> Shadows<'a> {
         }
     }
 
-    /// Where a ray of the camera beside that of a point meets the point's object: mostly on the same triangle.
-    fn near_hit(&self, at: &ShadowPoint, from_m: DVec3, direction: DVec3) -> Option<Hit> {
+    /// Where a ray of the camera beside that of a point meets the point's triangle, as most do.
+    fn on_triangle(&self, at: &ShadowPoint, from_m: DVec3, direction: DVec3) -> Option<Hit> {
         let (object, triangle) = (at.object, at.point.triangle);
         let mesh = &self.prepared.scene.objects[object as usize].mesh;
         let corners = mesh.triangles[triangle as usize];
         let corners_m = corners.map(|i| mesh.positions_m[i as usize].as_dvec3());
-        match intersect_triangle(from_m, direction, &corners_m) {
-            Some((distance_m, barycentric)) => Some(Hit {
-                object,
-                triangle,
-                distance_m,
-                barycentric,
-            }),
-            None => (self.prepared.triangles).intersect_object(object, from_m, direction),
-        }
+        let (distance_m, barycentric) = intersect_triangle(from_m, direction, &corners_m)?;
+        Some(Hit {
+            object,
+            triangle,
+            distance_m,
+            barycentric,
+        })
     }
 
     /// Where a ray starts that must not meet the surface that it leaves.

@@ -63,6 +63,8 @@ struct Point<'a> {
     at_px: DVec2,
     /// Of its filter.
     std_px: f64,
+    /// Whether its pixel has no edge.
+    is_smooth: bool,
     /// Rays to each light.
     rounds: Rounds,
     seen: Seen<'a>,
@@ -103,6 +105,7 @@ impl<'a> Point<'a> {
                 camera,
                 at_px: self.at_px,
                 std_px: self.std_px,
+                is_smooth: self.is_smooth,
             }),
             views,
             rounds: self.rounds,
@@ -134,6 +137,7 @@ impl<'a> Point<'a> {
                 camera,
                 at_px: self.at_px,
                 std_px: wide.std_px,
+                is_smooth: self.is_smooth,
             });
         }
         Some(at)
@@ -366,6 +370,7 @@ impl<'a> Tile<'a> {
             pixel,
             at_px,
             std_px,
+            is_smooth: samples == 1 && options.samples > 1,
             rounds,
             seen,
             scratches: Shared::Among(1),
@@ -670,12 +675,10 @@ impl<'i> Layers<'i> {
     }
 
     fn set(&mut self, pixel: usize, sample: &Sample) {
-        if let Some(found) = self.found.get_mut(pixel) {
-            *found = sample.found();
-            [self.base[pixel], self.scratches[pixel]] = found.light();
-        } else {
-            let light = sample.light();
-            [self.base[pixel], self.scratches[pixel]] = light.map(|rgb| rgb.as_vec3().to_array());
+        let found = sample.found();
+        [self.base[pixel], self.scratches[pixel]] = found.light();
+        if let Some(kept) = self.found.get_mut(pixel) {
+            *kept = found;
         }
         self.density[pixel] = sample.density.as_vec3().to_array();
         self.depth_m[pixel] = sample.depth_m as f32;

@@ -107,7 +107,9 @@ fn light_by_way_of_objects_is_that_of_the_path_tracer() {
         let reference = sampled(&scene, settings(bounces), 6);
         let image = bounced(&scene, samples, true, bounces);
         let direct = bounced(&scene, 16, true, 0);
-        for (layer, limit) in [(Layer::Base, 0.02), (Layer::Scratches, 0.04)] {
+        // Rows send colours out of gamut, of which no channel may be negative.
+        let of_scratches = if name.contains("rows") { 0.09 } else { 0.04 };
+        for (layer, limit) in [(Layer::Base, 0.02), (Layer::Scratches, of_scratches)] {
             if luminance(&reference, layer).iter().sum::<f64>() == 0.0 {
                 // Of what is seen in a mirror all is its base.
                 continue;

@@ -168,7 +168,12 @@ fn balls_do_not_shade_themselves() {
                 left += with;
                 if around(i).all(|i| facing[i] > 0.08) {
                     before += 1;
-                    assert!(with == without, "{by}, {slices}: {i} {with} {without}");
+                    // A graphics adapter may fuse what it adds up.
+                    let rounding = if by == "CPU" { 0.0 } else { 1e-6 * without };
+                    assert!(
+                        (with - without).abs() <= rounding,
+                        "{by}, {slices}: {i} {with} {without}"
+                    );
                 }
             }
             println!(

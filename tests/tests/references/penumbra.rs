@@ -108,7 +108,7 @@ fn pictures(open: &Scene, scene: &Scene) -> Vec<(&'static str, f64, [Image; 2])>
     let by_cpu = [closed(open, 1, false), closed(scene, 4096, true)];
     let by_gpu = [on_gpu(open, 1, None), on_gpu(scene, 1024, Some(0))];
     let by_gpu = match by_gpu {
-        [Some(open), Some(image)] => Some(("GPU", 6e-3, [open, image])),
+        [Some(open), Some(image)] => Some(("GPU", 7e-3, [open, image])),
         _ => None,
     };
     [("CPU", 4e-3, by_cpu)].into_iter().chain(by_gpu).collect()
@@ -160,7 +160,7 @@ fn penumbras_are_those_of_what_is_seen_of_a_lamp() {
             let mean = errors.sum::<f64>() / count;
             println!("{by}: rms {rms:.5}, mean {mean:+.5}: {}", lamp.keys);
             assert!(
-                rms < bound && mean.abs() < 1.5e-3,
+                rms < bound && mean.abs() < 0.4 * bound,
                 "{by}: {rms} {mean}: {}",
                 lamp.keys
             );

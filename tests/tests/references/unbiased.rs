@@ -9,7 +9,7 @@ use hairline_image::metrics::Verdict;
 use hairline_scene::{Scene, Transport};
 use hairline_work::backend::Backend;
 
-const SAMPLES: [u32; 3] = [16, 64, 256];
+const SAMPLES: [u32; 3] = [64, 128, 512];
 
 fn picture(scene: &Scene, samples: u32, transport: Transport) -> Image {
     rendered(scene, Backend::Cpu, samples, transport).unwrap_or_else(|error| panic!("{error}"))

@@ -63,8 +63,8 @@ fn the_screen_lights_the_table_from_below() {
     let file = folder.path().join("out.exr");
     let is_there = hairline_gpu::headless::test_gpu().is_some();
     for backend in ["cpu", "gpu"].into_iter().take(1 + usize::from(is_there)) {
-        // From the table to the screen's dark side, and from there to the lit table.
-        let lit = [0, 2].map(|bounces| {
+        // From the table to the screen's dark side, and from there to the table where the lamp is hidden.
+        let [dark, lit] = [0, 2].map(|bounces| {
             let flags =
                 format!("--shadows on --samples 64 --bounces {bounces} --backend {backend}");
             hairline(
@@ -77,10 +77,12 @@ fn the_screen_lights_the_table_from_below() {
                 notes.get("bounces").map(String::as_str),
                 (bounces > 0).then_some("2")
             );
-            image.base.iter().map(|p| f64::from(p[1])).sum::<f64>()
+            image.base
         });
-        // The same rays otherwise: no noise.
-        assert!(lit[1] > lit[0], "{backend}: {lit:?}");
+        let hidden: Vec<_> = (0..dark.len())
+            .filter(|&i| dark[i][1] == 0.0 && lit[i][1] > 0.0)
+            .collect();
+        assert!(hidden.len() > 20, "{backend}: {}", hidden.len());
     }
 }
 
@@ -118,7 +120,7 @@ fn shadows_hold_their_variance_and_closed_forms_have_none() {
     };
     let (image, notes) = render("--shadows on --samples 14");
     let noise = image.noise.unwrap();
-    assert!(noise.samples.iter().all(|&samples| samples == 16));
+    assert!(noise.samples.iter().all(|&samples| samples == 14));
     let uncertain = noise.base.iter().filter(|v| v[1] > 0.0).count();
     let certain = noise.base.iter().filter(|v| v[1] == 0.0).count();
     assert!(uncertain > 50 && certain > 50, "{uncertain} {certain}");

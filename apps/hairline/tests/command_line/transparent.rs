@@ -55,7 +55,7 @@ fn alpha_is_what_hides_the_background() {
         for backend in ["cpu", "gpu"].into_iter().take(1 + usize::from(has_gpu)) {
             let render = |name: &str, flags: &str| {
                 let own = format!(
-                    "--shadows off --bounces 0 --samples 8 --firefly-filter off --backend {backend}"
+                    "--shadows off --bounces 0 --samples 8 --filter off --backend {backend}"
                 );
                 hairline(
                     folder.path(),

@@ -38,8 +38,7 @@ fn a_view_that_stands_still_is_the_picture_that_is_rendered() {
         picture.to_rgb8().into_raw()
     };
     let rendered = render("rendered.png", "");
-    let fireflies = render("fireflies.png", "--firefly-filter off");
-    assert_ne!(rendered, fireflies, "the scene tells nothing of the filter");
+    let unfiltered = render("unfiltered.png", "--filter off");
 
     let description = Description::from_toml(SCENE, "scene.toml".as_ref()).unwrap();
     let engine = Engine::start(Backend::Cpu, Arc::new(|| {}));
@@ -78,5 +77,12 @@ fn a_view_that_stands_still_is_the_picture_that_is_rendered() {
     let shown: Vec<u8> = (pixels.pixels.iter())
         .flat_map(|pixel| [pixel.r(), pixel.g(), pixel.b()])
         .collect();
-    assert_eq!(shown, rendered);
+    // Its rays come in other batches, of which each has samples of its own on edges.
+    let off = |other: &[u8]| {
+        let pairs = shown.iter().zip(other);
+        let squares = pairs.map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2));
+        (squares.sum::<f64>() / shown.len() as f64).sqrt()
+    };
+    let (same, unlike) = (off(&rendered), off(&unfiltered));
+    assert!(same < 3.0 && same < unlike, "{same} {unlike}");
 }

@@ -45,6 +45,11 @@ impl BaseRays {
         self.specular.add(weight.specular, is_seen);
         self.diffuse.add(weight.diffuse, is_seen);
     }
+
+    fn bounce(&mut self, light: BaseRadiance) {
+        self.specular.bounce(light.specular);
+        self.diffuse.bounce(light.diffuse);
+    }
 }
 
 /// A ray by the lobes.
@@ -67,7 +72,7 @@ struct Candidate {
 }
 
 /// Rays that carry a smaller share of their source's light are cast as seldom: they count for more then.
-const FAINT: f64 = 0.1;
+const FAINT: f64 = 0.02;
 
 impl<'a> Shadows<'a> {
     /// What is left of the base's light, and what other objects send.
@@ -92,7 +97,9 @@ impl<'a> Shadows<'a> {
             rays.specular.end_round();
             rays.diffuse.end_round();
         }
-        let probe = || self.sees_highest(at, sources.first().and_then(|it| it.light));
+        let sent = |it: &Source| luminance(it.open.specular + it.open.diffuse);
+        let brightest = sources.iter().max_by(|a, b| sent(a).total_cmp(&sent(b)));
+        let probe = || self.sees_highest(at, brightest.and_then(|it| it.light));
         BaseLight {
             specular: rays.specular.light(probe),
             diffuse: rays.diffuse.light(probe),
@@ -145,15 +152,22 @@ impl<'a> Shadows<'a> {
             taken = Some((None, around));
         }
         let (light, bound) = taken?;
-        let open = match light {
-            Some(light) => base.by_light(light, at.views, transformed_sphere),
-            None => environment.map(|it| base.by_environment(it))?,
+        let per_chance = choice.total() / bound;
+        let Some(light) = light else {
+            // One ray cannot tell what hides the dark half of an environment from what hides its bright half: without a closed form it brings what it
+            // sees.
+            return Some(Source {
+                light: None,
+                open: BaseRadiance::default(),
+                per_chance: per_chance * at.point.open,
+            });
         };
+        let open = base.by_light(light, at.views, transformed_sphere);
         let is_lit = open.specular != DVec3::ZERO || open.diffuse != DVec3::ZERO;
-        is_lit.then(|| Source {
-            light,
+        is_lit.then_some(Source {
+            light: Some(light),
             open,
-            per_chance: choice.total() / bound,
+            per_chance,
         })
     }
 
@@ -180,20 +194,17 @@ impl<'a> Shadows<'a> {
                 followed: None,
             }
         });
-        if at.depth < self.options.bounces
-            && let Some(ray) = &mut drawn
-        {
+        let bounces = at.depth < self.options.bounces;
+        if let Some(ray) = drawn.as_mut().filter(|_| bounces || at.depth == 0) {
             let (origin_m, direction) = (ray.origin_m, ray.direction);
             let hit = self.prepared.triangles.intersect_solid(origin_m, direction);
             ray.followed = Some(hit);
-            let each_sr = 1.0 / (f64::from(at.rounds.all) * ray.pdf);
-            if let Some(hit) = hit {
+            if let Some(hit) = hit.filter(|_| bounces) {
+                let each_sr = 1.0 / (f64::from(at.rounds.all) * ray.pdf);
                 let ray_number = 2 * round;
                 let brought =
                     self.light_of_object(at, ray_number, origin_m, direction, hit, each_sr, rooms);
-                let light = ray.sent.times(brought / ray.pdf);
-                rays.specular.bounce(light.specular);
-                rays.diffuse.bounce(light.diffuse);
+                rays.bounce(ray.sent.times(brought / ray.pdf));
             }
         }
         for source in sources {
@@ -206,8 +217,14 @@ impl<'a> Shadows<'a> {
             let followed = drawn.as_ref().and_then(|ray| ray.followed);
             let [_, _, _, chance] = at.random(Purpose::of_source(source.light), round);
             let sees = |it: &Candidate| self.sees(point, on_surface_m, it.direction, it.distance_m);
+            let has_closed_form = at.depth == 0 || source.light.is_some();
             let mut add = |it: &Candidate, factor: f64, is_seen: bool| {
-                rays.add(it.weight.times(DVec3::splat(factor * per_chance)), is_seen);
+                let weight = it.weight.times(DVec3::splat(factor * per_chance));
+                if has_closed_form {
+                    rays.add(weight, is_seen);
+                } else if is_seen {
+                    rays.bounce(weight);
+                }
             };
             match (followed, to_source, by_lobes) {
                 // Who has followed the ray by the lobes knows what it meets; the other one is cast if it carries enough.
@@ -218,7 +235,11 @@ impl<'a> Shadows<'a> {
                     }
                     if let Some(it) = to_source {
                         let all = luminance(source.open.specular + source.open.diffuse);
-                        let share = (sent(&it) / (FAINT * all)).min(1.0);
+                        let share = if all > 0.0 {
+                            (sent(&it) / (FAINT * all)).min(1.0)
+                        } else {
+                            1.0
+                        };
                         if chance < share {
                             add(&it, 1.0 / share, sees(&it));
                         }

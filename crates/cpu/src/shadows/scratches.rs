@@ -52,9 +52,11 @@ impl<'a> Shadows<'a> {
             rays.end_round();
         }
         let around = picks.energy * brought.per_energy();
-        let mut light = rays.light(|| self.sees_highest(at, None));
+        let first = picks.lit.get(0);
+        let source = first.and_then(|pick| at.views.light_of(pick.source));
+        let mut light = rays.light(|| self.sees_highest(at, source.map(|light| light as u32)));
         light.around = around;
-        light.bounced = around * brought.mean();
+        light.bounced = in_gamut(around * brought.mean());
         light
     }
 
@@ -146,27 +148,55 @@ struct Brought {
     /// The parts of `sent` from the directions that were drawn, and these times the light from there.
     colors: DVec3,
     light: DVec3,
+    /// The most light that a ray brought.
+    most: DVec3,
 }
 
 impl Brought {
     fn add(&mut self, pick: &Pick, sent: DVec3, color: DVec3, light: DVec3) {
         let per_luminance = 1.0 / luminance(pick.radiance);
-        let color = (per_luminance * sent * color).max(DVec3::ZERO);
+        // Below 0 in channels where a colour is out of gamut; the sum of many is not.
+        let color = per_luminance * sent * color;
         self.sent += per_luminance * sent;
         self.energy += per_luminance * pick.radiance;
         self.colors += color;
         self.light += color * light;
+        self.most = self.most.max(light);
     }
 
     /// What is sent of light from all around for each unit of energy.
     fn per_energy(&self) -> DVec3 {
-        over(self.sent, self.energy)
+        over(self.sent, self.energy).max(DVec3::ZERO)
     }
 
-    /// The mean light. Each ray has a colour of its own; weighed by it, even light looks as all scratches send it together.
+    /// The mean light. Each ray has a colour of its own; weighed by it, even light looks as all scratches send it together. Where few rays have a
+    /// channel, luminance speaks for it.
     fn mean(&self) -> DVec3 {
-        over(self.light, self.colors)
+        let of_all = luminance(self.light) / luminance(self.colors).max(1e-300);
+        let mean = DVec3::select(
+            self.colors.cmpgt(LEAST_COLOR * self.sent),
+            over(self.light, self.colors),
+            DVec3::splat(of_all),
+        );
+        mean.clamp(-MOST_COLOR * self.most, MOST_COLOR * self.most)
     }
+}
+
+/// The part of a channel's weight that rays must have for its mean to be told, and the times by which colours may lift a channel beyond the most
+/// light that a ray brought.
+const LEAST_COLOR: f64 = 0.2;
+const MOST_COLOR: f64 = 4.0;
+
+/// A colour of the same luminance without a channel below 0.
+fn in_gamut(color: DVec3) -> DVec3 {
+    let (all, least) = (luminance(color), color.min_element());
+    if all <= 0.0 {
+        return DVec3::ZERO;
+    }
+    if least >= 0.0 {
+        return color;
+    }
+    (DVec3::splat(all) + (color - all) * (all / (all - least))).max(DVec3::ZERO)
 }
 
 /// 0 where there is nothing to take a part of.
@@ -177,5 +207,4 @@ fn over(part: DVec3, all: DVec3) -> DVec3 {
         part / DVec3::select(is_there, all, DVec3::ONE),
         DVec3::ZERO,
     )
-    .max(DVec3::ZERO)
 }

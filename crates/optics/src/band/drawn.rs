@@ -1,7 +1,7 @@
 //! A direction of a light's chords, drawn in proportion to what the scratch sends from there.
 
-/// Steps that find a place: within a fringe of the widest scratches.
-const STEPS: u32 = 10;
+/// Halvings of an interval that find a place: within a fringe of the widest scratches.
+const HALVINGS: u32 = 14;
 /// Half the length of the interval about it, over that of the part of the line: a derivative of what comes from there.
 const SHORT: f64 = 3e-8;
 
@@ -68,24 +68,15 @@ impl DrawnChord {
             }
             let target = antiderivative(low) + left;
             let short = (high - low) * SHORT;
-            let (mut below, mut above) = (-left, (sent - left).max(0.0));
-            // The Illinois variant of false position (M. Dowell, P. Jarratt, 1971).
-            for _ in 0..STEPS {
-                if !(above > below) {
-                    break;
-                }
-                let at = (low * above - high * below) / (above - below);
-                let off = antiderivative(at) - target;
-                if off < 0.0 {
-                    (low, below) = (at, off);
-                    above *= 0.5;
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (low + high);
+                if antiderivative(middle) < target {
+                    low = middle;
                 } else {
-                    (high, above) = (at, off);
-                    below *= 0.5;
+                    high = middle;
                 }
             }
-            let at = if -below < above { low } else { high };
-            (low, high) = (at - short, at + short);
+            (low, high) = (low - short, high + short);
             return Some((low, high));
         }
         None
