@@ -16,6 +16,18 @@ pub(crate) struct HitRoom<'a> {
     picks: Picks,
 }
 
+/// A ray that has met an object.
+pub(crate) struct MetObject {
+    pub origin_m: DVec3,
+    /// Unit vector.
+    pub direction: DVec3,
+    pub hit: Hit,
+    /// That the ray stands for.
+    pub solid_angle_sr: f64,
+    /// Of the rays of a point; another one for each of a batch.
+    pub number: u32,
+}
+
 impl<'a> Shadows<'a> {
     /// Room for a thread.
     pub fn rooms(&self) -> Vec<HitRoom<'a>> {
@@ -31,13 +43,16 @@ impl<'a> Shadows<'a> {
     pub(crate) fn light_of_object(
         &self,
         at: &ShadowPoint,
-        ray: u32,
-        origin_m: DVec3,
-        direction: DVec3,
-        hit: Hit,
-        solid_angle_sr: f64,
+        met: &MetObject,
         rooms: &mut [HitRoom<'a>],
     ) -> DVec3 {
+        let MetObject {
+            origin_m,
+            direction,
+            hit,
+            solid_angle_sr,
+            number,
+        } = *met;
         let Some((HitRoom { views, picks }, rooms)) = rooms.split_first_mut() else {
             return DVec3::ZERO;
         };
@@ -57,7 +72,7 @@ impl<'a> Shadows<'a> {
         let scratches_m = width(0.0).min(point.coherence_um * 1e-6);
         point.footprint_axes_m = across(point.normal, scratches_m);
         views.look_from(&point);
-        let ray = 2 * at.rounds.now.first + ray;
+        let ray = 2 * at.rounds.now.first + number;
         let seed = (at.seed ^ ray.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) ^ at.depth;
         let is_scratched = self.prepared.draft.is_none() && self.prepared.is_scratched(&hit);
         let has_gratings = self.prepared.has_gratings(&hit);

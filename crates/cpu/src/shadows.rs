@@ -9,7 +9,7 @@
 //! (E. Heitz, S. Hill, M. McGuire, *Combining Analytic Direct Illumination and Stochastic Shadows*, 2018). It lies between 0 and F. Where all rays
 //! see their source, or none does, there is no noise at all.
 
-pub(crate) use crate::bounces::HitRoom;
+pub(crate) use crate::bounces::{HitRoom, MetObject};
 use crate::light_view::LightViews;
 use crate::options::RenderOptions;
 use crate::prepared::Prepared;

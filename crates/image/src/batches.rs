@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use crate::{Image, Noise};
+use crate::{Image, Noise, filter_found};
 
 /// Samples in a batch of [`Batches`] whose pictures are averaged.
 pub const BATCH_SAMPLES: u32 = 4;
@@ -81,6 +81,9 @@ pub struct Batches {
     done: u32,
     /// Batches.
     added: u32,
+    /// Whether what rays found adds up; else pictures are averaged.
+    adds_found: bool,
+    is_filtered: bool,
 }
 
 impl Batches {
@@ -90,8 +93,16 @@ impl Batches {
             image: None,
             samples: samples.max(1),
             size: BATCH_ROUNDS,
-            done: 0,
-            added: 0,
+            adds_found: true,
+            ..Self::new(samples)
+        }
+    }
+
+    /// Averages pictures as they are: see [`Self::add`].
+    pub fn unfiltered(self) -> Self {
+        Self {
+            is_filtered: false,
+            ..self
         }
     }
 
@@ -104,6 +115,8 @@ impl Batches {
             size,
             done: 0,
             added: 0,
+            adds_found: false,
+            is_filtered: true,
         }
     }
 
@@ -156,11 +169,18 @@ impl Batches {
         self.image
     }
 
-    /// Adds the batch that was next: a picture of its samples alone.
+    /// Adds the batch that was next: a picture of its samples alone. Pictures that are averaged, as those of the points of a lens, see other edges
+    /// each: they are filtered by themselves, unless [`Self::unfiltered`] was asked for.
     ///
     /// # Panics
     /// If it has another size than those before it.
-    pub fn add(&mut self, batch: Image) {
+    pub fn add(&mut self, mut batch: Image) {
+        if !self.adds_found {
+            if self.is_filtered {
+                filter_found(&mut batch);
+            }
+            batch.found = None;
+        }
         let found = batch.found.as_ref().map(|found| found.rounds);
         let before = self.added;
         self.added += 1;

@@ -259,8 +259,8 @@ impl Sum {
         } else {
             weight * (-difference * difference / noise.max(1e-20)).exp()
         };
-        for c in 0..3 {
-            self.values[c] += weight * other[c];
+        for (sum, value) in self.values.iter_mut().zip(other) {
+            *sum += weight * value;
         }
         self.variance += weight * weight * other[3];
         self.weights += weight;

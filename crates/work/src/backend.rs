@@ -206,18 +206,12 @@ impl<'a> Painter<'a> {
             return self.render_direct(scene, is_stopped, progress);
         };
         let wanted = batches.samples();
-        // Each point of a lens has a picture of its own, with edges of its own.
-        let has_lens = scene.camera.has_lens();
         let is_filtered = self.task.is_filtered;
+        if !is_filtered {
+            batches = batches.unfiltered();
+        }
         batches.fill(progress, |batch, progress| {
-            let mut image = self.render_batch(scene, wanted, Some(batch), is_stopped, progress)?;
-            if let Some(image) = image.as_mut().filter(|_| has_lens) {
-                if is_filtered {
-                    filter_found(image);
-                }
-                image.found = None;
-            }
-            Ok::<_, Failure>(image)
+            self.render_batch(scene, wanted, Some(batch), is_stopped, progress)
         })?;
         let samples = batches.done();
         let mut image = batches.into_image().ok_or_else(|| {

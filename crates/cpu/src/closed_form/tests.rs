@@ -222,7 +222,7 @@ fn screened() -> Scene {
 /// The mean of all batches, and that of the first ones.
 fn added_up(scene: &Scene, samples: u32, batches: u32) -> Image {
     let prepared = Prepared::new(scene);
-    let mut sum = Batches::new(samples);
+    let mut sum = Batches::new(samples).unfiltered();
     let rows = 0..scene.render.size_px[1];
     let added = sum.fill(&|_| {}, |batch, progress| {
         let options = RenderOptions {

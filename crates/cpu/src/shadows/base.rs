@@ -2,7 +2,7 @@
 //! multiple importance sampling (E. Veach, 1997).
 
 use super::lobes::Lobes;
-use super::{HitRoom, Purpose, ShadowPoint, Shadows, normals};
+use super::{HitRoom, MetObject, Purpose, ShadowPoint, Shadows, normals};
 use crate::found::{LayerLight, LayerRays};
 use crate::light_view::LightViews;
 use crate::sampling::lights::LightHit;
@@ -200,10 +200,14 @@ impl<'a> Shadows<'a> {
             let hit = self.prepared.triangles.intersect_solid(origin_m, direction);
             ray.followed = Some(hit);
             if let Some(hit) = hit.filter(|_| bounces) {
-                let each_sr = 1.0 / (f64::from(at.rounds.all) * ray.pdf);
-                let ray_number = 2 * round;
-                let brought =
-                    self.light_of_object(at, ray_number, origin_m, direction, hit, each_sr, rooms);
+                let met = MetObject {
+                    origin_m,
+                    direction,
+                    hit,
+                    solid_angle_sr: 1.0 / (f64::from(at.rounds.all) * ray.pdf),
+                    number: 2 * round,
+                };
+                let brought = self.light_of_object(at, &met, rooms);
                 rays.bounce(ray.sent.times(brought / ray.pdf));
             }
         }

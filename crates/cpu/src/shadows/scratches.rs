@@ -1,6 +1,6 @@
 //! Rays by way of scratches and of gratings: in each round one to a source, and one for what other objects send.
 
-use super::{HitRoom, Purpose, ShadowPoint, Shadows, normals};
+use super::{HitRoom, MetObject, Purpose, ShadowPoint, Shadows, normals};
 use crate::found::{LayerLight, LayerRays};
 use crate::sampling::luminance;
 use crate::shade_gratings::ShadedGratings;
@@ -47,7 +47,7 @@ impl<'a> Shadows<'a> {
                 self.to_source(at, &frame, round, pick, weight_of_one, &mut rays);
             }
             if bounces && let Some(pick) = picks.by_energy.get(round) {
-                rays.bounce(self.from_object(at, round, pick, &mut brought, rooms));
+                rays.bounce(self.by_object(at, round, pick, &mut brought, rooms));
             }
             rays.end_round();
         }
@@ -94,7 +94,7 @@ impl<'a> Shadows<'a> {
     }
 
     /// The light of an object by way of a pick.
-    fn from_object(
+    fn by_object(
         &self,
         at: &ShadowPoint,
         round: u32,
@@ -113,7 +113,14 @@ impl<'a> Shadows<'a> {
         let origin_m = self.off_the_surface(point, on_surface_m, direction);
         let hit = self.prepared.triangles.intersect_solid(origin_m, direction);
         let light = hit.map_or(DVec3::ZERO, |hit| {
-            self.light_of_object(at, 2 * round + 1, origin_m, direction, hit, 0.0, rooms)
+            let met = MetObject {
+                origin_m,
+                direction,
+                hit,
+                solid_angle_sr: 0.0,
+                number: 2 * round + 1,
+            };
+            self.light_of_object(at, &met, rooms)
         });
         brought.add(pick, pick.share * sent, drawn.color, light);
         light

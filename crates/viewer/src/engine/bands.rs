@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use hairline_cpu::closed_form::{Prepared, RenderOptions, TILE_PX};
-use hairline_image::{Batch, Image};
+use hairline_image::{Batch, Found, FoundPixel, Image};
 use hairline_scene::{Scene, Transport};
 use web_time::Instant;
 
@@ -200,5 +200,13 @@ pub(crate) fn put_rows(image: &mut Image, pixels: Range<usize>, part: &Image) {
     image.scratches[pixels.clone()].copy_from_slice(&part.scratches);
     image.density[pixels.clone()].copy_from_slice(&part.density);
     image.depth_m[pixels.clone()].copy_from_slice(&part.depth_m);
-    image.normal[pixels].copy_from_slice(&part.normal);
+    image.normal[pixels.clone()].copy_from_slice(&part.normal);
+    if let Some(of_part) = &part.found {
+        let count = image.pixel_count();
+        let found = image.found.get_or_insert_with(|| Found {
+            rounds: of_part.rounds,
+            pixels: vec![FoundPixel::default(); count],
+        });
+        found.pixels[pixels].copy_from_slice(&of_part.pixels);
+    }
 }
