@@ -123,7 +123,9 @@ pub fn compare_pixels(
         if difference.not_finite > 0 {
             failures.push(format!("{name}, {}: NaN", layer.name()));
         }
-        if !(percent < 0.5) {
+        // Rounding may put a sample beyond a border of materials, where others share its scratches.
+        let most = if layer == Layer::Density { 1.0 } else { 0.5 };
+        if !(percent < most) {
             failures.push(format!(
                 "{name}, {}: relative rms {percent:.3} %",
                 layer.name()

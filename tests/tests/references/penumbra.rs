@@ -108,7 +108,7 @@ fn pictures(open: &Scene, scene: &Scene) -> Vec<(&'static str, f64, [Image; 2])>
     let by_cpu = [closed(open, 1, false), closed(scene, 4096, true)];
     let by_gpu = [on_gpu(open, 1, None), on_gpu(scene, 1024, Some(0))];
     let by_gpu = match by_gpu {
-        [Some(open), Some(image)] => Some(("GPU", 7e-3, [open, image])),
+        [Some(open), Some(image)] => Some(("GPU", 8e-3, [open, image])),
         _ => None,
     };
     [("CPU", 4e-3, by_cpu)].into_iter().chain(by_gpu).collect()

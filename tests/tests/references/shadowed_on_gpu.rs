@@ -15,10 +15,7 @@ pub(super) fn on_gpu(scene: &Scene, samples: u32, bounces: Option<u32>) -> Optio
         mask: LINEAR.mask,
         ..Method::default()
     };
-    let mut image = on_the_gpu_by(scene, &method, samples, bounces)?;
-    // The picture alone: what is beside it differs where no ray is cast.
-    image.found = None;
-    Some(image)
+    on_the_gpu_by(scene, &method, samples, bounces)
 }
 
 fn rms(values: &[f64]) -> f64 {
