@@ -1,7 +1,7 @@
 //! Rays that begin on a surface: no light through what is thin, no shadow of what faces the light, no gap at the foot of what stands.
 
 use super::scenes::{off_the_mirror, plate, sphere};
-use super::shadowed::{VIEW, WHITE, closed};
+use super::shadowed::{VIEW, WHITE, alone, closed};
 use super::shadowed_on_gpu::on_gpu;
 use conformance::furnace;
 use glam::{DVec2, DVec3, Vec3};
@@ -16,18 +16,11 @@ use std::sync::Arc;
 fn by_each(scene: &Scene, samples: u32) -> Vec<(&'static str, Image, Image)> {
     let cpu = (closed(scene, samples, false), closed(scene, samples, true));
     let gpu = on_gpu(scene, samples, None).zip(on_gpu(scene, samples, Some(0)));
-    // The picture alone: what is beside it differs where no ray is cast.
-    let gpu = gpu.map(|(open, image)| {
-        (
-            "GPU",
-            open,
-            Image {
-                found: None,
-                ..image
-            },
-        )
-    });
-    [("CPU", cpu.0, cpu.1)].into_iter().chain(gpu).collect()
+    let gpu = gpu.map(|(open, image)| ("GPU", open, alone(image)));
+    [("CPU", cpu.0, alone(cpu.1))]
+        .into_iter()
+        .chain(gpu)
+        .collect()
 }
 
 /// A camera and a scratched plate under a can of 3,584 triangles without thickness; lamps shine from outside.
