@@ -1,9 +1,7 @@
 //! A direction of a light's chords, drawn in proportion to what the scratch sends from there.
 
-/// Halvings of an interval that find a place: within a fringe of the widest scratches.
-const HALVINGS: u32 = 14;
-/// Half the length of the interval about it, over that of the part of the line: a derivative of what comes from there.
-const SHORT: f64 = 3e-8;
+/// Halvings of an interval that find a place: to 1e-7 of its length, finer than a fringe of the widest scratches.
+const HALVINGS: u32 = 24;
 
 /// The parts of a line that a light covers, as intervals of q.
 #[derive(Clone, Debug, Default)]
@@ -67,7 +65,6 @@ impl DrawnChord {
                 continue;
             }
             let target = antiderivative(low) + left;
-            let short = (high - low) * SHORT;
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (low + high);
                 if antiderivative(middle) < target {
@@ -76,7 +73,6 @@ impl DrawnChord {
                     high = middle;
                 }
             }
-            (low, high) = (low - short, high + short);
             return Some((low, high));
         }
         None
