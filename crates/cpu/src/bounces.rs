@@ -4,29 +4,10 @@
 use crate::light_view::LightViews;
 use crate::resolve::{PointLight, Sample, kept};
 use crate::shade_scratches::{Picks, ScratchPoint, pick_one_pair};
-use crate::shadows::{Rounds, ShadowPoint, Shadows};
+use crate::shadows::{HitRoom, MetObject, Rounds, ShadowPoint, Shadows};
 use crate::surface::{SurfacePoint, surface_point};
 use glam::DVec3;
-use hairline_index::Hit;
 use hairline_optics::mask::ScratchSums;
-
-/// What a thread needs for what rays meet, filled anew for each: one for each object that light may go by.
-pub(crate) struct HitRoom<'a> {
-    views: LightViews<'a>,
-    picks: Picks,
-}
-
-/// A ray that has met an object.
-pub(crate) struct MetObject {
-    pub origin_m: DVec3,
-    /// Unit vector.
-    pub direction: DVec3,
-    pub hit: Hit,
-    /// That the ray stands for.
-    pub solid_angle_sr: f64,
-    /// Of the rays of a point; another one for each of a batch.
-    pub number: u32,
-}
 
 impl<'a> Shadows<'a> {
     /// Room for a thread.

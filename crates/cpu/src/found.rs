@@ -94,6 +94,15 @@ impl AddAssign for LayerLight {
     }
 }
 
+/// The base of a sample.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct BaseLight {
+    /// Reflected at the surface; scratches take from it.
+    pub specular: LayerLight,
+    /// From the body under it.
+    pub diffuse: LayerLight,
+}
+
 /// The rays of a layer, round by round.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LayerRays {

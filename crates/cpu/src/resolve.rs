@@ -1,9 +1,8 @@
 //! Stage 7, resolve: the mask, the layers of a sample's light, and the mean over a pixel's samples. Twin: resolve.wgsl.
 
-use crate::found::LayerLight;
+use crate::found::{BaseLight, LayerLight};
 use crate::shade_base::BaseRadiance;
 use crate::shade_gratings::ShadedGratings;
-use crate::shadows::BaseLight;
 use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hairline_image::FoundPixel;

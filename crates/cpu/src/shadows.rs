@@ -9,12 +9,12 @@
 //! (E. Heitz, S. Hill, M. McGuire, *Combining Analytic Direct Illumination and Stochastic Shadows*, 2018). It lies between 0 and F. Where all rays
 //! see their source, or none does, there is no noise at all.
 
-pub(crate) use crate::bounces::{HitRoom, MetObject};
 use crate::light_view::LightViews;
 use crate::options::RenderOptions;
 use crate::prepared::Prepared;
 use crate::sampling::environment::EnvironmentSampler;
 use crate::sampling::lights::AreaLights;
+use crate::shade_scratches::Picks;
 use crate::surface::{SurfacePoint, raised_m};
 use glam::{DVec2, DVec3};
 use hairline_image::Batch;
@@ -26,8 +26,6 @@ mod base;
 mod lobes;
 mod scratches;
 
-pub(crate) use base::BaseLight;
-
 /// What rays to the lights of a scene need.
 pub(crate) struct Shadows<'a> {
     pub(crate) prepared: &'a Prepared<'a>,
@@ -37,6 +35,24 @@ pub(crate) struct Shadows<'a> {
     /// How far the scene reaches from the origin: what rounding goes by.
     extent_m: f64,
     pub(crate) options: RenderOptions,
+}
+
+/// What a thread needs for what rays meet, filled anew for each: one for each object that light may go by.
+pub(crate) struct HitRoom<'a> {
+    pub views: LightViews<'a>,
+    pub picks: Picks,
+}
+
+/// A ray that has met an object.
+pub(crate) struct MetObject {
+    pub origin_m: DVec3,
+    /// Unit vector.
+    pub direction: DVec3,
+    pub hit: Hit,
+    /// That the ray stands for.
+    pub solid_angle_sr: f64,
+    /// Of the rays of a point; another one for each of a batch.
+    pub number: u32,
 }
 
 /// A sample that rays start from.

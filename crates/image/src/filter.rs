@@ -7,8 +7,8 @@
 
 use rayon::prelude::*;
 
-use crate::Image;
 use crate::found::{Found, FoundLight, FoundPixel, luminance, variance};
+use crate::{Image, Noise};
 
 /// Passes, each with twice the step of the one before.
 const PASSES: u32 = 5;
@@ -54,6 +54,37 @@ pub fn filter_found(image: &mut Image) {
             *on_scratches = light(i, &scratches, &pixel.scratches);
         });
     image.found = Some(found);
+}
+
+impl Found {
+    /// How sure base and scratches are, where no filter has changed them. Diffuse and specular light share their rays: their standard deviations
+    /// add up, which is an upper bound.
+    fn noise(&self, image: &Image) -> Noise {
+        let mut noise = Noise::new(image.size_px, 1);
+        noise.samples.fill(self.rounds);
+        for (i, pixel) in self.pixels.iter().enumerate() {
+            let [diffuse, specular, scratches] =
+                [&pixel.diffuse, &pixel.specular, &pixel.scratches]
+                    .map(|light| light.variance(self.rounds));
+            noise.base[i] = std::array::from_fn(|c| {
+                diffuse[c] + specular[c] + 2.0 * (diffuse[c] * specular[c]).sqrt()
+            });
+            noise.scratches[i] = scratches;
+            noise.beauty[i] = std::array::from_fn(|c| noise.base[i][c] + scratches[c]);
+        }
+        noise
+    }
+}
+
+impl Image {
+    /// Has base and scratches say what rays found, without a filter, and tells how sure they are.
+    pub fn show_found(&mut self) {
+        let Some(found) = &self.found else { return };
+        for (i, pixel) in found.pixels.iter().enumerate() {
+            [self.base[i], self.scratches[i]] = pixel.light();
+        }
+        self.noise = (found.rounds > 1).then(|| found.noise(self));
+    }
 }
 
 /// A layer of a pixel.

@@ -3,8 +3,6 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::{Image, Noise};
-
 /// Of a picture, pixel by pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
@@ -158,43 +156,12 @@ impl Found {
 
 impl FoundLight {
     /// The variance of [`Self::light`] after so many rounds, by channel. Rays to sources and to objects are drawn apart.
-    fn variance(&self, rounds: u32) -> [f32; 3] {
+    pub(crate) fn variance(&self, rounds: u32) -> [f32; 3] {
         let of_share = variance(self.share_moments, rounds);
         let of_bounced = variance(self.bounced_moments, rounds);
         std::array::from_fn(|c| {
             self.open[c] * self.open[c] * of_share + self.around[c] * self.around[c] * of_bounced
         })
-    }
-}
-
-impl Found {
-    /// How sure base and scratches are, where no filter has changed them. Diffuse and specular light share their rays: their standard deviations
-    /// add up, which is an upper bound.
-    fn noise(&self, image: &Image) -> Noise {
-        let mut noise = Noise::new(image.size_px, 1);
-        noise.samples.fill(self.rounds);
-        for (i, pixel) in self.pixels.iter().enumerate() {
-            let [diffuse, specular, scratches] =
-                [&pixel.diffuse, &pixel.specular, &pixel.scratches]
-                    .map(|light| light.variance(self.rounds));
-            noise.base[i] = std::array::from_fn(|c| {
-                diffuse[c] + specular[c] + 2.0 * (diffuse[c] * specular[c]).sqrt()
-            });
-            noise.scratches[i] = scratches;
-            noise.beauty[i] = std::array::from_fn(|c| noise.base[i][c] + scratches[c]);
-        }
-        noise
-    }
-}
-
-impl Image {
-    /// Has base and scratches say what rays found, without a filter, and tells how sure they are.
-    pub fn show_found(&mut self) {
-        let Some(found) = &self.found else { return };
-        for (i, pixel) in found.pixels.iter().enumerate() {
-            [self.base[i], self.scratches[i]] = pixel.light();
-        }
-        self.noise = (found.rounds > 1).then(|| found.noise(self));
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::lobes::Lobes;
 use super::{HitRoom, MetObject, Purpose, ShadowPoint, Shadows, normals};
-use crate::found::{LayerLight, LayerRays};
+use crate::found::{BaseLight, LayerRays};
 use crate::light_view::LightViews;
 use crate::sampling::lights::LightHit;
 use crate::sampling::luminance;
@@ -12,15 +12,6 @@ use crate::shade_scratches::Choice;
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
 use std::f64::consts::PI;
-
-/// The base of a sample.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct BaseLight {
-    /// Reflected at the surface; scratches take from it.
-    pub specular: LayerLight,
-    /// From the body under it.
-    pub diffuse: LayerLight,
-}
 
 /// What shines on the base.
 #[derive(Clone, Copy)]
