@@ -196,25 +196,6 @@ impl Sums {
     }
 }
 
-/// A picture of one batch, with the noise that the batches of `many` have: one batch tells none of its own. Other pictures stay as they are.
-///
-/// # Panics
-/// Where `many` is of one batch, too.
-pub fn with_noise_of(mut image: Image, samples: u32, many: &Image) -> Image {
-    if image.noise.is_some() {
-        return image;
-    }
-    let mut noise = many.noise.clone().expect("many samples tell their noise");
-    let factor = noise.samples[0] as f32 / samples as f32;
-    for layer in [&mut noise.base, &mut noise.scratches] {
-        for variance in layer.iter_mut().flatten() {
-            *variance *= factor;
-        }
-    }
-    image.noise = Some(noise);
-    image
-}
-
 /// How far a layer is from what it should be.
 #[derive(Clone, Copy, Debug)]
 pub struct Found {

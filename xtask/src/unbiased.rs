@@ -9,8 +9,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
 use conformance::unbiased::{
-    Found, LAYERS, SCENES, brighter, expected, found, inside, rendered, scene, with_noise_of,
-    without,
+    Found, LAYERS, SCENES, brighter, expected, found, inside, rendered, scene, without,
 };
 use hairline_image::metrics::Verdict;
 use hairline_image::output::write_atomically;
@@ -162,13 +161,10 @@ impl Unbiased {
         };
         let open = picture(&right, most, Transport::DIRECT)?;
         let expected = expected(&right, &open, bounces, self.reference);
-        let many = picture(&right, most, shadows)?;
-        let few = &samples[..samples.len() - 1];
-        let mut images = few
+        let images = samples
             .iter()
-            .map(|&n| Ok((n, with_noise_of(picture(&right, n, shadows)?, n, &many))))
+            .map(|&n| Ok((n, picture(&right, n, shadows)?)))
             .collect::<Result<Vec<_>>>()?;
-        images.push((most, many));
         let inside = inside(&right);
         let bright = picture(&brighter(name, BRIGHTER), wrong_samples, shadows)?;
         let bare = match occluders {
@@ -293,6 +289,6 @@ the picture of `sheets` seemed to let light through where all is dark.)
 Scratches of `edge` and `slit` are 0.05 to 0.12 % of the light without shadows too bright, beyond noise (z up to 4.4 at 1,024 samples). Three suspects do not explain it. More samples of the path tracer: with 2,048 `edge` has
 +0.08 ± 0.03 % at 256 samples, z +3.2. Shares s/f from another half of the samples, and the groove's depth in the direction of each ray in place of one for a chord: either changes it by less than 0.02 %.
 
-Variances come from the scatter of batches of four samples. A picture of four samples is one batch, which tells none: it takes that of a batch of the row's picture of the most samples.
+Variances come from the scatter of the rounds of a pixel. Rows that were measured before 27 November 2026 have those of batches of four samples.
 On a graphics adapter only `sky` and `edge` without bounces were measured so; verdicts of other rows that knew no variance are left out (–), and their z of four samples says nothing.
 ";

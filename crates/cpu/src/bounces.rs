@@ -6,7 +6,7 @@ use crate::resolve::{PointLight, Sample, kept};
 use crate::shade_scratches::{Picks, ScratchPoint, pick_one_pair};
 use crate::shadows::{HitRoom, MetObject, Rounds, ShadowPoint, Shadows};
 use crate::surface::{SurfacePoint, surface_point};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use hairline_optics::mask::ScratchSums;
 
 impl<'a> Shadows<'a> {
@@ -84,7 +84,7 @@ impl<'a> Shadows<'a> {
         let coherence = self.prepared.depth_coherence(hit.object);
         let kept = kept(&sums, self.options.method.mask, coherence);
         let sample = Sample::surface(&point, hit.object, &kept, light, 0.0);
-        let [base, scratches] = sample.light();
+        let [base, scratches] = sample.found().light().map(|rgb| Vec3::from(rgb).as_dvec3());
         (base + scratches).max(DVec3::ZERO)
     }
 }

@@ -66,20 +66,6 @@ impl LayerLight {
             bounced_moments: self.bounced_moments.as_vec2().to_array(),
         }
     }
-
-    /// The share that is seen, by channel, as [`FoundLight::share`].
-    fn share(&self) -> DVec3 {
-        let ratio = |part: f64, all: f64| (all > 0.0).then(|| (part / all).clamp(0.0, 1.0));
-        let of_all = ratio(luminance(self.seen), luminance(self.weight)).unwrap_or(1.0);
-        DVec3::from_array(std::array::from_fn(|c| {
-            ratio(self.seen[c], self.weight[c]).unwrap_or(of_all)
-        }))
-    }
-
-    /// What is left, with the light of other objects.
-    pub fn left(&self) -> DVec3 {
-        self.open * self.share() + self.bounced
-    }
 }
 
 impl AddAssign for LayerLight {
@@ -144,11 +130,11 @@ impl LayerRays {
         sum.weight += self.weight;
         sum.seen += self.seen;
         sum.bounced += self.bounced;
-        // A round without a ray tells what those before it do.
         let by_luminance = |seen: DVec3, all: DVec3| {
             let all = luminance(all);
             (all > 0.0).then(|| (luminance(seen) / all).clamp(0.0, 1.0))
         };
+        // A round without a ray tells what those before it do.
         let share = by_luminance(self.seen, self.weight)
             .or_else(|| by_luminance(sum.seen, sum.weight))
             .unwrap_or(1.0);

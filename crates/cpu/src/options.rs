@@ -9,8 +9,8 @@ pub struct RenderOptions {
     /// Jittered samples of a pixel on an edge or a crease; all other pixels, and all of them for 1, take one through the
     /// centre.
     pub samples: u32,
-    /// Which of the samples, and of the rays to each light; none: all. The mean of the pictures of all batches, each as large as the
-    /// others and of an even number, is the picture ([`hairline_image::Batches`]).
+    /// Which of the samples, and of the rays to each light; none: all. The pictures of all batches add up to the picture
+    /// ([`hairline_image::Batches`]).
     pub batch: Option<Batch>,
     /// Whether objects hide lights and the environment from one another. `samples` rays go to each light; the method of 2018 has none.
     pub shadows: bool,

@@ -38,7 +38,7 @@ impl Prepared<'_> {
         };
         let mut tile = Tile::new(&picture, &|| false);
         let sample = tile.render_pixel(column, row);
-        let [base, scratches] = sample.light().map(|rgb| rgb.as_vec3().to_array());
+        let [base, scratches] = sample.found().light();
         let Counts { pairs, .. } = tile.counts;
         Some(PixelReading {
             image: Image {

@@ -99,12 +99,6 @@ impl Sample {
         }
     }
 
-    /// Base and scratches where rays have told what is left of them.
-    pub fn light(&self) -> [DVec3; 2] {
-        let base = self.rest + self.diffuse.left() + self.specular.left();
-        [base, self.scratches.left()]
-    }
-
     /// What rays found of it.
     pub fn found(&self) -> FoundPixel {
         FoundPixel {

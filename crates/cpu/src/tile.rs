@@ -8,12 +8,14 @@ use crate::options::RenderOptions;
 use crate::prepared::Prepared;
 use crate::published::Published;
 use crate::resolve::{Pixel, PointLight, Sample, kept};
+use crate::sample_point::{SamplePoint, Seen, Shared};
 use crate::shade_base::{Base, transformed_sphere};
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{BATCH, Picks, ScratchPoint, ScratchShader};
-use crate::shadows::{HitRoom, PixelFilter, Rounds, ShadowPoint, Shadows};
+use crate::shadows::{HitRoom, Rounds, Shadows};
+use crate::share_scratches::share_scratches;
 use crate::silhouettes::is_smooth;
-use crate::surface::{SurfacePoint, surface_point};
+use crate::surface::surface_point;
 use crate::visibility::{Visibility, center, coverage};
 use glam::{DVec2, DVec3};
 use hairline_image::{Found, FoundPixel, Image};
@@ -26,11 +28,8 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Samples of a pixel that share scratches.
+/// Samples of a pixel of which some may share scratches.
 const SAMPLES_AT_ONCE: usize = 16;
-/// The least cosine between normals that are those of one surface.
-const ALIKE_COS: f64 = 0.98;
-
 /// Pixels to a side.
 const SIDE: usize = TILE_PX as usize;
 
@@ -56,140 +55,6 @@ pub(crate) enum By<'a> {
     Published(Published<'a>),
 }
 
-/// One sample of a pixel.
-struct Point<'a> {
-    /// Of the tile.
-    pixel: usize,
-    at_px: DVec2,
-    /// Of its filter.
-    std_px: f64,
-    /// Whether its pixel has no edge.
-    is_smooth: bool,
-    /// Rays to each light.
-    rounds: Rounds,
-    seen: Seen<'a>,
-    scratches: Shared,
-    /// As its scratches are seen, where that is by another filter.
-    wide: Option<Wide<'a>>,
-}
-
-/// A sample's surface through the pixel's whole filter.
-struct Wide<'a> {
-    point: SurfacePoint<'a>,
-    std_px: f64,
-}
-
-/// For which samples of a pixel a sample has the scratches.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Shared {
-    /// For so many, itself among them.
-    Among(u32),
-    /// Another one of the batch has them.
-    With(usize),
-}
-
-impl<'a> Point<'a> {
-    /// Where its rays start, if it sees a surface.
-    fn shadow_point<'p>(
-        &'p self,
-        camera: &'p CameraFrame,
-        views: &'p LightViews<'a>,
-    ) -> Option<ShadowPoint<'p, 'a>> {
-        let Seen::Surface { hit, point, .. } = &self.seen else {
-            return None;
-        };
-        Some(ShadowPoint {
-            point,
-            object: hit.object,
-            pixel: Some(PixelFilter {
-                camera,
-                at_px: self.at_px,
-                std_px: self.std_px,
-                is_smooth: self.is_smooth,
-            }),
-            views,
-            rounds: self.rounds,
-            seed: self.seed(),
-            depth: 0,
-        })
-    }
-
-    /// Where its scratches are seen, given where it is itself.
-    fn scratched<'p>(&'p self, own: &'p SurfacePoint<'a>) -> &'p SurfacePoint<'a> {
-        self.wide.as_ref().map_or(own, |wide| &wide.point)
-    }
-
-    /// The same for its scratches; none if another sample has them.
-    fn scratched_point<'p>(
-        &'p self,
-        camera: &'p CameraFrame,
-        views: &'p LightViews<'a>,
-    ) -> Option<ShadowPoint<'p, 'a>> {
-        let Shared::Among(samples) = self.scratches else {
-            return None;
-        };
-        let mut at = self.shadow_point(camera, views)?;
-        at.rounds.now.count *= samples;
-        at.rounds.all *= samples;
-        if let Some(wide) = &self.wide {
-            at.point = &wide.point;
-            at.pixel = Some(PixelFilter {
-                camera,
-                at_px: self.at_px,
-                std_px: wide.std_px,
-                is_smooth: self.is_smooth,
-            });
-        }
-        Some(at)
-    }
-
-    /// For random numbers: another one for each sample of each pixel.
-    fn seed(&self) -> u32 {
-        let mixed = |a: u32, b: f64| {
-            let a = (a ^ (b as f32).to_bits()).wrapping_mul(0x85eb_ca6b);
-            a ^ (a >> 15)
-        };
-        mixed(mixed(1, self.at_px.x), self.at_px.y).wrapping_mul(0xc2b2_ae35)
-    }
-}
-
-/// What the ray of a sample meets.
-#[expect(
-    clippy::large_enum_variant,
-    reason = "there are few at a time, and most are surfaces"
-)]
-pub(crate) enum Seen<'a> {
-    /// Nothing: radiance of the environment.
-    Background(DVec3),
-    Surface {
-        hit: Hit,
-        point: SurfacePoint<'a>,
-        /// Along the view axis.
-        depth_m: f64,
-    },
-}
-
-impl Seen<'_> {
-    /// Whether both see one surface, as far as scratches tell.
-    fn is_like(&self, other: &Self) -> bool {
-        match (self, other) {
-            (
-                Self::Surface { hit, point, .. },
-                Self::Surface {
-                    hit: other_hit,
-                    point: other,
-                    ..
-                },
-            ) => {
-                hit.object == other_hit.object
-                    && point.material == other.material
-                    && point.normal.dot(other.normal) > ALIKE_COS
-            }
-            _ => false,
-        }
-    }
-}
-
 /// The room that a thread needs for a tile, filled anew for each.
 pub(crate) struct Tile<'a> {
     picture: &'a Picture<'a>,
@@ -197,7 +62,7 @@ pub(crate) struct Tile<'a> {
     cancelled: &'a (dyn Fn() -> bool + Sync),
     is_cancelled: bool,
     rays: CameraBeam,
-    batch: Vec<Point<'a>>,
+    batch: Vec<SamplePoint<'a>>,
     /// The lights from each point of the batch.
     views: Vec<LightViews<'a>>,
     sums: Vec<ScratchSums>,
@@ -296,49 +161,7 @@ impl<'a> Tile<'a> {
                 let hit = rays.intersect(triangles, camera, at_px, direction, coverage);
                 self.add(column, row, pixel, at_px, samples, hit);
             }
-            self.share_scratches(in_batch, center(x, y));
-        }
-    }
-
-    /// Has one sample stand for the scratches of all that see the same surface, of those of a pixel from `first` on: the one nearest to the
-    /// pixel's middle, with the pixel's whole filter. Scratches are most of the work, and a pixel without an edge has them once, too.
-    fn share_scratches(&mut self, first: usize, middle_px: DVec2) {
-        let prepared = self.picture.prepared;
-        let filter = prepared.scene.render.filter_std_px;
-        // Samples come in pairs that lie as far from it: the first one is taken, however their places are rounded.
-        let off = |point: &Point| (1e9 * point.at_px.distance_squared(middle_px)).round();
-        let mut order: Vec<usize> = (first..self.batch.len()).collect();
-        order.sort_by(|&a, &b| off(&self.batch[a]).total_cmp(&off(&self.batch[b])));
-        let mut leaders: Vec<usize> = Vec::new();
-        for i in order {
-            let is_scratched = match &self.batch[i].seen {
-                Seen::Surface { hit, .. } => prepared.is_scratched(hit),
-                Seen::Background(_) => false,
-            };
-            if !is_scratched {
-                continue;
-            }
-            let like = |&&leader: &&usize| self.batch[leader].seen.is_like(&self.batch[i].seen);
-            match leaders.iter().find(like).copied() {
-                Some(leader) => {
-                    self.batch[i].scratches = Shared::With(leader);
-                    if let Shared::Among(samples) = &mut self.batch[leader].scratches {
-                        *samples += 1;
-                    }
-                }
-                None => leaders.push(i),
-            }
-        }
-        for leader in leaders {
-            let point = &mut self.batch[leader];
-            if let (Shared::Among(2..), Seen::Surface { point: at, .. }) =
-                (point.scratches, &point.seen)
-            {
-                point.wide = Some(Wide {
-                    point: at.with_footprint_of(filter / point.std_px),
-                    std_px: filter,
-                });
-            }
+            share_scratches(picture.prepared, &mut self.batch, in_batch, center(x, y));
         }
     }
 
@@ -366,7 +189,7 @@ impl<'a> Tile<'a> {
             _ => Rounds::all(1),
         };
         let std_px = self.picture.prepared.scene.render.footprint_std_px(samples);
-        self.batch.push(Point {
+        self.batch.push(SamplePoint {
             pixel,
             at_px,
             std_px,

@@ -385,6 +385,31 @@ impl Gpu {
         }
     }
 
+    /// A texture of one layer and one level, that passes write or draw to; as [`Self::texture`].
+    pub(crate) async fn target(
+        &self,
+        what: &str,
+        [width, height]: [u32; 2],
+        format: wgpu::TextureFormat,
+        usage: wgpu::TextureUsages,
+    ) -> Result<wgpu::Texture, Error> {
+        let descriptor = wgpu::TextureDescriptor {
+            label: Some(what),
+            size: wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage,
+            view_formats: &[],
+        };
+        self.texture(what, &descriptor).await
+    }
+
     /// A texture, or why there can be none. `what` names it in messages.
     pub async fn texture(
         &self,

@@ -128,21 +128,9 @@ impl Shown {
     pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
     pub(crate) async fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, Error> {
-        let descriptor = wgpu::TextureDescriptor {
-            label: Some("shown picture"),
-            size: wgpu::Extent3d {
-                width: size_px[0],
-                height: size_px[1],
-                depth_or_array_layers: 1,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: Self::FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        };
-        let texture = gpu.texture("shown picture", &descriptor).await?;
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
+        let what = "shown picture";
+        let texture = gpu.target(what, size_px, Self::FORMAT, usage).await?;
         Ok(Self {
             size_px,
             view: texture.create_view(&Default::default()),

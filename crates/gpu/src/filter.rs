@@ -2,7 +2,13 @@
 //!
 //! Inputs: the films of a canvas. Output: base and scratches there. What was found stays: more samples may come.
 
-use wgpu::{BindGroupLayoutEntry, BindingResource, BufferUsages, ShaderStages, TextureFormat};
+use hairline_image::filter::{
+    LEAST_ALIKE, MIRROR_STEP_PX, NOISE_STD, NORMAL_POWER, OFF_PLANE, PASSES, ROUGH_STEP_PX,
+    VARIANCE_PX,
+};
+use wgpu::{
+    BindGroupLayoutEntry, BindingResource, BufferUsages, ShaderStages, TextureFormat, TextureUsages,
+};
 
 use crate::bindings::{dynamic_uniform, entry, integers, layout, storage};
 use crate::canvas::Canvas;
@@ -13,8 +19,6 @@ use crate::layout::FilterSettings;
 use crate::pipelines::compiled;
 use crate::shaders;
 
-/// Passes, each with twice the step of the one before. Twin: image/src/filter.rs.
-const PASSES: u32 = 5;
 /// Diffuse, specular, scratches. Twin: filter.wgsl.
 const LAYERS: u32 = 3;
 /// Between the settings of two dispatches.
@@ -102,6 +106,13 @@ impl FilterPasses {
                 size_px,
                 rounds: founds[0].rounds,
                 layer,
+                noise_std: NOISE_STD,
+                off_plane: OFF_PLANE,
+                normal_power: NORMAL_POWER as f32,
+                mirror_step_px: MIRROR_STEP_PX,
+                rough_step_px: ROUGH_STEP_PX,
+                variance_px: VARIANCE_PX,
+                least_alike: LEAST_ALIKE,
                 ..FilterSettings::default()
             };
             let in_band = |rows: &std::ops::Range<u32>| FilterSettings {
@@ -270,41 +281,21 @@ const SIGNALS_FORMAT: TextureFormat = TextureFormat::Rgba32Float;
 
 impl Room {
     async fn new(gpu: &Gpu, size_px: [u32; 2], settings_max: u64) -> Result<Self, Error> {
-        let pair = async || {
-            let shares = texture(gpu, size_px, SIGNALS_FORMAT).await?;
-            Ok::<_, Error>([shares, texture(gpu, size_px, SIGNALS_FORMAT).await?])
+        let view = async |format| {
+            let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::STORAGE_BINDING;
+            let texture = gpu.target("filter", size_px, format, usage).await?;
+            Ok::<_, Error>(texture.create_view(&Default::default()))
         };
+        let pair =
+            async || Ok::<_, Error>([view(SIGNALS_FORMAT).await?, view(SIGNALS_FORMAT).await?]);
         let bytes = settings_max * SETTINGS_STRIDE;
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         Ok(Self {
             size_px,
-            guides: texture(gpu, size_px, GUIDES_FORMAT).await?,
+            guides: view(GUIDES_FORMAT).await?,
             signals: [pair().await?, pair().await?],
             settings: gpu.buffer("filter settings", bytes, usage).await?,
             settings_max,
         })
     }
-}
-
-async fn texture(
-    gpu: &Gpu,
-    [width, height]: [u32; 2],
-    format: TextureFormat,
-) -> Result<wgpu::TextureView, Error> {
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some("filter"),
-        size: wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::STORAGE_BINDING,
-        view_formats: &[],
-    };
-    let texture = gpu.texture("filter", &descriptor).await?;
-    Ok(texture.create_view(&Default::default()))
 }

@@ -325,7 +325,13 @@ shared! {
         step: u32,
         rounds: u32,
         layer: u32,
-        pad_0: u32,
+        noise_std: f32,
+        off_plane: f32,
+        normal_power: f32,
+        mirror_step_px: f32,
+        rough_step_px: f32,
+        variance_px: i32,
+        least_alike: f32,
     }
     /// How a film is shown; uniform.
     DisplaySettings {

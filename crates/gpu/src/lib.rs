@@ -62,6 +62,7 @@ mod shadow_picks;
 mod shadow_room;
 mod shadow_scratches;
 mod shadows;
+mod share_scratches;
 mod sort;
 mod source;
 mod strip;

@@ -12,6 +12,7 @@ use crate::shade_base::ShadeBasePass;
 use crate::shade_gratings::ShadeGratingsPass;
 use crate::shade_published::ShadePublishedPass;
 use crate::shade_scratches::ShadeScratchesPass;
+use crate::share_scratches::ShareScratchesPass;
 use crate::surface::SurfacePass;
 use crate::variant::{Seen, ShadeVariant};
 
@@ -40,6 +41,7 @@ pub(crate) enum Shade {
 pub(crate) struct ScratchPasses {
     pub project: ProjectPass,
     pub bin: BinPasses,
+    pub share: ShareScratchesPass,
     pub shade: ShadeScratchesPass,
 }
 
@@ -78,6 +80,7 @@ impl ScenePasses {
                     Box::new(ScratchPasses {
                         project: ProjectPass::new(&mut orders),
                         bin: BinPasses::new(&mut orders),
+                        share: ShareScratchesPass::new(&mut orders),
                         shade: ShadeScratchesPass::new(&mut orders, Seen::ByCamera),
                     })
                 }),

@@ -151,11 +151,16 @@ impl StripRoom {
         let bytes = 4 * u64::from(starts);
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
         let group_starts = gpu.buffer("groups of tiles", bytes, usage).await?;
+        let target = async |format, usage| {
+            let usage = TextureUsages::RENDER_ATTACHMENT | usage;
+            let texture = gpu.target("picture", size, format, usage).await?;
+            Ok::<_, Error>(texture.create_view(&Default::default()))
+        };
         Ok(Self {
             width_px,
             rows,
-            visibility: target(gpu, "picture", size, VISIBILITY_FORMAT, true).await?,
-            depth: target(gpu, "picture", size, DEPTH_FORMAT, false).await?,
+            visibility: target(VISIBILITY_FORMAT, TextureUsages::TEXTURE_BINDING).await?,
+            depth: target(DEPTH_FORMAT, TextureUsages::empty()).await?,
             list_starts: gpu.buffer("tile lists", bytes, usage).await?,
             group_scan: scans.of(gpu, &group_starts, starts).await?,
             group_starts,
@@ -332,36 +337,4 @@ impl Lists {
 /// A buffer as a pass binds it.
 pub(crate) fn whole(buffer: &wgpu::Buffer) -> BindingResource<'_> {
     buffer.as_entire_binding()
-}
-
-async fn target(
-    gpu: &Gpu,
-    what: &str,
-    [width, height]: [u32; 2],
-    format: TextureFormat,
-    read: bool,
-) -> Result<wgpu::TextureView, Error> {
-    let usage = TextureUsages::RENDER_ATTACHMENT;
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some(what),
-        size: wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: if read {
-            usage | TextureUsages::TEXTURE_BINDING
-        } else {
-            usage
-        },
-        view_formats: &[],
-    };
-    Ok(gpu
-        .texture(what, &descriptor)
-        .await?
-        .create_view(&Default::default()))
 }

@@ -154,11 +154,9 @@ impl StripShader {
                 passes.surface.record(gpu, recording, room, film, rows);
             });
         }
-        if view.step > 0 && passes.scratches().is_some() {
+        if let Some(ScratchPasses { share, .. }) = passes.scratches().filter(|_| view.step > 0) {
             self.submit(view, |recording| {
-                passes
-                    .surface
-                    .record_shares(gpu, recording, room, film, rows);
+                share.record(gpu, recording, room, film, rows)
             });
         }
         let shadows = match &passes.shade {

@@ -11,10 +11,7 @@ use crate::pipelines::Orders;
 use crate::shaders;
 use crate::strip::{StripRoom, TILE_PX, whole};
 
-pub(crate) struct SurfacePass {
-    surface: ComputePass,
-    share: ComputePass,
-}
+pub(crate) struct SurfacePass(ComputePass);
 
 impl SurfacePass {
     pub(crate) fn new(orders: &mut Orders) -> Self {
@@ -26,17 +23,7 @@ impl SurfacePass {
             Use::Writes,
         ];
         let module = (&shaders::SURFACE, "surface");
-        let share = [Use::Writes, Use::Reads, Use::Reads, Use::Writes];
-        Self {
-            surface: ComputePass::order(orders, "surface", module, &uses, &[]),
-            share: ComputePass::order(
-                orders,
-                "share scratches",
-                (&shaders::SHARE_SCRATCHES, "share_scratches"),
-                &share,
-                &[],
-            ),
-        }
+        Self(ComputePass::order(orders, "surface", module, &uses, &[]))
     }
 
     pub(crate) fn record(
@@ -55,25 +42,6 @@ impl SurfacePass {
             whole(&film.buffer),
         ];
         let size = [room.width_px, rows + 2].map(|n| n.div_ceil(TILE_PX));
-        self.surface.run(gpu, recording, &resources, size);
-    }
-
-    /// Once all samples of a step are there: which of them share scratches.
-    pub(crate) fn record_shares(
-        &self,
-        gpu: &Gpu,
-        recording: &mut Recording,
-        room: &StripRoom,
-        film: &Film,
-        rows: u32,
-    ) {
-        let resources = [
-            whole(&room.samples.points),
-            whole(&room.samples.paints),
-            whole(&room.group_starts),
-            whole(&film.buffer),
-        ];
-        let size = [room.width_px, rows].map(|n| n.div_ceil(TILE_PX));
-        self.share.run(gpu, recording, &resources, size);
+        self.0.run(gpu, recording, &resources, size);
     }
 }

@@ -11,18 +11,23 @@ use crate::found::{Found, FoundLight, FoundPixel, luminance, variance};
 use crate::{Image, Noise};
 
 /// Passes, each with twice the step of the one before.
-const PASSES: u32 = 5;
+pub const PASSES: u32 = 5;
 /// Weights of three taps, a quarter and a half: the B-spline.
 const TAPS: [(i32, f32); 3] = [(-1, 0.25), (0, 0.5), (1, 0.25)];
 /// Differences of so many standard deviations count for little. Chosen by measured error.
-const NOISE_STD: f32 = 1.5;
+pub const NOISE_STD: f32 = 1.5;
 /// The share of depth by which a surface may leave the plane of a pixel.
-const OFF_PLANE: f32 = 0.01;
+pub const OFF_PLANE: f32 = 0.01;
 /// The power of the cosine between normals.
-const NORMAL_POWER: i32 = 64;
-/// Steps of the filter in a mirror, pixels, and what a rough surface adds: a mirror image has edges that no guide knows.
-const MIRROR_STEP_PX: f32 = 4.0;
-const ROUGH_STEP_PX: f32 = 40.0;
+pub const NORMAL_POWER: u32 = 64;
+/// The longest step in a mirror, pixels: a mirror image has edges that no guide knows.
+pub const MIRROR_STEP_PX: f32 = 4.0;
+/// What a rough surface adds to it, for each unit of roughness.
+pub const ROUGH_STEP_PX: f32 = 40.0;
+/// Pixels to each side over which variances are averaged.
+pub const VARIANCE_PX: i32 = 2;
+/// Pixels that are less alike do not count.
+pub const LEAST_ALIKE: f32 = 1e-3;
 
 /// Has base and scratches of a picture say what rays found, filtered. Nothing changes without rays.
 pub fn filter_found(image: &mut Image) {
@@ -30,13 +35,13 @@ pub fn filter_found(image: &mut Image) {
         return;
     };
     let guides = Guides::new(image, &found);
-    let layers: [(Of, f32); 3] = [
-        (|pixel| &pixel.diffuse, f32::INFINITY),
-        (|pixel| &pixel.specular, ROUGH_STEP_PX),
-        (|pixel| &pixel.scratches, f32::INFINITY),
+    let layers: [(Of, bool); 3] = [
+        (|pixel| &pixel.diffuse, false),
+        (|pixel| &pixel.specular, true),
+        (|pixel| &pixel.scratches, false),
     ];
     let [diffuse, specular, scratches] =
-        layers.map(|(of, per_roughness)| filter_layer(&guides, &found, of, per_roughness));
+        layers.map(|(of, mirrors)| filter_layer(&guides, &found, of, mirrors));
     let light = |i: usize, signals: &[Signals], light: &FoundLight| match signals.get(i) {
         Some(signals) => signals.light(light),
         None => light.light(),
@@ -212,12 +217,12 @@ impl Guides {
         let on_plane = p.per_depth + p.slope[0] * dx as f32 + p.slope[1] * dy as f32;
         let off = (q.per_depth - on_plane).abs() / p.per_depth;
         let off = off / OFF_PLANE;
-        cos.powi(NORMAL_POWER) / (1.0 + off * off)
+        cos.powi(NORMAL_POWER as i32) / (1.0 + off * off)
     }
 }
 
 /// Nothing where the layer has no noise.
-fn filter_layer(guides: &Guides, found: &Found, of: Of, per_roughness: f32) -> Vec<Signals> {
+fn filter_layer(guides: &Guides, found: &Found, of: Of, mirrors: bool) -> Vec<Signals> {
     let rounds = found.rounds;
     let mut signals: Vec<Signals> = found
         .pixels
@@ -232,7 +237,9 @@ fn filter_layer(guides: &Guides, found: &Found, of: Of, per_roughness: f32) -> V
     if !signals.par_iter().any(is_noisy) {
         return Vec::new();
     }
-    let steps_px = |guide: &Guide| MIRROR_STEP_PX + per_roughness * guide.roughness;
+    let reaches = |step: i32, guide: &Guide| {
+        !mirrors || step as f32 <= MIRROR_STEP_PX + ROUGH_STEP_PX * guide.roughness
+    };
     signals = smooth_variances(guides, &signals, rounds);
     for pass in 0..PASSES {
         let step = 1i32 << pass;
@@ -240,7 +247,7 @@ fn filter_layer(guides: &Guides, found: &Found, of: Of, per_roughness: f32) -> V
             let own = &signals[i];
             let guide = &guides.pixels[i];
             let is_still = own.share[3] <= 0.0 && own.bounced[3] <= 0.0;
-            if is_still || guide.object == 0 || step as f32 > steps_px(guide) {
+            if is_still || guide.object == 0 || !reaches(step, guide) {
                 return *own;
             }
             let mut sums = [Sum::default(), Sum::default()];
@@ -253,7 +260,7 @@ fn filter_layer(guides: &Guides, found: &Found, of: Of, per_roughness: f32) -> V
                     } else {
                         guides.alike(guide, &guides.pixels[j], [dx * step, dy * step])
                     };
-                    if alike < 1e-3 {
+                    if alike < LEAST_ALIKE {
                         continue;
                     }
                     let other = &signals[j];
@@ -309,7 +316,6 @@ impl Sum {
 /// Variances of few rounds are noisy themselves: each becomes the mean over the pixels around. After one round alone they are those of the
 /// values there.
 fn smooth_variances(guides: &Guides, signals: &[Signals], rounds: u32) -> Vec<Signals> {
-    const REACH_PX: i32 = 2;
     over_pixels(guides, |i, [x, y]| {
         let guide = &guides.pixels[i];
         let mut own = signals[i];
@@ -317,8 +323,8 @@ fn smooth_variances(guides: &Guides, signals: &[Signals], rounds: u32) -> Vec<Si
             return own;
         }
         let mut sums = [[0.0f32; 4]; 2];
-        for dy in -REACH_PX..=REACH_PX {
-            for dx in -REACH_PX..=REACH_PX {
+        for dy in -VARIANCE_PX..=VARIANCE_PX {
+            for dx in -VARIANCE_PX..=VARIANCE_PX {
                 let Some(j) = guides.index([x + dx, y + dy]) else {
                     continue;
                 };
@@ -327,7 +333,7 @@ fn smooth_variances(guides: &Guides, signals: &[Signals], rounds: u32) -> Vec<Si
                 } else {
                     guides.alike(guide, &guides.pixels[j], [dx, dy])
                 };
-                if alike < 1e-3 {
+                if alike < LEAST_ALIKE {
                     continue;
                 }
                 let other = &signals[j];

@@ -18,7 +18,7 @@ mod batches;
 mod error;
 pub mod exr_file;
 mod film;
-mod filter;
+pub mod filter;
 mod found;
 pub mod held;
 mod layers;

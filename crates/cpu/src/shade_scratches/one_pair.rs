@@ -8,7 +8,6 @@ use super::scratch_light::{ScratchLight, scratch_energy};
 use crate::gather::gather;
 use crate::prepared::Prepared;
 use crate::sampling::luminance;
-use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hairline_optics::band::OutlineRoots;
 use hairline_optics::mask::ScratchSums;
@@ -71,21 +70,4 @@ pub(crate) fn pick_one_pair(
         };
         pick.share * sent
     });
-}
-
-/// Points of a surface that rays met.
-impl<'a> ScratchPoint<'a> {
-    pub fn of_ray(
-        point: &'a SurfacePoint<'a>,
-        object: u32,
-        views: &'a crate::light_view::LightViews<'a>,
-    ) -> Self {
-        Self {
-            point,
-            object,
-            at_px: glam::DVec2::ZERO,
-            views,
-            index: 0,
-        }
-    }
 }

@@ -17,6 +17,19 @@ pub(crate) struct ScratchPoint<'a> {
     pub index: usize,
 }
 
+impl<'a> ScratchPoint<'a> {
+    /// One that a ray met, by itself: it has no place in the picture.
+    pub fn of_ray(point: &'a SurfacePoint<'a>, object: u32, views: &'a LightViews<'a>) -> Self {
+        Self {
+            point,
+            object,
+            at_px: DVec2::ZERO,
+            views,
+            index: 0,
+        }
+    }
+}
+
 /// What of a point is the same for all scratches.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {

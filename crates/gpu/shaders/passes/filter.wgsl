@@ -15,15 +15,6 @@
 const FILTER_DIFFUSE: u32 = 0u;
 const FILTER_SPECULAR: u32 = 1u;
 
-const FILTER_NOISE_STD: f32 = 1.5;
-const FILTER_OFF_PLANE: f32 = 0.01;
-const FILTER_NORMAL_POWER: f32 = 64.0;
-const FILTER_MIRROR_STEP_PX: f32 = 1.0;
-const FILTER_ROUGH_STEP_PX: f32 = 40.0;
-const FILTER_VARIANCE_PX: i32 = 2;
-// Pixels that are less alike do not count.
-const FILTER_LEAST_ALIKE: f32 = 1e-3;
-
 // What tells whether pixels see the same surface.
 struct Guide {
     object: u32,                // and 1
@@ -76,8 +67,8 @@ fn alike(own: Guide, slope: vec2f, other: Guide, step: vec2i) -> f32 {
         return 0.0;
     }
     let on_plane = own.per_depth + dot(slope, vec2f(step));
-    let off = abs(other.per_depth - on_plane) / (own.per_depth * FILTER_OFF_PLANE);
-    return pow(cosine, FILTER_NORMAL_POWER) / (1.0 + off * off);
+    let off = abs(other.per_depth - on_plane) / (own.per_depth * settings.off_plane);
+    return pow(cosine, settings.normal_power) / (1.0 + off * off);
 }
 
 fn layer_at(at: u32) -> FoundLight {
@@ -153,14 +144,14 @@ fn filter_variances(@builtin(global_invocation_id) id: vec3u) {
         let slope = slope_at(own, pixel);
         var share_sums = vec4f(0.0);
         var light_sums = vec4f(0.0);
-        for (var y = -FILTER_VARIANCE_PX; y <= FILTER_VARIANCE_PX; y += 1) {
-            for (var x = -FILTER_VARIANCE_PX; x <= FILTER_VARIANCE_PX; x += 1) {
+        for (var y = -settings.variance_px; y <= settings.variance_px; y += 1) {
+            for (var x = -settings.variance_px; x <= settings.variance_px; x += 1) {
                 let there = pixel + vec2i(x, y);
                 if !is_in(there) {
                     continue;
                 }
                 let weight = alike(own, slope, guide_at(there), vec2i(x, y));
-                if weight >= FILTER_LEAST_ALIKE {
+                if weight >= settings.least_alike {
                     share_sums += weight * noise_of(textureLoad(shares, there, 0));
                     light_sums += weight * noise_of(textureLoad(bounced, there, 0));
                 }
@@ -179,7 +170,7 @@ fn weight_of(own: vec4f, other: vec4f, alike: f32) -> f32 {
         return 0.0;
     }
     let difference = rgb_luminance(own.xyz - other.xyz);
-    let noise = (own.w + other.w) * (2.0 * FILTER_NOISE_STD * FILTER_NOISE_STD);
+    let noise = (own.w + other.w) * (2.0 * settings.noise_std * settings.noise_std);
     return select(alike * exp(-difference * difference / max(noise, 1e-20)), alike, difference == 0.0);
 }
 
@@ -203,7 +194,7 @@ fn filter_step(@builtin(global_invocation_id) id: vec3u) {
     let own = guide_at(pixel);
     let share = textureLoad(shares, pixel, 0);
     let light = textureLoad(bounced, pixel, 0);
-    let reaches = settings.layer != FILTER_SPECULAR || f32(settings.step) <= FILTER_MIRROR_STEP_PX + FILTER_ROUGH_STEP_PX * own.roughness;
+    let reaches = settings.layer != FILTER_SPECULAR || f32(settings.step) <= settings.mirror_step_px + settings.rough_step_px * own.roughness;
     if (share.w <= 0.0 && light.w <= 0.0) || own.object == 0u || !reaches {
         textureStore(shares_out, id.xy, share);
         textureStore(bounced_out, id.xy, light);
@@ -221,7 +212,7 @@ fn filter_step(@builtin(global_invocation_id) id: vec3u) {
             continue;
         }
         let same = alike(own, slope, guide_at(there), step);
-        if same < FILTER_LEAST_ALIKE {
+        if same < settings.least_alike {
             continue;
         }
         // The B-spline.

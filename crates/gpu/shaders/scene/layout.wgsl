@@ -338,6 +338,13 @@ struct FilterSettings {
     step: u32,                  // pixels between those that are averaged
     rounds: u32,                // that found what there is
     layer: u32,                 // FILTER_DIFFUSE and so on
+    noise_std: f32,             // this and what follows: the numbers of image/src/filter.rs
+    off_plane: f32,
+    normal_power: f32,
+    mirror_step_px: f32,
+    rough_step_px: f32,
+    variance_px: i32,
+    least_alike: f32,
 }
 
 // How a film is shown.

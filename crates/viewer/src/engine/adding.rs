@@ -2,6 +2,7 @@
 
 use hairline_image::{Batch, Batches, Image, filter_found};
 
+use super::View;
 use super::request::Order;
 use super::steps::SHADOW_SAMPLES;
 
@@ -15,7 +16,11 @@ impl Adding {
         let before = self.0.take();
         let before = before.filter(|(of, _)| batch.first > 0 && of.has_same_pixels(order));
         let (_, batches) = self.0.insert(before.unwrap_or_else(|| {
-            let none = Batches::of_rounds(SHADOW_SAMPLES);
+            let View {
+                camera, transport, ..
+            } = &order.view;
+            let none = transport.batches(camera, SHADOW_SAMPLES);
+            let none = none.unwrap_or_else(|| unreachable!("pictures with shadows have batches"));
             (order.clone(), none)
         }));
         batches.add(image);

@@ -71,8 +71,9 @@ pub(super) fn steps(
     best_samples: u32,
     full_px: [u32; 2],
     coarse: &Step,
-    transport: Transport,
+    view: &View,
 ) -> Vec<Step> {
+    let transport = view.transport;
     let mut steps = Vec::new();
     let mut add = |size_px: [u32; 2], samples, thin| {
         steps.push(Step {
@@ -97,7 +98,8 @@ pub(super) fn steps(
         add(full_px, best_samples, 1);
         return steps;
     }
-    steps.extend(Batch::growing(SHADOW_SAMPLES).map(|batch| Step {
+    let batches = batches(view.camera.has_lens());
+    steps.extend(batches.into_iter().map(|batch| Step {
         size_px: full_px,
         samples: SHADOW_SAMPLES,
         thin: 1,
@@ -105,4 +107,24 @@ pub(super) fn steps(
         batch: Some(batch),
     }));
     steps
+}
+
+/// The batches that a finished picture adds up in: of a lens each has another point of it, as in `hairline render`; else they grow.
+fn batches(has_lens: bool) -> Vec<Batch> {
+    match has_lens {
+        true => Batch::of(SHADOW_SAMPLES).collect(),
+        false => Batch::growing(SHADOW_SAMPLES).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lens_has_as_many_points_as_in_a_finished_picture() {
+        let counts = |has_lens| -> Vec<u32> { batches(has_lens).iter().map(|b| b.count).collect() };
+        assert_eq!(counts(true), [4; 16]);
+        assert_eq!(counts(false), [4, 4, 8, 16, 16, 16]);
+    }
 }

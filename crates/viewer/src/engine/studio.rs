@@ -71,7 +71,7 @@ impl Studio {
                     Some(_) => Vec::new(),
                     None => {
                         let best_samples = easel.best_samples();
-                        steps(easel.kind(), best_samples, full_px, &coarse, wanted)
+                        steps(easel.kind(), best_samples, full_px, &coarse, &order.view)
                     }
                 });
             }

@@ -1,0 +1,121 @@
+//! A sample point: what the ray of one sample of a pixel sees, and where its own rays start.
+
+use crate::light_view::LightViews;
+use crate::shadows::{PixelFilter, Rounds, ShadowPoint};
+use crate::surface::SurfacePoint;
+use glam::{DVec2, DVec3};
+use hairline_index::Hit;
+use hairline_scene::CameraFrame;
+
+/// One sample of a pixel.
+pub(crate) struct SamplePoint<'a> {
+    /// Of the tile.
+    pub pixel: usize,
+    pub at_px: DVec2,
+    /// Of its filter.
+    pub std_px: f64,
+    /// Whether its pixel has no edge.
+    pub is_smooth: bool,
+    /// Rays to each light.
+    pub rounds: Rounds,
+    pub seen: Seen<'a>,
+    pub scratches: Shared,
+    /// As its scratches are seen, where that is by another filter.
+    pub wide: Option<Wide<'a>>,
+}
+
+/// A sample's surface through the pixel's whole filter.
+pub(crate) struct Wide<'a> {
+    pub point: SurfacePoint<'a>,
+    pub std_px: f64,
+}
+
+/// For which samples of a pixel a sample has the scratches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Shared {
+    /// For so many, itself among them.
+    Among(u32),
+    /// Another one of the batch has them.
+    With(usize),
+}
+
+impl<'a> SamplePoint<'a> {
+    /// Where its rays start, if it sees a surface.
+    pub fn shadow_point<'p>(
+        &'p self,
+        camera: &'p CameraFrame,
+        views: &'p LightViews<'a>,
+    ) -> Option<ShadowPoint<'p, 'a>> {
+        let Seen::Surface { hit, point, .. } = &self.seen else {
+            return None;
+        };
+        Some(ShadowPoint {
+            point,
+            object: hit.object,
+            pixel: Some(PixelFilter {
+                camera,
+                at_px: self.at_px,
+                std_px: self.std_px,
+                is_smooth: self.is_smooth,
+            }),
+            views,
+            rounds: self.rounds,
+            seed: self.seed(),
+            depth: 0,
+        })
+    }
+
+    /// Where its scratches are seen, given where it is itself.
+    pub fn scratched<'p>(&'p self, own: &'p SurfacePoint<'a>) -> &'p SurfacePoint<'a> {
+        self.wide.as_ref().map_or(own, |wide| &wide.point)
+    }
+
+    /// The same for its scratches; none if another sample has them.
+    pub fn scratched_point<'p>(
+        &'p self,
+        camera: &'p CameraFrame,
+        views: &'p LightViews<'a>,
+    ) -> Option<ShadowPoint<'p, 'a>> {
+        let Shared::Among(samples) = self.scratches else {
+            return None;
+        };
+        let mut at = self.shadow_point(camera, views)?;
+        at.rounds.now.count *= samples;
+        at.rounds.all *= samples;
+        if let Some(wide) = &self.wide {
+            at.point = &wide.point;
+            at.pixel = Some(PixelFilter {
+                camera,
+                at_px: self.at_px,
+                std_px: wide.std_px,
+                is_smooth: self.is_smooth,
+            });
+        }
+        Some(at)
+    }
+
+    /// For random numbers: another one for each sample of each pixel.
+    fn seed(&self) -> u32 {
+        let mixed = |a: u32, b: f64| {
+            let a = (a ^ (b as f32).to_bits()).wrapping_mul(0x85eb_ca6b);
+            a ^ (a >> 15)
+        };
+        mixed(mixed(1, self.at_px.x), self.at_px.y).wrapping_mul(0xc2b2_ae35)
+    }
+}
+
+/// What the ray of a sample meets.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there are few at a time, and most are surfaces"
+)]
+pub(crate) enum Seen<'a> {
+    /// Nothing: radiance of the environment.
+    Background(DVec3),
+    Surface {
+        hit: Hit,
+        point: SurfacePoint<'a>,
+        /// Along the view axis.
+        depth_m: f64,
+    },
+}
