@@ -105,7 +105,7 @@ impl FoundPixel {
     /// Stands for the object where samples see several.
     pub const SEVERAL_OBJECTS: u32 = u32::MAX;
 
-    /// The layers of [`Image`] that it says: base and scratches.
+    /// The layers of [`Image`](crate::Image) that it says: base and scratches.
     pub fn light(&self) -> [[f32; 3]; 2] {
         let (diffuse, specular) = (self.diffuse.light(), self.specular.light());
         let base = std::array::from_fn(|c| self.rest[c] + (diffuse[c] + specular[c]));

@@ -24,5 +24,5 @@ pub const MAP: f64 = 2.2e8;
 pub const MAP_PIXEL: f64 = 32.0;
 /// A texel with its mip chain while it is made.
 pub const TEXEL: f64 = 40.0;
-/// A pixel of the picture with all its layers.
-pub const PICTURE_PIXEL: f64 = 110.0;
+/// A pixel of the picture with all its layers, what rays found of it, and what the filter makes of that.
+pub const PICTURE_PIXEL: f64 = 480.0;

@@ -4,7 +4,7 @@
 //! use hairline_memory::{budget_bytes, costs, in_words};
 //!
 //! let picture = 1920.0 * 1080.0 * costs::PICTURE_PIXEL;
-//! assert_eq!(in_words(picture), "217.5 MiB");
+//! assert_eq!(in_words(picture), "949.2 MiB");
 //! assert!(picture < budget_bytes() as f64);
 //! ```
 
