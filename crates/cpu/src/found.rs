@@ -51,6 +51,15 @@ impl LayerLight {
         self.times(DVec3::splat(1.0 / samples))
     }
 
+    /// The share of its luminance that is seen; all of it without rays. As [`FoundLight::share`].
+    pub fn share(&self) -> f64 {
+        let all = luminance(self.weight);
+        match all > 0.0 {
+            true => (luminance(self.seen) / all).clamp(0.0, 1.0),
+            false => 1.0,
+        }
+    }
+
     /// As the picture keeps it.
     pub fn in_picture(&self) -> FoundLight {
         let [open, around, weight, seen, bounced] =

@@ -51,6 +51,7 @@ impl Prepared<'_> {
                 alpha: None,
                 noise: None,
                 found: None,
+                tones: None,
             },
             hit: picture.visibility.hit(column, row).copied(),
             segments: pairs as f64 / f64::from(samples),

@@ -18,7 +18,7 @@ use crate::silhouettes::is_smooth;
 use crate::surface::surface_point;
 use crate::visibility::{Visibility, center, coverage};
 use glam::{DVec2, DVec3};
-use hairline_image::{Found, FoundPixel, Image};
+use hairline_image::{Found, FoundPixel, Image, Tone, Tones};
 use hairline_index::Hit;
 use hairline_optics::mask::{Masked, ScratchSums};
 use hairline_scene::CameraFrame;
@@ -71,7 +71,7 @@ pub(crate) struct Tile<'a> {
     grating_picks: Picks,
     rooms: Vec<HitRoom<'a>>,
     shader: ScratchShader,
-    pixels: [Pixel; SIDE * SIDE],
+    pixels: Vec<Pixel>,
     pub counts: Counts,
 }
 
@@ -94,7 +94,7 @@ impl<'a> Tile<'a> {
             grating_picks: Picks::new(),
             rooms: picture.shadows.as_ref().map_or(Vec::new(), |it| it.rooms()),
             shader: ScratchShader::new(),
-            pixels: [Pixel::default(); SIDE * SIDE],
+            pixels: vec![Pixel::default(); SIDE * SIDE],
             counts: Counts::default(),
         }
     }
@@ -103,7 +103,7 @@ impl<'a> Tile<'a> {
     /// cancelled: then it renders nothing more.
     pub fn render(&mut self, column: usize, row: usize) -> Option<[Option<Sample>; SIDE * SIDE]> {
         let picture = self.picture;
-        self.pixels = [Pixel::default(); SIDE * SIDE];
+        self.pixels.iter_mut().for_each(Pixel::clear);
         let (x0, y0) = (column * SIDE, row * SIDE);
         let width = picture.camera.size_px.x as usize;
         // Blocks of four by two pixels: a segment then misses more of the groups of points than it would of rows.
@@ -119,17 +119,19 @@ impl<'a> Tile<'a> {
         }
         self.shade(column, row);
         let is_whole = !self.is_cancelled;
-        is_whole.then(|| self.pixels.map(|pixel| pixel.resolve()))
+        let gain = picture.prepared.display_gain();
+        is_whole.then(|| std::array::from_fn(|i| self.pixels[i].resolve(gain)))
     }
 
     /// Renders one pixel of the picture's rows.
     pub fn render_pixel(&mut self, x: usize, y: usize) -> Sample {
-        self.pixels = [Pixel::default(); SIDE * SIDE];
+        self.pixels.iter_mut().for_each(Pixel::clear);
         let pixel = y % SIDE * SIDE + x % SIDE;
         let (column, row) = (x / SIDE, y / SIDE);
         self.add_pixel(column, row, pixel, [x, y]);
         self.shade(column, row);
-        self.pixels[pixel].resolve().unwrap_or_default()
+        let gain = self.picture.prepared.display_gain();
+        self.pixels[pixel].resolve(gain).unwrap_or_default()
     }
 
     /// Adds all samples of a pixel: one through its centre, or several where it has an edge.
@@ -372,6 +374,12 @@ impl<'a> Picture<'a> {
                 pixels: vec![FoundPixel::default(); image.pixel_count()],
             });
         }
+        if image.tones.is_none() {
+            image.tones = Some(Tones {
+                gain: self.prepared.display_gain(),
+                pixels: vec![Tone::default(); image.pixel_count()],
+            });
+        }
         let mut layers = Layers::of(image);
         let parts: Vec<(usize, Layers)> = tile_rows
             .into_iter()
@@ -460,15 +468,17 @@ struct Layers<'i> {
     density: &'i mut [[f32; 3]],
     depth_m: &'i mut [f32],
     normal: &'i mut [[f32; 3]],
+    tones: &'i mut [Tone],
     /// Empty without shadows.
     found: &'i mut [FoundPixel],
 }
 
 impl<'i> Layers<'i> {
     fn of(image: &'i mut Image) -> Self {
-        let found = image.found.as_mut();
+        let (found, tones) = (image.found.as_mut(), image.tones.as_mut());
         Self {
             found: found.map_or(&mut [], |found| &mut found.pixels),
+            tones: tones.map_or(&mut [], |tones| &mut tones.pixels),
             base: &mut image.base,
             scratches: &mut image.scratches,
             density: &mut image.density,
@@ -490,6 +500,7 @@ impl<'i> Layers<'i> {
             density: split(&mut self.density, pixels),
             depth_m: split(&mut self.depth_m, pixels),
             normal: split(&mut self.normal, pixels),
+            tones: split(&mut self.tones, pixels),
             found: match self.found.len() {
                 0 => &mut [],
                 _ => split(&mut self.found, pixels),
@@ -506,5 +517,6 @@ impl<'i> Layers<'i> {
         self.density[pixel] = sample.density.as_vec3().to_array();
         self.depth_m[pixel] = sample.depth_m as f32;
         self.normal[pixel] = sample.normal.as_vec3().to_array();
+        self.tones[pixel] = sample.tone;
     }
 }

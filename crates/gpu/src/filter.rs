@@ -3,8 +3,8 @@
 //! Inputs: the films of a canvas. Output: base and scratches there. What was found stays: more samples may come.
 
 use hairline_image::filter::{
-    LEAST_ALIKE, MIRROR_STEP_PX, NOISE_STD, NORMAL_POWER, OFF_PLANE, PASSES, ROUGH_STEP_PX,
-    VARIANCE_PX,
+    LEAST_ALIKE, MIRROR_STEP_PX, NOISE_STD, NORMAL_POWER, OFF_PLANE, OUTLINE_PX, PASSES,
+    ROUGH_NORMALS, ROUGH_STEP_PX, VARIANCE_PX,
 };
 use wgpu::{
     BindGroupLayoutEntry, BindingResource, BufferUsages, ShaderStages, TextureFormat, TextureUsages,
@@ -108,7 +108,9 @@ impl FilterPasses {
                 layer,
                 noise_std: NOISE_STD,
                 off_plane: OFF_PLANE,
-                normal_power: NORMAL_POWER as f32,
+                normal_power: NORMAL_POWER,
+                rough_normals: ROUGH_NORMALS,
+                outline_px: OUTLINE_PX,
                 mirror_step_px: MIRROR_STEP_PX,
                 rough_step_px: ROUGH_STEP_PX,
                 variance_px: VARIANCE_PX,

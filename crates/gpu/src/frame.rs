@@ -159,9 +159,10 @@ pub(crate) fn frame(
             (0, 2..) => u32::MAX,
             _ => sample,
         },
-        pad_1: 0,
+        display_gain: scene.camera.exposure_ev.exp2() as f32,
         sample_order: sample_order(view.step_samples(), samples),
-        pad_2: [0; 2],
+        has_rays: view.found_rounds().is_some().into(),
+        pad_1: 0,
     }
 }
 

@@ -85,9 +85,10 @@ shared! {
         base_light_count: u32,
         middle_px: [f32; 2],
         coverage_round: u32,
-        pad_1: u32,
+        display_gain: f32,
         sample_order: [u32; 2],
-        pad_2: [u32; 2],
+        has_rays: u32,
+        pad_1: u32,
     }
     /// A corner of a triangle.
     Vertex {
@@ -307,6 +308,10 @@ shared! {
         samples: u32,
         normal: [f32; 3],
         edge: u32,
+        luminance: f32,
+        compressed: f32,
+        display_gain: f32,
+        pad_0: f32,
     }
     /// A pass of the radix sort; uniform.
     SortSettings {
@@ -328,6 +333,8 @@ shared! {
         noise_std: f32,
         off_plane: f32,
         normal_power: f32,
+        rough_normals: f32,
+        outline_px: i32,
         mirror_step_px: f32,
         rough_step_px: f32,
         variance_px: i32,

@@ -192,6 +192,8 @@ impl Batches {
         assert_eq!(image.size_px, batch.size_px, "a batch of another size");
         if let (Some(found), Some(more)) = (&mut image.found, &batch.found) {
             found.add(more);
+            let share = more.rounds as f32 / found.rounds.max(1) as f32;
+            add_tones(image, &batch, share);
             add_surfaces(image, &batch, before);
             image.show_found();
             return;
@@ -215,6 +217,7 @@ impl Batches {
             }
             noise.samples[i] += self.size;
         }
+        add_tones(image, &batch, 1.0 / (before + 1) as f32);
         add_surfaces(image, &batch, before);
     }
 
@@ -227,6 +230,12 @@ impl Batches {
             image.noise = Some(noise);
         }
         image
+    }
+}
+
+fn add_tones(image: &mut Image, batch: &Image, share: f32) {
+    if let (Some(tones), Some(more)) = (&mut image.tones, &batch.tones) {
+        tones.add(more, share);
     }
 }
 

@@ -159,6 +159,7 @@ pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes),
         alpha: file.find([ALPHA; 3]).map(|it| plane(&it)),
         noise: None,
         found: None,
+        tones: None,
     };
     image.noise = file.noise(path)?;
     check_lengths(&image, path)?;

@@ -1,6 +1,7 @@
 //! Images in memory: the layers of a render, and plain pictures.
 
 use crate::found::Found;
+use crate::tones::Tones;
 
 /// What a renderer makes: one value a pixel in each layer, row by row from the top. All layers are equally long.
 ///
@@ -29,6 +30,8 @@ pub struct Image {
     pub noise: Option<Noise>,
     /// What rays found, where there were any: for pictures of further rays, and for the filter. No file holds it.
     pub found: Option<Found>,
+    /// How a display averages the samples of each pixel, where renderers tell. No file holds it.
+    pub tones: Option<Tones>,
 }
 
 /// How sure a Monte Carlo estimate is. All vectors are as long as the image's layers.
@@ -143,6 +146,7 @@ impl Image {
             alpha: None,
             noise: None,
             found: None,
+            tones: None,
         }
     }
 
@@ -169,6 +173,18 @@ impl Image {
             size_px: self.size_px,
             rgb,
         }
+    }
+
+    /// The picture as a display is to have it: edges of what is far brighter than white are averaged as they look ([`Tones`]).
+    pub fn shown(&self) -> Picture {
+        let mut picture = self.beauty();
+        if let Some(tones) = &self.tones {
+            for (rgb, tone) in picture.rgb.iter_mut().zip(&tones.pixels) {
+                let share = tone.share(tones.gain);
+                *rgb = rgb.map(|c| c * share);
+            }
+        }
+        picture
     }
 
     /// A copy of one layer, three components a pixel.

@@ -18,12 +18,16 @@ const TAPS: [(i32, f32); 3] = [(-1, 0.25), (0, 0.5), (1, 0.25)];
 pub const NOISE_STD: f32 = 1.5;
 /// The share of depth by which a surface may leave the plane of a pixel.
 pub const OFF_PLANE: f32 = 0.01;
-/// The power of the cosine between normals.
-pub const NORMAL_POWER: u32 = 64;
+/// The power of the cosine between normals of mirrors.
+pub const NORMAL_POWER: f32 = 64.0;
+/// It falls by 1 and the square of so many times the roughness: a wide lobe sees much the same from normals that differ. Chosen by measured error.
+pub const ROUGH_NORMALS: f32 = 3.0;
 /// The longest step in a mirror, pixels: a mirror image has edges that no guide knows.
 pub const MIRROR_STEP_PX: f32 = 4.0;
 /// What a rough surface adds to it, for each unit of roughness.
 pub const ROUGH_STEP_PX: f32 = 40.0;
+/// How far, in pixels, an outline is averaged with the surfaces to both sides of it.
+pub const OUTLINE_PX: i32 = 2;
 /// Pixels to each side over which variances are averaged.
 pub const VARIANCE_PX: i32 = 2;
 /// Pixels that are less alike do not count.
@@ -35,13 +39,8 @@ pub fn filter_found(image: &mut Image) {
         return;
     };
     let guides = Guides::new(image, &found);
-    let layers: [(Of, bool); 3] = [
-        (|pixel| &pixel.diffuse, false),
-        (|pixel| &pixel.specular, true),
-        (|pixel| &pixel.scratches, false),
-    ];
-    let [diffuse, specular, scratches] =
-        layers.map(|(of, mirrors)| filter_layer(&guides, &found, of, mirrors));
+    let layers = [Layer::Diffuse, Layer::Specular, Layer::Scratches];
+    let [diffuse, specular, scratches] = layers.map(|layer| filter_layer(&guides, &found, layer));
     let light = |i: usize, signals: &[Signals], light: &FoundLight| match signals.get(i) {
         Some(signals) => signals.light(light),
         None => light.light(),
@@ -93,7 +92,37 @@ impl Image {
 }
 
 /// A layer of a pixel.
-type Of = fn(&FoundPixel) -> &FoundLight;
+#[derive(Clone, Copy, PartialEq)]
+enum Layer {
+    Diffuse,
+    Specular,
+    Scratches,
+}
+
+impl Layer {
+    fn of(self, pixel: &FoundPixel) -> &FoundLight {
+        match self {
+            Self::Diffuse => &pixel.diffuse,
+            Self::Specular => &pixel.specular,
+            Self::Scratches => &pixel.scratches,
+        }
+    }
+
+    /// The power of the cosine between normals.
+    fn normal_power(self, guide: &Guide) -> f32 {
+        let roughness = match self {
+            Self::Diffuse => 1.0,
+            Self::Specular => guide.roughness,
+            Self::Scratches => 0.0,
+        };
+        NORMAL_POWER / (1.0 + (ROUGH_NORMALS * roughness).powi(2))
+    }
+
+    /// Whether a pass is taken.
+    fn reaches(self, step: i32, guide: &Guide) -> bool {
+        self != Self::Specular || step as f32 <= MIRROR_STEP_PX + ROUGH_STEP_PX * guide.roughness
+    }
+}
 
 /// What is filtered of a layer of a pixel: for each channel and, last, the variance of the luminance; below 0 where there is no signal.
 #[derive(Clone, Copy, Default)]
@@ -206,7 +235,12 @@ impl Guides {
     }
 
     /// How much pixels see the same surface, from 0 to 1; (dx, dy) leads from one to the other.
-    fn alike(&self, p: &Guide, q: &Guide, [dx, dy]: [i32; 2]) -> f32 {
+    fn alike(&self, layer: Layer, p: &Guide, q: &Guide, [dx, dy]: [i32; 2]) -> f32 {
+        // An outline sees what both of its sides see; its own samples are few.
+        if p.object == FoundPixel::SEVERAL_OBJECTS {
+            let is_near = dx.abs().max(dy.abs()) <= OUTLINE_PX;
+            return f32::from(is_near && q.object != 0);
+        }
         if p.object != q.object || p.object == 0 {
             return 0.0;
         }
@@ -217,17 +251,17 @@ impl Guides {
         let on_plane = p.per_depth + p.slope[0] * dx as f32 + p.slope[1] * dy as f32;
         let off = (q.per_depth - on_plane).abs() / p.per_depth;
         let off = off / OFF_PLANE;
-        cos.powi(NORMAL_POWER as i32) / (1.0 + off * off)
+        cos.powf(layer.normal_power(p)) / (1.0 + off * off)
     }
 }
 
 /// Nothing where the layer has no noise.
-fn filter_layer(guides: &Guides, found: &Found, of: Of, mirrors: bool) -> Vec<Signals> {
+fn filter_layer(guides: &Guides, found: &Found, layer: Layer) -> Vec<Signals> {
     let rounds = found.rounds;
     let mut signals: Vec<Signals> = found
         .pixels
         .par_iter()
-        .map(|pixel| Signals::new(of(pixel), rounds))
+        .map(|pixel| Signals::new(layer.of(pixel), rounds))
         .collect();
     let is_noisy = |s: &Signals| {
         s.share[3] > 0.0
@@ -237,17 +271,14 @@ fn filter_layer(guides: &Guides, found: &Found, of: Of, mirrors: bool) -> Vec<Si
     if !signals.par_iter().any(is_noisy) {
         return Vec::new();
     }
-    let reaches = |step: i32, guide: &Guide| {
-        !mirrors || step as f32 <= MIRROR_STEP_PX + ROUGH_STEP_PX * guide.roughness
-    };
-    signals = smooth_variances(guides, &signals, rounds);
+    signals = smooth_variances(guides, layer, &signals, rounds);
     for pass in 0..PASSES {
         let step = 1i32 << pass;
         signals = over_pixels(guides, |i, [x, y]| {
             let own = &signals[i];
             let guide = &guides.pixels[i];
             let is_still = own.share[3] <= 0.0 && own.bounced[3] <= 0.0;
-            if is_still || guide.object == 0 || !reaches(step, guide) {
+            if is_still || guide.object == 0 || !layer.reaches(step, guide) {
                 return *own;
             }
             let mut sums = [Sum::default(), Sum::default()];
@@ -258,7 +289,7 @@ fn filter_layer(guides: &Guides, found: &Found, of: Of, mirrors: bool) -> Vec<Si
                     let alike = if i == j {
                         1.0
                     } else {
-                        guides.alike(guide, &guides.pixels[j], [dx * step, dy * step])
+                        guides.alike(layer, guide, &guides.pixels[j], [dx * step, dy * step])
                     };
                     if alike < LEAST_ALIKE {
                         continue;
@@ -315,7 +346,12 @@ impl Sum {
 
 /// Variances of few rounds are noisy themselves: each becomes the mean over the pixels around. After one round alone they are those of the
 /// values there.
-fn smooth_variances(guides: &Guides, signals: &[Signals], rounds: u32) -> Vec<Signals> {
+fn smooth_variances(
+    guides: &Guides,
+    layer: Layer,
+    signals: &[Signals],
+    rounds: u32,
+) -> Vec<Signals> {
     over_pixels(guides, |i, [x, y]| {
         let guide = &guides.pixels[i];
         let mut own = signals[i];
@@ -331,7 +367,7 @@ fn smooth_variances(guides: &Guides, signals: &[Signals], rounds: u32) -> Vec<Si
                 let alike = if i == j {
                     1.0
                 } else {
-                    guides.alike(guide, &guides.pixels[j], [dx, dy])
+                    guides.alike(layer, guide, &guides.pixels[j], [dx, dy])
                 };
                 if alike < LEAST_ALIKE {
                     continue;

@@ -27,6 +27,7 @@ pub mod output;
 pub mod png;
 mod temporary;
 pub mod tone_map;
+pub mod tones;
 
 pub use animation::{Animation, FPS_MAX};
 pub use batches::{BATCH_ROUNDS, BATCH_SAMPLES, Batch, Batches, add_batch};
@@ -38,3 +39,4 @@ pub use found::{Found, FoundLight, FoundPixel};
 pub use layers::{HeldLayer, Layers, Referred};
 pub use output::{Format, Output};
 pub use tone_map::{Display, ToneMap};
+pub use tones::{Tone, Tones};

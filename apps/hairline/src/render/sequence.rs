@@ -111,7 +111,7 @@ impl Frames<'_> {
             (self.write)(output, &image).map_err(kept)?;
         }
         if let Some(animation) = &mut self.animation {
-            animation.add(&image.beauty(), &self.display)?;
+            animation.add(&image.shown(), &self.display)?;
         }
         // A reference may take minutes: not for a figure that nobody waits for any more.
         if let Some(steadiness) = &mut self.steadiness

@@ -57,10 +57,23 @@ fn slope_at(own: Guide, pixel: vec2i) -> vec2f {
     return vec2f(slope_along(own, pixel, vec2i(1, 0)), slope_along(own, pixel, vec2i(0, 1)));
 }
 
+// The power of the cosine between normals.
+fn normal_power(own: Guide) -> f32 {
+    var roughness = own.roughness;
+    if settings.layer != FILTER_SPECULAR {
+        roughness = select(0.0, 1.0, settings.layer == FILTER_DIFFUSE);
+    }
+    let width = settings.rough_normals * roughness;
+    return settings.normal_power / (1.0 + width * width);
+}
+
 // How much a pixel so many steps away sees the same surface, from 0 to 1.
 fn alike(own: Guide, slope: vec2f, other: Guide, step: vec2i) -> f32 {
     if all(step == vec2i(0)) {
         return 1.0;
+    }
+    if own.object == FOUND_SEVERAL_OBJECTS {
+        return select(0.0, 1.0, max(abs(step.x), abs(step.y)) <= settings.outline_px && other.object != 0u);
     }
     let cosine = dot(own.normal, other.normal);
     if own.object != other.object || own.object == 0u || cosine <= 0.5 {
@@ -68,7 +81,7 @@ fn alike(own: Guide, slope: vec2f, other: Guide, step: vec2i) -> f32 {
     }
     let on_plane = own.per_depth + dot(slope, vec2f(step));
     let off = abs(other.per_depth - on_plane) / (own.per_depth * settings.off_plane);
-    return pow(cosine, settings.normal_power) / (1.0 + off * off);
+    return pow(cosine, normal_power(own)) / (1.0 + off * off);
 }
 
 fn layer_at(at: u32) -> FoundLight {

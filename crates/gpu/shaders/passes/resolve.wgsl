@@ -41,13 +41,23 @@ fn pixel_is_edge(pixel: vec2u) -> bool {
     return is_edge;
 }
 
+// A sample with what a display averages of it. With rays found_film.wgsl knows.
+fn with_tone(sample: FilmPixel) -> FilmPixel {
+    var value = sample;
+    if frame.has_rays == 0u {
+        value.luminance = tone_luminance(value.base + value.scratches);
+        value.compressed = tone_compressed(value.luminance, frame.display_gain);
+    }
+    return value;
+}
+
 // What lane `lane` of a group adds to its pixel.
 fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
     let point = points[at];
     var value: FilmPixel;
     if point.object == 0u {
         value.base = scene_background(point.normal);
-        return value;
+        return with_tone(value);
     }
     var by = at;
     var scratches = Masked(vec3f(0.0), vec3f(0.0));
@@ -69,7 +79,7 @@ fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
     value.normal = point.normal;
     value.depth_m = point.depth_m;
     value.coverage = 1.0;
-    return value;
+    return with_tone(value);
 }
 
 fn film_sum(a: FilmPixel, b: FilmPixel) -> FilmPixel {
@@ -81,6 +91,8 @@ fn film_sum(a: FilmPixel, b: FilmPixel) -> FilmPixel {
     sum.depth_m += b.depth_m;
     sum.coverage += b.coverage;
     sum.samples += b.samples;
+    sum.luminance += b.luminance;
+    sum.compressed += b.compressed;
     return sum;
 }
 
@@ -95,6 +107,7 @@ fn resolve(@builtin(global_invocation_id) id: vec3u) {
     if frame.step == 0u {
         var value = sample_value(tile.x, tile.y, strip_index(pixel));
         value.samples = 1u;
+        value.display_gain = frame.display_gain;
         value.edge = u32(pixel_is_edge(pixel));
         film.pixels[at] = value;
         return;
@@ -115,5 +128,6 @@ fn resolve(@builtin(global_invocation_id) id: vec3u) {
     }
     sum.samples += frame.samples;
     sum.edge = edge;
+    sum.display_gain = frame.display_gain;
     film.pixels[at] = sum;
 }

@@ -30,7 +30,9 @@ struct Frame {
     base_light_count: u32,      // of the lights, those that do not shine on scratches alone: they come first
     middle_px: vec2f,           // where in the picture the ray along `forward` is
     coverage_round: u32,        // of all samples of a pixel, which one is looked at; COVERAGE_ANY: it stands for all
+    display_gain: f32,          // 2^exposure_ev of the scene
     sample_order: vec2u,        // the samples of the step from the one that is nearest to the pixel's middle, 4 bits each
+    has_rays: u32,              // 1: rays tell which share of the light is seen
 }
 
 // The sample sees any surface that covers something.
@@ -313,6 +315,9 @@ struct FilmPixel {
     samples: u32,               // samples that are complete
     normal: vec3f,
     edge: u32,                  // 0; of a pixel with an edge or a crease its number among those of its tile, from 1
+    luminance: f32,             // as rays found it: no filter changes it
+    compressed: f32,            // tone_compressed() of it
+    display_gain: f32,          // by which it was compressed
 }
 
 struct Film {
@@ -341,6 +346,8 @@ struct FilterSettings {
     noise_std: f32,             // this and what follows: the numbers of image/src/filter.rs
     off_plane: f32,
     normal_power: f32,
+    rough_normals: f32,
+    outline_px: i32,
     mirror_step_px: f32,
     rough_step_px: f32,
     variance_px: i32,

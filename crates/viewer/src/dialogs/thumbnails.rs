@@ -92,7 +92,7 @@ fn picture(document: &Document, stop: &Stop) -> Option<ColorImage> {
         exposure_ev: description.camera.exposure_ev,
         tone_map: description.render.tone_map,
     };
-    let pixels = png::quantize(&image.beauty(), &display);
+    let pixels = png::quantize(&image.shown(), &display);
     let size = scene.render.size_px.map(|side| side as usize);
     Some(ColorImage::from_rgb(size, &pixels))
 }

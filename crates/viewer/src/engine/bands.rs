@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use hairline_cpu::closed_form::{Prepared, RenderOptions, TILE_PX};
-use hairline_image::{Batch, Found, FoundPixel, Image};
+use hairline_image::{Batch, Found, FoundPixel, Image, Tone, Tones};
 use hairline_scene::{Scene, Transport};
 use web_time::Instant;
 
@@ -182,7 +182,7 @@ impl Bands {
 }
 
 /// Some rows of a picture, given by their pixels.
-fn rows_of(image: &Image, pixels: Range<usize>) -> Image {
+pub(crate) fn rows_of(image: &Image, pixels: Range<usize>) -> Image {
     let width = image.size_px[0];
     let mut part = Image::new([width, (pixels.len() / width as usize) as u32]);
     part.base.copy_from_slice(&image.base[pixels.clone()]);
@@ -190,7 +190,11 @@ fn rows_of(image: &Image, pixels: Range<usize>) -> Image {
         .copy_from_slice(&image.scratches[pixels.clone()]);
     part.density.copy_from_slice(&image.density[pixels.clone()]);
     part.depth_m.copy_from_slice(&image.depth_m[pixels.clone()]);
-    part.normal.copy_from_slice(&image.normal[pixels]);
+    part.normal.copy_from_slice(&image.normal[pixels.clone()]);
+    part.tones = image.tones.as_ref().map(|tones| Tones {
+        gain: tones.gain,
+        pixels: tones.pixels[pixels].to_vec(),
+    });
     part
 }
 
@@ -207,6 +211,14 @@ pub(crate) fn put_rows(image: &mut Image, pixels: Range<usize>, part: &Image) {
             rounds: of_part.rounds,
             pixels: vec![FoundPixel::default(); count],
         });
-        found.pixels[pixels].copy_from_slice(&of_part.pixels);
+        found.pixels[pixels.clone()].copy_from_slice(&of_part.pixels);
+    }
+    if let Some(of_part) = &part.tones {
+        let count = image.pixel_count();
+        let tones = image.tones.get_or_insert_with(|| Tones {
+            gain: of_part.gain,
+            pixels: vec![Tone::default(); count],
+        });
+        tones.pixels[pixels].copy_from_slice(&of_part.pixels);
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use egui::{Color32, ColorImage};
 use hairline_image::{Display, Image, png};
 
+use super::bands::rows_of;
 use super::frame::Picture;
 
 /// A coarse picture as large as the fine one that is to cover it.
@@ -17,7 +18,7 @@ pub(super) struct Backdrop {
 impl Backdrop {
     /// Enlarges `coarse` as a texture would be.
     pub fn new(coarse: &Image, size_px: [u32; 2], display: &Display) -> Self {
-        let rgb = png::quantize(&coarse.beauty(), display);
+        let rgb = png::quantize(&coarse.shown(), display);
         let [from_x, from_y] = coarse.size_px.map(|side| side as usize);
         let texel = |x: usize, y: usize, c: usize| f32::from(rgb[3 * (y * from_x + x) + c]);
         let columns: Vec<_> = (0..size_px[0])
@@ -46,10 +47,8 @@ impl Backdrop {
     pub fn under(&self, fine: &Image, rows: u32) -> Picture {
         let width = self.size_px[0];
         let done = (width * rows) as usize;
-        let mut part = Image::new([width, rows]);
-        part.base.copy_from_slice(&fine.base[..done]);
-        part.scratches.copy_from_slice(&fine.scratches[..done]);
-        let rgb = png::quantize(&part.beauty(), &self.display);
+        let part = rows_of(fine, 0..done);
+        let rgb = png::quantize(&part.shown(), &self.display);
         let mut pixels = self.pixels.clone();
         for (pixel, rgb) in pixels.iter_mut().zip(rgb.chunks_exact(3)) {
             *pixel = Color32::from_rgb(rgb[0], rgb[1], rgb[2]);
