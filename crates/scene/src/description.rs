@@ -6,6 +6,7 @@
 //! its line and a hint; ranges are checked in `check`, so that they hold for descriptions that come from no file.
 
 mod check;
+mod files;
 mod gratings;
 pub(crate) mod hint;
 mod lens;
@@ -35,6 +36,7 @@ use crate::environment::BuiltInMap;
 use crate::scene::{Anisotropy, Coat, Specular};
 use values::{Named, is_default, serialize_named, serialize_scale};
 
+pub use files::FileUse;
 pub use gratings::{Grating, GroovePattern, UvAxis};
 pub use light_kind::{LightKind, SUN_DEG};
 pub use lights::{Cone, Light};
