@@ -25,6 +25,7 @@ mod layers;
 pub mod metrics;
 pub mod output;
 pub mod png;
+mod primaries;
 mod temporary;
 pub mod tone_map;
 
@@ -37,4 +38,5 @@ pub use filter::filter_found;
 pub use found::{Found, FoundLight, FoundPixel};
 pub use layers::{HeldLayer, Layers, Referred};
 pub use output::{Format, Output};
+pub use primaries::{Primaries, ToRec709, in_gamut};
 pub use tone_map::{Display, ToneMap};
