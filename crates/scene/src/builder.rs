@@ -109,7 +109,7 @@ impl<'a> Work<'a> {
     fn check_memory(&self) -> Result<Estimate, Error> {
         let mut estimate = Estimate::default();
         estimate.add_lights(self.description);
-        let up = convert::vertical_axis(self.description.camera.up.into());
+        let up = self.description.camera.world_up();
         for (i, object) in self.description.objects.iter().enumerate() {
             let key = self.surface_key(object, up);
             if self.old.surface(&key).is_none() {
@@ -143,7 +143,7 @@ impl<'a> Work<'a> {
             count: 0,
             free_bytes: self.loader.memory_budget_bytes as f64 - self.estimate.bytes(),
         };
-        let up = convert::vertical_axis(scene.camera.up);
+        let up = self.description.camera.world_up();
         for (i, object) in objects.iter().enumerate() {
             self.loader.go_on()?;
             self.loader.report(Stage::Meshes, i as u64, total);
@@ -318,6 +318,7 @@ impl<'a> Work<'a> {
         };
         self.new.map = Some((key, map.clone()));
         self.loader.report(Stage::Environment, 1, 1);
-        Ok(Some(convert::environment(described, map, scene.camera.up)))
+        let up = self.description.camera.world_up();
+        Ok(Some(convert::environment(described, map, up)))
     }
 }

@@ -55,12 +55,12 @@ mod surface;
 pub mod text;
 mod texture;
 pub mod texture_lookup;
+mod upright;
 pub mod wear;
 
 pub use arrays::{Arrays, MeshArrays, ScratchArrays};
 pub use builder::SceneBuilder;
 pub use camera::CameraFrame;
-pub use convert::vertical_axis;
 pub use description::Description;
 pub use environment::Environment;
 pub use error::Error;
