@@ -99,7 +99,7 @@ impl<'a> Work<'a> {
         self.photo_set(&mut surfaces, &mut scene)?;
         self.lamps(&mut scene);
         self.loader.go_on()?;
-        scene.environment = self.environment(&scene)?;
+        scene.environment = self.environment(&mut scene)?;
         self.scratches(&surfaces, &mut scene)?;
         self.new.surfaces = surfaces;
         Ok(scene)
@@ -304,7 +304,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn environment(&mut self, scene: &Scene) -> Result<Option<crate::Environment>, Error> {
+    fn environment(&mut self, scene: &mut Scene) -> Result<Option<crate::Environment>, Error> {
         let studio = &self.description.studio;
         let room = (!studio.hidden).then(|| studio.room());
         let Some(described) = self.description.environment.as_ref().or(room.as_ref()) else {
@@ -317,6 +317,7 @@ impl<'a> Work<'a> {
             None => convert::environment_map(&described.map, self.base_dir)?,
         };
         self.new.map = Some((key, map.clone()));
+        scene.notes.extend_from_slice(map.notes());
         self.loader.report(Stage::Environment, 1, 1);
         let up = self.description.camera.world_up();
         Ok(Some(convert::environment(described, map, up)))

@@ -134,11 +134,11 @@ impl Pair<'_> {
 }
 
 /// What a row of a map adds to all texels of another row.
-pub(super) struct RowTaps {
-    pub(super) row: usize,
+pub(in crate::environment) struct RowTaps {
+    pub row: usize,
     /// The first texel that the first one takes from, up to a width to its left.
-    pub(super) first: isize,
-    pub(super) weights: Vec<f32>,
+    pub first: isize,
+    pub weights: Vec<f32>,
 }
 
 /// What the texels of a row at `v` take from each row of a map that has `stride` texels for one of theirs.

@@ -4,11 +4,10 @@ use glam::Vec4;
 use hairline_image::Picture;
 use rayon::prelude::*;
 
-use super::levels::LEVEL_0_SIZE_PX;
-use super::lobe_part::{LobePart, row_taps};
+use super::lobe_part::RowTaps;
 
 /// Maps of one size, with a weight for each texel, which is 1 before anything is added up. A row of one map follows that of another.
-pub(super) struct Mip {
+pub(in crate::environment) struct Mip {
     width: usize,
     height: usize,
     pub(super) maps: usize,
@@ -16,7 +15,7 @@ pub(super) struct Mip {
 }
 
 impl Mip {
-    pub(super) fn of(maps: &[Picture]) -> Self {
+    pub(in crate::environment) fn of(maps: &[Picture]) -> Self {
         let [width, height] = maps[0].size_px.map(|n| n as usize);
         let rows = (0..height).flat_map(|y| maps.iter().map(move |map| &map.rgb[y * width..]));
         let texels = rows.flat_map(|row| &row[..width]);
@@ -28,9 +27,8 @@ impl Mip {
         }
     }
 
-    /// Of the size of a mip.
-    pub(super) fn empty(mip: usize, maps: usize) -> Self {
-        let [width, height] = LEVEL_0_SIZE_PX.map(|n| (n >> mip) as usize);
+    pub(in crate::environment) fn empty(size_px: [u32; 2], maps: usize) -> Self {
+        let [width, height] = size_px.map(|n| n as usize);
         Self {
             width,
             height,
@@ -45,7 +43,7 @@ impl Mip {
     }
 
     /// Over the weights.
-    pub(super) fn pictures(&self) -> Vec<Picture> {
+    pub(in crate::environment) fn pictures(&self) -> Vec<Picture> {
         let picture = |map: usize| Picture {
             size_px: [self.width as u32, self.height as u32],
             rgb: (0..self.height)
@@ -56,18 +54,19 @@ impl Mip {
         (0..self.maps).map(picture).collect()
     }
 
-    /// Adds a mip that is as fine or finer, blurred by a part of a lobe.
-    pub(super) fn add(&mut self, mip: &Self, lobe: &LobePart) {
+    /// Adds a mip that is as fine or finer, blurred. `taps` are what the row at a v takes from the rows of a map of a size, which has so many
+    /// texels for one of the row's.
+    pub(in crate::environment) fn add(
+        &mut self,
+        mip: &Self,
+        taps: impl Fn([usize; 2], f64, usize) -> Vec<RowTaps> + Sync,
+    ) {
         let (width, height) = (self.width, self.height);
         let stride = mip.width / width;
         let rows = self.texels.par_chunks_mut(width * self.maps).enumerate();
         rows.for_each(|(y, rows)| {
-            for taps in row_taps(
-                [mip.width, mip.height],
-                lobe,
-                (y as f64 + 0.5) / height as f64,
-                stride,
-            ) {
+            let v = (y as f64 + 0.5) / height as f64;
+            for taps in taps([mip.width, mip.height], v, stride) {
                 for (map, sums) in rows.chunks_mut(width).enumerate() {
                     let row = mip.row(taps.row, map);
                     for (x, sum) in sums.iter_mut().enumerate() {
