@@ -32,6 +32,7 @@ mod file_camera;
 mod grating;
 mod grey_map;
 pub mod inputs;
+mod jpeg_end;
 mod key_line;
 mod ktx2;
 mod lamp_shape;
