@@ -52,7 +52,7 @@ impl Primaries {
     ///
     /// # Errors
     /// Primaries that span no colours, in words.
-    pub fn to_rec_709(&self) -> Result<Option<ToRec709>, String> {
+    pub fn to_rec_709(self) -> Result<Option<ToRec709>, String> {
         if self.is_about(&Self::REC_709) {
             return Ok(None);
         }
@@ -81,7 +81,7 @@ impl Primaries {
     }
 
     /// Of RGB whose white has luminance 1.
-    fn to_xyz(&self) -> Option<Matrix> {
+    fn to_xyz(self) -> Option<Matrix> {
         let column = |[x, y]: [f64; 2]| [x, y, 1.0 - x - y];
         let columns = [self.red, self.green, self.blue].map(column);
         let primaries: Matrix = std::array::from_fn(|row| columns.map(|column| column[row]));
