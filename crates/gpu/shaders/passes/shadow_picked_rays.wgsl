@@ -43,7 +43,7 @@ fn ray_by(pixel: PixelPoint, triangle: u32, pick: Pick, luminance: f32, seed: u3
     let direction = pair.surface * drawn.light.direction;
     var clear_m = drawn.distance_m;
     if pick.source < frame.light_count && clear_m > 0.0 {
-        clear_m = light_clear_m(light_at(pick.source), pair.position_m, direction, clear_m);
+        clear_m = light_clear_m(light_at(pick.source), pair.position_m, direction, clear_m, shadow_round.extent_m);
     }
     return ShadowRay(direction, clear_m, luminance * pick.color * drawn.light.color, start.x, vec3f(0.0), start.y);
 }
