@@ -23,6 +23,7 @@ mod file;
 mod half_texels;
 mod irradiance;
 pub mod lookup;
+mod mip;
 mod prefilter;
 mod resample;
 mod suns;

@@ -173,7 +173,8 @@ fn light_meets(point: SurfacePoint, light: Light, direction: vec3f) -> MetLight 
 // the light lies in.
 fn light_clear_m(light: Light, from_m: vec3f, direction: vec3f, distance_m: f32, extent_m: f32) -> f32 {
     let step_m = ray_step_m(from_m + distance_m * direction, extent_m);
-    let along = select(1.0, abs(dot(light.normal, direction)), light.kind == LIGHT_POLYGON);
+    // Others have no normal.
+    let along = select(1.0, abs(dot(light.normal, direction)), dot(light.normal, light.normal) > 0.5);
     // Of a ray nothing is cast with 0; a point that is nearer to the light's plane has nothing before it.
     return max(distance_m - step_m / max(along, 1e-20), 1e-20);
 }

@@ -5,8 +5,7 @@ use std::f64::consts::PI;
 use hairline_image::Picture;
 
 use super::half_texels::round_to_half;
-use super::prefilter::lobe_part::RowTaps;
-use super::prefilter::mip::Mip;
+use super::mip::{Mip, RowTaps};
 use super::resample::{resample, row_solid_angle};
 
 /// Width and height of `blur`'s map, and of what it looks at: texels of 1.4 degrees. Linear between them a cosine is within 0.01 %; where it

@@ -11,13 +11,12 @@
 use hairline_image::Picture;
 
 use super::half_texels::round_to_half;
+use super::mip::Mip;
 use super::resample::resample;
 use lobe_part::{LobePart, row_taps};
-use mip::Mip;
 
 mod levels;
-pub(super) mod lobe_part;
-pub(super) mod mip;
+mod lobe_part;
 
 pub(super) use levels::LEVEL_0_SIZE_PX;
 use levels::{COARSEST, FINEST, LEVELS};

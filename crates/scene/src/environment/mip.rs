@@ -4,10 +4,16 @@ use glam::Vec4;
 use hairline_image::Picture;
 use rayon::prelude::*;
 
-use super::lobe_part::RowTaps;
+/// What a row of a map adds to all texels of another row.
+pub(super) struct RowTaps {
+    pub row: usize,
+    /// The first texel that the first one takes from, up to a width to its left.
+    pub first: isize,
+    pub weights: Vec<f32>,
+}
 
 /// Maps of one size, with a weight for each texel, which is 1 before anything is added up. A row of one map follows that of another.
-pub(in crate::environment) struct Mip {
+pub(super) struct Mip {
     width: usize,
     height: usize,
     pub(super) maps: usize,
@@ -15,7 +21,7 @@ pub(in crate::environment) struct Mip {
 }
 
 impl Mip {
-    pub(in crate::environment) fn of(maps: &[Picture]) -> Self {
+    pub(super) fn of(maps: &[Picture]) -> Self {
         let [width, height] = maps[0].size_px.map(|n| n as usize);
         let rows = (0..height).flat_map(|y| maps.iter().map(move |map| &map.rgb[y * width..]));
         let texels = rows.flat_map(|row| &row[..width]);
@@ -27,7 +33,7 @@ impl Mip {
         }
     }
 
-    pub(in crate::environment) fn empty(size_px: [u32; 2], maps: usize) -> Self {
+    pub(super) fn empty(size_px: [u32; 2], maps: usize) -> Self {
         let [width, height] = size_px.map(|n| n as usize);
         Self {
             width,
@@ -43,7 +49,7 @@ impl Mip {
     }
 
     /// Over the weights.
-    pub(in crate::environment) fn pictures(&self) -> Vec<Picture> {
+    pub(super) fn pictures(&self) -> Vec<Picture> {
         let picture = |map: usize| Picture {
             size_px: [self.width as u32, self.height as u32],
             rgb: (0..self.height)
@@ -56,7 +62,7 @@ impl Mip {
 
     /// Adds a mip that is as fine or finer, blurred. `taps` are what the row at a v takes from the rows of a map of a size, which has so many
     /// texels for one of the row's.
-    pub(in crate::environment) fn add(
+    pub(super) fn add(
         &mut self,
         mip: &Self,
         taps: impl Fn([usize; 2], f64, usize) -> Vec<RowTaps> + Sync,
