@@ -81,6 +81,12 @@ impl Wheel {
         };
         let (wheel, types) = beside(make, check_types)?;
         let (wheel, ()) = (wheel?, types?);
+        // What the stubs say of the compiled part is what it has.
+        let stubs = ["-m", "mypy.stubtest", "hairline._hairline", "--concise"];
+        run(python()
+            .current_dir(&package)
+            .args(stubs)
+            .args(["--mypy-config-file", "pyproject.toml"]))?;
 
         // From elsewhere: the package that is tested is the one that was installed.
         let target = root.join("target");

@@ -48,6 +48,11 @@ pub fn run(arguments: &cli::Compare) -> Result<(), Failure> {
     let comparison = metrics::compare(&a.layers, &b.layers, &display, None);
     drop(progress);
     refuse_the_incomparable(&a, &b, &comparison)?;
+    for side in [&a, &b] {
+        if let Some(window) = side.layers.window {
+            tell(format_args!("note: {}: {window}", side.path.display()));
+        }
+    }
     for problem in &comparison.problems {
         tell(format_args!("warning: {problem}"));
     }

@@ -1,10 +1,10 @@
-//! Ctrl-C, and the signal that asks a process to end: the first is a wish, the second an order.
+//! Ctrl-C, the signal that asks a process to end, and a terminal that hangs up: the first is a wish, the second an order.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::anyhow;
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use hairline_work::failure::Failure;
@@ -22,13 +22,14 @@ pub struct Interrupt {
 
 impl Interrupt {
     /// From now on a first signal sets the wish, and a second one ends the process at once, with the exit code of one that was
-    /// killed by it. A terminal that hangs up is left as it was: `nohup` must go on working.
+    /// killed by it. A terminal that hangs up counts where the system would end the process for it, and not below `nohup`.
     ///
     /// # Errors
     /// Where the system refuses.
     pub fn listen() -> std::io::Result<Self> {
         let interrupt = Self::default();
-        for signal in [SIGINT, SIGTERM] {
+        let hang_up = (!hang_ups_are_ignored()).then_some(SIGHUP);
+        for signal in [SIGINT, SIGTERM].into_iter().chain(hang_up) {
             // Actions run in the order of their registration: this one sees the wish of an earlier signal only.
             flag::register_conditional_shutdown(signal, 128 + signal, interrupt.asked.clone())?;
             flag::register(signal, interrupt.asked.clone())?;
@@ -40,4 +41,12 @@ impl Interrupt {
     pub fn is_asked(&self) -> bool {
         self.asked.load(Ordering::Relaxed)
     }
+}
+
+/// Whether who started this process wants it to go on when the terminal hangs up. Where the system does not say, all stays as it is.
+fn hang_ups_are_ignored() -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|digits| u64::from_str_radix(digits.trim(), 16).ok());
+    mask.is_none_or(|mask| mask & (1 << (SIGHUP - 1)) != 0)
 }

@@ -138,8 +138,8 @@ pub fn load(
         && environment.repaired_texels() > 0
     {
         tell(format_args!(
-            "warning: {} texels of the environment map held a negative or non-finite value; they count as black, or as \
-             bright as can be if infinite",
+            "warning: {} texels of the environment map held a negative or non-finite value, or one above 6.9e10; they count \
+             as black, as 65504 if infinite, or as 6.9e10",
             environment.repaired_texels()
         ));
     }

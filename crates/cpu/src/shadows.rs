@@ -55,6 +55,14 @@ pub(crate) struct MetObject {
     pub number: u32,
 }
 
+/// What a ray goes to.
+#[derive(Clone, Copy)]
+struct RayEnd {
+    /// Without one the environment.
+    light: Option<u32>,
+    distance_m: f64,
+}
+
 /// A sample that rays start from.
 #[derive(Clone, Copy)]
 pub(crate) struct ShadowPoint<'p, 'a> {
@@ -171,26 +179,48 @@ impl<'a> Shadows<'a> {
             let from_m = point.position_m;
             self.lights.reach_m(light as usize, from_m, direction)
         });
-        wi.z > 0.0 && self.sees(point, point.raised_m, direction, distance_m)
+        let end = RayEnd { light, distance_m };
+        wi.z > 0.0 && self.sees(point, point.raised_m, direction, end)
     }
 
-    /// Whether nothing hides, from a place on the surface, what the point sees in a direction at a distance. The ray goes to that very place:
+    /// Whether nothing hides, from a place on the surface, what the point sees in a direction. The ray goes to that very place:
     /// a parallel one would blur the shadow of what is near a lamp by more than the pixel's filter does.
     fn sees(
         &self,
         point: &SurfacePoint,
         on_surface_m: DVec3,
         mut direction: DVec3,
-        mut distance_m: f64,
+        end: RayEnd,
     ) -> bool {
+        let mut distance_m = self.clear_m(end, point.position_m, direction);
+        let mut origin_m = self.off_the_surface(point, on_surface_m, direction);
         if distance_m.is_finite() {
-            let way_m = point.position_m + direction * distance_m - on_surface_m;
-            distance_m = way_m.length();
-            direction = way_m / distance_m;
+            let end_m = point.position_m + direction * distance_m;
+            origin_m = self.off_the_surface(
+                point,
+                on_surface_m,
+                (end_m - on_surface_m).normalize_or_zero(),
+            );
+            distance_m = origin_m.distance(end_m);
+            direction = (end_m - origin_m).normalize_or(direction);
         }
-        let origin_m = self.off_the_surface(point, on_surface_m, direction);
         let triangles = &self.prepared.triangles;
         !triangles.is_hidden(origin_m, direction, distance_m)
+    }
+
+    /// How far a ray looks for what hides its source.
+    fn clear_m(&self, end: RayEnd, from_m: DVec3, direction: DVec3) -> f64 {
+        let Some(light) = end.light else {
+            return end.distance_m;
+        };
+        let step_m = self.step_m(from_m + direction * end.distance_m);
+        self.lights
+            .clear_m(light as usize, direction, end.distance_m, step_m)
+    }
+
+    /// What rounding may move a point on a surface by: vertices are singles, and this is some ten steps of theirs.
+    fn step_m(&self, at_m: DVec3) -> f64 {
+        1e-6 * (self.extent_m + at_m.length())
     }
 
     /// The point of the surface so many standard deviations of the pixel's filter to the right and down.
@@ -246,9 +276,7 @@ impl<'a> Shadows<'a> {
         on_surface_m: DVec3,
         direction: DVec3,
     ) -> DVec3 {
-        // Vertices are singles: this is some ten steps of theirs.
-        let step_m = 1e-6 * (self.extent_m + on_surface_m.length());
-        on_surface_m + step_m * (direction + point.normal)
+        on_surface_m + self.step_m(on_surface_m) * (direction + point.normal)
     }
 }
 

@@ -3,64 +3,6 @@
 use std::collections::VecDeque;
 use std::path::{Component, Path, PathBuf};
 
-use hairline_scene::Description;
-use hairline_scene::description::{Layer, Map, Surface};
-
-/// Every path that a description names.
-pub(crate) fn each_path(description: &mut Description, change: &mut dyn FnMut(&mut PathBuf)) {
-    if let Some(environment) = &mut description.environment
-        && let Map::File(file) = &mut environment.map
-    {
-        change(file);
-    }
-    for object in &mut description.objects {
-        if let Surface::Mesh(file) = &mut object.surface {
-            change(file);
-        }
-    }
-    for scratches in &mut description.scratches {
-        if let Layer::Listed(listed) = &mut scratches.layer {
-            change(&mut listed.file);
-        }
-        let place = &mut scratches.place;
-        place
-            .mask
-            .iter_mut()
-            .chain(&mut place.density)
-            .for_each(&mut *change);
-    }
-    for grating in &mut description.gratings {
-        grating.files_mut().for_each(&mut *change);
-    }
-    for light in &mut description.lights {
-        if let Some(picture) = &mut light.picture {
-            change(picture);
-        }
-    }
-}
-
-/// The same, to be read.
-pub(crate) fn named(description: &Description) -> impl Iterator<Item = &Path> {
-    let map = description.environment.as_ref().and_then(|e| e.map.file());
-    let meshes = description
-        .objects
-        .iter()
-        .map(|object| match &object.surface {
-            Surface::Mesh(file) => Some(file.as_path()),
-            Surface::Shape(_) => None,
-        });
-    let lists = description.scratches.iter().map(|s| match &s.layer {
-        Layer::Listed(listed) => Some(listed.file.as_path()),
-        Layer::Laid(_) | Layer::Brushed(_) => None,
-    });
-    let places = description.scratches.iter().flat_map(|s| s.place.files());
-    let of_gratings = description.gratings.iter().flat_map(|g| g.files());
-    let pictures = description.lights.iter().map(|l| l.picture.as_deref());
-    map.into_iter()
-        .chain(meshes.chain(lists).chain(pictures).flatten())
-        .chain(places.chain(of_gratings).map(PathBuf::as_path))
-}
-
 /// `path` as a scene file in `base_dir` would write it. Both are absolute and `base_dir` has no `..` and no symbolic links;
 /// those in `path` stay. Absolute where the two have no root in common.
 pub(crate) fn relative_to(path: &Path, base_dir: &Path) -> PathBuf {

@@ -230,7 +230,7 @@ modules! {
     /// The lobes of the base, to draw directions from.
     BASE_LOBES = "scene/base_lobes" needs [BASE, LUMINANCE];
     /// Directions to area lights.
-    LIGHT_SAMPLING = "scene/light_sampling" needs [LIGHTS, GGX, CONTENTS, SCRATCH_LIGHT];
+    LIGHT_SAMPLING = "scene/light_sampling" needs [LIGHTS, GGX, CONTENTS, SCRATCH_LIGHT, SHADOW];
     /// What the passes of shadows share.
     SHADOW = "scene/shadow" needs [LAYOUT, SOBOL, LUMINANCE];
     /// Pass: a ray of each sample to one source of the base's light.
@@ -240,7 +240,7 @@ modules! {
     /// Where surfaces are not.
     CUTOUTS = "scene/cutouts" needs [SCENE, COVERAGE];
     /// Where rays of a sample start.
-    RAY_START = "scene/ray_start" needs [CUTOUTS, PIXEL_POINT, AT_HITS];
+    RAY_START = "scene/ray_start" needs [CUTOUTS, PIXEL_POINT, AT_HITS, SHADOW];
     /// What rays found of the layers of a sample's light.
     FOUND = "scene/found" needs [LAYOUT, CONTENTS, LUMINANCE];
     /// Of a pixel, as the host has it.

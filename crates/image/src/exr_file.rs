@@ -6,12 +6,13 @@
 //! numbers. Notes are text attributes whose names start with `hairline.`.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::io::Cursor;
 use std::path::Path;
 
 use exr::prelude::*;
 
-use crate::{Error, Image, Noise, Picture, held};
+use crate::{Error, Image, Noise, Picture, Primaries, ToRec709, held, in_gamut};
 
 /// What a render should remember about its making (scene, model, seed), by name. Any text; names of 246 bytes at most.
 pub type Notes = BTreeMap<String, String>;
@@ -35,6 +36,7 @@ pub(crate) fn channel_names(layer: crate::Layer) -> [&'static str; 3] {
         crate::Layer::Density => ["density.R", "density.G", "density.B"],
         crate::Layer::Depth => ["depth.Z"; 3],
         crate::Layer::Normal => ["normal.X", "normal.Y", "normal.Z"],
+        crate::Layer::Alpha => [ALPHA; 3],
     }
 }
 
@@ -53,7 +55,7 @@ pub(crate) fn variance_channel_names(layer: crate::Layer) -> Option<[&'static st
             "variance.density.G",
             "variance.density.B",
         ]),
-        crate::Layer::Depth | crate::Layer::Normal => None,
+        crate::Layer::Depth | crate::Layer::Normal | crate::Layer::Alpha => None,
     }
 }
 
@@ -109,11 +111,11 @@ pub fn read_image(path: &Path) -> std::result::Result<Image, Error> {
     Ok(read_image_with_notes(path)?.0)
 }
 
-/// The width and height of the first part of a file, of which only the head is read.
+/// Which part of its picture a file holds: of its largest part, of which only the head is read.
 ///
 /// # Errors
 /// [`Error::CannotRead`], [`Error::Unusable`].
-pub fn size_px(path: &Path) -> std::result::Result<[u32; 2], Error> {
+pub fn window(path: &Path) -> std::result::Result<Window, Error> {
     let file = held::open(path).map_err(|e| Error::cannot_read(path, &e))?;
     let unusable = |reason: String| Error::Unusable {
         path: path.to_owned(),
@@ -124,10 +126,23 @@ pub fn size_px(path: &Path) -> std::result::Result<[u32; 2], Error> {
         exr::error::Error::Io(e) => Error::cannot_read(path, &e),
         e => unusable(format!("not an EXR file that can be read: {e}")),
     })?;
-    let sizes = meta.headers.iter().map(|header| header.layer_size);
-    let largest = sizes.max_by_key(|size| size.area());
-    let size = largest.ok_or_else(|| unusable("it has no parts".to_owned()))?;
-    Ok([size.0 as u32, size.1 as u32])
+    let parts = meta.headers.iter().map(|header| {
+        Window::of(
+            header.own_attributes.layer_position,
+            header.layer_size,
+            header.shared_attributes.display_window,
+        )
+    });
+    let largest = parts.max_by_key(|window| window.size_px[0] as u64 * window.size_px[1] as u64);
+    largest.ok_or_else(|| unusable("it has no parts".to_owned()))
+}
+
+/// The width and height of the picture in a file: of its display window.
+///
+/// # Errors
+/// As of [`window`].
+pub fn size_px(path: &Path) -> std::result::Result<[u32; 2], Error> {
+    Ok(window(path)?.of_px)
 }
 
 /// Reads a render with the notes that [`crate::Output::write_image_with_notes`] wrote; the notes are empty in files
@@ -147,6 +162,7 @@ pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes),
         })
     };
     let part = |layer| whole(channel_names(layer));
+    let alpha = file.find([ALPHA; 3]);
     let base = part(crate::Layer::Base)?;
     let plane = |it: &Picture| it.rgb.iter().map(|z| z[0]).collect();
     let mut image = Image {
@@ -156,7 +172,7 @@ pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes),
         density: part(crate::Layer::Density)?.rgb,
         depth_m: plane(&part(crate::Layer::Depth)?),
         normal: part(crate::Layer::Normal)?.rgb,
-        alpha: file.find([ALPHA; 3]).map(|it| plane(&it)),
+        alpha: alpha.map(|it| plane(&it)),
         noise: None,
         found: None,
         tones: None,
@@ -166,18 +182,21 @@ pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes),
     Ok((image, file.notes))
 }
 
-/// Reads any EXR file with channels R, G and B (or Y alone: grey) in one of its parts; the largest level of a mip map.
+/// Reads any EXR file with channels R, G and B (or X, Y and Z, or Y alone: grey) in one of its parts; the largest level of a mip map. Colours
+/// of other primaries become those of Rec.709, as near as light can be, and what of the display window has no pixels is black.
 ///
 /// # Errors
 /// [`Error::CannotRead`], and [`Error::Unusable`] for files without such channels and for deep images.
 pub fn read_picture(path: &Path) -> std::result::Result<Picture, Error> {
     let file = Contents::read(path)?;
-    file.find(["R", "G", "B"])
-        .or_else(|| file.find(["Y"; 3]))
-        .ok_or_else(|| Error::Unusable {
-            path: path.to_owned(),
-            reason: "no channels R, G and B".to_owned(),
-        })
+    let mut picture = file.beauty().ok_or_else(|| Error::Unusable {
+        path: path.to_owned(),
+        reason: "no channels R, G and B".to_owned(),
+    })?;
+    if file.is_converted() {
+        picture.rgb.iter_mut().for_each(|rgb| *rgb = in_gamut(*rgb));
+    }
+    Ok(picture)
 }
 
 /// Layers may come from parts of different sizes in files that others made.
@@ -270,24 +289,93 @@ fn encode(
     Ok(bytes.into_inner())
 }
 
-/// ITU-R BT.709, white D65.
-const REC_709: attribute::Chromaticities = attribute::Chromaticities {
-    red: Vec2(0.64, 0.33),
-    green: Vec2(0.30, 0.60),
-    blue: Vec2(0.15, 0.06),
-    white: Vec2(0.3127, 0.3290),
+/// What pictures of this program are in.
+const REC_709: attribute::Chromaticities = {
+    let Primaries {
+        red,
+        green,
+        blue,
+        white,
+    } = Primaries::REC_709;
+    attribute::Chromaticities {
+        red: Vec2(red[0] as f32, red[1] as f32),
+        green: Vec2(green[0] as f32, green[1] as f32),
+        blue: Vec2(blue[0] as f32, blue[1] as f32),
+        white: Vec2(white[0] as f32, white[1] as f32),
+    }
 };
+
+/// Which pixels of a picture a file holds: its data window in its display window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// The first pixel, from the upper left corner of the picture.
+    pub at_px: [i64; 2],
+    /// How many there are.
+    pub size_px: [u32; 2],
+    /// Those of the picture.
+    pub of_px: [u32; 2],
+}
+
+impl Window {
+    fn of(at: Vec2<i32>, size: Vec2<usize>, display: IntegerBounds) -> Self {
+        let at = [at.0, at.1].map(i64::from);
+        let corner = [display.position.0, display.position.1].map(i64::from);
+        Self {
+            at_px: [at[0] - corner[0], at[1] - corner[1]],
+            size_px: [size.0 as u32, size.1 as u32],
+            of_px: [display.size.0 as u32, display.size.1 as u32],
+        }
+    }
+
+    /// Whether it has all pixels of the picture, and no other.
+    pub fn is_whole(&self) -> bool {
+        self.at_px == [0; 2] && self.size_px == self.of_px
+    }
+
+    /// A value for each pixel of the picture: those of the file, and none elsewhere.
+    fn placed<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
+        let [width, height] = self.of_px.map(i64::from);
+        let mut placed = vec![T::default(); (width * height) as usize];
+        let own_width = self.size_px[0] as usize;
+        let from = self.at_px[0].clamp(0, width);
+        let to = (self.at_px[0] + own_width as i64).clamp(from, width);
+        for (y, row) in (self.at_px[1]..).zip(values.chunks_exact(own_width)) {
+            if (0..height).contains(&y) && from < to {
+                let first = (from - self.at_px[0]) as usize;
+                let own = &row[first..first + (to - from) as usize];
+                placed[(y * width + from) as usize..][..own.len()].copy_from_slice(own);
+            }
+        }
+        placed
+    }
+}
+
+impl fmt::Display for Window {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ([x, y], [width, height], [of_width, of_height]) =
+            (self.at_px, self.size_px, self.of_px);
+        write!(
+            f,
+            "its pixels are {width} x {height} from column {x} and row {y} on, of a picture of {of_width} x {of_height}; the rest of that is black"
+        )
+    }
+}
+
+/// The largest picture that a few pixels may be placed in.
+const LARGEST_PX: u64 = 1 << 29;
 
 /// All that a file holds.
 pub(crate) struct Contents {
     parts: Vec<Part>,
     pub(crate) notes: Notes,
     batch: Option<u32>,
+    /// Of colours in its channels R, G and B.
+    to_rec_709: Option<ToRec709>,
 }
 
 /// One part of an EXR file.
 struct Part {
-    size_px: [u32; 2],
+    window: Window,
     channels: Vec<AnyChannel<FlatSamples>>,
 }
 
@@ -314,9 +402,35 @@ impl Part {
             .map(|((r, g), b)| [r, g, b])
             .collect();
         Some(Picture {
-            size_px: self.size_px,
+            size_px: self.window.of_px,
             rgb,
         })
+    }
+
+    /// Puts the values of all channels where they are in the picture.
+    fn place(&mut self) -> std::result::Result<(), String> {
+        let window = self.window;
+        if window.is_whole() {
+            return Ok(());
+        }
+        let count = window.of_px.map(u64::from).iter().product::<u64>();
+        if count == 0 || count > LARGEST_PX {
+            return Err(format!(
+                "its display window has {} x {} pixels",
+                window.of_px[0], window.of_px[1]
+            ));
+        }
+        // Others are not read.
+        self.channels
+            .retain(|channel| channel.sampling == Vec2(1, 1));
+        for channel in &mut self.channels {
+            channel.sample_data = match &channel.sample_data {
+                FlatSamples::F16(values) => FlatSamples::F16(window.placed(values)),
+                FlatSamples::F32(values) => FlatSamples::F32(window.placed(values)),
+                FlatSamples::U32(values) => FlatSamples::U32(window.placed(values)),
+            };
+        }
+        Ok(())
     }
 }
 
@@ -337,19 +451,37 @@ impl Contents {
                     reason: format!("not an EXR file that can be read: {e}"),
                 },
             })?;
+        let unusable = |reason: String| Error::Unusable {
+            path: path.to_owned(),
+            reason,
+        };
+        let primaries = file.attributes.chromaticities.map(|it| {
+            let xy = |at: Vec2<f32>| [at.0, at.1].map(f64::from);
+            Primaries {
+                red: xy(it.red),
+                green: xy(it.green),
+                blue: xy(it.blue),
+                white: xy(it.white),
+            }
+        });
+        let to_rec_709 = primaries.map_or(Ok(None), |it| it.to_rec_709());
         let mut contents = Self {
             parts: Vec::with_capacity(file.layer_data.len()),
             notes: Notes::new(),
             batch: None,
+            to_rec_709: to_rec_709.map_err(unusable)?,
         };
+        let display = file.attributes.display_window;
         for layer in file.layer_data {
             for (name, value) in &layer.attributes.other {
                 contents.take_attribute(name, value);
             }
-            contents.parts.push(Part {
-                size_px: [layer.size.0 as u32, layer.size.1 as u32],
+            let mut part = Part {
+                window: Window::of(layer.attributes.layer_position, layer.size, display),
                 channels: layer.channel_data.list.into_vec(),
-            });
+            };
+            part.place().map_err(unusable)?;
+            contents.parts.push(part);
         }
         for (name, value) in &file.attributes.other {
             contents.take_attribute(name, value);
@@ -379,6 +511,32 @@ impl Contents {
     /// Three channels of one part.
     pub(crate) fn find(&self, names: [&str; 3]) -> Option<Picture> {
         self.parts.iter().find_map(|part| part.interleaved(names))
+    }
+
+    /// The picture that everybody shows, in Rec.709.
+    pub(crate) fn beauty(&self) -> Option<Picture> {
+        let converted = |names, to: Option<ToRec709>| {
+            let mut picture = self.find(names)?;
+            if let Some(to) = to {
+                picture.rgb.iter_mut().for_each(|rgb| *rgb = to.color(*rgb));
+            }
+            Some(picture)
+        };
+        let xyz = Primaries::XYZ.to_rec_709().ok().flatten();
+        converted(["R", "G", "B"], self.to_rec_709)
+            .or_else(|| converted(["X", "Y", "Z"], xyz))
+            .or_else(|| converted(["Y"; 3], None))
+    }
+
+    /// Whether its colours were of other primaries.
+    fn is_converted(&self) -> bool {
+        self.to_rec_709.is_some() || self.find(["R", "G", "B"]).is_none()
+    }
+
+    /// Which part of its picture it holds, where that is not all.
+    pub(crate) fn window(&self) -> Option<Window> {
+        let mut windows = self.parts.iter().map(|part| part.window);
+        windows.find(|window| !window.is_whole())
     }
 
     /// How many samples each pixel has had, and the size of a batch; only if the file says both.

@@ -79,14 +79,14 @@ impl Noise {
         self.samples[i].checked_div(self.batch).unwrap_or(0)
     }
 
-    /// The variances of a layer; `None` for depth and normal, which are not estimated.
+    /// The variances of a layer; `None` for depth, normal and alpha, which are not estimated.
     pub fn variance(&self, layer: Layer) -> Option<&[[f32; 3]]> {
         match layer {
             Layer::Beauty => Some(&self.beauty),
             Layer::Base => Some(&self.base),
             Layer::Scratches => Some(&self.scratches),
             Layer::Density => Some(&self.density),
-            Layer::Depth | Layer::Normal => None,
+            Layer::Depth | Layer::Normal | Layer::Alpha => None,
         }
     }
 }
@@ -106,17 +106,20 @@ pub enum Layer {
     Depth,
     /// [`Image::normal`].
     Normal,
+    /// [`Image::alpha`], the same in all three components; 1 of a picture without.
+    Alpha,
 }
 
 impl Layer {
     /// All layers, in the order of the enumeration.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Beauty,
         Self::Base,
         Self::Scratches,
         Self::Density,
         Self::Depth,
         Self::Normal,
+        Self::Alpha,
     ];
 
     /// The name, in lower case.
@@ -128,6 +131,7 @@ impl Layer {
             Self::Density => "density",
             Self::Depth => "depth",
             Self::Normal => "normal",
+            Self::Alpha => "alpha",
         }
     }
 }
@@ -196,6 +200,10 @@ impl Image {
             Layer::Density => self.density.clone(),
             Layer::Depth => self.depth_m.iter().map(|&z| [z; 3]).collect(),
             Layer::Normal => self.normal.clone(),
+            Layer::Alpha => match &self.alpha {
+                Some(alpha) => alpha.iter().map(|&a| [a; 3]).collect(),
+                None => vec![[1.0; 3]; self.pixel_count()],
+            },
         }
     }
 

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use crate::exr_file::{self, Contents, Notes};
+use crate::exr_file::{self, Contents, Notes, Window};
 use crate::metrics::Estimate;
 use crate::{Display, Error, Image, Layer, Picture, png, tone_map};
 
@@ -42,11 +42,14 @@ pub struct Layers {
     pub batches: Option<Vec<u32>>,
     /// What the file remembers about its making.
     pub notes: Notes,
+    /// Where the file holds a part of its picture: which.
+    pub window: Option<Window>,
 }
 
 impl Layers {
     /// Reads a file by its contents, whatever its name: any EXR, with all layers that Hairline knows by name (the
-    /// beauty from R, G and B, or from Y), or a PNG, whose sRGB codes become a linear beauty.
+    /// beauty from R, G and B in Rec.709, or from X, Y and Z, or from Y), or a PNG, whose sRGB codes become a linear beauty,
+    /// multiplied by its alpha.
     ///
     /// # Errors
     /// [`Error::CannotRead`]; [`Error::Unusable`] for other formats, for files without any layer, and where layers
@@ -59,7 +62,10 @@ impl Layers {
         if start.starts_with(b"\x76\x2f\x31\x01") {
             Self::from_exr(path, &Contents::read(path)?)
         } else if start.starts_with(b"\x89PNG\r\n\x1a\n") {
-            Ok(Self::of_displayed(png::read_picture(path)?))
+            let (picture, alpha) = png::read_with_alpha(path)?;
+            let mut layers = Self::of_displayed(picture);
+            layers.hold_alpha(alpha);
+            Ok(layers)
         } else {
             Err(Error::Unusable {
                 path: path.to_owned(),
@@ -80,7 +86,16 @@ impl Layers {
             }],
             batches: None,
             notes: Notes::new(),
+            window: None,
         }
+    }
+
+    fn hold_alpha(&mut self, alpha: Option<Vec<f32>>) {
+        self.held.extend(alpha.map(|alpha| HeldLayer {
+            layer: Layer::Alpha,
+            values: alpha.into_iter().map(|a| [a; 3]).collect(),
+            variance: None,
+        }));
     }
 
     /// A layer, if it is there.
@@ -98,24 +113,34 @@ impl Layers {
         })
     }
 
-    /// What a display shows of the beauty, as linear values in [0, 1]: tone-mapped unless that is done already. The
+    /// What a display shows of the beauty, as linear values in [0, 1]: tone-mapped unless that is done already. Alpha stays; the
     /// other layers and the noise are left out: they mean nothing after the curve. Empty if there is no beauty.
     pub fn displayed(&self, display: &Display) -> Self {
+        let alpha = self.get(Layer::Alpha).map(|held| &held.values);
+        let shown = |(i, &rgb): (usize, &[f32; 3])| {
+            // As files have it, colours are multiplied by the shares; the curve is of the colours alone.
+            let share = alpha.map_or(1.0, |alpha| alpha[i][0]);
+            if !(share > 0.0) {
+                return [0.0; 3];
+            }
+            let shown = display.apply(rgb.map(|c| c / share));
+            shown.map(|code| tone_map::linear_from_srgb(code) * share)
+        };
         let values = match (self.get(Layer::Beauty), self.referred) {
             (None, _) => Vec::new(),
             (Some(beauty), Referred::Display) => beauty.values.clone(),
-            (Some(beauty), Referred::Scene) => beauty
-                .values
-                .iter()
-                .map(|&rgb| display.apply(rgb).map(tone_map::linear_from_srgb))
-                .collect(),
+            (Some(beauty), Referred::Scene) => {
+                beauty.values.iter().enumerate().map(shown).collect()
+            }
         };
         let mut shown = Self::of_displayed(Picture {
             size_px: self.size_px,
             rgb: values,
         });
         shown.held.retain(|held| !held.values.is_empty());
+        shown.held.extend(self.get(Layer::Alpha).cloned());
         shown.notes = self.notes.clone();
+        shown.window = self.window;
         shown
     }
 
@@ -123,10 +148,10 @@ impl Layers {
         let mut held = Vec::new();
         let mut size_px: Option<[u32; 2]> = None;
         for layer in Layer::ALL {
-            let picture = file.find(exr_file::channel_names(layer)).or_else(|| {
-                let grey = layer == Layer::Beauty;
-                grey.then(|| file.find(["Y"; 3])).flatten()
-            });
+            let picture = match layer {
+                Layer::Beauty => file.beauty(),
+                _ => file.find(exr_file::channel_names(layer)),
+            };
             let Some(picture) = picture else { continue };
             let expected = *size_px.get_or_insert(picture.size_px);
             if picture.size_px != expected {
@@ -170,6 +195,7 @@ impl Layers {
             held,
             batches,
             notes: file.notes.clone(),
+            window: file.window(),
         })
     }
 }
@@ -181,17 +207,20 @@ impl From<&Image> for Layers {
             size_px: image.size_px,
             referred: Referred::Scene,
             held: Layer::ALL
+                .into_iter()
+                .filter(|layer| *layer != Layer::Alpha || image.alpha.is_some())
                 .map(|layer| HeldLayer {
                     layer,
                     values: image.layer(layer),
                     variance: image.variance(layer).map(<[_]>::to_vec),
                 })
-                .into(),
+                .collect(),
             batches: image
                 .noise
                 .as_ref()
                 .map(|noise| (0..noise.samples.len()).map(|i| noise.batches(i)).collect()),
             notes: Notes::new(),
+            window: None,
         }
     }
 }

@@ -87,12 +87,17 @@ pub fn quantize(picture: &Picture, display: &Display) -> Vec<u8> {
         .collect()
 }
 
-/// Reads an sRGB picture (PNG, 8 or 16 bits) back to linear Rec.709; the tone map stays in it. Grey becomes R = G = B,
-/// transparency is dropped.
+/// Reads an sRGB picture (PNG, 8 or 16 bits) back to linear Rec.709; the tone map stays in it. Grey becomes R = G = B, and what is
+/// transparent is black by as much.
 ///
 /// # Errors
 /// [`Error::CannotRead`], [`Error::Unusable`].
 pub fn read_picture(path: &Path) -> Result<Picture, Error> {
+    Ok(read_with_alpha(path)?.0)
+}
+
+/// The same, with its alpha if it has one.
+pub(crate) fn read_with_alpha(path: &Path) -> Result<(Picture, Option<Vec<f32>>), Error> {
     let file = File::open(path).map_err(|e| Error::cannot_read(path, &e))?;
     let decoded = image::load(BufReader::new(file), image::ImageFormat::Png).map_err(|e| {
         Error::Unusable {
@@ -101,14 +106,21 @@ pub fn read_picture(path: &Path) -> Result<Picture, Error> {
         }
     })?;
     // 8-bit codes times 257 are the 16-bit codes of the same values, so that one way serves both.
-    let decoded = decoded.into_rgb16();
-    Ok(Picture {
+    let has_alpha = decoded.color().has_alpha();
+    let decoded = decoded.into_rgba16();
+    let share = |code: u16| f32::from(code) / 65535.0;
+    let picture = Picture {
         size_px: [decoded.width(), decoded.height()],
         rgb: decoded
             .pixels()
-            .map(|p| p.0.map(|code| linear_from_srgb(f32::from(code) / 65535.0)))
+            .map(|p| {
+                let [r, g, b, a] = p.0.map(share);
+                [r, g, b].map(|code| linear_from_srgb(code) * a)
+            })
             .collect(),
-    })
+    };
+    let alpha = has_alpha.then(|| decoded.pixels().map(|p| share(p.0[3])).collect());
+    Ok((picture, alpha))
 }
 
 #[cfg(test)]

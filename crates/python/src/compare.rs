@@ -10,6 +10,7 @@ use pyo3::types::PyDict;
 use crate::errors;
 use crate::image::Image;
 use crate::names::{exposure, tone_map};
+use crate::watched::refuse_forks;
 
 /// A picture in memory or in a file.
 fn layers(picture: &Bound<'_, PyAny>) -> PyResult<Layers> {
@@ -31,6 +32,7 @@ pub(crate) fn compare<'py>(
     curve: &str,
 ) -> PyResult<(Bound<'py, PyDict>, Vec<String>)> {
     let py = a.py();
+    refuse_forks(py)?;
     let display = Display {
         exposure_ev: exposure(exposure_ev)?,
         tone_map: tone_map(curve)?,

@@ -233,6 +233,7 @@ impl Image {
     }
 
     /// The variance of each pixel's mean in a layer: float32, height x width x 3, squared radiance. None where it is not known.
+    #[pyo3(signature = (layer="beauty"))]
     fn variance<'py>(slf: &Bound<'py, Self>, layer: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
         let names = Layer::ALL.map(|layer| (layer.name(), layer));
         let layer = named("layer", layer, &names)?;

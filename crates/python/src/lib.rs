@@ -31,6 +31,7 @@ fn _hairline(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(strips::picture_from_state, module)?)?;
     module.add_function(wrap_pyfunction!(strips::picture_state, module)?)?;
     module.add_function(wrap_pyfunction!(scene::inputs, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::digest, module)?)?;
     module.add_function(wrap_pyfunction!(compare::compare, module)?)?;
     optics::add_to(module)
 }

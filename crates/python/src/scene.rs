@@ -93,6 +93,16 @@ pub(crate) fn inputs(table: &Bound<'_, PyDict>, folder: PathBuf) -> PyResult<Vec
     Ok(inputs.filter(is_file).collect())
 }
 
+/// A name for all that a scene says, in whatever types and order: arrays by their numbers, what lies in memory by its contents, and files by their
+/// names.
+#[pyfunction]
+pub(crate) fn digest(table: &Bound<'_, PyDict>) -> PyResult<String> {
+    let py = table.py();
+    let description = described(py, Stock::default().table(table)?)?;
+    let text = self::table(py, &description)?.to_string();
+    Ok(blake3::hash(text.as_bytes()).to_hex().to_string())
+}
+
 fn described(py: Python<'_>, table: toml::Table) -> PyResult<Description> {
     let text = table.to_string();
     let read = Description::from_toml(&text, Path::new(NO_FILE));

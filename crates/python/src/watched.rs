@@ -1,7 +1,7 @@
 //! Long work on a thread of its own, while the thread of Python looks after signals and tells how far it has come.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Condvar, Mutex};
+use std::sync::{Condvar, Mutex, OnceLock};
 use std::time::Duration;
 
 use hairline_work::Listener;
@@ -109,6 +109,20 @@ pub(crate) struct Ended<T> {
     pub(crate) interrupt: Option<PyErr>,
 }
 
+/// Refuses work in a process that was forked from one that had worked: the threads that it would wait for are in the other one.
+pub(crate) fn refuse_forks(py: Python<'_>) -> PyResult<()> {
+    static WORKED_IN: OnceLock<u32> = OnceLock::new();
+    let here = std::process::id();
+    match *WORKED_IN.get_or_init(|| here) == here {
+        true => Ok(()),
+        false => Err(errors::of_work(
+            py,
+            "this process was forked from one that had worked already, and its threads stayed there; start processes by \
+             multiprocessing.get_context(\"spawn\"), or use hairline.cluster",
+        )),
+    }
+}
+
 /// Does `work`, without the interpreter's lock. Another exception than KeyboardInterrupt, of a signal's handler or of `host`, ends the
 /// work and is raised.
 pub(crate) fn run<T: Send>(
@@ -116,6 +130,7 @@ pub(crate) fn run<T: Send>(
     work: impl FnOnce(&Told) -> T + Send,
 ) -> PyResult<Ended<T>> {
     let py = host.py();
+    refuse_forks(py)?;
     let told = Told::default();
     std::thread::scope(|scope| {
         let worker = scope.spawn(|| {

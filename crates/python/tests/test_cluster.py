@@ -149,3 +149,27 @@ def test_files_of_a_scene_travel(client, scene, tmp_path):
     scene.scratches[-1].file = "../lists/lines.csv"
     with pytest.raises(hairline.SceneError, match="not below the scene's folder"):
         cluster.reference(scene, size=(24, 16), samples=64, client=client)
+
+
+def test_scenes_that_differ_in_arrays_alone_have_pictures_of_their_own(client, scene):
+    """Ends of scratches, and a vertex of a mesh: as many as before."""
+    def variant(half_m=0.08, seed=1):
+        made = hairline.Scene.from_dict(scene.to_dict())
+        made.objects[0] = hairline.Object.from_arrays(name="plate", material="steel", **square(half_m))
+        made.scratches[0] = hairline.Scratches.from_arrays(
+            object="plate", ends_m=lines_on_plate(300, seed) / 3, width_um=4, depth_nm=120
+        )
+        return made
+
+    seen = []
+    for each in (variant(), variant(seed=2), variant(half_m=0.05), variant()):
+        alone = each.render(size=(24, 16), backend="cpu", shadows=False)
+        [(_, image)] = cluster.render(each, [{}], client=client, size=(24, 16), backend="cpu", shadows=False)
+        np.testing.assert_array_equal(image.beauty, alone.beauty)
+        seen.append(image.beauty.tobytes())
+    assert len(set(seen)) == 3 and seen[0] == seen[3]
+
+
+def square(half_m):
+    corners = half_m * np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    return {"vertices_m": corners, "triangles": [[0, 1, 2], [0, 2, 3]]}

@@ -1,8 +1,12 @@
 """The data model is that of scene files, and says what they say."""
 
 import copy
+import os
 import pickle
 import re
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -258,3 +262,49 @@ def test_scenes_are_copied_and_pickled(scene):
         np.testing.assert_array_equal(again.render(backend="cpu", samples=1).beauty, image.beauty)
         again.camera.fov_y_deg = 20
         assert scene.camera.fov_y_deg == 30
+
+
+def test_scenes_are_equal_that_say_the_same(scene, tmp_path):
+    same = hairline.Scene.from_dict(scene.to_dict())
+    assert same == scene
+    # Lists, tuples and arrays; a default that is written out.
+    same.camera.position_m = np.array([0.0, -0.22, 0.30])
+    same.camera.fov_y_deg = 30
+    assert same == scene and not same != scene
+    for seed in (1, 2):
+        ends_m = lines_on_plate(20, seed)
+        scene.scratches.append(hairline.Scratches.from_arrays(object="plate", ends_m=ends_m, width_um=3, depth_nm=100))
+    same.scratches.extend(copy.deepcopy(list(scene.scratches)[1:]))
+    assert same == scene
+    same.scratches[-1] = same.scratches[-2]
+    assert same != scene
+    elsewhere = copy.deepcopy(scene)
+    elsewhere.folder = tmp_path
+    assert elsewhere != scene and scene != scene.to_dict()
+
+
+def test_work_after_a_fork_is_refused_and_does_not_wait_for_ever():
+    """In a process of its own: the one of the tests goes on."""
+    code = """
+import os, hairline
+from conftest import plate_table
+scene = hairline.Scene.from_dict(plate_table())
+scene.render(size=(8, 8), backend="cpu")
+child = os.fork()
+if child == 0:
+    try:
+        scene.render(size=(8, 8), backend="cpu")
+    except hairline.WorkError as error:
+        os._exit(7 if "forked" in str(error) and "spawn" in str(error) else 8)
+    os._exit(9)
+assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 7
+"""
+    run = subprocess.run([sys.executable, "-c", code], cwd=Path(__file__).parent, timeout=60, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+
+
+def test_nothing_is_said_of_a_display(tmp_path):
+    environment = {name: value for name, value in os.environ.items() if name != "XDG_RUNTIME_DIR"}
+    code = "import hairline, conftest; hairline.Scene.from_dict(conftest.plate_table()).render(size=(8, 8))"
+    run = subprocess.run([sys.executable, "-c", code], cwd=Path(__file__).parent, env=environment, capture_output=True, text=True)
+    assert run.returncode == 0 and "XDG_RUNTIME_DIR" not in run.stderr, run.stderr

@@ -228,7 +228,7 @@ impl Integrator<'_> {
         for i in 0..self.lights.len() {
             let [u, v, ..] = vertex.random.four(Purpose::Light(i as u32));
             if let Some(to) = self.lights.sample(i, point.position_m, DVec2::new(u, v))
-                && !self.is_hidden(point, to.direction, to.distance_m)
+                && !self.is_hidden(point, i, to.direction, to.distance_m)
             {
                 let wi = point.surface_from_world(to.direction);
                 if vertex.lobes.are_above(wi) {
@@ -238,7 +238,7 @@ impl Integrator<'_> {
             }
             if let Some((direction, value, pdf)) = drawn
                 && let Some(hit) = self.lights.hit(i, point.position_m, direction)
-                && !self.is_hidden(point, direction, hit.distance_m)
+                && !self.is_hidden(point, i, direction, hit.distance_m)
             {
                 let pdf = pdf + self.lights.pdf(i, point.position_m, direction);
                 sum += hit.radiance * value / pdf;
@@ -292,7 +292,7 @@ impl Integrator<'_> {
                     };
                     let direction = vertex.world(lobe.frame.surface_from_band(drawn.wi));
                     if let Some(hit) = self.lights.hit(light, vertex.point.position_m, direction)
-                        && !self.is_hidden(vertex.point, direction, hit.distance_m)
+                        && !self.is_hidden(vertex.point, light, direction, hit.distance_m)
                     {
                         let value = lobe.eval(&drawn) / (draws * drawn.pdf);
                         sum += hit.radiance * value;
@@ -395,7 +395,7 @@ impl Integrator<'_> {
                 };
                 let direction = vertex.world(wi);
                 if let Some(hit) = self.lights.hit(light, from, direction)
-                    && !self.is_hidden(point, direction, hit.distance_m)
+                    && !self.is_hidden(point, light, direction, hit.distance_m)
                 {
                     let elsewhere = self.lights.pdf(light, from, direction) / wi.z;
                     let pdf = draws * directions.pdf(wi, elsewhere);
@@ -503,20 +503,27 @@ impl Integrator<'_> {
         self.triangles.intersect_solid(origin_m, direction)
     }
 
-    /// Whether an object hides a light at some distance.
-    fn is_hidden(&self, point: &SurfacePoint, direction: DVec3, distance_m: f64) -> bool {
+    /// Whether an object hides light `i` at some distance. The surface that a flat light lies in hides nothing of it.
+    fn is_hidden(&self, point: &SurfacePoint, i: usize, direction: DVec3, distance_m: f64) -> bool {
         if !self.settings.shadows {
             return false;
         }
+        let step_m = self.step_m(point.position_m + direction * distance_m);
+        let clear_m = self.lights.clear_m(i, direction, distance_m, step_m);
         let origin_m = self.off_the_surface(point, direction);
-        self.triangles.is_hidden(origin_m, direction, distance_m)
+        let way_m = point.position_m + direction * clear_m - origin_m;
+        let to_end = way_m.normalize_or(direction);
+        self.triangles.is_hidden(origin_m, to_end, way_m.length())
     }
 
     /// Where a ray starts that must not meet the surface that it leaves.
     fn off_the_surface(&self, point: &SurfacePoint, direction: DVec3) -> DVec3 {
-        // Vertices are singles: this is some ten steps of theirs.
-        let step_m = 1e-6 * (self.extent_m + point.position_m.length());
-        point.raised_m + step_m * (direction + point.normal)
+        point.raised_m + self.step_m(point.position_m) * (direction + point.normal)
+    }
+
+    /// What rounding may move a point on a surface by: vertices are singles, and this is some ten steps of theirs.
+    fn step_m(&self, at_m: DVec3) -> f64 {
+        1e-6 * (self.extent_m + at_m.length())
     }
 }
 

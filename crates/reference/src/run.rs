@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 
 /// Counts the changes that make samples worth something else: pictures of different revisions must not be added up. Raise it with
 /// every change to the model, to what is drawn, or to the order of random numbers.
-pub const REVISION: u32 = 3;
+pub const REVISION: u32 = 4;
 
 impl Integrator<'_> {
     /// An image without samples, to hand to [`Integrator::run`]: depth and normal alone, those of each pixel's middle.

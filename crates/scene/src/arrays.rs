@@ -139,8 +139,11 @@ impl MeshArrays {
             vertices: vertices.collect(),
             triangles: self.triangles.clone(),
         };
-        if self.normals.is_none() {
-            surface.make_flat_normals();
+        match self.normals {
+            Some(_) => {
+                surface.turn_to_normals();
+            }
+            None => surface.make_flat_normals(),
         }
         surface
     }

@@ -99,7 +99,7 @@ impl<'a> Work<'a> {
         self.photo_set(&mut surfaces, &mut scene)?;
         self.lamps(&mut scene);
         self.loader.go_on()?;
-        scene.environment = self.environment(&scene)?;
+        scene.environment = self.environment(&mut scene)?;
         self.scratches(&surfaces, &mut scene)?;
         self.new.surfaces = surfaces;
         Ok(scene)
@@ -109,7 +109,7 @@ impl<'a> Work<'a> {
     fn check_memory(&self) -> Result<Estimate, Error> {
         let mut estimate = Estimate::default();
         estimate.add_lights(self.description);
-        let up = convert::vertical_axis(self.description.camera.up.into());
+        let up = self.description.camera.world_up();
         for (i, object) in self.description.objects.iter().enumerate() {
             let key = self.surface_key(object, up);
             if self.old.surface(&key).is_none() {
@@ -143,7 +143,7 @@ impl<'a> Work<'a> {
             count: 0,
             free_bytes: self.loader.memory_budget_bytes as f64 - self.estimate.bytes(),
         };
-        let up = convert::vertical_axis(scene.camera.up);
+        let up = self.description.camera.world_up();
         for (i, object) in objects.iter().enumerate() {
             self.loader.go_on()?;
             self.loader.report(Stage::Meshes, i as u64, total);
@@ -304,7 +304,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn environment(&mut self, scene: &Scene) -> Result<Option<crate::Environment>, Error> {
+    fn environment(&mut self, scene: &mut Scene) -> Result<Option<crate::Environment>, Error> {
         let studio = &self.description.studio;
         let room = (!studio.hidden).then(|| studio.room());
         let Some(described) = self.description.environment.as_ref().or(room.as_ref()) else {
@@ -317,7 +317,9 @@ impl<'a> Work<'a> {
             None => convert::environment_map(&described.map, self.base_dir)?,
         };
         self.new.map = Some((key, map.clone()));
+        scene.notes.extend_from_slice(map.notes());
         self.loader.report(Stage::Environment, 1, 1);
-        Ok(Some(convert::environment(described, map, scene.camera.up)))
+        let up = self.description.camera.world_up();
+        Ok(Some(convert::environment(described, map, up)))
     }
 }

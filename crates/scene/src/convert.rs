@@ -89,13 +89,6 @@ pub(crate) fn material(material: &description::Material) -> Material {
     }
 }
 
-/// The axis of the world nearest to the camera's up: the direction of the environment's top. A camera that is rolled a little
-/// leaves the world upright.
-pub fn vertical_axis(up: DVec3) -> DVec3 {
-    let axis = DVec3::AXES[up.abs().max_position()];
-    axis * axis.dot(up).signum()
-}
-
 /// A map as it is without the scene: not turned, intensity 1.
 pub(crate) fn environment_map(
     map: &description::Map,
@@ -127,13 +120,13 @@ fn built_in_map(map: BuiltInMap) -> Environment {
     MADE[map as usize].get_or_init(make).clone()
 }
 
-/// The map as it is described, for a camera with `up`.
+/// The map as it is described, its top along `up`.
 pub(crate) fn environment(
     described: &description::Environment,
     map: Environment,
     up: DVec3,
 ) -> Environment {
-    map.with_up(vertical_axis(up), described.rotation_deg.to_radians())
+    map.with_up(up, described.rotation_deg.to_radians())
         .with_intensity(described.intensity)
         .with_visible(described.visible)
 }

@@ -6,6 +6,7 @@
 //! its line and a hint; ranges are checked in `check`, so that they hold for descriptions that come from no file.
 
 mod check;
+mod files;
 mod gratings;
 pub(crate) mod hint;
 mod lens;
@@ -27,14 +28,17 @@ mod values;
 
 use std::path::{Path, PathBuf};
 
+use glam::DVec3;
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
 use serde::Serialize;
 
 use crate::environment::BuiltInMap;
 use crate::scene::{Anisotropy, Coat, Specular};
+use crate::upright::vertical_axis;
 use values::{Named, is_default, serialize_named, serialize_scale};
 
+pub use files::FileUse;
 pub use gratings::{Grating, GroovePattern, UvAxis};
 pub use light_kind::{LightKind, SUN_DEG};
 pub use lights::{Cone, Light};
@@ -113,6 +117,14 @@ pub struct Camera {
     /// With `aperture_mm`: the distance of what is in focus, along the view. Default: that of the target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub focus_distance_m: Option<f64>,
+}
+
+impl Camera {
+    /// The axis of the world that points up: the one nearest to `up`; where the camera looks straight down, that which it looks along.
+    pub fn world_up(&self) -> DVec3 {
+        let view = DVec3::from(self.target_m) - DVec3::from(self.position_m);
+        vertical_axis(self.up.into(), view)
+    }
 }
 
 /// `[render]`

@@ -14,7 +14,7 @@ use glam::{DMat3, DQuat, DVec3};
 use hairline_image::Picture;
 
 use crate::light::{Light, SUN_DISTANCE_M};
-use half_texels::{fit_half, round_to_half};
+use half_texels::{HALF_MAX, fit_half, round_to_half};
 use suns::Sun;
 use windows::Window;
 
@@ -23,6 +23,7 @@ mod file;
 mod half_texels;
 mod irradiance;
 pub mod lookup;
+mod mip;
 mod prefilter;
 mod resample;
 mod suns;
@@ -42,8 +43,8 @@ use lookup::{
 /// An environment map and what is made from it. Clones share the texels.
 ///
 /// Texels are bounded and rounded so that half floats (`rgba16float`) hold them exactly: a renderer that uploads them
-/// shows what one that reads them here shows. A map with radiances above 65504 is stored divided by a power of two,
-/// at most 1024; what is brighter still (the disk of the sun, in absolute units) is cut there.
+/// shows what one that reads them here shows. A map with radiances above 65504 is stored divided by a power of two, which
+/// multiplies what is looked up ([`Environment::texel_radiance`]). Radiances above 6.9e10 (forty times those of the sun's disk in cd/m2) are cut there.
 #[derive(Clone, Debug)]
 pub struct Environment {
     maps: Arc<Maps>,
@@ -68,6 +69,8 @@ struct Maps {
     irradiance: Picture,
     texel_scale: f64,
     repaired_texels: usize,
+    /// What the author should know about the file.
+    notes: Vec<String>,
 }
 
 impl Environment {
@@ -79,7 +82,7 @@ impl Environment {
     /// What is small and bright in it, the disc of the sun above all, becomes a light: [`Environment::suns`]. The camera sees it
     /// where it was. What is larger and has a sharp outline becomes a light for scratches alone: [`Environment::windows`].
     ///
-    /// Negative and NaN components count as 0, infinite ones as the largest finite value;
+    /// Negative and NaN components count as 0, infinite ones as 65504, the largest half float: what files of half floats had no number for;
     /// [`Environment::repaired_texels`] counts them. Maps wider than 8192 pixels are halved until they are not.
     ///
     /// # Errors
@@ -90,13 +93,9 @@ impl Environment {
         intensity: f64,
         visible: bool,
     ) -> Result<Self, Error> {
-        let map = file::read(path)?;
-        Ok(Self::with_lamps_parted(
-            map,
-            rotation_rad,
-            intensity,
-            visible,
-        ))
+        let mut maps = Maps::new(file::read(path)?, true);
+        maps.notes = file::notes(path);
+        Ok(Self::of_maps(maps, rotation_rad, intensity, visible))
     }
 
     /// From an equirectangular map in memory, rows from the top; see [`Environment::load`] for the rest. It stays whole: nothing of
@@ -298,9 +297,14 @@ impl Environment {
         beside.unwrap_or(&self.maps.levels)
     }
 
-    /// How many texels of the file held a negative, infinite or NaN component.
+    /// How many texels of the file held a negative, infinite or NaN component, or one beyond [what a map can hold](Environment).
     pub fn repaired_texels(&self) -> usize {
         self.maps.repaired_texels
+    }
+
+    /// What the author of the scene should know about the file, a line each.
+    pub fn notes(&self) -> &[String] {
+        &self.maps.notes
     }
 }
 
@@ -308,11 +312,12 @@ impl Maps {
     /// Of a map whose suns and windows may be taken out.
     fn new(mut map: Picture, parts: bool) -> Self {
         assert!(!map.rgb.is_empty(), "an empty environment map");
-        let repaired_texels = repair(&mut map);
+        let mut repaired_texels = repair(&mut map);
         while map.size_px[0] > MAP_WIDTH_MAX {
             map = resample::resample(&map, map.size_px.map(|n| n / 2));
         }
-        let texel_scale = fit_half(&mut map);
+        let (texel_scale, cut_texels) = fit_half(&mut map);
+        repaired_texels += cut_texels;
         let parted = if parts {
             suns::part(&mut map)
         } else {
@@ -336,6 +341,7 @@ impl Maps {
             irradiance,
             texel_scale,
             repaired_texels,
+            notes: Vec::new(),
         }
     }
 }
@@ -354,12 +360,10 @@ fn map_from_world(up: DVec3, rotation_rad: f64) -> DMat3 {
 fn repair(map: &mut Picture) -> usize {
     let mut repaired = 0;
     for texel in &mut map.rgb {
-        let whole = texel.map(|c| {
-            if c.is_nan() {
-                0.0
-            } else {
-                c.clamp(0.0, f32::MAX)
-            }
+        let whole = texel.map(|c| match c {
+            _ if c.is_nan() => 0.0,
+            f32::INFINITY => HALF_MAX,
+            _ => c.max(0.0),
         });
         repaired += usize::from(whole != *texel);
         *texel = whole;

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use crate::convert::vertical_axis;
 use crate::description::limits;
 use crate::description::{Camera, Description, Surface};
 use crate::error::Error;
 use crate::mesh_file::{self, FileCamera, Placing};
+use crate::upright::vertical_axis;
 
 impl Description {
     /// The same with the camera of a file that it asks for by `of_file`, if it does.
@@ -50,7 +50,7 @@ impl Description {
     /// # Errors
     /// No model has it, or it is none that Hairline can see by; what is wrong with a file.
     pub fn see_by(&mut self, wanted: &str, base_dir: &Path) -> Result<(), Error> {
-        let world_up = vertical_axis(self.camera.up.into());
+        let world_up = self.camera.world_up();
         let mut first_flaw = None;
         for (i, object) in self.objects.iter().enumerate() {
             let Surface::Mesh(file) = &object.surface else {
@@ -80,12 +80,16 @@ impl Description {
     }
 }
 
+/// The least cosine between the up of a picture and the axis that its `up` is nearest to.
+const LEAST_RISE: f64 = 0.05;
+
 /// That of a description. Models stand by the axis nearest to its `up`, which therefore has to stay.
 fn camera(seen: &FileCamera, before: &Camera, world_up: DVec3) -> Result<Camera, mesh_file::Flaw> {
     let right = seen.forward.cross(seen.up);
-    // Of all vectors that are up in this picture the one nearest to the axis.
-    let up = world_up - right * world_up.dot(right);
-    if up.dot(seen.up) <= 0.0 || vertical_axis(up) != world_up {
+    // Of all vectors that are up in this picture the one nearest to the axis; of a camera that looks straight down, one that leans a little.
+    let rise = world_up.dot(seen.up);
+    let up = world_up - right * world_up.dot(right) + seen.up * (LEAST_RISE - rise).max(0.0);
+    if vertical_axis(up, seen.forward) != world_up {
         let found = "its camera is rolled by more than 45 degrees";
         return Err(mesh_file::Flaw::new(found, "must stand upright"));
     }

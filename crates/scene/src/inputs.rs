@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::description::{Description, Layer, Surface};
+use crate::description::{Description, FileUse};
 use crate::mesh_file;
 use crate::text::shown;
 
@@ -27,39 +27,23 @@ impl Description {
     pub fn inputs(&self, base_dir: &Path) -> Vec<Input> {
         let mut inputs = Vec::new();
         let mut add = |what: String, path: PathBuf| inputs.push(Input { what, path });
-        if let Some(file) = self.environment.as_ref().and_then(|it| it.map.file()) {
-            add("its environment".to_owned(), base_dir.join(file));
-        }
-        for object in &self.objects {
-            if let Surface::Mesh(file) = &object.surface {
-                let path = base_dir.join(file);
-                let name = shown(&object.name);
-                for (what, file) in mesh_file::names(&path) {
-                    add(format!("{what} of the mesh of object \"{name}\""), file);
+        for (used_for, file) in self.files() {
+            let path = base_dir.join(file);
+            let what = match used_for {
+                FileUse::Map => "its environment".to_owned(),
+                FileUse::Mesh(i) => {
+                    let name = shown(&self.objects[i].name);
+                    for (what, file) in mesh_file::names(&path) {
+                        add(format!("{what} of the mesh of object \"{name}\""), file);
+                    }
+                    format!("the mesh of object \"{name}\"")
                 }
-                add(format!("the mesh of object \"{name}\""), path);
-            }
-        }
-        for (i, scratches) in self.scratches.iter().enumerate() {
-            if let Layer::Listed(listed) = &scratches.layer {
-                add(
-                    format!("the list of scratches[{i}]"),
-                    base_dir.join(&listed.file),
-                );
-            }
-            for file in scratches.place.files() {
-                add(format!("a picture of scratches[{i}]"), base_dir.join(file));
-            }
-        }
-        for (i, grating) in self.gratings.iter().enumerate() {
-            for file in grating.files() {
-                add(format!("a picture of grating[{i}]"), base_dir.join(file));
-            }
-        }
-        for (i, light) in self.lights.iter().enumerate() {
-            if let Some(file) = &light.picture {
-                add(format!("the picture of light[{i}]"), base_dir.join(file));
-            }
+                FileUse::ScratchList(i) => format!("the list of scratches[{i}]"),
+                FileUse::ScratchPicture(i) => format!("a picture of scratches[{i}]"),
+                FileUse::GratingPicture(i) => format!("a picture of grating[{i}]"),
+                FileUse::LightPicture(i) => format!("the picture of light[{i}]"),
+            };
+            add(what, path);
         }
         inputs
     }

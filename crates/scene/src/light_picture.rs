@@ -33,8 +33,10 @@ impl LightPicture {
             return picture.map_or_else(|error| Err(error.to_string()), Self::of_linear);
         }
         let image = texture::read(path, free_bytes)?;
+        // What is transparent sends no light, by as much as it is.
+        let texels = image.texels.into_iter().map(over_black).collect();
         Ok(Self {
-            texture: Texture::of_colors(image.size_px, image.texels),
+            texture: Texture::of_colors(image.size_px, texels),
             brightest: 1.0,
         })
     }
@@ -60,12 +62,61 @@ impl LightPicture {
     }
 }
 
+fn over_black([r, g, b, a]: [u8; 4]) -> [u8; 4] {
+    if a == u8::MAX {
+        return [r, g, b, a];
+    }
+    let seen = |code: u8| {
+        let light = texture::srgb_to_linear(f32::from(code) / 255.0);
+        texture::srgb_code(light * f32::from(a) / 255.0)
+    };
+    [seen(r), seen(g), seen(b), u8::MAX]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use image::codecs::hdr::HdrEncoder;
     use image::{Rgb, RgbaImage};
     use std::fs;
+
+    /// Half of a light's picture is cut out, a quarter of it half transparent; a photograph says which way up it is.
+    #[test]
+    fn alpha_and_the_turn_of_a_photograph_count() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("cut.png");
+        let mut picture = RgbaImage::from_pixel(2, 2, image::Rgba([255; 4]));
+        picture.put_pixel(0, 0, image::Rgba([255, 255, 255, 0]));
+        picture.put_pixel(1, 0, image::Rgba([255, 255, 255, 0]));
+        picture.put_pixel(0, 1, image::Rgba([255, 255, 255, 128]));
+        picture.save(&path).unwrap();
+        let read = LightPicture::read(&path, 1e9).unwrap();
+        // 128 of 255 of the light is code 188.
+        let expected = [
+            [0, 0, 0, 255],
+            [0, 0, 0, 255],
+            [188, 188, 188, 255],
+            [255; 4],
+        ];
+        assert_eq!(read.texture.levels[0], expected);
+
+        // EXIF: TIFF's header, one entry: orientation, a short, 6. The right side of what is stored is the bottom.
+        let exif = b"Exif\0\0II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0";
+        let stored = image::RgbImage::from_fn(16, 8, |x, _| Rgb([if x < 8 { 255 } else { 0 }; 3]));
+        let mut jpeg = std::io::Cursor::new(Vec::new());
+        stored
+            .write_to(&mut jpeg, image::ImageFormat::Jpeg)
+            .unwrap();
+        let jpeg = jpeg.into_inner();
+        let length = (exif.len() as u16 + 2).to_be_bytes();
+        let turned = [&[0xff, 0xd8, 0xff, 0xe1][..], &length, exif, &jpeg[2..]].concat();
+        let path = dir.path().join("turned.jpg");
+        fs::write(&path, turned).unwrap();
+        let read = LightPicture::read(&path, 1e9).unwrap();
+        assert_eq!(read.texture.size_px, [8, 16]);
+        let texels = &read.texture.levels[0];
+        assert!(texels[0][0] > 250 && texels[8 * 16 - 1][0] < 5);
+    }
 
     /// What is no picture, or too large for the memory, is refused in words.
     #[test]

@@ -38,7 +38,7 @@ mod tangents;
 mod uv;
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use glam::DMat4;
@@ -85,6 +85,8 @@ pub(crate) fn read(
         materials,
         textures,
         files,
+        moved_from,
+        notes,
         free_bytes,
         with_mips,
     } = stock;
@@ -107,9 +109,24 @@ pub(crate) fn read(
     };
     let mut mesh = Mesh::default();
     let shapes = Shapes::new(&gltf.document, &buffers, placing.moment())?;
-    let world_from_file = *world_from_object * placing.object_from_file(&shapes)?;
+    let start = placing.start(&shapes, world_from_object)?;
+    let world_from_file = *world_from_object * start.object_from_file;
+    *moved_from = start.moved_from;
+    if let Some(middle) = start.moved_from {
+        notes.push(format!(
+            "it stands {:.3e} m from its own origin, where no scene reaches; its middle is taken for the origin",
+            middle.length()
+        ));
+    }
+    let mut turned = 0;
+    let mut missing_sets = BTreeMap::<u32, usize>::new();
     let without_surface = shapes.visit(&mut |shape| {
-        let surface = shape.rough.finished(&shape.primitive);
+        if material.is_none() {
+            for set in &shape.rough.missing_sets {
+                *missing_sets.entry(*set).or_default() += 1;
+            }
+        }
+        let surface = shape.rough.finished(&shape.primitive, &mut turned);
         let material = materials.index(&shape.primitive)?;
         let first = mesh.triangles.len();
         for file_from_place in &shape.places {
@@ -130,6 +147,26 @@ pub(crate) fn read(
         Ok(())
     })?;
     materials.forget_whole(first_own, &mesh);
+    for (set, count) in missing_sets {
+        let have = if count == 1 {
+            "primitive has"
+        } else {
+            "primitives have"
+        };
+        notes.push(format!(
+            "{count} {have} no TEXCOORD_{set}, by which images of their materials lie; all of them show the place (0, 0) of these"
+        ));
+    }
+    if turned > 0 {
+        let are = if turned == 1 {
+            "triangle is"
+        } else {
+            "triangles are"
+        };
+        notes.push(format!(
+            "{turned} {are} wound against the normals of their vertices; the normals say which side is outside"
+        ));
+    }
     if mesh.triangles.is_empty() && without_surface > 0 {
         let found = "it has points and lines, and no triangles";
         return Err(Flaw::new(
@@ -161,7 +198,8 @@ pub(crate) fn camera(
     let base_dir = path.parent().unwrap_or(Path::new(""));
     let buffers = Buffers::read(&gltf, base_dir, &mut Vec::new())?;
     let shapes = Shapes::new(&gltf.document, &buffers, placing.moment())?;
-    let world_from_file = *world_from_object * placing.object_from_file(&shapes)?;
+    let start = placing.start(&shapes, world_from_object)?;
+    let world_from_file = *world_from_object * start.object_from_file;
     Ok(shapes.camera(wanted)?.moved(&world_from_file))
 }
 
@@ -171,12 +209,14 @@ pub(crate) fn lights(path: &Path) -> Result<Vec<Punctual>, Flaw> {
 }
 
 fn file(path: &Path) -> Result<Vec<u8>, Flaw> {
-    reading::read(path, Kind::File, FILE_SHARE).map_err(|error| {
+    let mut bytes = reading::read(path, Kind::File, FILE_SHARE).map_err(|error| {
         Flaw::new(
             format!("it cannot be read ({error})"),
             "give the path of a .gltf or .glb file, relative to the scene file",
         )
-    })
+    })?;
+    leniency::drop_order_mark(&mut bytes);
+    Ok(bytes)
 }
 
 fn parse(bytes: &[u8], kept: Kept) -> Result<Gltf, Flaw> {

@@ -53,13 +53,15 @@ impl Wanted {
 
 /// What makes the picture another one, a line each.
 pub(crate) fn notes(file: &Path, left_out: &[LeftOut]) -> Vec<String> {
-    let name = file.file_name().unwrap_or(file.as_os_str());
-    let name = shown(&name.to_string_lossy());
     let line = |it: &LeftOut| {
-        format!(
-            "{name}: {} ({}) left out; {}",
-            it.what, it.count, it.meaning
-        )
+        let what = format!("{} ({}) left out; {}", it.what, it.count, it.meaning);
+        note(file, &what)
     };
     left_out.iter().filter(|it| it.matters).map(line).collect()
+}
+
+/// A line about a model.
+pub(crate) fn note(file: &Path, what: &str) -> String {
+    let name = file.file_name().unwrap_or(file.as_os_str());
+    format!("{}: {what}", shown(&name.to_string_lossy()))
 }

@@ -54,13 +54,18 @@ impl Description {
                 metres(extent_m)
             ));
         }
+        if summary.moved_from.is_some() {
+            // Those that are fitted are moved.
+            fit_m.get_or_insert(extent_m);
+        }
         // From y up to z up.
         let turned = |p: DVec3| factor * DVec3::new(p.x, -p.z, p.y);
+        let from_middle = |p: DVec3| turned(p - summary.moved_from.unwrap_or(DVec3::ZERO));
         let lights = mesh_file::lights(path)
             .map_err(|flaw| Error::new("", flaw.found, flaw.right).at(path, None))?;
         let mut lamps = Vec::new();
         for (i, light) in lights.iter().enumerate() {
-            match lights::lamp(light, extent_m, factor, turned) {
+            match lights::lamp(light, extent_m, factor, [&turned, &from_middle]) {
                 Ok(lamp) => lamps.push(lamp),
                 Err(why) => {
                     let file = shown(&name.to_string_lossy());

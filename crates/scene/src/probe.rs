@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::{DMat4, Vec3};
+use glam::{DMat4, DVec3, Vec3};
 use hairline_memory::budget_bytes;
 
 use crate::description::Description;
@@ -17,6 +17,8 @@ use crate::scene::{Base, Material, Texture};
 pub struct MeshSummary {
     /// Triangles that span an area, of all nodes of the file's scene.
     pub triangles: usize,
+    /// Of a model that stands too far from its own origin for single precision its middle, in the file's frame: coordinates count from there.
+    pub moved_from: Option<DVec3>,
     /// The least and the greatest coordinates, in the file's own frame.
     pub bounds_m: (Vec3, Vec3),
     /// Points of its surface that stand farthest out, see [`Mesh::extreme_points_m`](crate::scene::Mesh::extreme_points_m).
@@ -63,7 +65,10 @@ pub struct EnvironmentSummary {
 /// What is wrong with the file.
 pub fn mesh(path: &Path) -> Result<MeshSummary, Error> {
     let (mut materials, mut textures) = (Vec::new(), Vec::new());
+    let mut moved_from = None;
     let stock = Stock {
+        moved_from: &mut moved_from,
+        notes: &mut Vec::new(),
         parts: &mut Vec::new(),
         materials: &mut materials,
         textures: &mut textures,
@@ -84,6 +89,7 @@ pub fn mesh(path: &Path) -> Result<MeshSummary, Error> {
         .filter(|i| is_metal[**i as usize]);
     Ok(MeshSummary {
         metal_share: metals.count() as f64 / mesh.triangles.len() as f64,
+        moved_from,
         triangles: mesh.triangles.len(),
         bounds_m: mesh.bounds_m(),
         extreme_points_m: mesh.extreme_points_m(),

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use crate::convert::vertical_axis;
 use crate::description::{
     self, Camera, Environment, Light, LightKind, Map, Material, MaterialKind, Object, Shape,
     Studio, Surface, Up, limits,
@@ -54,7 +53,7 @@ impl Studio {
 impl PhotoSet {
     /// About a box, in which all objects lie, and a camera.
     pub(crate) fn new(camera: &Camera, (least, most): (DVec3, DVec3)) -> Self {
-        let up = vertical_axis(camera.up.into());
+        let up = camera.world_up();
         let [eye, target] = [camera.position_m, camera.target_m].map(DVec3::from);
         let view = target - eye;
         let right = view.cross(up);

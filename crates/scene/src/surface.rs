@@ -97,6 +97,21 @@ impl Surface {
         }
     }
 
+    /// Winds each triangle as the normals of its vertices say, and returns how many were wound the other way. Exports of mirrored parts
+    /// have such; shadows start on the side that a triangle shows, so both must agree on it.
+    pub(crate) fn turn_to_normals(&mut self) -> usize {
+        let mut turned = 0;
+        for triangle in &mut self.triangles {
+            let [a, b, c] = triangle.map(|v| self.vertices[v as usize]);
+            let across = (b.position_m - a.position_m).cross(c.position_m - a.position_m);
+            if across.dot(a.normal + b.normal + c.normal) < 0.0 {
+                triangle.swap(1, 2);
+                turned += 1;
+            }
+        }
+        turned
+    }
+
     /// Gives every triangle vertices of its own, with the triangle's normal: what glTF 2.0 asks for where a file has no normals
     /// (section 3.7.2.1).
     pub(crate) fn make_flat_normals(&mut self) {

@@ -4,9 +4,10 @@ use std::io::Cursor;
 use std::path::Path;
 
 use hairline_memory::{costs, in_words};
-use image::{ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
 use rayon::prelude::*;
 
+use crate::jpeg_end;
 use crate::ktx2;
 use crate::reading::{self, Kind};
 use crate::scene::{Sampling, Texture, Wrap};
@@ -33,6 +34,8 @@ pub(crate) enum Unusable {
     Broken(#[from] image::ImageError),
     #[error("{0}")]
     Ktx(#[from] ktx2::Broken),
+    #[error("it is cut off: its picture ends before the last pixel")]
+    CutOff,
     #[error(transparent)]
     Unreadable(#[from] std::io::Error),
     #[error("{}x{} pixels would take about {} of memory, and {} are free", .size_px[0], .size_px[1],
@@ -59,18 +62,24 @@ pub(crate) fn check_memory(size_px: [u32; 2], free_bytes: f64) -> Result<(), Unu
 /// Of the memory that is free, what a file may have.
 const SHARE: f64 = 0.25;
 
-/// The picture in a file, which may take `free_bytes` as a texture.
+/// The picture in a file, upright as its EXIF data says. It may take `free_bytes` as a texture.
 ///
 /// # Errors
 /// What was found in the place of a picture.
 pub(crate) fn read(path: &Path, free_bytes: f64) -> Result<Texels, String> {
     let named = |why: String| format!("{}: {why}", shown(&path.to_string_lossy()));
     let bytes = reading::read(path, Kind::File, SHARE).map_err(|why| named(why.to_string()))?;
-    decode(&bytes, free_bytes).map_err(|why| named(why.to_string()))
+    let decoded = decode_turned(&bytes, free_bytes, true);
+    decoded.map_err(|why| named(why.to_string()))
 }
 
-/// The texels of a PNG, JPEG, WebP or KTX2 file, row by row from the top, and its size. As a texture it may take `free_bytes`.
+/// The texels of a PNG, JPEG, WebP or KTX2 file, row by row from the top, and its size. As a texture it may take `free_bytes`. Of glTF files, whose
+/// coordinates are of the pixels as they are stored.
 pub(crate) fn decode(bytes: &[u8], free_bytes: f64) -> Result<Texels, Unusable> {
+    decode_turned(bytes, free_bytes, false)
+}
+
+fn decode_turned(bytes: &[u8], free_bytes: f64, upright: bool) -> Result<Texels, Unusable> {
     if ktx2::is_ktx(bytes) {
         let size_px = ktx2::size_px(bytes, LARGEST_PX)?;
         check_memory(size_px, free_bytes)?;
@@ -85,7 +94,16 @@ pub(crate) fn decode(bytes: &[u8], free_bytes: f64) -> Result<Texels, Unusable> 
     limits.max_image_width = Some(LARGEST_PX);
     limits.max_image_height = Some(LARGEST_PX);
     reader.limits(limits);
-    let image = reader.decode()?.into_rgba8();
+    if jpeg_end::is_cut_off(bytes) {
+        return Err(Unusable::CutOff);
+    }
+    let mut decoder = reader.into_decoder()?;
+    let turn = decoder.orientation()?;
+    let mut image = DynamicImage::from_decoder(decoder)?;
+    if upright {
+        image.apply_orientation(turn);
+    }
+    let image = image.into_rgba8();
     let size_px = [image.width(), image.height()];
     let texels = image.pixels().map(|pixel| pixel.0).collect();
     Ok(Texels { size_px, texels })

@@ -1,7 +1,7 @@
 // ScratchedNodeMaterial for three.js, WebGPURenderer: metal or lacquer with scratches that split light into colours. PointLight, SpotLight,
-// DirectionalLight and RectAreaLight light it in closed form, with three's own shadows; environments by three's own maps.
+// DirectionalLight, SunLight and RectAreaLight light it in closed form, with three's own shadows; environments by three's own maps.
 //
-// The world is in metres. Lights without a size get one: `light.userData.radius` in metres (of a DirectionalLight `userData.angle` in
+// The world is in metres. Lights without a size get one: `light.userData.radius` in metres (of a light in the sky `userData.angle` in
 // radians), or the material's `lightRadius`.
 import {
   DataArrayTexture, DataTexture, FloatType, InstancedInterleavedBuffer, InterleavedBufferAttribute, MeshStandardNodeMaterial,
@@ -21,13 +21,14 @@ import { metalColor } from './spectrum.js';
 import {
   bandCell, bandOf, baseBody, baseByQuad, baseBySphere, baseReflected, fresnelOf, maskOf, scratchesByQuad, scratchesBySphere, viewFromSurface,
 } from './three_functions.js';
+import { isFar } from './three_lights.js';
 
 export { loadTables } from './tables.js';
 export { Scratches, readScratches };
 
 /** The sun's, as a light's `userData.angle`. */
 const SUN_RAD = 0.00465;
-/** How far a DirectionalLight stands off. */
+/** How far a light in the sky stands off. */
 const FAR_M = 1000;
 /** More scratches of one pixel do not mirror the environment. */
 const SCRATCHES_MAX = 4096;
@@ -115,7 +116,7 @@ class ScratchedLightingModel extends PhysicalLightingModel {
     let center;
     let radius;
     let distanceSquared;
-    if (light.isDirectionalLight) {
+    if (isFar(light)) {
       center = positionView.add(lightDirection.mul(FAR_M));
       radius = uniform(0).onRenderUpdate(() => FAR_M * Math.sin(light.userData.angle ?? SUN_RAD));
       distanceSquared = float(FAR_M * FAR_M);

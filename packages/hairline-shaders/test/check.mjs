@@ -47,6 +47,15 @@ for (const name of ['scratch_light', 'scratched_surface', 'lit_base', 'camera', 
   await compiles(`${name}.wesl`, dest);
 }
 
+// Lights of one direction are in the sky, those at a place are not, and others are no spheres in silence.
+{
+  const { isFar } = await import(pathToFileURL(join(folder, 'hairline-shaders/src/three_lights.js')));
+  const { SunLight } = await import('three/addons/lights/SunLight.js');
+  const { DirectionalLight, HemisphereLight, PointLight, SpotLight } = await import('three');
+  assert.deepEqual([new DirectionalLight(), new SunLight(), new PointLight(), new SpotLight()].map(isFar), [true, true, false, false]);
+  assert.throws(() => isFar(new HemisphereLight()), /found the light "" of type HemisphereLight; must be a PointLight/);
+}
+
 /** T(u, d) as scratch_table.wgsl looks it up. */
 function lookUp(texels, u, depthNm) {
   const { columns, rows } = hairline.tableSize;

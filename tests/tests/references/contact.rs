@@ -1,5 +1,6 @@
 //! Rays that begin on a surface: no light through what is thin, no shadow of what faces the light, no gap at the foot of what stands.
 
+use super::pictures::sampled;
 use super::scenes::{off_the_mirror, plate, sphere};
 use super::shadowed::{VIEW, WHITE, alone, closed};
 use super::shadowed_on_gpu::on_gpu;
@@ -9,8 +10,67 @@ use hairline_fixtures::SceneFile;
 use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Image;
 use hairline_index::TriangleIndex;
+use hairline_reference::Settings;
 use hairline_scene::Scene;
 use std::sync::Arc;
+
+/// A panel that is flush with the ceiling, or a few micrometres below it: the floor has all of its light. Level, and turned so that
+/// single precision takes the ceiling's corners off the plane.
+#[test]
+fn a_lamp_in_the_plane_of_a_ceiling_lights_the_floor() {
+    let lamps = [
+        "kind = \"rectangle\"\nwidth_m = 0.5\nheight_m = 0.5",
+        "kind = \"disk\"\nradius_m = 0.25",
+        "kind = \"rectangle\"\nwidth_m = 0.5\nheight_m = 0.5\ntwo_sided = true",
+    ];
+    for (keys, (turn_deg, below_m)) in lamps
+        .into_iter()
+        .flat_map(|keys| [(0.0, 0.0), (0.0, 1e-6), (0.0, 3e-6), (20.0, 0.0)].map(|at| (keys, at)))
+    {
+        let (sin, cos) = f64::to_radians(turn_deg).sin_cos();
+        let below = DVec3::new(0.0, sin, -cos);
+        let ceiling_m = -0.8 * below;
+        let lamp_m = ceiling_m + below_m * below;
+        let scene = SceneFile::seen_from([0.0, -0.3, 0.5])
+            .fov_y_deg(0.5)
+            .size_px([8, 8])
+            .part("[[material]]\nname = \"matt\"\nkind = \"dielectric\"\nior = 1.0")
+            .object("floor", "matt", "plane = { size_m = [2.0, 2.0] }")
+            .object("ceiling", "matt", "plane = { size_m = [2.0, 2.0] }")
+            .with(&format!(
+                "rotation_deg = [{:?}, 0.0, 0.0]\ntranslation_m = {:?}",
+                180.0 + turn_deg,
+                ceiling_m.to_array()
+            ))
+            .part(&format!(
+                "[[light]]\n{keys}\ncenter_m = {:?}\ntarget_m = {:?}\nradiance = 10.0",
+                lamp_m.to_array(),
+                (lamp_m + below).to_array()
+            ))
+            .scene();
+        let name = format!("{keys}, {turn_deg} degrees, {below_m} m");
+        for (by, open, image) in by_each(&scene, 8) {
+            for (open, left) in open.base.iter().zip(&image.base) {
+                assert!(open[1] > 0.1, "{by}: {name}: {open:?}");
+                // All rays see it: no noise, but for rounding.
+                let share = left[1] / open[1];
+                assert!((share - 1.0).abs() < 1e-5, "{by}: {name}: {share}");
+            }
+        }
+        let settings = Settings {
+            shadows: true,
+            ..Settings::default()
+        };
+        let image = sampled(&scene, settings, 4);
+        let mean = |image: &Image| image.base.iter().map(|p| f64::from(p[1])).sum::<f64>() / 64.0;
+        let (seen, open) = (mean(&image), mean(&closed(&scene, 8, false)));
+        // 16,384 samples whose values spread by less than their mean: four standard errors.
+        assert!(
+            (seen / open - 1.0).abs() < 0.03,
+            "reference: {name}: {seen} {open}"
+        );
+    }
+}
 
 /// Without shadows and with them, by each renderer that there is.
 fn by_each(scene: &Scene, samples: u32) -> Vec<(&'static str, Image, Image)> {

@@ -308,7 +308,7 @@ mod interrupted {
 
     #[test]
     fn work_is_saved_and_goes_on_as_if_nothing_had_been() {
-        for name in ["-INT", "-TERM"] {
+        for name in ["-INT", "-TERM", "-HUP"] {
             let folder = folder_with_scene();
             let path = folder.path();
             let (mut child, mut stderr) =
@@ -333,6 +333,30 @@ mod interrupted {
                 "{name}: not bit for bit"
             );
         }
+    }
+
+    /// `nohup` and shells that let go of a job ask for it.
+    #[test]
+    fn a_terminal_that_hangs_up_is_passed_over_where_it_is_to_be() {
+        let folder = folder_with_scene();
+        let command = format!(
+            "trap '' HUP; exec {} reference plate.v2.toml --spp 1000000 -o a.exr",
+            env!("CARGO_BIN_EXE_hairline")
+        );
+        let mut child = std::process::Command::new("sh")
+            .current_dir(folder.path())
+            .args(["-c", &command])
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut stderr = BufReader::new(child.stderr.take().unwrap());
+        let mut line = String::new();
+        stderr.read_line(&mut line).unwrap();
+        signal(&child, "-HUP");
+        std::thread::sleep(Duration::from_millis(500));
+        assert!(child.try_wait().unwrap().is_none());
+        signal(&child, "-INT");
+        assert_eq!(child.wait().unwrap().code(), Some(0));
     }
 
     /// The file is the one from before or a whole new one, whenever the second signal comes.

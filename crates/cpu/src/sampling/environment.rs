@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 use hairline_scene::Environment;
-use hairline_scene::environment::lookup::environment_uv;
+use hairline_scene::environment::lookup::{environment_uv, over_the_pole};
 use rayon::prelude::*;
 
 /// Cells that share an entry of the table. Their sums are made again when one of them is looked for: an entry for each cell
@@ -78,18 +78,34 @@ impl EnvironmentSampler {
         texel.iter().map(|c| f64::from(*c)).sum()
     }
 
-    /// The cell to the right of texel centres `x`, below the edge (row 0) or the texel centres `row - 1`.
+    /// The same above or below a row of cells. At a pole it is the mean of both sides.
+    fn beside(&self, x: usize, row: usize, below: bool) -> f64 {
+        match (row, below) {
+            (0, false) => 0.5 * (self.texel(x, 0) + self.texel(self.across(x), 0)),
+            (row, false) => self.texel(x, row - 1),
+            (row, true) if row == self.height => {
+                0.5 * (self.texel(x, row - 1) + self.texel(self.across(x), row - 1))
+            }
+            (row, true) => self.texel(x, row),
+        }
+    }
+
+    /// The column on the other side of a pole.
+    fn across(&self, x: usize) -> usize {
+        let [x, _] = over_the_pole([self.width as i32, self.height as i32], x as i32, -1);
+        x as usize
+    }
+
+    /// The cell to the right of texel centres `x`, below the pole (row 0) or the texel centres `row - 1`.
     fn corners(&self, x: usize, row: usize) -> Corners {
         let right = if x + 1 < self.width { x + 1 } else { 0 };
-        let (top, bottom) = (row.max(1) - 1, row.min(self.height - 1));
-        [top, bottom].map(|y| [self.texel(x, y), self.texel(right, y)])
+        [false, true].map(|below| [self.beside(x, row, below), self.beside(right, row, below)])
     }
 
     /// The cells of a block: (x, sum of the corners).
     fn block(&self, row: usize, block: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let cells = block * BLOCK..((block + 1) * BLOCK).min(self.width);
-        let (top, bottom) = (row.max(1) - 1, row.min(self.height - 1));
-        let column = move |x: usize| self.texel(x, top) + self.texel(x, bottom);
+        let column = move |x: usize| self.beside(x, row, false) + self.beside(x, row, true);
         let mut left = column(cells.start);
         cells.map(move |x| {
             let right = column(if x + 1 < self.width { x + 1 } else { 0 });

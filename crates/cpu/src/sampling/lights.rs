@@ -186,6 +186,17 @@ impl AreaLights {
         }
     }
 
+    /// How far a ray to light `i`, which arrives at `distance_m`, looks for what hides the light. It ends `step_m` above a flat light, so that it does
+    /// not meet the surface that the light lies in.
+    pub fn clear_m(&self, i: usize, direction: DVec3, distance_m: f64, step_m: f64) -> f64 {
+        let cos = match &self.lights[i].shape {
+            Shape::Sphere(_) | Shape::Tube(_) => 1.0,
+            Shape::Polygon(polygon) => polygon.cos(direction).abs(),
+        };
+        // A point that is nearer to the light's plane has nothing before it.
+        (distance_m - step_m / cos.max(f64::MIN_POSITIVE)).max(0.0)
+    }
+
     /// The density of [`AreaLights::sample`] at a direction that hits light `i`, per steradian; the same for all of them.
     /// 0 where nothing can be sampled.
     pub fn pdf(&self, i: usize, from: DVec3, direction: DVec3) -> f64 {

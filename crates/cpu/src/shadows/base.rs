@@ -2,7 +2,7 @@
 //! multiple importance sampling (E. Veach, 1997).
 
 use super::lobes::Lobes;
-use super::{HitRoom, MetObject, Purpose, ShadowPoint, Shadows, normals};
+use super::{HitRoom, MetObject, Purpose, RayEnd, ShadowPoint, Shadows, normals};
 use crate::found::{BaseLight, LayerRays};
 use crate::light_view::LightViews;
 use crate::sampling::lights::LightHit;
@@ -211,7 +211,11 @@ impl<'a> Shadows<'a> {
             let sent = |it: &Candidate| luminance(it.weight.specular + it.weight.diffuse).max(0.0);
             let followed = drawn.as_ref().and_then(|ray| ray.followed);
             let [_, _, _, chance] = at.random(Purpose::of_source(source.light), round);
-            let sees = |it: &Candidate| self.sees(point, on_surface_m, it.direction, it.distance_m);
+            let end = |it: &Candidate| RayEnd {
+                light: source.light,
+                distance_m: it.distance_m,
+            };
+            let sees = |it: &Candidate| self.sees(point, on_surface_m, it.direction, end(it));
             let has_closed_form = at.depth == 0 || source.light.is_some();
             let mut add = |it: &Candidate, factor: f64, is_seen: bool| {
                 let weight = it.weight.times(DVec3::splat(factor * per_chance));
@@ -225,7 +229,8 @@ impl<'a> Shadows<'a> {
                 // Who has followed the ray by the lobes knows what it meets; the other one is cast if it carries enough.
                 (Some(hit), to_source, by_lobes) => {
                     if let Some(it) = by_lobes {
-                        let is_seen = hit.is_none_or(|hit| hit.distance_m > it.distance_m);
+                        let clear_m = self.clear_of_followed(drawn.as_ref(), source.light);
+                        let is_seen = hit.is_none_or(|hit| hit.distance_m > clear_m);
                         add(&it, 1.0, is_seen);
                     }
                     if let Some(it) = to_source {
@@ -257,6 +262,16 @@ impl<'a> Shadows<'a> {
                 (None, None, None) => {}
             }
         }
+    }
+
+    /// How far a ray by the lobes looks for what hides a light, from where it started: that is not the point that its candidate is of.
+    fn clear_of_followed(&self, ray: Option<&LobeRay>, light: Option<u32>) -> f64 {
+        let (Some(ray), Some(i)) = (ray, light) else {
+            return f64::INFINITY;
+        };
+        let distance_m = self.lights.reach_m(i as usize, ray.origin_m, ray.direction);
+        let end = RayEnd { light, distance_m };
+        self.clear_m(end, ray.origin_m, ray.direction)
     }
 
     /// Directions to a light: one drawn on it, and that of the lobes where it meets it.

@@ -1,6 +1,6 @@
 //! Rays by way of scratches and of gratings: in each round one to a source, and one for what other objects send.
 
-use super::{HitRoom, MetObject, Purpose, ShadowPoint, Shadows, normals};
+use super::{HitRoom, MetObject, Purpose, RayEnd, ShadowPoint, Shadows, normals};
 use crate::found::{LayerLight, LayerRays};
 use crate::sampling::luminance;
 use crate::shade_gratings::ShadedGratings;
@@ -89,7 +89,11 @@ impl<'a> Shadows<'a> {
         let distance_m = light.map_or(f64::INFINITY, |light| {
             self.lights.reach_m(light, point.position_m, direction)
         });
-        let is_seen = self.sees(point, on_surface_m, direction, distance_m);
+        let end = RayEnd {
+            light: light.map(|light| light as u32),
+            distance_m,
+        };
+        let is_seen = self.sees(point, on_surface_m, direction, end);
         rays.add(pick.radiance * color * weight_of_one, is_seen);
     }
 

@@ -120,8 +120,8 @@ impl Document {
 
     /// Files that the scene names, in full as far as the document knows.
     pub fn files(&self) -> Vec<PathBuf> {
-        let named = paths::named(&self.state.description);
-        named.map(|path| self.base_dir.join(path)).collect()
+        let named = self.state.description.files().into_iter();
+        named.map(|(_, path)| self.base_dir.join(path)).collect()
     }
 
     /// Takes the file's text as the one that the document began with, unless it was written after `since`.
@@ -204,9 +204,9 @@ impl Document {
         let mut description = description.clone();
         if base_dir != self.base_dir {
             let (from, to) = (paths::absolute(base_dir), paths::absolute(&self.base_dir));
-            paths::each_path(&mut description, &mut |path| {
+            for (_, path) in description.files_mut() {
                 *path = paths::rebase(path, &from, &to);
-            });
+            }
         }
         description
     }
@@ -218,9 +218,9 @@ impl Document {
                 return new.clone();
             }
             let mut description = (**old).clone();
-            paths::each_path(&mut description, &mut |path| {
+            for (_, path) in description.files_mut() {
                 *path = paths::rebase(path, from, to);
-            });
+            }
             let new = match description == **old {
                 true => old.clone(),
                 false => Arc::new(description),

@@ -121,5 +121,10 @@ fn shadow_base_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgr
     let own = rgb_luminance(kept.weight.specular + kept.weight.diffuse);
     let weight = candidate_scaled(kept.weight, vec3f(kept.total / max(own, 1e-30)));
     let start = shadow_normals(shadow_random(seed, shadow_round, SHADOW_START));
-    rays[at] = ShadowRay(world_from_surface(point, kept.direction), kept.distance_m, weight.specular, start.x, weight.diffuse, start.y);
+    let direction = world_from_surface(point, kept.direction);
+    var clear_m = kept.distance_m;
+    if shadow_round.source < frame.light_count && clear_m > 0.0 {
+        clear_m = light_clear_m(light_at(shadow_round.source), point.position_m, direction, clear_m, shadow_round.extent_m);
+    }
+    rays[at] = ShadowRay(direction, clear_m, weight.specular, start.x, weight.diffuse, start.y);
 }

@@ -40,7 +40,12 @@ fn ray_by(pixel: PixelPoint, triangle: u32, pick: Pick, luminance: f32, seed: u3
         start = pair_place(pair, pixel, segment, vec3f(start, gaussian_quantile(clamp(place.x, 1e-6, 1.0 - 1e-6))), place.y);
         start *= select(1.0, scratched_wider(), pixel_shares(pixel));
     }
-    return ShadowRay(pair.surface * drawn.light.direction, drawn.distance_m, luminance * pick.color * drawn.light.color, start.x, vec3f(0.0), start.y);
+    let direction = pair.surface * drawn.light.direction;
+    var clear_m = drawn.distance_m;
+    if pick.source < frame.light_count && clear_m > 0.0 {
+        clear_m = light_clear_m(light_at(pick.source), pair.position_m, direction, clear_m, shadow_round.extent_m);
+    }
+    return ShadowRay(direction, clear_m, luminance * pick.color * drawn.light.color, start.x, vec3f(0.0), start.y);
 }
 
 @compute @workgroup_size(8, 8)

@@ -43,10 +43,11 @@ fn shadow_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         let leaves = select(at, pixel_scratched(points[at], at), shadow_round.way == SHADOW_BY_SCRATCHES);
         let start = sample_start(triangle_tree, points[leaves], paints[leaves].triangle, vec2f(ray.offset_x, ray.offset_y));
         // To the very place that was drawn: a parallel ray would blur the shadow of what is near a lamp by more than the pixel's filter does.
-        let way_m = points[leaves].position_m + ray.distance_m * ray.direction - start.position_m;
-        let distance_m = length(way_m);
-        let from_there = ray_from(start, way_m / distance_m, points[leaves].normal, shadow_round.extent_m);
-        let hit = cutout_hit(triangle_tree, from_there, distance_m, start.triangle, true, 0u);
+        let end_m = points[leaves].position_m + ray.distance_m * ray.direction;
+        let off = ray_from(start, surface_normalize_or(end_m - start.position_m, vec3f(0.0)), points[leaves].normal, shadow_round.extent_m);
+        let way_m = end_m - off.origin_m;
+        let from_there = tree_ray(off.origin_m, surface_normalize_or(way_m, ray.direction));
+        let hit = cutout_hit(triangle_tree, from_there, length(way_m), start.triangle, true, 0u);
         is_seen = hit.triangle == 0u;
     }
     if shadow_round.way == SHADOW_BY_BASE {

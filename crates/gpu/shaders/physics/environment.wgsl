@@ -26,6 +26,15 @@ struct EnvironmentPlace {
     size: vec2<i32>,
 }
 
+// A texel; beyond a pole that of the row on its other side.
+fn environment_texel(map: texture_2d<f32>, place: EnvironmentPlace, x: i32, y: i32) -> vec3<f32> {
+    let size = place.size;
+    let far = x + size.x / 2;
+    let across = select(far, far - size.x, far >= size.x);
+    let column = select(x, across, y < 0 || y >= size.y);
+    return textureLoad(map, vec2<i32>(column, place.row + clamp(y, 0, size.y - 1)), place.mip).rgb;
+}
+
 fn environment_bilinear(map: texture_2d<f32>, place: EnvironmentPlace, uv: vec2<f32>) -> vec3<f32> {
     let size = place.size;
     let at = uv * vec2<f32>(size) - 0.5;
@@ -35,12 +44,11 @@ fn environment_bilinear(map: texture_2d<f32>, place: EnvironmentPlace, uv: vec2<
     let x = clamp(i32(corner.x), -1, size.x - 1);
     let x0 = select(x, size.x - 1, x < 0);
     let x1 = select(x + 1, 0, x + 1 >= size.x);
-    let y0 = place.row + clamp(i32(corner.y), 0, size.y - 1);
-    let y1 = place.row + clamp(i32(corner.y) + 1, 0, size.y - 1);
-    let top_left = textureLoad(map, vec2<i32>(x0, y0), place.mip).rgb;
-    let top_right = textureLoad(map, vec2<i32>(x1, y0), place.mip).rgb;
-    let bottom_left = textureLoad(map, vec2<i32>(x0, y1), place.mip).rgb;
-    let bottom_right = textureLoad(map, vec2<i32>(x1, y1), place.mip).rgb;
+    let y0 = i32(corner.y);
+    let top_left = environment_texel(map, place, x0, y0);
+    let top_right = environment_texel(map, place, x1, y0);
+    let bottom_left = environment_texel(map, place, x0, y0 + 1);
+    let bottom_right = environment_texel(map, place, x1, y0 + 1);
     let top = top_left + (top_right - top_left) * t.x;
     let bottom = bottom_left + (bottom_right - bottom_left) * t.x;
     return top + (bottom - top) * t.y;
@@ -98,6 +106,6 @@ fn environment_prefiltered_lod(levels: texture_2d<f32>, dir: vec3<f32>, lod: f32
 
 // The irradiance over pi, from the map that the cosine has blurred; it lies below the first level.
 fn environment_mean_by_cosine(levels: texture_2d<f32>, normal: vec3<f32>) -> vec3<f32> {
-    let place = EnvironmentPlace(0, i32(textureDimensions(levels).y) / 2, vec2<i32>(64, 32));
+    let place = EnvironmentPlace(0, i32(textureDimensions(levels).y) / 2, vec2<i32>(256, 128));
     return environment_bilinear(levels, place, environment_uv(normal));
 }

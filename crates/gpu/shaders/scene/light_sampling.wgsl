@@ -168,3 +168,13 @@ fn light_meets(point: SurfacePoint, light: Light, direction: vec3f) -> MetLight 
     }
     return met;
 }
+
+// How far a ray to a light looks for what hides it, in world space. It ends a step above a flat light, so that it does not meet the surface that
+// the light lies in.
+fn light_clear_m(light: Light, from_m: vec3f, direction: vec3f, distance_m: f32, extent_m: f32) -> f32 {
+    let step_m = ray_step_m(from_m + distance_m * direction, extent_m);
+    // Others have no normal.
+    let along = select(1.0, abs(dot(light.normal, direction)), dot(light.normal, light.normal) > 0.5);
+    // Of a ray nothing is cast with 0; a point that is nearer to the light's plane has nothing before it.
+    return max(distance_m - step_m / max(along, 1e-20), 1e-20);
+}

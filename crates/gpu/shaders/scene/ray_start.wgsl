@@ -1,8 +1,5 @@
 // Where rays of a sample start that must not meet the surface that they leave. Twin: cpu/src/shadows.rs.
 
-// Relative to the scene: some ten steps of single precision.
-const START_STEP: f32 = 1e-6;
-
 // Where on the surface a ray starts.
 struct RayStart {
     position_m: vec3f,
@@ -65,8 +62,7 @@ fn sample_start(tree: texture_2d<u32>, pixel: PixelPoint, own: u32, stds: vec2f)
     return under_the_pixel(tree, pixel, own, stds);
 }
 
-// A little off the surface: vertices are singles.
+// A little off the surface.
 fn ray_from(start: RayStart, direction: vec3f, normal: vec3f, extent_m: f32) -> TreeRay {
-    let step_m = START_STEP * (extent_m + length(start.position_m));
-    return tree_ray(start.position_m + step_m * (direction + normal), direction);
+    return tree_ray(start.position_m + ray_step_m(start.position_m, extent_m) * (direction + normal), direction);
 }

@@ -37,3 +37,8 @@ fn shadow_normals(u: vec2f) -> vec2f {
 
 // No ray is as long: what is all around has no distance. Its square is a single still.
 const SHADOW_FAR_M: f32 = 1e15;
+
+// What rounding may move a point on a surface by: vertices are singles, and this is some ten steps of theirs.
+fn ray_step_m(at_m: vec3f, extent_m: f32) -> f32 {
+    return 1e-6 * (extent_m + length(at_m));
+}

@@ -177,10 +177,11 @@ fn irradiance() {
     let environment = Environment::from_map(map(), 0.0, 1.0, true);
     let blurred = environment.irradiance_map();
     // As the host puts it: below a first level, here an empty one of its size.
-    let mut texels = vec![[0.0; 4]; 64 * 32];
+    let [width, height] = blurred.size_px;
+    let mut texels = vec![[0.0; 4]; (width * height) as usize];
     texels.extend(blurred.rgb.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]));
     let tables = [Table {
-        size: [64, 64],
+        size: [width, 2 * height],
         layers: None,
         texels: Texels::Floats(&texels),
     }];

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::estimate::Estimate;
 use super::{BeyondNoise, Difference, ErrorMap, Flip, Psnr, ZTest};
 use super::{error_map, psnr, psnr_displayed, psnr_of_values, relative_mse};
-use crate::{Display, Layer, Layers, Referred};
+use crate::{Display, HeldLayer, Layer, Layers, Referred};
 
 /// One of two images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,6 +144,19 @@ pub fn compare(a: &Layers, b: &Layers, display: &Display, mask: Option<&[bool]>)
             problems,
         };
     }
+    let opaque = opaque(a, b);
+    let (opaque_a, opaque_b);
+    let (a, b) = match opaque {
+        None => (a, b),
+        Some(Side::A) => {
+            opaque_a = with_alpha(a);
+            (&opaque_a, b)
+        }
+        Some(Side::B) => {
+            opaque_b = with_alpha(b);
+            (a, &opaque_b)
+        }
+    };
     for (side, image, other) in [(Side::A, a, b), (Side::B, b, a)] {
         let missing: Vec<Layer> = Layer::ALL
             .into_iter()
@@ -201,6 +214,29 @@ pub fn compare(a: &Layers, b: &Layers, display: &Display, mask: Option<&[bool]>)
         problems.push(Problem::NothingInCommon);
     }
     Comparison { layers, problems }
+}
+
+/// The picture that has no alpha where the other one has: it is opaque.
+fn opaque(a: &Layers, b: &Layers) -> Option<Side> {
+    let has = |image: &Layers, layer| image.get(layer).is_some();
+    let is_opaque = |image: &Layers| !has(image, Layer::Alpha) && has(image, Layer::Beauty);
+    match (has(a, Layer::Alpha), has(b, Layer::Alpha)) {
+        (false, true) if is_opaque(a) => Some(Side::A),
+        (true, false) if is_opaque(b) => Some(Side::B),
+        _ => None,
+    }
+}
+
+/// An opaque picture with an alpha of 1.
+fn with_alpha(image: &Layers) -> Layers {
+    let mut image = image.clone();
+    let pixels = image.size_px.map(|n| n as usize).iter().product();
+    image.held.push(HeldLayer {
+        layer: Layer::Alpha,
+        values: vec![[1.0; 3]; pixels],
+        variance: None,
+    });
+    image
 }
 
 fn compare_layer(

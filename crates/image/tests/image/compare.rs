@@ -26,7 +26,8 @@ fn equal_images() {
     let comparison = compare(&image, &image, &DISPLAY, None);
     assert_eq!(comparison.problems, []);
     let layers: Vec<Layer> = comparison.layers.iter().map(|l| l.layer).collect();
-    assert_eq!(layers, Layer::ALL);
+    // None of both has alpha.
+    assert_eq!(layers, Layer::ALL[..6]);
     for layer in &comparison.layers {
         assert_eq!(layer.difference.rms, 0.0);
         assert_eq!(layer.relative_mse, 0.0);
@@ -39,6 +40,31 @@ fn equal_images() {
         }
     }
     assert_eq!(comparison.layers[0].flip.is_some(), cfg!(feature = "flip"));
+}
+
+/// A picture without alpha is opaque: it differs from a transparent one, whatever their colours, and has the alpha of one that says 1.
+#[test]
+fn alpha_is_compared_and_an_opaque_picture_has_one() {
+    let opaque = image();
+    let with = |alpha: f32| {
+        let alpha = Some(vec![alpha; opaque.pixel_count()]);
+        Layers::from(&Image {
+            alpha,
+            ..opaque.clone()
+        })
+    };
+    let opaque = Layers::from(&opaque);
+    for (a, b, rms) in [
+        (&opaque, &with(0.25), 0.75),
+        (&with(0.25), &opaque, 0.75),
+        (&with(1.0), &opaque, 0.0),
+        (&with(0.75), &with(0.5), 0.25),
+    ] {
+        let comparison = compare(a, b, &DISPLAY, None);
+        assert_eq!(comparison.problems, []);
+        let alpha = comparison.layers.last().unwrap();
+        assert_eq!((alpha.layer, alpha.difference.rms), (Layer::Alpha, rms));
+    }
 }
 
 #[test]

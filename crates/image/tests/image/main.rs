@@ -5,6 +5,7 @@ mod compare;
 mod files;
 #[cfg(feature = "flip")]
 mod flip;
+mod foreign_files;
 mod metrics;
 mod noise_files;
 mod tone_map;

@@ -201,7 +201,8 @@ fn layers_are_those_of_the_render() {
     write(&path, &image, &Notes::new());
     let read = Layers::read(&path).unwrap();
     assert_eq!(read, Layers::from(&image));
-    assert_eq!(read.held.len(), Layer::ALL.len());
+    // All but alpha.
+    assert_eq!(read.held.len(), Layer::ALL.len() - 1);
     assert_eq!(read.batches.as_ref().unwrap()[0], u32::MAX / 64);
     assert_eq!(read.referred, Referred::Scene);
     let estimate = read.estimate(Layer::Density).unwrap();
@@ -292,18 +293,20 @@ fn png_of_8_and_16_bits() {
     let [black, middle, white] = layers.get(Layer::Beauty).unwrap().values[0];
     assert_eq!((black, white), (0.0, 1.0));
     assert!((middle - 0.215_86).abs() < 1e-5, "{middle}");
-    // Transparency goes, grey is spread over three.
+    // Grey is spread over three; what is transparent is black, and says so.
     let layers = save(
-        image::GrayAlphaImage::from_raw(1, 1, vec![255, 0])
+        image::GrayAlphaImage::from_raw(2, 1, vec![255, 0, 255, 255])
             .unwrap()
             .into(),
     );
-    assert_eq!(layers.get(Layer::Beauty).unwrap().values, [[1.0; 3]]);
+    let seen = vec![[0.0; 3], [1.0; 3]];
+    assert_eq!(layers.get(Layer::Beauty).unwrap().values, seen);
+    assert_eq!(layers.get(Layer::Alpha).unwrap().values, seen);
     assert_eq!(
         png::read_picture(&path).unwrap(),
         Picture {
-            size_px: [1, 1],
-            rgb: vec![[1.0; 3]]
+            size_px: [2, 1],
+            rgb: seen
         }
     );
 }

@@ -10,7 +10,14 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from typing import TYPE_CHECKING, Any
+
+if sys.platform == "linux":
+    # Mesa's drivers look for a Wayland display, and complain on stderr where there is none. With a folder to look in they are quiet. Now, while
+    # most programs have one thread: others may read the environment later.
+    os.environ.setdefault("XDG_RUNTIME_DIR", "/nonexistent")
 
 from ._compare import Comparison, compare
 from ._errors import Error, InterruptedWarning, SceneError, WorkError

@@ -1,7 +1,7 @@
 """The compiled part. Call it by way of the package."""
 
 import os
-from typing import Any, Callable, Literal, Optional, Union
+from typing import Any, Callable, Literal, Optional, Union, final
 
 import numpy as np
 import numpy.typing as npt
@@ -12,26 +12,71 @@ _Path = Union[str, "os.PathLike[str]"]
 _Floats = npt.NDArray[np.float64]
 _Singles = npt.NDArray[np.float32]
 
+__all__ = [
+    "__version__",
+    "DEFAULT_SAMPLES",
+    "MeshArray",
+    "ScratchArray",
+    "Image",
+    "Builder",
+    "Built",
+    "read",
+    "check",
+    "to_toml",
+    "read_image",
+    "assemble",
+    "picture_from_state",
+    "picture_state",
+    "inputs",
+    "digest",
+    "compare",
+    "phase_step_energy",
+    "oblique_depth_nm",
+    "window_overlap_um2",
+    "window_share",
+    "band_std",
+    "sinc_squared_integral",
+    "fresnel_dielectric",
+    "black_body_rgb",
+    "mask_taken",
+    "ScratchTable",
+    "fresnel_metal",
+    "metal_rgb",
+    "metal_names",
+    "depth_coherence",
+    "spectrum_samples",
+    "coherent_response",
+]
+
 __version__: str
 DEFAULT_SAMPLES: int
 
+@final
 class MeshArray:
     name: str
     vertices: int
     triangles: int
-    def __init__(
-        self,
+    def __new__(
+        cls,
         vertices_m: _Floats,
         triangles: npt.NDArray[np.uint32],
         normals: _Floats | None = None,
         uvs: _Floats | None = None,
-    ) -> None: ...
+    ) -> MeshArray: ...
+    def __deepcopy__(self, _memo: Any) -> MeshArray: ...
+    def __hash__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
 
+@final
 class ScratchArray:
     name: str
     count: int
-    def __init__(self, ends_m: _Floats, *sizes: _Floats) -> None: ...
+    def __new__(cls, ends_m: _Floats, *sizes: _Floats) -> ScratchArray: ...
+    def __deepcopy__(self, _memo: Any) -> ScratchArray: ...
+    def __hash__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
 
+@final
 class Image:
     """A picture with its layers: linear Rec.709, rows from the top. Its arrays share its memory and cannot be written to."""
 
@@ -74,7 +119,7 @@ class Image:
     def samples(self) -> npt.NDArray[np.uint32] | None:
         """Samples of each pixel of a reference: uint32, height x width. None for a picture of the closed forms."""
     def variance(
-        self, layer: Literal["beauty", "base", "scratches", "density", "depth", "normal"] = ...
+        self, layer: Literal["beauty", "base", "scratches", "density", "depth", "normal", "alpha"] = "beauty"
     ) -> _Singles | None:
         """The variance of each pixel's mean in a layer: float32, height x width x 3, squared radiance. None where it is not known."""
     def save(self, path: _Path, exposure_ev: float | None = None, tone_map: str | None = None) -> None:
@@ -87,6 +132,7 @@ class Image:
         """The displayed picture as an image of Pillow."""
     def _repr_png_(self) -> bytes: ...
 
+@final
 class Built:
     """A scene that is ready to be rendered."""
 
@@ -115,13 +161,15 @@ class Built:
         host: Host,
     ) -> Image: ...
 
+@final
 class Builder:
     def build(
         self, table: dict[str, Any], folder: _Path, text: str | None, file: _Path, host: Host
     ) -> Built: ...
 
+@final
 class ScratchTable:
-    def __init__(self, name: str) -> None: ...
+    def __new__(cls, name: str) -> ScratchTable: ...
     def at(self, u_um: _Floats, depth_nm: _Floats) -> _Floats: ...
     def total(self, depth_nm: _Floats) -> _Floats: ...
 
@@ -151,5 +199,17 @@ coherent_response: Callable[..., _Floats]
 
 def depth_coherence(depths_nm: _Floats, weights: _Floats) -> float: ...
 def spectrum_samples() -> tuple[_Floats, _Floats]: ...
+def digest(table: dict[str, Any]) -> str: ...
 def inputs(table: dict[str, Any], folder: _Path) -> list[str]: ...
 def assemble(strips: list[Image]) -> Image: ...
+def picture_state(picture: Image) -> tuple[Any, ...]:
+    """What a pickle holds of a picture."""
+
+def picture_from_state(
+    size_px: tuple[int, int],
+    layers: bytes,
+    noise: tuple[int, bytes] | None,
+    display: tuple[float, str],
+    notes: dict[str, str],
+    is_complete: bool,
+) -> Image: ...

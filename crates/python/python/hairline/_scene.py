@@ -336,6 +336,15 @@ class Scene:
             host.close()
         return image if time_s is not None else _told(image)
 
+    def __eq__(self, other: object) -> bool:
+        """Whether both say the same of one folder, in whatever types: defaults that are written out are defaults."""
+        if not isinstance(other, Scene):
+            return NotImplemented
+        same_folder = self.folder.absolute() == other.folder.absolute()
+        return same_folder and core.digest(self.to_dict()) == core.digest(other.to_dict())
+
+    __hash__ = None  # type: ignore[assignment]
+
     def __repr__(self) -> str:
         counts = ", ".join(f"{len(getattr(self, attribute))} {attribute}" for attribute, _, _ in _LISTS)
         return f"<hairline.Scene: {counts}>"

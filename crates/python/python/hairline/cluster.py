@@ -125,7 +125,7 @@ class _Parcel:
                 where = f"{path} (of the scene in {scene.folder})"
                 raise argument_error(where, "found a file that is not below the scene's folder", "move it there, so that it can travel")
             self.files.append((Path(place).as_posix(), Path(path).read_bytes()))
-        digest = hashlib.sha256(repr(self.table).encode())
+        digest = hashlib.sha256(core.digest(self.table).encode())
         for name, contents in self.files:
             digest.update(name.encode() + b"\0" + hashlib.sha256(contents).digest())
         self.name = digest.hexdigest()[:32]

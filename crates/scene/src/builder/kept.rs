@@ -163,7 +163,10 @@ impl KeptSurface {
                 mesh
             }
             (Surface::Mesh(file), Some(stamp)) => {
+                let mut found = Vec::new();
                 let stock = Stock {
+                    notes: &mut found,
+                    moved_from: &mut None,
                     parts: &mut parts,
                     materials: &mut materials,
                     textures: &mut textures,
@@ -176,6 +179,7 @@ impl KeptSurface {
                 let read = mesh_file::read(&stamp.path, material, transform, placing, stock);
                 let left_out = mesh_file::left_out(&stamp.path, surface_key.wanted);
                 notes = model_notes::notes(file, &left_out);
+                notes.extend(found.iter().map(|what| model_notes::note(file, what)));
                 read.map_err(|flaw| {
                     let found = format!("\"{}\": {}", shown(&file.to_string_lossy()), flaw.found);
                     Error::new(format!("{key}.mesh"), found, flaw.right)

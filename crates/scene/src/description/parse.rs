@@ -86,7 +86,13 @@ fn parse<'a>(text: &'a str, name: &Path) -> Result<DeTable<'a>, Error> {
     let root = DeTable::parse(text).map_err(|error| {
         let line = error.span().map(|span| line_of(text, span.start));
         let found = error.message().replace('\n', " ");
-        Error::new("", found, "must be valid TOML (https://toml.io)").at(name, line)
+        let right = match found.contains("escape") {
+            true => {
+                "a backslash in double quotes begins an escape of TOML: write paths with slashes, \"models/pan.glb\", or in single quotes"
+            }
+            false => "must be valid TOML (https://toml.io)",
+        };
+        Error::new("", found, right).at(name, line)
     })?;
     Ok(root.into_inner())
 }

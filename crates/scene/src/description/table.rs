@@ -202,7 +202,34 @@ impl Read for String {
 
 impl Read for PathBuf {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        String::read(value, key).map(Self::from)
+        let name = String::read(value, key)?;
+        let Some(escaped) = name.chars().find(|c| c.is_control()) else {
+            return Ok(name.into());
+        };
+        // As it was typed, most likely: `models\new.glb` has a line end for TOML.
+        let escape = typed(escaped);
+        let typed: String = name.chars().map(typed).collect();
+        let found =
+            format!("found \"{typed}\", in which `{escape}` stands for a control character");
+        let right = format!(
+            "write \"{}\", or '{typed}' in single quotes, which TOML leaves as it is",
+            typed.replace('\\', "/")
+        );
+        Err(Error::new(key, found, right))
+    }
+}
+
+/// What stands for a character in the double quotes of TOML.
+fn typed(c: char) -> String {
+    match c {
+        '\u{8}' => r"\b".to_owned(),
+        '\t' => r"\t".to_owned(),
+        '\n' => r"\n".to_owned(),
+        '\u{c}' => r"\f".to_owned(),
+        '\r' => r"\r".to_owned(),
+        '\u{1b}' => r"\e".to_owned(),
+        c if c.is_control() => format!(r"\u{:04X}", u32::from(c)),
+        c => c.to_string(),
     }
 }
 

@@ -3,11 +3,12 @@
 use std::io::{self, BufRead, Read};
 use std::path::{Path, PathBuf};
 
-use hairline_image::{Picture, exr_file, held};
+use hairline_image::{Picture, Primaries, ToRec709, exr_file, held, in_gamut};
 use image::codecs::hdr::HdrDecoder;
 use image::{ImageDecoder, ImageError};
 
 use crate::reading::check_regular;
+use crate::text::shown;
 
 /// An environment map that cannot be used. The message names the file and the reason.
 #[derive(Debug, thiserror::Error)]
@@ -154,7 +155,18 @@ fn from_exr(path: &Path, error: hairline_image::Error) -> Error {
     }
 }
 
-/// Reads a Radiance picture. Its EXPOSURE, if it has one, is undone: it says by what the radiances were multiplied.
+/// What the author of a scene should know about a map.
+pub(crate) fn notes(path: &Path) -> Vec<String> {
+    let is_exr = ending(path).as_deref() == Some("exr");
+    let window = is_exr.then(|| exr_file::window(path).ok()).flatten();
+    let part = window.filter(|window| !window.is_whole());
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    let note = |window| format!("{}: {window}", shown(&name.to_string_lossy()));
+    part.map(note).into_iter().collect()
+}
+
+/// Reads a Radiance picture. Its EXPOSURE, if it has one, is undone: it says by what the radiances were multiplied. Colours of other PRIMARIES
+/// become those of Rec.709.
 fn read_radiance(path: &Path, check_size: CheckSize) -> Result<Picture, Error> {
     let file = held::open(path).map_err(|e| cannot_read(path, &e))?;
     let reader = as_radiance(file).map_err(|e| cannot_read(path, &e))?;
@@ -168,6 +180,11 @@ fn read_radiance(path: &Path, check_size: CheckSize) -> Result<Picture, Error> {
             reason: format!("EXPOSURE={exposure} in the header: a positive number is needed"),
         });
     }
+    let to_rec_709 = primaries(&decoder.metadata().custom_attributes);
+    let to_rec_709 = to_rec_709.map_err(|reason| Error::Corrupt {
+        path: path.to_owned(),
+        reason,
+    })?;
     let mut bytes = vec![0; decoder.total_bytes() as usize];
     decoder
         .read_image(&mut bytes)
@@ -175,13 +192,27 @@ fn read_radiance(path: &Path, check_size: CheckSize) -> Result<Picture, Error> {
     let rgb = bytes
         .chunks_exact(12)
         .map(|texel| {
-            std::array::from_fn(|c| {
+            let rgb = std::array::from_fn(|c| {
                 let component = [0, 1, 2, 3].map(|i| texel[4 * c + i]);
                 f32::from_ne_bytes(component) / exposure
-            })
+            });
+            to_rec_709.map_or(rgb, |to| in_gamut(to.color(rgb)))
         })
         .collect();
     Ok(Picture { size_px, rgb })
+}
+
+/// What takes the colours of a Radiance picture to Rec.709. One that does not say its primaries is taken for that already, as all write it.
+fn primaries(attributes: &[(String, String)]) -> Result<Option<ToRec709>, String> {
+    let mut lines = attributes.iter();
+    let Some((_, text)) = lines.rfind(|(name, _)| name == "PRIMARIES") else {
+        return Ok(None);
+    };
+    let numbers: Option<Vec<f64>> = text.split_whitespace().map(|it| it.parse().ok()).collect();
+    let eight = numbers.and_then(|numbers| <[f64; 8]>::try_from(numbers).ok());
+    let right = "eight numbers are needed: x and y of red, green, blue and white";
+    let eight = eight.ok_or_else(|| format!("PRIMARIES={text} in the header: {right}"))?;
+    Primaries::of_numbers(eight).to_rec_709()
 }
 
 /// The same picture begins with `#?RGBE` where other programs wrote it; the decoder knows `#?RADIANCE` alone.

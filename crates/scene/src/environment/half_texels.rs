@@ -3,22 +3,27 @@
 use hairline_image::Picture;
 
 /// The largest half float.
-const HALF_MAX: f32 = 65504.0;
+pub(super) const HALF_MAX: f32 = 65504.0;
 
-/// The largest power of two by which maps are divided: dark parts of a brighter map would lose their bits.
-const TEXEL_SCALE_MAX: f32 = 1024.0;
+/// The largest power of two by which maps are divided: one texel of rubbish would leave nothing of all others. The sun's disk takes 2^15 in
+/// cd/m2, and a candela is then exact to a part in a thousand still.
+const TEXEL_SCALE_MAX: f32 = 1048576.0;
 
-/// Divides the map by the power of two that brings it below the largest half float, and cuts what stays above.
-pub(super) fn fit_half(map: &mut Picture) -> f64 {
+/// Divides the map by the power of two that brings it below the largest half float, and cuts what stays above. Returns the power, and how
+/// many texels were cut.
+pub(super) fn fit_half(map: &mut Picture) -> (f64, usize) {
     let brightest = map.rgb.iter().flatten().fold(0.0_f32, |a, &b| a.max(b));
     let mut scale = 1.0;
     while brightest / scale > HALF_MAX && scale < TEXEL_SCALE_MAX {
         scale *= 2.0;
     }
-    for c in map.rgb.iter_mut().flatten() {
-        *c = (*c / scale).min(HALF_MAX);
+    let mut cut = 0;
+    for texel in &mut map.rgb {
+        let scaled = texel.map(|c| c / scale);
+        *texel = scaled.map(|c| c.min(HALF_MAX));
+        cut += usize::from(*texel != scaled);
     }
-    f64::from(scale)
+    (f64::from(scale), cut)
 }
 
 /// Rounds to what a half-float texture holds.

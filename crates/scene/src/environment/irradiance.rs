@@ -1,69 +1,73 @@
 //! The irradiance from a map: the map blurred by the cosine.
 
-use glam::{DVec2, Vec3A};
+use std::f64::consts::PI;
+
 use hairline_image::Picture;
-use rayon::prelude::*;
 
 use super::half_texels::round_to_half;
-use super::lookup::environment_dir;
+use super::mip::{Mip, RowTaps};
 use super::resample::{resample, row_solid_angle};
 
-/// Width and height of `blur`'s map: linear between texels a cosine is within 0.2 %.
-pub(crate) const IRRADIANCE_SIZE_PX: [u32; 2] = [64, 32];
-
-/// What is looked at: texels of 1.4 degrees.
-const SOURCE_SIZE_PX: [u32; 2] = [256, 128];
+/// Width and height of `blur`'s map, and of what it looks at: texels of 1.4 degrees. Linear between them a cosine is within 0.01 %; where it
+/// ends, at the horizon, what a source of 5 degrees sends is within 0.15 % of the most that it sends. Twin: environment.wgsl.
+pub(crate) const IRRADIANCE_SIZE_PX: [u32; 2] = [256, 128];
 
 /// For each normal the mean of radiance over the hemisphere, weighted by the cosine: irradiance over pi.
 pub(super) fn blur(map: &Picture) -> Picture {
-    let [width, height] = IRRADIANCE_SIZE_PX;
-    if map.rgb.iter().all(|texel| *texel == map.rgb[0]) {
-        let rgb = vec![map.rgb[0]; (width * height) as usize];
-        return Picture {
-            size_px: IRRADIANCE_SIZE_PX,
-            rgb,
-        };
+    let source = resample(map, IRRADIANCE_SIZE_PX);
+    if source.rgb.iter().all(|texel| *texel == source.rgb[0]) {
+        return source;
     }
-    let source = resample(map, SOURCE_SIZE_PX);
-    let texels: Vec<(Vec3A, Vec3A)> = (0..SOURCE_SIZE_PX[1])
-        .flat_map(|y| {
-            let solid_angle = row_solid_angle(y, SOURCE_SIZE_PX[1]) as f32;
-            let source = &source;
-            (0..SOURCE_SIZE_PX[0]).map(move |x| {
-                let direction = middle(x, y, SOURCE_SIZE_PX);
-                (direction * solid_angle, Vec3A::from(source.pixel(x, y)))
-            })
-        })
-        .collect();
-    let rgb = (0..height)
-        .into_par_iter()
-        .flat_map_iter(|y| {
-            let texels = &texels;
-            (0..width).map(move |x| {
-                let normal = middle(x, y, IRRADIANCE_SIZE_PX);
-                let (mut sum, mut weights) = (Vec3A::ZERO, 0.0);
-                for (direction, radiance) in texels {
-                    let weight = normal.dot(*direction).max(0.0);
-                    sum += *radiance * weight;
-                    weights += weight;
-                }
-                (sum / weights).to_array()
-            })
-        })
-        .collect();
-    let mut map = Picture {
-        size_px: IRRADIANCE_SIZE_PX,
-        rgb,
-    };
-    round_to_half(&mut map);
-    map
+    let mut sums = Mip::empty(IRRADIANCE_SIZE_PX, 1);
+    sums.add(&Mip::of(&[source]), |size, v, _| row_taps(size, v));
+    let mut blurred = sums.pictures().swap_remove(0);
+    round_to_half(&mut blurred);
+    blurred
 }
 
-/// The direction of a texel's middle.
-fn middle(x: u32, y: u32, size_px: [u32; 2]) -> Vec3A {
-    let at = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-    let [width, height] = size_px.map(f64::from);
-    environment_dir(at / DVec2::new(width, height))
-        .as_vec3()
-        .into()
+/// What a normal at `v` sees of each row of a map: the cosine over the solid angle of each texel, from half a turn to its left on.
+fn row_taps([width, height]: [usize; 2], v: f64) -> Vec<RowTaps> {
+    let (sin, cos) = (v * PI).sin_cos();
+    let texel_rad = PI / height as f64;
+    (0..height)
+        .filter_map(|row| {
+            let (row_sin, row_cos) = ((row as f64 + 0.5) * texel_rad).sin_cos();
+            let solid_angle = row_solid_angle(row as u32, height as u32) / width as f64;
+            let cosine = |turn: f64| cos * row_cos + sin * row_sin * (turn * texel_rad).cos();
+            let weight = |turn: i32| {
+                let middle = cosine(f64::from(turn));
+                // A texel that the horizon crosses is seen in part.
+                let mean = match middle.abs() < texel_rad {
+                    true => over_texel([sin, cos], row, f64::from(turn), texel_rad),
+                    false => middle.max(0.0),
+                };
+                (mean * solid_angle) as f32
+            };
+            let half = width as i32 / 2;
+            let weights: Vec<f32> = (-half..half).map(weight).collect();
+            // The same to both sides: what is not seen lies at the ends.
+            let first = weights.iter().position(|w| *w > 0.0)?;
+            let end = weights.len() - weights.iter().rev().position(|w| *w > 0.0)?;
+            Some(RowTaps {
+                row,
+                first: first as isize - half as isize,
+                weights: weights[first..end].to_vec(),
+            })
+        })
+        .collect()
+}
+
+/// The mean over a texel of what of the cosine is above the horizon.
+fn over_texel([sin, cos]: [f64; 2], row: usize, turn: f64, texel_rad: f64) -> f64 {
+    const STEPS: u32 = 4;
+    let place = |i: u32| (f64::from(i) + 0.5) / f64::from(STEPS) - 0.5;
+    let of_row = |y: u32| {
+        let (row_sin, row_cos) = ((row as f64 + 0.5 + place(y)) * texel_rad).sin_cos();
+        let seen = |x: u32| {
+            let turned = ((turn + place(x)) * texel_rad).cos();
+            (cos * row_cos + sin * row_sin * turned).max(0.0)
+        };
+        (0..STEPS).map(seen).sum::<f64>()
+    };
+    (0..STEPS).map(of_row).sum::<f64>() / f64::from(STEPS * STEPS)
 }

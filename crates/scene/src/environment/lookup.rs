@@ -3,8 +3,8 @@
 //!
 //! Brian Karis, "Real Shading in Unreal Engine 4", 2013 (the split sum).
 //!
-//! Filtering is by hand, and not by a sampler, so that every device and the CPU blend alike: maps repeat across u and
-//! end at v = 0 and 1.
+//! Filtering is by hand, and not by a sampler, so that every device and the CPU blend alike: maps repeat across u, and beyond a
+//! pole, at v = 0 and 1, they go on with the row on its other side.
 
 use std::f64::consts::{PI, TAU};
 
@@ -66,7 +66,22 @@ pub fn environment_dir(uv: DVec2) -> DVec3 {
     )
 }
 
-/// A map between its texels: bilinear, repeated in u, clamped in v.
+/// A row, and the column of it that stands for column `x`: beyond a pole lies the row on its other side.
+#[inline(always)]
+pub fn over_the_pole([width, height]: [i32; 2], x: i32, y: i32) -> [i32; 2] {
+    if y >= 0 && y < height {
+        return [x, y];
+    }
+    let across = x + width / 2;
+    let x = if across < width {
+        across
+    } else {
+        across - width
+    };
+    [x, y.clamp(0, height - 1)]
+}
+
+/// A map between its texels: bilinear, repeated in u, continued over the poles in v.
 pub fn environment_bilinear(map: &Picture, uv: DVec2) -> DVec3 {
     let [width, height] = map.size_px.map(|n| n as i32);
     let at = uv * DVec2::new(f64::from(width), f64::from(height)) - 0.5;
@@ -74,9 +89,11 @@ pub fn environment_bilinear(map: &Picture, uv: DVec2) -> DVec3 {
     let t = at - corner;
     let x0 = (corner.x as i32).rem_euclid(width);
     let x1 = (x0 + 1) % width;
-    let y0 = (corner.y as i32).clamp(0, height - 1);
-    let y1 = (corner.y as i32 + 1).clamp(0, height - 1);
-    let texel = |x: i32, y: i32| DVec3::from(map.rgb[(y * width + x) as usize].map(f64::from));
+    let (y0, y1) = (corner.y as i32, corner.y as i32 + 1);
+    let texel = |x: i32, y: i32| {
+        let [x, y] = over_the_pole([width, height], x, y);
+        DVec3::from(map.rgb[(y * width + x) as usize].map(f64::from))
+    };
     // a + (b - a) t rather than a (1 - t) + b t: exact where both are equal.
     let mix = |a: DVec3, b: DVec3, t: f64| a + (b - a) * t;
     let top = mix(texel(x0, y0), texel(x1, y0), t.x);
@@ -170,8 +187,10 @@ fn bilinear(map: &Picture, u: f64, v: f64) -> Vec3A {
     let x0 = if x < 0 { width - 1 } else { x.min(width - 1) };
     let x1 = if x0 + 1 < width { x0 + 1 } else { 0 };
     let row = |y: i32| {
-        let first = y.clamp(0, height - 1) * width;
-        let texel = |x: i32| Vec3A::from(map.rgb[(first + x) as usize]);
+        let texel = |x: i32| {
+            let [x, y] = over_the_pole([width, height], x, y);
+            Vec3A::from(map.rgb[(y * width + x) as usize])
+        };
         let (a, b) = (texel(x0), texel(x1));
         a + (b - a) * tx
     };

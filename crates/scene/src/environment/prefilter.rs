@@ -11,13 +11,12 @@
 use hairline_image::Picture;
 
 use super::half_texels::round_to_half;
+use super::mip::Mip;
 use super::resample::resample;
-use lobe_part::LobePart;
-use mip::Mip;
+use lobe_part::{LobePart, row_taps};
 
 mod levels;
 mod lobe_part;
-mod mip;
 
 pub(super) use levels::LEVEL_0_SIZE_PX;
 use levels::{COARSEST, FINEST, LEVELS};
@@ -83,11 +82,13 @@ fn blur(mips: &[Mip], level: usize) -> Vec<Picture> {
     for on in (size..=grid(COARSEST)).rev() {
         let mut sums = match sum {
             Some(coarser) => coarser.doubled(),
-            None => Mip::empty(on, mips[0].maps),
+            None => Mip::empty(LEVEL_0_SIZE_PX.map(|n| n >> on), mips[0].maps),
         };
         for mip in (finest..=COARSEST).filter(|mip| grid(*mip) == on) {
             let lobe = LobePart::new(level, mip);
-            sums.add(&mips[mip], &lobe);
+            sums.add(&mips[mip], |size, v, stride| {
+                row_taps(size, &lobe, v, stride)
+            });
         }
         sum = Some(sums);
     }

@@ -4,11 +4,17 @@ use gltf::material::AlphaMode;
 
 use crate::scene::{AlphaRule, Cutout, Material, Mesh, Texture};
 
+/// An alpha that equals the cutoff is there (glTF 2.0, section 3.9.4), and a code over 255 is no single: far less than a step between codes.
+const ROUNDING: f64 = 1e-6;
+
 /// That of a material whose colour has an alpha.
 pub(super) fn cutout(material: &gltf::Material, alpha: f64) -> Option<Cutout> {
     let rule = match material.alpha_mode() {
         AlphaMode::Opaque => return None,
-        AlphaMode::Mask => AlphaRule::AtLeast(f64::from(material.alpha_cutoff().unwrap_or(0.5))),
+        AlphaMode::Mask => {
+            let least = f64::from(material.alpha_cutoff().unwrap_or(0.5));
+            AlphaRule::AtLeast((least - ROUNDING).max(0.0))
+        }
         AlphaMode::Blend => AlphaRule::Share,
     };
     Some(Cutout { alpha, rule })

@@ -11,6 +11,7 @@ use hairline_image::held;
 
 use super::instances;
 use super::left_out::{self, LeftOut, Wanted};
+use super::leniency::drop_order_mark;
 use super::root::{self, Kept};
 use super::source::percent_decoded;
 use crate::reading::check_regular;
@@ -147,6 +148,7 @@ fn text(path: &Path) -> Option<Vec<u8>> {
     } else {
         text.extend(start);
         file.take(LONGEST_TEXT).read_to_end(&mut text).ok()?;
+        drop_order_mark(&mut text);
     }
     Some(text)
 }

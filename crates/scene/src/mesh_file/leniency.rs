@@ -9,8 +9,26 @@ use gltf::json::{Index, Root, Value, mesh::Semantic};
 /// Whole numbers beyond this have no place for their last digit in double precision.
 const WHOLE_BELOW: f64 = 9_007_199_254_740_992.0;
 
-/// In the text: scenes without nodes, and whole numbers written with a point (glTF 2.0, section 2.7).
+/// The byte order mark that some editors put before a text; readers of JSON may pass it over (RFC 8259, section 8.1).
+pub(super) fn drop_order_mark(text: &mut Vec<u8>) {
+    const MARK: &[u8] = b"\xef\xbb\xbf";
+    if text.starts_with(MARK) {
+        text.drain(..MARK.len());
+    }
+}
+
+/// In the text: versions that are numbers, scenes without nodes, and whole numbers written with a point (glTF 2.0, section 2.7).
 pub(super) fn loosen_text(value: &mut Value) {
+    for name in ["version", "minVersion"] {
+        let version = value.get_mut("asset").and_then(|it| it.get_mut(name));
+        if let Some(version) = version.filter(|it| it.is_number()) {
+            let text = match version.as_f64() {
+                Some(number) => format!("{number:?}"),
+                None => version.to_string(),
+            };
+            *version = Value::String(text);
+        }
+    }
     let scenes = value.get_mut("scenes").and_then(Value::as_array_mut);
     for scene in scenes.into_iter().flatten() {
         if let Some(members) = scene.as_object_mut()

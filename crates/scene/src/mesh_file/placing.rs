@@ -5,6 +5,7 @@ use glam::{DMat3, DMat4, DVec3};
 use super::flaw::Flaw;
 use super::pose::Moment;
 use super::shapes::Shapes;
+use crate::description::limits::LARGEST_M;
 use crate::description::{Object, Up};
 
 /// The keys `up`, `fit_m`, `time_s` and `animation` of an object.
@@ -20,6 +21,19 @@ pub(crate) struct Placing {
     pub time_s: Option<f64>,
     /// Which one, by its name or its number; without it the first.
     pub animation: Option<String>,
+    /// Whether its own place does not count, so that one that stands far off for its size may be moved: where it is as large as `fit_m` says,
+    /// or alone.
+    pub stands_alone: bool,
+}
+
+/// How many times its extent a model that stands alone may be away: a millionth of a hundredth of its extent is then left of single precision.
+const FAR_EXTENTS: f64 = 1000.0;
+
+/// How an object begins.
+pub(super) struct Start {
+    pub object_from_file: DMat4,
+    /// The middle of a file that stood too far off, in its own frame: it was put at the origin.
+    pub moved_from: Option<DVec3>,
 }
 
 impl Placing {
@@ -30,6 +44,7 @@ impl Placing {
         fit_m: None,
         time_s: None,
         animation: None,
+        stands_alone: true,
     };
 
     /// What an object says of its file.
@@ -40,6 +55,7 @@ impl Placing {
             fit_m: object.fit_m,
             time_s: object.time_s,
             animation: object.animation.clone(),
+            stands_alone: object.fit_m.is_some(),
         }
     }
 
@@ -49,29 +65,87 @@ impl Placing {
         self.time_s.map(|time_s| Moment { time_s, animation })
     }
 
-    /// The turn and the factor that the object begins with.
-    pub(super) fn object_from_file(&self, shapes: &Shapes) -> Result<DMat4, Flaw> {
+    /// The turn, the factor and the move that the object begins with, all in double precision. A model that no camera of a scene could come
+    /// near to, as those in coordinates of the Earth, begins at the origin.
+    pub(super) fn start(&self, shapes: &Shapes, world_from_object: &DMat4) -> Result<Start, Flaw> {
         let turn = DMat4::from_mat3(quarter_turn(self.up.axis(), self.world_up));
-        let Some(fit_m) = self.fit_m else {
-            return Ok(turn);
+        let is_near = || {
+            let world_from_file = *world_from_object * turn;
+            !shapes.may_reach(&world_from_file, LARGEST_M)
         };
-        let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        shapes.visit(&mut |shape| {
-            for file_from_place in &shape.places {
-                for vertex in &shape.rough.surface.vertices {
-                    let point = file_from_place.transform_point3(vertex.position_m);
-                    (least, most) = (least.min(point), most.max(point));
-                }
-            }
-            Ok(())
-        })?;
-        let extent_m = (most - least).max_element();
-        if !(extent_m.is_finite() && extent_m > 0.0) {
-            let found = "it has no extent that `fit_m` could change";
-            return Err(Flaw::new(found, "must have triangles that span an area"));
+        if self.fit_m.is_none() && !self.stands_alone && is_near() {
+            return Ok(Start {
+                object_from_file: turn,
+                moved_from: None,
+            });
         }
-        Ok(DMat4::from_scale(DVec3::splat(fit_m / extent_m)) * turn)
+        let (least, most) = bounds(shapes)?;
+        let extent_m = (most - least).max_element();
+        let has_extent = extent_m.is_finite() && extent_m > 0.0;
+        let factor = match self.fit_m {
+            Some(_) if !has_extent => {
+                let found = "it has no extent that `fit_m` could change";
+                return Err(Flaw::new(found, "must have triangles that span an area"));
+            }
+            Some(fit_m) => fit_m / extent_m,
+            None => 1.0,
+        };
+        let fitted = DMat4::from_scale(DVec3::splat(factor)) * turn;
+        let middle = 0.5 * (least + most);
+        let is_far = match self.stands_alone {
+            true => nearest(least, most).length() > LARGEST_M.min(FAR_EXTENTS * extent_m),
+            false => {
+                let (least, most) = turned_box(&(*world_from_object * fitted), least, most);
+                nearest(least, most).abs().max_element() > LARGEST_M
+            }
+        };
+        let moved_from = (has_extent && is_far).then_some(middle);
+        Ok(Start {
+            object_from_file: match moved_from {
+                Some(middle) => fitted * DMat4::from_translation(-middle),
+                None => fitted,
+            },
+            moved_from,
+        })
     }
+}
+
+/// The point of a box that is nearest to the origin.
+fn nearest(least: DVec3, most: DVec3) -> DVec3 {
+    DVec3::ZERO.max(least).min(most)
+}
+
+/// The box around a box that was moved.
+fn turned_box(to: &DMat4, least: DVec3, most: DVec3) -> (DVec3, DVec3) {
+    let corner = |i: u32| {
+        let pick = |axis: usize| {
+            if i >> axis & 1 == 0 {
+                least[axis]
+            } else {
+                most[axis]
+            }
+        };
+        to.transform_point3(DVec3::new(pick(0), pick(1), pick(2)))
+    };
+    let corners = (0..8).map(corner);
+    corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), p| {
+        (a.min(p), b.max(p))
+    })
+}
+
+/// The box around a file's vertices, in its own frame.
+fn bounds(shapes: &Shapes) -> Result<(DVec3, DVec3), Flaw> {
+    let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    shapes.visit(&mut |shape| {
+        for file_from_place in &shape.places {
+            for vertex in &shape.rough.surface.vertices {
+                let point = file_from_place.transform_point3(vertex.position_m);
+                (least, most) = (least.min(point), most.max(point));
+            }
+        }
+        Ok(())
+    })?;
+    Ok((least, most))
 }
 
 /// Turns one axis to another, without rounding; both are of the frame's own, with either sign.

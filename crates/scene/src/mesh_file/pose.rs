@@ -45,7 +45,15 @@ impl Pose {
         };
         if let Some(animation) = animation {
             for channel in animation.channels() {
-                let node = &mut parts[channel.target().node().index()];
+                let index = channel.target().node().index();
+                let node = &mut parts[index];
+                let moves = channel.target().property() != Property::MorphTargetWeights;
+                if moves && node.matrix.is_some() {
+                    return Err(Flaw::new(
+                        format!("its animation moves node {index}, which has a `matrix`"),
+                        "must have `translation`, `rotation` and `scale` instead: export it again",
+                    ));
+                }
                 node.animate(&channel, buffers, time_s)?;
             }
         }

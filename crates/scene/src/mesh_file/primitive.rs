@@ -20,6 +20,8 @@ pub(super) struct Rough {
     has_normals: bool,
     has_tangents: bool,
     has_uvs: bool,
+    /// Sets of texture coordinates that its material's images lie by, and that it does not have.
+    pub missing_sets: Vec<u32>,
 }
 
 /// Reads a primitive; `None` for points and lines, which have no surface.
@@ -60,6 +62,11 @@ pub(super) fn read(
         None => Ok(None),
     });
     let (uvs, other_uvs) = (uvs?, other_uvs?);
+    let wanted = [(ways.first, &uvs), (ways.second, &other_uvs)];
+    let missing = wanted
+        .into_iter()
+        .filter_map(|(way, uvs)| way.filter(|_| uvs.is_none()));
+    let missing_sets = missing.map(|way| way.set).collect();
     let colors = attributes.colors(count)?;
 
     let place = |uvs: &Option<Vec<Vec2>>, i: usize| uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[i]);
@@ -88,15 +95,18 @@ pub(super) fn read(
         has_normals: normals.is_some(),
         has_tangents: tangents.is_some(),
         has_uvs: uvs.is_some(),
+        missing_sets,
     }))
 }
 
 impl Rough {
-    /// With normals, and with tangents where normal maps or brushed metal need them.
-    pub(super) fn finished(self, primitive: &Primitive) -> Surface {
+    /// With normals, and with tangents where normal maps or brushed metal need them. `turned` counts triangles that are wound against
+    /// their normals in the file.
+    pub(super) fn finished(self, primitive: &Primitive, turned: &mut usize) -> Surface {
         let mut surface = self.surface;
-        if !self.has_normals {
-            surface.make_flat_normals();
+        match self.has_normals {
+            true => *turned += surface.turn_to_normals(),
+            false => surface.make_flat_normals(),
         }
         let material = primitive.material();
         let needs_tangents = material.normal_texture().is_some()

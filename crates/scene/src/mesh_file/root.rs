@@ -23,14 +23,14 @@ pub(super) fn read(text: &[u8], kept: Kept) -> Result<Root, Flaw> {
         && !(kept.animations && has_unknown_paths(&root))
     {
         check_version(&root.asset.version)?;
+        check_least_version(root.asset.min_version.as_deref())?;
         return Ok(root);
     }
     let mut value: Value = from_slice(text).map_err(|error| invalid(&error))?;
-    let version = value
-        .get("asset")
-        .and_then(|asset| asset.get("version")?.as_str());
-    check_version(version.unwrap_or("1.0"))?;
     leniency::loosen_text(&mut value);
+    let of_asset = |name| value.get("asset")?.get(name)?.as_str();
+    check_version(of_asset("version").unwrap_or("1.0"))?;
+    check_least_version(of_asset("minVersion"))?;
     channels::keep_of_nodes(&mut value);
     let error = match from_value::<Root>(value.clone()) {
         Ok(root) => return Ok(root),
@@ -58,6 +58,17 @@ fn check_version(version: &str) -> Result<(), Flaw> {
     match version.split('.').next() {
         Some("2") => Ok(()),
         _ => Err(wrong_version(version)),
+    }
+}
+
+/// What a file says that a reader must know (glTF 2.0, section 3.2).
+fn check_least_version(least: Option<&str>) -> Result<(), Flaw> {
+    match least {
+        None | Some("2.0") => Ok(()),
+        Some(least) => Err(Flaw::new(
+            format!("it needs a reader of glTF {}", shown(least)),
+            "must need no more than glTF 2.0: export it again",
+        )),
     }
 }
 

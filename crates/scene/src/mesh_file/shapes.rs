@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::DMat4;
-use gltf::{Document, Primitive};
+use glam::{DMat4, DVec3};
+use gltf::json::Value;
+use gltf::{Document, Primitive, Semantic};
 
 use super::cameras::{self, FileCamera};
 use super::flaw::Flaw;
@@ -52,6 +53,30 @@ impl<'a> Shapes<'a> {
     /// A camera of the file, as it stands then, in the file's frame.
     pub(super) fn camera(&self, wanted: &str) -> Result<FileCamera, Flaw> {
         cameras::of(&self.placed, wanted)
+    }
+
+    /// Whether a node or a corner of what it places may lie so far from the origin along an axis, by what the file says of its positions.
+    pub(super) fn may_reach(&self, world_from_file: &DMat4, distance_m: f64) -> bool {
+        let is_far = |point: DVec3| !(point.abs().max_element() <= distance_m);
+        self.placed.iter().any(|placed| {
+            let world_from_node = *world_from_file * placed.file_from_node;
+            let primitives = placed.node.mesh();
+            let mut positions = primitives
+                .iter()
+                .flat_map(|mesh| mesh.primitives())
+                .filter_map(|primitive| primitive.get(&Semantic::Positions));
+            let corner = |value: Option<Value>| -> Option<DVec3> {
+                let value = value?;
+                let at = |i: usize| value.get(i)?.as_f64();
+                Some(DVec3::new(at(0)?, at(1)?, at(2)?))
+            };
+            is_far(world_from_node.w_axis.truncate())
+                || positions.any(|accessor| {
+                    let corners = [corner(accessor.min()), corner(accessor.max())];
+                    let mut corners = corners.into_iter().flatten();
+                    corners.any(|corner| is_far(world_from_node.transform_point3(corner)))
+                })
+        })
     }
 
     /// Reads each once, and returns how many have no surface.

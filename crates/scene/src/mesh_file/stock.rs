@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use glam::DVec3;
+
 use crate::scene::{Material, Part, Texture};
 
 /// Of the free memory, what one file may take.
@@ -14,6 +16,10 @@ pub(crate) struct Stock<'a> {
     pub textures: &'a mut Vec<Texture>,
     /// The files that it refers to and that were read.
     pub files: &'a mut Vec<PathBuf>,
+    /// The middle of a file that stood too far off, in its own frame: it was put at the origin.
+    pub moved_from: &'a mut Option<DVec3>,
+    /// What was found in it that its author should know.
+    pub notes: &'a mut Vec<String>,
     /// What textures may still take of the memory.
     pub free_bytes: f64,
     /// Whether textures get their mip chains, which take longer than the rest.

@@ -12,7 +12,8 @@ const LAMP_RADIUS: f64 = 0.01;
 /// The extension counts in lumens. Exporters take a watt for as many of them.
 const LUMENS_PER_WATT: f64 = 683.0;
 
-/// What stands for a light beside a model of an extent, in metres of the file, that is shown larger by a factor and turned to be upright.
+/// What stands for a light beside a model of an extent, in metres of the file, that is shown larger by a factor. `turned` and `placed` make
+/// directions and places of the file upright.
 ///
 /// # Errors
 /// Why there is none.
@@ -20,9 +21,9 @@ pub(super) fn lamp(
     light: &Punctual,
     extent: f64,
     factor: f64,
-    upright: impl Fn(DVec3) -> DVec3,
+    [turned, placed]: [&dyn Fn(DVec3) -> DVec3; 2],
 ) -> Result<Light, String> {
-    let towards = upright(light.direction).normalize_or(DVec3::NEG_Z);
+    let towards = turned(light.direction).normalize_or(DVec3::NEG_Z);
     let watts = light.intensity / LUMENS_PER_WATT;
     let of_kind = |kind: LightKind| Light {
         name: light.name.clone(),
@@ -42,7 +43,7 @@ pub(super) fn lamp(
     }
     let radius = LAMP_RADIUS * extent;
     let radiance = watts / (PI * radius * radius);
-    let center_m = upright(light.position);
+    let center_m = placed(light.position);
     let radius_m = (factor * radius).max(SMALLEST_M);
     // A point that is no number does not lie within either.
     if !center_m.abs().cmple(DVec3::splat(LARGEST_M)).all() {

@@ -32,6 +32,26 @@ fn light(rest: &str) -> String {
     message(&format!("{}[[light]]\n{rest}", disk()))
 }
 
+/// Paths as Windows has them, in the quotes that TOML reads escapes in.
+#[test]
+fn paths_with_backslashes() {
+    check(&[
+        (
+            "[[object]]\nname = \"it\"\nmesh = \"models\\new.glb\"",
+            "plate.toml:13: object[0].mesh: found \"models\\new.glb\", in which `\\n` stands for a control character; write \
+             \"models/new.glb\", or 'models\\new.glb' in single quotes, which TOML leaves as it is",
+        ),
+        (
+            "[environment]\nfile = \"C:\\textures\\bright.hdr\"",
+            "plate.toml:12: environment.file: found \"C:\\textures\\bright.hdr\", in which `\\t` stands for a control character; write \
+             \"C:/textures/bright.hdr\", or 'C:\\textures\\bright.hdr' in single quotes, which TOML leaves as it is",
+        ),
+    ]);
+    let unknown = message("[[object]]\nname = \"it\"\nmesh = \"models\\pan.glb\"");
+    assert!(unknown.starts_with("plate.toml:13: "), "{unknown}");
+    assert!(unknown.contains("write paths with slashes"), "{unknown}");
+}
+
 #[test]
 fn unknown_keys() {
     check(&[

@@ -309,6 +309,64 @@ fn irradiance_matches_quadrature() {
     }
 }
 
+/// A window a few degrees wide in a black room, high and low, against the integral over it: for a level floor, a ceiling, what leans a little,
+/// and all others.
+#[test]
+fn a_small_window_lights_every_normal_as_its_integral_says() {
+    const WIDTH_DEG: f64 = 11.25;
+    const HEIGHT_DEG: f64 = 5.625;
+    for low_deg in [2.8125, 22.5, 45.0, 78.75, -22.5] {
+        // Of 256 texels a turn: 8 by 4 of them.
+        let map = map_of([256, 128], |d| {
+            let [azimuth, elevation] = [d.x.atan2(-d.z), d.y.asin()].map(f64::to_degrees);
+            let inside = azimuth.abs() < 0.5 * WIDTH_DEG
+                && (low_deg..low_deg + HEIGHT_DEG).contains(&elevation);
+            [f64::from(u8::from(inside)); 3]
+        });
+        let environment = Environment::from_map(map, 0.0, 1.0, true);
+        const STEPS: u32 = 100;
+        let irradiance = |normal: DVec3| -> f64 {
+            let place = |i: u32, whole: f64| whole * (f64::from(i) + 0.5) / f64::from(STEPS);
+            let at = |i: u32| {
+                let elevation = (low_deg + place(i / STEPS, HEIGHT_DEG)).to_radians();
+                let azimuth = (place(i % STEPS, WIDTH_DEG) - 0.5 * WIDTH_DEG).to_radians();
+                let (sin, cos) = elevation.sin_cos();
+                let d = DVec3::new(cos * azimuth.sin(), sin, -cos * azimuth.cos());
+                d.dot(normal).max(0.0) * cos
+            };
+            let texel_sr = (WIDTH_DEG * HEIGHT_DEG).to_radians().to_radians();
+            (0..STEPS * STEPS).map(at).sum::<f64>() * texel_sr / f64::from(STEPS * STEPS)
+        };
+        let most = irradiance({
+            let (sin, cos) = (low_deg + 0.5 * HEIGHT_DEG).to_radians().sin_cos();
+            DVec3::new(0.0, sin, -cos)
+        });
+        let leaning = |deg: f64, turn: f64| {
+            let (sin, cos) = deg.to_radians().sin_cos();
+            DVec3::new(sin * turn.cos(), cos, sin * turn.sin())
+        };
+        let mut normals = vec![DVec3::Y, DVec3::NEG_Y];
+        for (deg, turn) in [(0.01, 0.0), (0.3, 2.0), (0.7, 4.0), (1.5, 1.0), (2.8, 5.0)] {
+            normals.extend([leaning(deg, turn), -leaning(deg, turn)]);
+        }
+        normals.extend(directions(100));
+        let mut worst = 0.0_f64;
+        for normal in normals {
+            let (got, want) = (environment.irradiance(normal).x, irradiance(normal));
+            worst = worst.max((got - want).abs() / most);
+            if normal.y.abs() > 0.99 && want > 0.05 * most {
+                // All of the window is above the floor.
+                assert!(
+                    (got / want - 1.0).abs() < 2e-3,
+                    "{low_deg}: {normal} {got} {want}"
+                );
+            }
+        }
+        println!("{low_deg} degrees: {:.3} % of the most", 100.0 * worst);
+        assert!(worst < 2e-3, "{low_deg}: {worst}");
+    }
+}
+
 #[test]
 fn awkward_texels_are_repaired() {
     let mut map = Picture::new([8, 4]);
@@ -442,6 +500,62 @@ fn radiance_file(width: usize, height: usize, header: &str, texel: [u8; 4]) -> V
         bytes.extend(texel);
     }
     bytes
+}
+
+/// Maps in cd/m2 have suns of 1.6e9, and files of half floats have infinite ones.
+#[test]
+fn radiances_of_any_unit_are_kept() {
+    let mut map = Picture::new([64, 32]);
+    map.rgb.fill([5000.0; 3]);
+    map.rgb[300] = [1.6e9, 1.5e9, 1.4e9];
+    let environment = Environment::from_map(map.clone(), 0.0, 1.0, true);
+    let scale = environment.texel_radiance();
+    let radiance = |i: usize| environment.background().rgb[i].map(|c| f64::from(c) * scale);
+    for (got, want) in radiance(300).into_iter().zip([1.6e9, 1.5e9, 1.4e9]) {
+        assert!((got / want - 1.0).abs() < 5e-4, "{got} {want}");
+    }
+    assert!((radiance(0)[0] / 5000.0 - 1.0).abs() < 5e-4);
+    assert_eq!(environment.repaired_texels(), 0);
+    map.rgb[300] = [f32::INFINITY, 1.0, 1.0];
+    map.rgb[301] = [1e38, 1.0, 1.0];
+    let environment = Environment::from_map(map, 0.0, 1.0, true);
+    let scale = environment.texel_radiance();
+    let radiance = |i: usize| f64::from(environment.background().rgb[i][0]) * scale;
+    assert!(
+        (radiance(300) / 65504.0 - 1.0).abs() < 1e-3,
+        "{}",
+        radiance(300)
+    );
+    // What no light can be is cut, and counted.
+    assert!((6e10..7e10).contains(&radiance(301)), "{}", radiance(301));
+    assert_eq!(environment.repaired_texels(), 2);
+}
+
+/// Those of ITU-R BT.2020, by the matrix of BT.2087; the last such line counts.
+#[test]
+fn radiance_files_in_their_colours() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.hdr");
+    let write = |head: &str, texel| fs::write(&path, radiance_file(4, 2, head, texel)).unwrap();
+    let rec_2020 = "PRIMARIES=0.708 0.292 0.170 0.797 0.131 0.046 0.3127 0.3290\n";
+    write(rec_2020, [200, 160, 120, 128]);
+    let environment = Environment::load(&path, 0.0, 1.0, false).unwrap();
+    let [r, g, b] = [200.0, 160.0, 120.0].map(|c| c / 256.0);
+    let want = DVec3::new(
+        1.6605 * r - 0.5876 * g - 0.0728 * b,
+        -0.1246 * r + 1.1329 * g - 0.0083 * b,
+        -0.0182 * r - 0.1006 * g + 1.1187 * b,
+    );
+    let got = environment.radiance(DVec3::X);
+    assert!((got - want).abs().max_element() < 1e-3, "{got} {want}");
+    write("PRIMARIES=0.64 0.33 0.30\n", [128, 128, 128, 129]);
+    let error = Environment::load(&path, 0.0, 1.0, false)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("PRIMARIES=0.64 0.33 0.30 in the header: eight numbers"),
+        "{error}"
+    );
 }
 
 #[test]

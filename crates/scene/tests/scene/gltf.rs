@@ -69,6 +69,212 @@ fn check_frames(mesh: &Mesh) {
     }
 }
 
+/// As exports of mirrored parts have them. The scene is the one of the file whose triangles are all wound right, and its author is told.
+#[test]
+fn triangles_wound_against_their_normals_face_the_way_of_the_normals() {
+    let tetrahedron = [
+        [1.0f32, 1.0, 1.0],
+        [-1.0, -1.0, 1.0],
+        [-1.0, 1.0, -1.0],
+        [1.0, -1.0, -1.0],
+    ];
+    let wound = |triangles: &[[u16; 3]]| {
+        let mut glb = Glb::default();
+        let positions = glb.floats(&tetrahedron);
+        let normals = glb.floats(&tetrahedron.map(|p| p.map(|c| c / 3f32.sqrt())));
+        let indices = glb.indices(triangles.as_flattened());
+        let mesh = format!(
+            r#"{{"primitives":[{{"attributes":{{"POSITION":{positions},"NORMAL":{normals}}},"indices":{indices}}}]}}"#
+        );
+        load_bytes(&glb.bytes(&mesh, r#"{"mesh":0}"#), "material = \"steel\"").unwrap()
+    };
+    let right = wound(&[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]);
+    // A tetrahedron in a cube of side 2.
+    assert!((volume_m3(&right.objects[0].mesh) - 8.0 / 3.0).abs() < 1e-6);
+    assert!(right.notes.is_empty(), "{:?}", right.notes);
+    for (triangles, count) in [
+        (
+            [[0, 1, 2], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+            "1 triangle is",
+        ),
+        (
+            [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
+            "4 triangles are",
+        ),
+    ] {
+        let scene = wound(&triangles);
+        let volume = volume_m3(&scene.objects[0].mesh);
+        assert!((volume - 8.0 / 3.0).abs() < 1e-6, "{count}: {volume}");
+        let note = format!("it.glb: {count} wound against the normals");
+        assert!(scene.notes[0].starts_with(&note), "{:?}", scene.notes);
+    }
+}
+
+/// A cube of 2 cm in coordinates of the Earth: single precision has half a metre there.
+#[test]
+fn models_far_from_their_origin_are_those_that_stand_at_it() {
+    let node = |translation: &str| {
+        let nodes = format!(r#"{{"mesh":0,"scale":[0.02,0.02,0.02]{translation}}}"#);
+        cube_glb("", &nodes, &mut Glb::default())
+    };
+    let (far, near) = (node(r#","translation":[500000,100,-4000000]"#), node(""));
+    for more in ["material = \"steel\"", "material = \"steel\"\nfit_m = 0.5"] {
+        let [far, near] = [&far, &near].map(|bytes| load_bytes(bytes, more).unwrap());
+        let [of_far, of_near] = [&far, &near].map(|scene| &scene.objects[0].mesh);
+        assert_eq!(of_far.triangles.len(), 12);
+        for (a, b) in of_far.positions_m.iter().zip(&of_near.positions_m) {
+            assert!(a.distance(*b) < 1e-8, "{a} {b}");
+        }
+        assert!(
+            far.notes[0].contains("4.031e6 m from its own origin"),
+            "{:?}",
+            far.notes
+        );
+        assert!(near.notes.is_empty());
+    }
+    // Alone: in the middle of a scene that shows it.
+    let dir = temporary_dir();
+    let path = dir.path().join("it.glb");
+    let mut shown = [&far, &near].map(|bytes| {
+        std::fs::write(&path, bytes).unwrap();
+        Description::for_model(&path).unwrap()
+    });
+    for description in &shown {
+        description.check().unwrap();
+        Scene::build(description, dir.path()).unwrap();
+    }
+    let [far, near] = shown.each_mut().map(|it| DVec3::from(it.camera.position_m));
+    assert!(far.distance(near) < 1e-6, "{far} {near}");
+}
+
+/// Sections 3.2, 3.5 and 3.9 of the specification, and RFC 8259 on order marks.
+#[test]
+fn what_the_specification_says_of_odd_files() {
+    let plain = plain_cube();
+    let text = |from: &str, to: &str| {
+        let mut glb = Glb::default();
+        let (corners, triangles) = cube();
+        let positions = glb.floats(&corners);
+        let indices = glb.indices(&triangles);
+        let mesh = format!(
+            r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices}}}]}}"#
+        );
+        let json = glb.json(&mesh, r#"{"mesh":0}"#, None);
+        assert!(json.contains(from), "{json}");
+        glb_of(&json.replace(from, to), &glb.bin)
+    };
+    let expected = load_bytes(&plain, "material = \"steel\"").unwrap();
+    let version = r#""version":"2.0""#;
+    let read = load_bytes(&text(version, r#""version":2.0"#), "material = \"steel\"").unwrap();
+    assert_eq!(
+        read.objects[0].mesh.positions_m,
+        expected.objects[0].mesh.positions_m
+    );
+    let least = |least: &str| text(version, &format!(r#""version":"2.0","minVersion":{least}"#));
+    assert!(load_bytes(&least("\"2.0\""), "material = \"steel\"").is_ok());
+    for newer in ["\"2.1\"", "2.1"] {
+        let error = load_bytes(&least(newer), "material = \"steel\"").unwrap_err();
+        assert!(
+            error.found().contains("it needs a reader of glTF 2.1"),
+            "{error}"
+        );
+    }
+
+    // A text with an order mark, its buffer beside it.
+    let dir = temporary_dir();
+    let mut glb = Glb::default();
+    let (corners, triangles) = cube();
+    let positions = glb.floats(&corners);
+    let indices = glb.indices(&triangles);
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices}}}]}}"#
+    );
+    let json = glb.json(&mesh, r#"{"mesh":0}"#, Some("it.bin"));
+    std::fs::write(dir.path().join("it.bin"), &glb.bin).unwrap();
+    let path = dir.path().join("it.gltf");
+    std::fs::write(&path, [b"\xef\xbb\xbf", json.as_bytes()].concat()).unwrap();
+    let read = load(&path, "material = \"steel\"").unwrap();
+    assert_eq!(
+        read.objects[0].mesh.positions_m,
+        expected.objects[0].mesh.positions_m
+    );
+    // The files that it names are found too.
+    assert_eq!(
+        hairline_scene::inputs::of_model(&path),
+        [dir.path().join("it.bin")]
+    );
+}
+
+/// A texture by a set of coordinates that the mesh does not have.
+#[test]
+fn images_without_their_coordinates_are_told() {
+    let mut glb = Glb::default();
+    let view = glb.view(&png([1, 1], [9, 9, 9, 255]));
+    glb.more = format!(
+        r#","images":[{{"bufferView":{view},"mimeType":"image/png"}}],"textures":[{{"source":0}}],"materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0,"texCoord":1}}}}}}]"#
+    );
+    let bytes = cube_glb(r#","material":0"#, r#"{"mesh":0}"#, &mut glb);
+    let notes = load_bytes(&bytes, "").unwrap().notes;
+    assert!(
+        notes[0].starts_with("it.glb: 1 primitive has no TEXCOORD_1"),
+        "{notes:?}"
+    );
+    assert!(
+        load_bytes(&bytes, "material = \"steel\"")
+            .unwrap()
+            .notes
+            .is_empty()
+    );
+}
+
+/// The up of its picture is that of the file, whichever way that runs on the ground; a scene file that looks down does the same.
+#[test]
+fn a_camera_that_looks_straight_down_sees_the_top() {
+    for turn in [0.0_f64, 30.0, 90.0, 180.0, 260.0] {
+        let mut glb = Glb {
+            more: r#","cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}]"#
+                .into(),
+            ..Glb::default()
+        };
+        // About y after a quarter turn about x: as quaternions, the product of both.
+        let ((s, c), q) = ((0.5 * turn.to_radians()).sin_cos(), 0.5_f64.sqrt());
+        let rotation = [-q * c, q * s, q * s, q * c];
+        let nodes = format!(
+            r#"{{"mesh":0,"children":[1]}},{{"camera":0,"translation":[0,2,0],"rotation":{rotation:?}}}"#
+        );
+        let bytes = cube_glb("", &nodes, &mut glb);
+        let dir = temporary_dir();
+        let path = dir.path().join("top.glb");
+        std::fs::write(&path, &bytes).unwrap();
+        let mut description = Description::for_model(&path).unwrap();
+        description.see_by("0", dir.path()).unwrap();
+        description.check().unwrap();
+        assert_eq!(description.camera.world_up(), DVec3::Z);
+        let scene = Scene::build(&description, dir.path()).unwrap();
+        // The file's y is up: its picture's up, -z turned about y, is +y of the world turned about z.
+        let (sin, cos) = turn.to_radians().sin_cos();
+        let up = DVec3::new(-sin, cos, 0.0);
+        let frame = scene.camera.frame([100, 100]);
+        let ray = frame.camera_ray(DVec2::new(50.0, 20.0)).normalize();
+        let above = (ray - DVec3::NEG_Z * ray.dot(DVec3::NEG_Z)).normalize();
+        assert!(above.distance(up) < 1e-5, "{turn}: {above} {up}");
+        assert!(scene.camera.position_m.distance(2.0 * DVec3::Z) < 1e-6);
+    }
+    // The same view of a world whose up is y: the model stands as its file does.
+    let bytes = plain_cube();
+    let dir = temporary_dir();
+    std::fs::write(dir.path().join("it.glb"), bytes).unwrap();
+    for up in ["[0, 0, -1]", "[1, 0, 0]", "[-1, 0, 0]"] {
+        let text = format!(
+            "[camera]\nposition_m = [0, 2, 0]\ntarget_m = [0, 0, 0]\nup = {up}\n[[object]]\nname = \"it\"\nmesh = \"it.glb\"\n\
+             scale = [1, 2, 3]"
+        );
+        let scene = Scene::from_toml(&text, "test.toml", dir.path()).unwrap();
+        let (least, most) = scene.objects[0].mesh.bounds_m();
+        assert_eq!(most - least, Vec3::new(1.0, 2.0, 3.0), "{up}");
+    }
+}
+
 #[test]
 fn a_cube_without_normals_is_flat_shaded() {
     let scene = load_bytes(&plain_cube(), "").unwrap();

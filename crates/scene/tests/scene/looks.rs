@@ -246,6 +246,38 @@ fn extensions_change_what_a_surface_reflects() {
     assert_eq!(mapped.textures[1].levels[0], [[255, 217, 158, 255]]);
 }
 
+/// Section 3.9.4: what has the alpha of the cutoff is there. Exporters write a code over 255 as a single.
+#[test]
+fn an_alpha_that_equals_the_cutoff_is_there() {
+    for code in [1u8, 77, 128, 204, 255] {
+        for (cutoff, is_there) in [
+            (f32::from(code) / 255.0, true),
+            // A tenth of a step between codes more.
+            ((f32::from(code) + 0.1) / 255.0, false),
+        ] {
+            let text = format!(
+                r#""alphaMode":"MASK","alphaCutoff":{cutoff},"pbrMetallicRoughness":{{"baseColorFactor":[1,1,1,{}]}}"#,
+                f64::from(code) / 255.0
+            );
+            let scene = scene(&text, "");
+            let material = scene.objects[0].mesh.triangle_materials[0] as usize;
+            let cutout = scene.materials[material].cutout;
+            let Some(Cutout {
+                rule: AlphaRule::AtLeast(least),
+                ..
+            }) = cutout
+            else {
+                panic!("{cutout:?}")
+            };
+            // The alpha of a texel, as both renderers ask; the GPU in single precision.
+            let alpha = f64::from(code) / 255.0;
+            assert_eq!(alpha >= least, is_there, "{code}: {cutoff}");
+            let there = alpha as f32 >= least as f32;
+            assert_eq!(there, is_there, "{code}: {cutoff}");
+        }
+    }
+}
+
 #[test]
 fn surfaces_are_cut_out_by_their_alpha() {
     let cutout = |text: &str| {
@@ -256,7 +288,7 @@ fn surfaces_are_cut_out_by_their_alpha() {
     let mask = r#""alphaMode":"MASK","alphaCutoff":0.25,"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}"#;
     let expected = Cutout {
         alpha: 0.5,
-        rule: AlphaRule::AtLeast(0.25),
+        rule: AlphaRule::AtLeast(0.25 - 1e-6),
     };
     assert_eq!(cutout(mask), Some(expected));
     let blend = r#""alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.1]}"#;
@@ -277,9 +309,10 @@ fn images_of_basis_universal_are_textures() {
     }
     let mut glb = Glb::default();
     let positions = glb.floats(&[[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    let uvs = glb.floats(&[[0.0f32, 0.0], [1.0, 0.0], [0.0, 1.0]]);
     let indices = glb.indices(&[0, 1, 2]);
     let mesh = format!(
-        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices},"material":0}}]}}"#
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions},"TEXCOORD_0":{uvs}}},"indices":{indices},"material":0}}]}}"#
     );
     glb.more = r#","extensionsUsed":["KHR_texture_basisu"],"extensionsRequired":["KHR_texture_basisu"],
         "images":[{"uri":"uastc_zstd.ktx2"},{"uri":"etc1s.ktx2"}],

@@ -33,6 +33,30 @@ fn middle(mesh: &Mesh) -> Vec3 {
     0.5 * (least + most)
 }
 
+/// Section 3.5: what an animation moves has no matrix.
+#[test]
+fn an_animation_of_a_node_with_a_matrix_is_refused() {
+    let mut glb = Glb::default();
+    let mesh_text = cube_mesh(&mut glb, "");
+    let times = glb.floats(&[[1.0], [3.0]]);
+    let places = glb.floats(&[[0.0, 0.0, 0.0], [4.0, 0.0, 2.0]]);
+    glb.more = format!(
+        r#","animations":[{{"channels":[{{"sampler":0,"target":{{"node":0,"path":"translation"}}}}],
+          "samplers":[{{"input":{times},"output":{places}}}]}}]"#
+    );
+    let bytes = glb.bytes(
+        &mesh_text,
+        r#"{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,9,0,0,1]}"#,
+    );
+    let error = load(&bytes, "material = \"steel\"\ntime_s = 2.0").unwrap_err();
+    assert!(
+        error.contains("its animation moves node 0, which has a `matrix`"),
+        "{error}"
+    );
+    // At rest nothing moves it.
+    assert!(load(&bytes, "material = \"steel\"").is_ok());
+}
+
 #[test]
 fn nodes_move_as_the_first_animation_has_them() {
     let mut glb = Glb::default();

@@ -4,7 +4,6 @@ use glam::DVec3;
 use hairline_editor::actions::materials;
 use hairline_editor::brush::BrushSettings;
 use hairline_editor::{Selection, navigate};
-use hairline_scene::vertical_axis;
 
 use super::Workspace;
 
@@ -118,7 +117,7 @@ impl Workspace {
 
     /// Where their lowest point is along the vertical.
     pub fn lowest_m(&self) -> Option<f64> {
-        let up = vertical_axis(self.document.description().camera.up.into());
+        let up = self.document.description().camera.world_up();
         let (a, b) = self.built_bounds_m()?;
         Some(a.dot(up).min(b.dot(up)))
     }

@@ -1,12 +1,12 @@
 //! A short name for all that a picture depends on, so that samples of two scenes are never mixed.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, Result};
 use hairline_scene::Arrays;
-use hairline_scene::description::{Description, Layer, Map, Surface};
-use percent_encoding::percent_decode_str;
+use hairline_scene::description::{Description, FileUse};
+use hairline_scene::inputs;
 
 /// Hexadecimal digits of a fingerprint: 128 bits, beyond any accident.
 const DIGITS: usize = 32;
@@ -22,34 +22,14 @@ pub fn fingerprint(description: &Description, folder: &Path, arrays: &Arrays) ->
     described.camera.exposure_ev = 0.0;
     described.render.tone_map = hairline_image::ToneMap::default();
     described.render.size_px = [0, 0];
-    let by_content = |file: &mut PathBuf, digest: fn(&Path) -> Result<String>| -> Result<()> {
+    for (used_for, file) in described.files_mut() {
         if !arrays.has(file) {
-            *file = digest(&folder.join(&*file))?.into();
-        }
-        Ok(())
-    };
-    if let Some(environment) = &mut described.environment
-        && let Map::File(file) = &mut environment.map
-    {
-        by_content(file, digest_of_file)?;
-    }
-    for object in &mut described.objects {
-        if let Surface::Mesh(file) = &mut object.surface {
-            by_content(file, digest_of_mesh)?;
-        }
-    }
-    for scratches in &mut described.scratches {
-        if let Layer::Listed(listed) = &mut scratches.layer {
-            by_content(&mut listed.file, digest_of_file)?;
-        }
-        let place = &mut scratches.place;
-        for file in place.mask.iter_mut().chain(&mut place.density) {
-            by_content(file, digest_of_file)?;
-        }
-    }
-    for light in &mut described.lights {
-        if let Some(picture) = &mut light.picture {
-            by_content(picture, digest_of_file)?;
+            let path = folder.join(&*file);
+            let digest = match used_for {
+                FileUse::Mesh(_) => digest_of_mesh(&path)?,
+                _ => digest_of_file(&path)?,
+            };
+            *file = digest.into();
         }
     }
     // Not TOML, which does not have the upper half of the seeds.
@@ -76,33 +56,20 @@ fn digest_of_mesh(path: &Path) -> Result<String> {
     let bytes = read(path)?;
     let mut hasher = blake3::Hasher::new();
     hasher.update(&bytes);
-    let gltf = gltf::Gltf::from_slice_without_validation(&bytes)
-        .with_context(|| format!("{}: is no glTF file", path.display()))?;
-    let of_buffers = gltf.buffers().filter_map(|buffer| match buffer.source() {
-        gltf::buffer::Source::Uri(uri) => Some(uri),
-        gltf::buffer::Source::Bin => None,
-    });
-    let of_images = gltf.images().filter_map(|image| match image.source() {
-        gltf::image::Source::Uri { uri, .. } => Some(uri),
-        gltf::image::Source::View { .. } => None,
-    });
-    let folder = path.parent().unwrap_or(Path::new(""));
-    for uri in of_buffers.chain(of_images) {
-        // Data URIs are within the file itself.
-        if !uri.starts_with("data:") {
-            let name = percent_decode_str(uri).decode_utf8_lossy();
-            // A texture that the scene had no use for may be absent.
-            match fs::read(folder.join(&*name)) {
-                Ok(bytes) => hasher.update(blake3::hash(&bytes).as_bytes()),
-                Err(_) => hasher.update(b"absent"),
-            };
-        }
+    for file in inputs::of_model(path) {
+        // A texture that the scene had no use for may be absent.
+        match fs::read(file) {
+            Ok(bytes) => hasher.update(blake3::hash(&bytes).as_bytes()),
+            Err(_) => hasher.update(b"absent"),
+        };
     }
     Ok(shortened(&hasher.finalize()))
 }
 
 #[cfg(test)]
 mod tests {
+    use hairline_scene::description::Layer;
+
     use super::*;
 
     const SCENE: &str = r#"
@@ -137,7 +104,36 @@ seed = 18446744073709551
 object = "plate"
 pattern = "file"
 file = "lines.csv"
+where = { mask = "worn.png", density = "dense.png" }
+
+[[grating]]
+object = "cup"
+pattern = "uv"
+pitch_um = 2.0
+mask = "label.png"
+directions = "ways.png"
+
+[[light]]
+kind = "rectangle"
+center_m = [0.0, 0.0, 1.0]
+width_m = 0.1
+height_m = 0.1
+target_m = [0.0, 0.0, 0.0]
+radiance = 1.0
+picture = "lamp.png"
 "#;
+
+    /// All files that it names, each for another use.
+    const NAMED: [&str; 8] = [
+        "sky.hdr",
+        "cup.gltf",
+        "lines.csv",
+        "worn.png",
+        "dense.png",
+        "label.png",
+        "ways.png",
+        "lamp.png",
+    ];
 
     const CUP: &str = r#"{"asset": {"version": "2.0"},
         "buffers": [{"byteLength": 3, "uri": "its%20data.bin"}], "images": [{"uri": "rust.png"}]}"#;
@@ -145,12 +141,13 @@ file = "lines.csv"
     /// What `fingerprint` reads of the files: their bytes, and of glTF the names within.
     fn folder() -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
+        for name in NAMED {
+            fs::write(folder.path().join(name), name).unwrap();
+        }
         for (name, contents) in [
-            ("sky.hdr", "sky"),
             ("cup.gltf", CUP),
             ("its data.bin", "123"),
             ("rust.png", "rust"),
-            ("lines.csv", "x0_m"),
         ] {
             fs::write(folder.path().join(name), contents).unwrap();
         }
@@ -196,19 +193,12 @@ file = "lines.csv"
         let of =
             |text: &str| fingerprint(&described(text), folder.path(), &Arrays::default()).unwrap();
         let first = of(SCENE);
-        fs::copy(
-            folder.path().join("sky.hdr"),
-            folder.path().join("heaven.hdr"),
-        )
-        .unwrap();
-        assert_eq!(of(&SCENE.replace("sky.hdr", "heaven.hdr")), first);
-        for name in [
-            "sky.hdr",
-            "its data.bin",
-            "rust.png",
-            "lines.csv",
-            "cup.gltf",
-        ] {
+        for name in NAMED {
+            let other = format!("other-{name}");
+            fs::copy(folder.path().join(name), folder.path().join(&other)).unwrap();
+            assert_eq!(of(&SCENE.replace(name, &other)), first, "{other}");
+        }
+        for name in [&NAMED[..], &["its data.bin", "rust.png"]].concat() {
             let path = folder.path().join(name);
             let before = fs::read(&path).unwrap();
             fs::write(&path, [&before[..], b" "].concat()).unwrap();

@@ -40,7 +40,7 @@ pub fn shown(
         Layer::Beauty | Layer::Base | Layer::Scratches => {
             pair.map(|values| quantized(values.to_vec(), display))
         }
-        Layer::Density => pair.map(|values| quantized(values.to_vec(), &AS_IT_IS)),
+        Layer::Density | Layer::Alpha => pair.map(|values| quantized(values.to_vec(), &AS_IT_IS)),
         Layer::Depth => {
             // 0 is a miss.
             let depths = || pair.into_iter().flatten().map(|z| z[0]);

@@ -94,6 +94,11 @@ impl PolygonLight {
         }
     }
 
+    /// Of the angle between a unit direction and the normal.
+    pub fn cos(&self, direction: DVec3) -> f64 {
+        direction.dot(self.normal)
+    }
+
     /// How far a point is from the plane, positive on the side that the normal shows to. 0 for points that see the edge.
     fn height_m(&self, from: DVec3) -> f64 {
         let to = from - self.origin_m;

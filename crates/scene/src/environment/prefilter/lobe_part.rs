@@ -8,6 +8,7 @@ use hairline_optics::ggx::ggx_g1;
 use super::levels::{
     COARSEST, FADE, FINEST, LEVEL_0_SIZE_PX, LEVEL_HALVINGS, LEVEL_ROUGHNESS, REACH_TEXELS,
 };
+use crate::environment::mip::RowTaps;
 use crate::environment::resample::row_solid_angle;
 
 /// The reflection lobe of GGX for somebody who looks along the normal, as far as one map is to be looked at for it.
@@ -131,14 +132,6 @@ impl Pair<'_> {
         let turned2 = room / self.rows.sines.max(1e-12);
         Some(2.0 * turned2.sqrt().min(1.0).asin())
     }
-}
-
-/// What a row of a map adds to all texels of another row.
-pub(super) struct RowTaps {
-    pub(super) row: usize,
-    /// The first texel that the first one takes from, up to a width to its left.
-    pub(super) first: isize,
-    pub(super) weights: Vec<f32>,
 }
 
 /// What the texels of a row at `v` take from each row of a map that has `stride` texels for one of theirs.

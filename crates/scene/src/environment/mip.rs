@@ -4,8 +4,13 @@ use glam::Vec4;
 use hairline_image::Picture;
 use rayon::prelude::*;
 
-use super::levels::LEVEL_0_SIZE_PX;
-use super::lobe_part::{LobePart, row_taps};
+/// What a row of a map adds to all texels of another row.
+pub(super) struct RowTaps {
+    pub row: usize,
+    /// The first texel that the first one takes from, up to a width to its left.
+    pub first: isize,
+    pub weights: Vec<f32>,
+}
 
 /// Maps of one size, with a weight for each texel, which is 1 before anything is added up. A row of one map follows that of another.
 pub(super) struct Mip {
@@ -28,9 +33,8 @@ impl Mip {
         }
     }
 
-    /// Of the size of a mip.
-    pub(super) fn empty(mip: usize, maps: usize) -> Self {
-        let [width, height] = LEVEL_0_SIZE_PX.map(|n| (n >> mip) as usize);
+    pub(super) fn empty(size_px: [u32; 2], maps: usize) -> Self {
+        let [width, height] = size_px.map(|n| n as usize);
         Self {
             width,
             height,
@@ -56,18 +60,19 @@ impl Mip {
         (0..self.maps).map(picture).collect()
     }
 
-    /// Adds a mip that is as fine or finer, blurred by a part of a lobe.
-    pub(super) fn add(&mut self, mip: &Self, lobe: &LobePart) {
+    /// Adds a mip that is as fine or finer, blurred. `taps` are what the row at a v takes from the rows of a map of a size, which has so many
+    /// texels for one of the row's.
+    pub(super) fn add(
+        &mut self,
+        mip: &Self,
+        taps: impl Fn([usize; 2], f64, usize) -> Vec<RowTaps> + Sync,
+    ) {
         let (width, height) = (self.width, self.height);
         let stride = mip.width / width;
         let rows = self.texels.par_chunks_mut(width * self.maps).enumerate();
         rows.for_each(|(y, rows)| {
-            for taps in row_taps(
-                [mip.width, mip.height],
-                lobe,
-                (y as f64 + 0.5) / height as f64,
-                stride,
-            ) {
+            let v = (y as f64 + 0.5) / height as f64;
+            for taps in taps([mip.width, mip.height], v, stride) {
                 for (map, sums) in rows.chunks_mut(width).enumerate() {
                     let row = mip.row(taps.row, map);
                     for (x, sum) in sums.iter_mut().enumerate() {
