@@ -48,12 +48,14 @@ impl Primaries {
         }
     }
 
-    /// What takes colours of these primaries to Rec.709. None where they are those of Rec.709.
+    /// What takes colours of these primaries to Rec.709. None where they are those of Rec.709, or all numbers are 0: programs write zeros where they know
+    /// no primaries.
     ///
     /// # Errors
     /// Primaries that span no colours, in words.
     pub fn to_rec_709(self) -> Result<Option<ToRec709>, String> {
-        if self.is_about(&Self::REC_709) {
+        let is_unknown = self == Self::of_numbers([0.0; 8]);
+        if is_unknown || self.is_about(&Self::REC_709) {
             return Ok(None);
         }
         let to_xyz = self.to_xyz().ok_or_else(|| {
@@ -161,6 +163,14 @@ mod tests {
         for (got, expected) in matrix.as_flattened().iter().zip(expected.as_flattened()) {
             assert!((got - expected).abs() < tolerance, "{matrix:?}");
         }
+    }
+
+    #[test]
+    fn numbers_that_are_all_zero_name_no_primaries() {
+        assert_eq!(Primaries::of_numbers([0.0; 8]).to_rec_709(), Ok(None));
+        let mut on_a_line = Primaries::REC_709;
+        on_a_line.blue = on_a_line.red;
+        assert!(on_a_line.to_rec_709().is_err());
     }
 
     /// ITU-R BT.2087-0, section 2; the ACES project's AP0 (white about D60) to Rec.709; IEC 61966-2-1 for XYZ.

@@ -76,8 +76,8 @@ fn a_lamp_in_the_plane_of_a_ceiling_lights_the_floor() {
 fn by_each(scene: &Scene, samples: u32) -> Vec<(&'static str, Image, Image)> {
     let cpu = (closed(scene, samples, false), closed(scene, samples, true));
     let gpu = on_gpu(scene, samples, None).zip(on_gpu(scene, samples, Some(0)));
-    let gpu = gpu.map(|(open, image)| ("GPU", open, alone(image)));
-    [("CPU", cpu.0, alone(cpu.1))]
+    let gpu = gpu.map(|(open, image)| ("GPU", alone(open), alone(image)));
+    [("CPU", alone(cpu.0), alone(cpu.1))]
         .into_iter()
         .chain(gpu)
         .collect()

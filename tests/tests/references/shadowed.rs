@@ -49,10 +49,11 @@ pub(super) fn bounced(scene: &Scene, samples: u32, shadows: bool, bounces: u32) 
     closed_form::render(scene, &options, &|_| {})
 }
 
-/// A picture without what is beside it, which differs where no ray is cast.
+/// A picture without what is beside it: what rays found is not there where none is cast, and what a display averages adds up in another order.
 pub(super) fn alone(image: Image) -> Image {
     Image {
         found: None,
+        tones: None,
         ..image
     }
 }

@@ -291,7 +291,7 @@ fn an_interrupted_render_leaves_no_file() {
     let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_hairline"))
         .current_dir(folder.path())
         .args(["render", "plate.v2.toml", "-o", "a.exr", "--backend", "cpu"])
-        .args(["--size", "8000x8000", "--samples", "64"])
+        .args(["--size", "4000x4000", "--samples", "64"])
         .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();

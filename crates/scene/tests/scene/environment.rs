@@ -387,8 +387,8 @@ fn awkward_texels_are_repaired() {
         assert!(environment.radiance(dir).is_finite() && environment.irradiance(dir).is_finite());
         assert!(environment.prefiltered(dir, 0.3).min_element() >= 0.0);
     }
-    // Infinity made the map as bright as it can be: texels are radiances over 1024.
-    assert_eq!(environment.texel_radiance(), 3.0 * 1024.0);
+    // Infinity is 65,504; the brightest number, 1e6, fits half floats as radiance over 16.
+    assert_eq!(environment.texel_radiance(), 3.0 * 16.0);
 }
 
 #[test]
