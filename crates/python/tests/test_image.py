@@ -160,11 +160,11 @@ def interrupt_soon(after_s):
 
 
 def interrupting():
-    """A progress function that presses Ctrl-C once a hundredth of the picture is there, however long that takes."""
+    """A progress function that presses Ctrl-C once three hundredths of the picture are there, however long that takes."""
     timers = []
 
     def told(what, share):
-        if what == "rendering" and share > 0.01 and not timers:
+        if what == "rendering" and share > 0.03 and not timers:
             timers.append(interrupt_soon(0.05))
 
     return told
@@ -181,7 +181,7 @@ def test_ctrl_c_ends_a_reference_and_returns_what_there_is(scene):
 
 
 def test_ctrl_c_ends_a_picture(scene):
-    # Takes many seconds: 256 batches of 4 shadow rays for each pixel.
+    # Takes many seconds: 64 batches of 16 shadow rays for each pixel, the first of which is there when Ctrl-C is pressed.
     with pytest.warns(hairline.InterruptedWarning):
         image = scene.render(size=(400, 300), samples=1024, shadows=True, backend="cpu", progress=interrupting())
     assert not image.is_complete
