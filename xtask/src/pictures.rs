@@ -9,11 +9,15 @@ use anyhow::{Context, Result, ensure};
 /// Width and height of a picture, pixels, where no exception is made.
 const SIZE: &str = "640x360";
 
-/// Pictures that are made with more than the options that a user begins with. The first opens the README. A lens has a point for each four samples.
+/// Pictures that are made with more than the options that a user begins with. The first opens the README. A lens has a point for each four samples,
+/// and light that goes by two mirrors takes more than a few rays.
 const EXCEPTIONS: [(&str, &[&str]); 3] = [
     ("hairline", &["--size", "960x540"]),
     ("bokeh", &["--size", "480x270", "--samples", "64"]),
-    ("mirror", &["--size", SIZE, "--bounces", "2"]),
+    (
+        "mirror",
+        &["--size", SIZE, "--bounces", "2", "--samples", "96"],
+    ),
 ];
 
 /// Options of `pictures`.
