@@ -290,5 +290,5 @@ Scratches of `edge` and `slit` are 0.05 to 0.12 % of the light without shadows t
 +0.08 ± 0.03 % at 256 samples, z +3.2. Shares s/f from another half of the samples, and the groove's depth in the direction of each ray in place of one for a chord: either changes it by less than 0.02 %.
 
 Variances come from the scatter of the rounds of a pixel. Rows that were measured before 27 November 2026 have those of batches of four samples.
-On a graphics adapter only `sky` and `edge` without bounces were measured so; verdicts of other rows that knew no variance are left out (–), and their z of four samples says nothing.
+On a graphics adapter the rows are of an estimator that could be negative, before the ratio of sums (41); only `sky` and `edge` without bounces were measured by the scatter of rounds. Verdicts of other rows that knew no variance are left out (–), and their z of four samples says nothing.
 ";
