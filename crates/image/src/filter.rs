@@ -7,7 +7,8 @@
 
 use rayon::prelude::*;
 
-use crate::found::{Found, FoundLight, FoundPixel, luminance, variance};
+use crate::found::{Found, FoundLight, FoundPixel, variance};
+use crate::tone_map::tone_luminance as luminance;
 use crate::{Image, Noise};
 
 /// Passes, each with twice the step of the one before.
@@ -235,7 +236,7 @@ impl Guides {
     }
 
     /// How much pixels see the same surface, from 0 to 1; (dx, dy) leads from one to the other.
-    fn alike(&self, layer: Layer, p: &Guide, q: &Guide, [dx, dy]: [i32; 2]) -> f32 {
+    fn alike(&self, normal_power: f32, p: &Guide, q: &Guide, [dx, dy]: [i32; 2]) -> f32 {
         // An outline sees what both of its sides see; its own samples are few.
         if p.object == FoundPixel::SEVERAL_OBJECTS {
             let is_near = dx.abs().max(dy.abs()) <= OUTLINE_PX;
@@ -251,7 +252,7 @@ impl Guides {
         let on_plane = p.per_depth + p.slope[0] * dx as f32 + p.slope[1] * dy as f32;
         let off = (q.per_depth - on_plane).abs() / p.per_depth;
         let off = off / OFF_PLANE;
-        cos.powf(layer.normal_power(p)) / (1.0 + off * off)
+        cos.powf(normal_power) / (1.0 + off * off)
     }
 }
 
@@ -281,6 +282,7 @@ fn filter_layer(guides: &Guides, found: &Found, layer: Layer) -> Vec<Signals> {
             if is_still || guide.object == 0 || !layer.reaches(step, guide) {
                 return *own;
             }
+            let normal_power = layer.normal_power(guide);
             let mut sums = [Sum::default(), Sum::default()];
             for (dy, wy) in TAPS {
                 for (dx, wx) in TAPS {
@@ -289,7 +291,12 @@ fn filter_layer(guides: &Guides, found: &Found, layer: Layer) -> Vec<Signals> {
                     let alike = if i == j {
                         1.0
                     } else {
-                        guides.alike(layer, guide, &guides.pixels[j], [dx * step, dy * step])
+                        guides.alike(
+                            normal_power,
+                            guide,
+                            &guides.pixels[j],
+                            [dx * step, dy * step],
+                        )
                     };
                     if alike < LEAST_ALIKE {
                         continue;
@@ -358,6 +365,7 @@ fn smooth_variances(
         if guide.object == 0 {
             return own;
         }
+        let normal_power = layer.normal_power(guide);
         let mut sums = [[0.0f32; 4]; 2];
         for dy in -VARIANCE_PX..=VARIANCE_PX {
             for dx in -VARIANCE_PX..=VARIANCE_PX {
@@ -367,7 +375,7 @@ fn smooth_variances(
                 let alike = if i == j {
                     1.0
                 } else {
-                    guides.alike(layer, guide, &guides.pixels[j], [dx, dy])
+                    guides.alike(normal_power, guide, &guides.pixels[j], [dx, dy])
                 };
                 if alike < LEAST_ALIKE {
                     continue;

@@ -3,6 +3,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::tone_map::tone_luminance as luminance;
+
 /// Of a picture, pixel by pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
@@ -95,10 +97,6 @@ pub(crate) fn variance([sum, squares]: [f32; 2], count: u32) -> f32 {
 /// None where there is nothing to take a part of.
 fn ratio(part: f32, all: f32) -> Option<f32> {
     (all > 0.0).then(|| (part / all).clamp(0.0, 1.0))
-}
-
-pub(crate) fn luminance([r, g, b]: [f32; 3]) -> f32 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
 impl FoundPixel {

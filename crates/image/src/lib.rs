@@ -28,7 +28,7 @@ pub mod png;
 mod primaries;
 mod temporary;
 pub mod tone_map;
-pub mod tones;
+mod tones;
 
 pub use animation::{Animation, FPS_MAX};
 pub use batches::{BATCH_ROUNDS, BATCH_SAMPLES, Batch, Batches, add_batch};

@@ -3,6 +3,8 @@
 //! White is taken to white by Bradford's adaptation (K. M. Lam, 1985; B. Lindbloom, *Chromatic Adaptation*). XYZ is no RGB with a white of its
 //! own: its values are colours as they were measured, and stay these.
 
+use crate::tone_map::tone_luminance;
+
 /// CIE 1931 xy of the primaries and of white.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Primaries {
@@ -103,7 +105,7 @@ impl ToRec709 {
 pub fn in_gamut(rgb: [f32; 3]) -> [f32; 3] {
     let [r, g, b] = rgb;
     let least = r.min(g).min(b);
-    let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let luminance = tone_luminance(rgb);
     if !(least < 0.0 && luminance > 0.0) {
         return rgb;
     }

@@ -21,12 +21,12 @@ pub struct Tones {
 pub struct Tone {
     /// Rec.709 luminance, as rays found it: no filter changes it.
     pub luminance: f32,
-    /// [`compressed`] luminance.
+    /// g L / (1 + g L), g being the gain and L a luminance.
     pub compressed: f32,
 }
 
 /// What stands for a display's curve: from 0 to 1. Twin: `tone_compressed`.
-pub fn compressed(luminance: f32, gain: f32) -> f32 {
+fn compressed(luminance: f32, gain: f32) -> f32 {
     let exposed = gain * luminance.max(0.0);
     exposed / (1.0 + exposed)
 }
