@@ -310,9 +310,7 @@ fn few_rays_are_right_in_the_mean() {
 fn nothing_in_the_way_changes_nothing() {
     for (name, mut scene) in scenes() {
         scene.objects.truncate(1);
-        assert!(
-            alone(closed(&scene, 4, true)) == closed(&scene, 4, false),
-            "{name}"
-        );
+        let [shadowed, open] = [true, false].map(|shadows| alone(closed(&scene, 4, shadows)));
+        assert!(shadowed == open, "{name}");
     }
 }
