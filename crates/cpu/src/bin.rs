@@ -91,7 +91,11 @@ impl TileLists {
     }
 
     /// The segments that reach a tile, given by its column and its row in the whole picture.
-    pub fn tile(&self, column: usize, row: usize) -> impl Iterator<Item = &Projected> + Clone {
+    pub fn tile(
+        &self,
+        column: usize,
+        row: usize,
+    ) -> impl ExactSizeIterator<Item = &Projected> + Clone {
         let tile = (row - self.first_row) * self.columns + column;
         let list = &self.entries[self.starts[tile]..self.starts[tile + 1]];
         list.iter()

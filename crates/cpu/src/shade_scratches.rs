@@ -37,6 +37,14 @@ pub(crate) use scratch_light::ScratchLight;
 /// Points that are shaded together.
 pub(crate) const BATCH: usize = GROUPS * LANES;
 
+/// From so many segments in a tile's list on, one line stands for the band of each. Footprints are wide there, and wide bands take five lines.
+const LONG_LIST: usize = 1 << 14;
+
+/// Where the line of a segment lies: evenly over the segments, the same in each pixel. Twin: `one_line_node`.
+fn one_line_node(segment: u32) -> f64 {
+    f64::from(segment.wrapping_mul(0x9E37_79B9)) / 2f64.powi(32)
+}
+
 /// Shades batches of points. One for each thread: what it holds is filled anew for each batch.
 pub(crate) struct ScratchShader {
     frames: Vec<Frame>,
@@ -63,7 +71,7 @@ impl ScratchShader {
         &mut self,
         prepared: &Prepared,
         points: &[ScratchPoint],
-        list: impl Iterator<Item = &'l Projected>,
+        list: impl ExactSizeIterator<Item = &'l Projected>,
         sums: &mut [ScratchSums],
         picks: Option<&mut [Picks]>,
         counts: &mut Counts,
@@ -77,6 +85,7 @@ impl ScratchShader {
         }
         self.bounds.gather(points, &self.frames);
         let (segments, weights) = prepared.segments();
+        let is_long = list.len() >= LONG_LIST;
         let mut shading = Shading {
             prepared,
             points,
@@ -91,7 +100,8 @@ impl ScratchShader {
                 for projected in list {
                     let at = projected.segment as usize;
                     let weight = weights.get(at).map_or(1.0, |&weight| f64::from(weight));
-                    shading.add(&segments[at], projected, weight);
+                    let node = is_long.then(|| one_line_node(projected.segment));
+                    shading.add(&segments[at], projected, weight, node);
                 }
             },
         );
@@ -110,7 +120,13 @@ struct Shading<'a, 's> {
 
 impl Shading<'_, '_> {
     #[inline(always)]
-    fn add(&mut self, segment: &IndexedSegment, projected: &Projected, weight: f64) {
+    fn add(
+        &mut self,
+        segment: &IndexedSegment,
+        projected: &Projected,
+        weight: f64,
+        node: Option<f64>,
+    ) {
         let line = Line::new(projected);
         let mut is_new = true;
         for i in 0..self.shader.groups.len() {
@@ -126,13 +142,20 @@ impl Shading<'_, '_> {
                 self.shader.bounds.find(segment, &mut self.shader.lit);
                 is_new = false;
             }
-            self.light(segment, i * LANES, &seen, weight);
+            self.light(segment, i * LANES, &seen, weight, node);
         }
     }
 
     /// Adds the light of a segment, times `weight`, to those points of a group that see it.
     #[inline(always)]
-    fn light(&mut self, segment: &IndexedSegment, first: usize, seen: &Seen, weight: f64) {
+    fn light(
+        &mut self,
+        segment: &IndexedSegment,
+        first: usize,
+        seen: &Seen,
+        weight: f64,
+        node: Option<f64>,
+    ) {
         let environment = self.prepared.scene.environment.as_ref();
         let width_um = f64::from(segment.profile.width_um);
         for lane in 0..LANES {
@@ -151,7 +174,8 @@ impl Shading<'_, '_> {
             if picks.is_some() || !self.shader.lit.is_empty() || environment.is_some() {
                 let tangent = seen.tangent(lane);
                 let place = seen.place(lane, frame);
-                let light = ScratchLight::new(point.point.wo, tangent, table, segment.profile);
+                let light = ScratchLight::new(point.point.wo, tangent, table, segment.profile)
+                    .by_one_line(node);
                 let pick = || seen.pick(lane, frame, segment, share.segment);
                 let mut add = |source: usize, sent: DVec3| {
                     radiance += sent;

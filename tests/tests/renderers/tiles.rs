@@ -90,6 +90,63 @@ fn triangles_smaller_than_a_tile() {
     check("a fold", &scene);
 }
 
+/// Lists so long that one line stands for the band of each scratch.
+#[test]
+fn thousands_of_scratches_in_each_pixel() {
+    const SIDE: u32 = 12;
+    const FINER: u32 = 4;
+    let scene = scratched([SIDE; 2], 40_000);
+    let cpu = on_the_cpu(&scene, 1);
+    if let Some(gpu) = on_the_gpu(&scene, 1) {
+        let difference = relative_rms(&gpu.scratches, &cpu.scratches);
+        assert!(difference < 1e-3, "{difference}");
+    }
+    // The same scratches by lists that are short enough for all lines, filtered as far as a pixel of the first picture is.
+    let mut finer = scene.clone();
+    finer.render.size_px = [SIDE * FINER; 2];
+    let std_px = scene.render.filter_std_px;
+    let finer = blurred(
+        &on_the_cpu(&finer, 1),
+        FINER,
+        std_px * f64::from(FINER * FINER - 1).sqrt(),
+    );
+    let difference = relative_rms(&cpu.scratches, &finer);
+    println!("scratches: {difference:.4} off finer pixels");
+    // The footprints of wide pixels are off by 0.016 with all lines, too.
+    assert!(difference < 0.025, "{difference}");
+}
+
+fn relative_rms(found: &[[f32; 3]], expected: &[[f32; 3]]) -> f64 {
+    let (mut error2, mut value2) = (0.0, 0.0);
+    for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
+        error2 += f64::from(found - expected).powi(2);
+        value2 += f64::from(*expected).powi(2);
+    }
+    (error2 / value2).sqrt()
+}
+
+/// The scratches of a square picture under Gaussian filters, in the middles of squares of `step` pixels.
+fn blurred(image: &Image, step: u32, std_px: f64) -> Vec<[f32; 3]> {
+    let side = image.size_px[0];
+    let weight = |middle: u32, at: u32| {
+        let off_px = f64::from(at) + 0.5 - f64::from(step) * (f64::from(middle) + 0.5);
+        (-0.5 * (off_px / std_px).powi(2)).exp()
+    };
+    let pixel = |x: u32, y: u32| {
+        let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+        for (i, value) in (0..).zip(&image.scratches) {
+            let weight = weight(x, i % side) * weight(y, i / side);
+            sum += weight * Vec3::from(*value).as_dvec3();
+            weights += weight;
+        }
+        (sum / weights).as_vec3().to_array()
+    };
+    let squares = side / step;
+    (0..squares * squares)
+        .map(|i| pixel(i % squares, i / squares))
+        .collect()
+}
+
 /// Two plates side by side, an edge of which runs through tiles; the other plate's scratches must not show on either.
 #[test]
 fn two_objects_in_a_tile() {

@@ -9,7 +9,7 @@ use crate::sampling::luminance;
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{
-    BandFrame, BandLine, BandMotion, BandPlace, BandStds, Cap, Outline, OutlineRoots,
+    BandFrame, BandLine, BandLines, BandMotion, BandPlace, BandStds, Cap, Outline, OutlineRoots,
     band_is_whole, band_lines, chord_cos, sphere_band_extent, sphere_chord,
 };
 use hairline_optics::band_environment::{EnvironmentCell, environment_cells, row_cells};
@@ -33,6 +33,8 @@ pub(crate) struct ScratchLight<'a> {
     table: &'a ScratchTable,
     profile: Profile,
     pub(super) row: Option<RowSpread>,
+    /// Where the one line lies that stands for the band, if it is one of very many scratches ([`BandLines::by_one_line`]).
+    one_line: Option<f64>,
 }
 
 impl<'a> ScratchLight<'a> {
@@ -45,6 +47,15 @@ impl<'a> ScratchLight<'a> {
             table,
             profile,
             row: None,
+            one_line: None,
+        }
+    }
+
+    /// The same by one line of the band, whatever the light.
+    pub fn by_one_line(self, node: Option<f64>) -> Self {
+        Self {
+            one_line: node,
+            ..self
         }
     }
 
@@ -195,6 +206,15 @@ impl<'a> ScratchLight<'a> {
         }
     }
 
+    /// The lines of the band that a light is asked along.
+    fn lines(&self, wo_t: f64, lowest: f64, highest: f64, stds: BandStds) -> BandLines {
+        let lines = band_lines(wo_t, lowest, highest, stds);
+        match self.one_line {
+            Some(node) => lines.by_one_line(node),
+            None => lines,
+        }
+    }
+
     /// By a sphere of radiance 1.
     fn sphere(&self, stds: &BandStds, cap: Cap, motion: BandMotion) -> Option<DVec3> {
         let cap = cap.turned(self.frame);
@@ -203,7 +223,7 @@ impl<'a> ScratchLight<'a> {
         if !motion.reaches(lowest, highest, stds.mean) {
             return None;
         }
-        let lines = band_lines(wo.x, lowest, highest, motion.band(*stds).stds);
+        let lines = self.lines(wo.x, lowest, highest, motion.band(*stds).stds);
         Some(lines.integral(wo, |line| {
             let chord = sphere_chord(line, cap);
             chord.integral(line, self.spectrum(line, chord.range(line)))
@@ -233,10 +253,10 @@ impl<'a> ScratchLight<'a> {
         if !motion.reaches(lowest, highest, stds.mean) {
             return None;
         }
-        let lines = band_lines(wo.x, lowest, highest, motion.band(*stds).stds);
-        // Several lines see the picture where they lie.
-        let picture = picture.map(|(picture, variance)| match lines.count {
-            1 => picture.across(variance),
+        let lines = self.lines(wo.x, lowest, highest, motion.band(*stds).stds);
+        // Several lines see the picture where they lie, and so does one of them.
+        let picture = picture.map(|(picture, variance)| match (lines.count, self.one_line) {
+            (1, None) => picture.across(variance),
             _ => picture,
         });
         // One cosine for all lines, that of the middle one.

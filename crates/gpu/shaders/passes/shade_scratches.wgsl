@@ -18,6 +18,8 @@
 override PICKS: bool = false;
 
 const LANES: u32 = 64u;
+// From so many segments in a tile's list on, one line stands for the band of each. Footprints are wide there, and wide bands take five lines.
+const LONG_LIST: u32 = 16384u;
 // A segment shows at a point only if their normals agree at least this well.
 const FACING_MIN_COS: f32 = 0.2;
 
@@ -108,6 +110,11 @@ fn marks_seen(at: u32, marked: vec2u) -> vec2u {
     return seen;
 }
 
+// Where the line of a segment lies: evenly over the segments, the same in each pixel.
+fn one_line_node(index: u32) -> f32 {
+    return f32(index * 0x9E3779B9u) / 4294967296.0;
+}
+
 // Whether a segment lies on the pixel's object, and on the side that it sees.
 fn is_there(pixel: PixelPoint, index: u32, segment: Segment) -> bool {
     let object = objects[pixel.object - 1u];
@@ -181,6 +188,7 @@ struct Chunk {
     group: u32,
     first_entry: u32,
     end_entry: u32,
+    is_of_long_list: bool,
 }
 
 fn chunk_at(chunk: u32) -> Chunk {
@@ -191,6 +199,7 @@ fn chunk_at(chunk: u32) -> Chunk {
         group,
         first,
         min(first + CHUNK_SEGMENTS, list_starts[list.y]),
+        list_starts[list.y] - list_starts[list.x] >= LONG_LIST,
     );
 }
 
@@ -279,9 +288,12 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                 let index = entries[chunk.first_entry + (item >> 9u)].y;
                 let pixel = points[group_point(chunk.group, item & 63u)];
                 let segment = segment_from(scratch_segment(index));
-                let pair = pair_of(pixel, segment);
+                var pair = pair_of(pixel, segment);
                 let share = pair.seen.share;
                 if lights_now {
+                    if chunk.is_of_long_list {
+                        pair.seen.node = one_line_node(index);
+                    }
                     results[lane] = share.segment * light_pair(pair, range.first + ((item >> 6u) & 7u));
                 } else {
                     var energy = vec3f(0.0);

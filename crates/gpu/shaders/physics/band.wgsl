@@ -44,6 +44,7 @@ struct BandLines {
     share: f32,
     channel_shares: vec3f,
     stds: vec4f,
+    node: f32,                  // the share of the lit part of the band below a single line
 }
 
 const BAND_STD_MAX: f32 = 0.3;
@@ -88,7 +89,7 @@ fn band_reaches(lowest: f32, highest: f32, stds: vec4f) -> bool {
 
 fn band_lines(wo_t: f32, lowest: f32, highest: f32, stds: vec4f) -> BandLines {
     if !band_reaches(lowest, highest, stds) {
-        return BandLines(0u, 0.0, 0.0, vec3f(0.0), stds);
+        return BandLines(0u, 0.0, 0.0, vec3f(0.0), stds, 0.5);
     }
     let half_extent = 0.5 * (highest - lowest) / stds.w;
     let steep = 1.0 - wo_t * wo_t < 32.0 * stds.w * abs(wo_t);
@@ -101,7 +102,15 @@ fn band_lines(wo_t: f32, lowest: f32, highest: f32, stds: vec4f) -> BandLines {
         gaussian_cdf(high.y) - gaussian_cdf(low.y),
         gaussian_cdf(high.z) - gaussian_cdf(low.z),
     );
-    return BandLines(count, share_below, gaussian_cdf(highest / stds.w) - share_below, channel_shares, stds);
+    return BandLines(count, share_below, gaussian_cdf(highest / stds.w) - share_below, channel_shares, stds, 0.5);
+}
+
+// The same by one line, below which the share `node` of the lit part of the band lies.
+fn by_one_line(all: BandLines, node: f32) -> BandLines {
+    var lines = all;
+    lines.count = min(all.count, 1u);
+    lines.node = node;
+    return lines;
 }
 
 // Gauss-Legendre node on [0, 1] and weight.
@@ -122,7 +131,10 @@ fn band_node(count: u32, i: u32) -> vec2f {
 
 // The weights of line `i` in each channel, and its xi_t.
 fn band_line(lines: BandLines, i: u32) -> vec4f {
-    let node = band_node(lines.count, i);
+    var node = band_node(lines.count, i);
+    if lines.count == 1u {
+        node.x = lines.node;
+    }
     let quantile = clamp(lines.share_below + lines.share * node.x, 1e-6, 1.0 - 1e-6);
     let x = gaussian_quantile(quantile);
     let narrower = lines.stds.w / lines.stds.xyz;

@@ -8,7 +8,7 @@ const GRATING_DEPTH_NM: f32 = SCRATCH_TABLE_DEPTH_MAX_NM;
 // Grooves that lie everywhere under a pixel and cover a share of it.
 fn row_seen(tangent: vec2f, share: f32, turns_rad: vec2f, angle_std_rad: f32) -> SeenScratch {
     let profile = Profile(GRATING_WIDTH_UM, GRATING_DEPTH_NM);
-    return SeenScratch(ScratchShare(share, 0.0), tangent, 0.0, vec2f(0.0), 1.0, profile, true, turns_rad, angle_std_rad);
+    return SeenScratch(ScratchShare(share, 0.0), tangent, 0.0, vec2f(0.0), 1.0, profile, true, turns_rad, angle_std_rad, -1.0);
 }
 
 // By an environment, as scratch_environment().

@@ -29,6 +29,7 @@ struct SeenScratch {
     is_row: bool,               // whether it stands for grooves of a grating, whose light lies about its orders, wherever they are
     turns_rad: vec2f,           // by which angle grooves of a grating turn over footprint_x_um and footprint_y_um, to the left; 0 for a scratch
     angle_std_rad: f32,         // and standard deviation of their angles at any place
+    node: f32,                  // where the one line of the band lies that stands for a scratch, see by_one_line(); negative for all lines
 }
 
 // A segment between two points of the surface's plane. `blur_um` smooths its ends, see scratch_share().
@@ -46,7 +47,7 @@ fn scratch_seen(point: LitPoint, start_um: vec2f, end_um: vec2f, profile: Profil
         let footprint = Footprint(dot(across, across), dot(along, along), dot(across, along));
         share = scratch_share(profile.width_um, offset, dot(t, start_um), dot(t, end_um), blur_um, footprint, point.coherence_um);
     }
-    return SeenScratch(share, t, offset, across, variance, profile, false, vec2f(0.0), 0.0);
+    return SeenScratch(share, t, offset, across, variance, profile, false, vec2f(0.0), 0.0, -1.0);
 }
 
 // Its width, as chord_cos() asks for.
@@ -149,6 +150,15 @@ fn scratch_meets(point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: 
     return center_m.z > -radius_m && band_reaches(extent.x, extent.y, band.stds);
 }
 
+// The lines of the band that a light is asked along, which holds xi_t from extent.x to extent.y.
+fn seen_lines(seen: SeenScratch, wo_t: f32, extent: vec2f, stds: vec4f) -> BandLines {
+    let lines = band_lines(wo_t, extent.x, extent.y, stds);
+    if seen.node < 0.0 {
+        return lines;
+    }
+    return by_one_line(lines, seen.node);
+}
+
 // By a sphere of radiance 1.
 fn scratch_sphere(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: f32) -> vec3f {
     if center_m.z <= -radius_m {
@@ -159,7 +169,7 @@ fn scratch_sphere(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScra
     let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
     let cap = cap_turned(seen.tangent, light);
     let extent = sphere_band_extent(wo, cap);
-    let lines = band_lines(wo.x, extent.x, extent.y, band.stds);
+    let lines = seen_lines(seen, wo.x, extent, band.stds);
     var sum = vec3f(0.0);
     var weights = vec3f(0.0);
     for (var i = 0u; i < lines.count; i += 1u) {
@@ -210,7 +220,7 @@ fn scratch_quad(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratc
         light.corner_count,
     );
     let extent = four_edges_extent(outline, away);
-    let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
+    let lines = seen_lines(seen, wo.x, wo.x + extent, band.stds);
     var sum = vec3f(0.0);
     var weights = vec3f(0.0);
     for (var l = 0u; l < lines.count; l += 1u) {

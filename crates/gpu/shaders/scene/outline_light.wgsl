@@ -74,7 +74,7 @@ fn scratch_outline(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScr
     let band = scratch_band(point, seen, sphere_cap(center_m, radius_m).axis, max(length(center_m), radius_m));
     let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
     let extent = outline_extent(view, away);
-    let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
+    let lines = seen_lines(seen, wo.x, wo.x + extent, band.stds);
     var sum = vec3f(0.0);
     var weights = vec3f(0.0);
     for (var l = 0u; l < lines.count; l += 1u) {

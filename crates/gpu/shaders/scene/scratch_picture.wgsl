@@ -82,10 +82,10 @@ fn scratch_picture(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScr
     let away = band_from_surface(seen.tangent, -facing * quad.normal);
     let outline = picture_outline(seen, quad);
     let extent = four_edges_extent(outline, away);
-    let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
-    // Several lines see the picture where they lie.
+    let lines = seen_lines(seen, wo.x, wo.x + extent, band.stds);
+    // Several lines see the picture where they lie, and so does one of them.
     var across_variance = vec2f(0.0);
-    if lines.count == 1u {
+    if lines.count == 1u && seen.node < 0.0 {
         let axis = sphere_cap(quad.center_m, quad.radius_m).axis;
         let q = band_from_surface(seen.tangent, point.wo + axis).y;
         let per_q2 = seen.angle_std_rad * seen.angle_std_rad;

@@ -211,7 +211,12 @@ pub struct BandLines {
     pub channel_shares: [f64; 3],
     /// Standard deviations of the band.
     pub stds: BandStds,
+    /// The share of the lit part of the band that lies below a single line, or below the middle one.
+    pub node: f64,
 }
+
+/// The share below the middle line.
+const MIDDLE: f64 = 0.5;
 
 /// Whether a light of the given extent in xi_t meets the band at all.
 pub(crate) fn band_reaches(lowest: f64, highest: f64, stds: BandStds) -> bool {
@@ -231,6 +236,7 @@ pub fn band_lines(wo_t: f64, lowest: f64, highest: f64, stds: BandStds) -> BandL
             share: 0.0,
             channel_shares: [0.0; 3],
             stds,
+            node: MIDDLE,
         };
     }
     if band_is_whole(wo_t, lowest, highest, stds.mean) {
@@ -240,6 +246,7 @@ pub fn band_lines(wo_t: f64, lowest: f64, highest: f64, stds: BandStds) -> BandL
             share: 1.0,
             channel_shares: [1.0; 3],
             stds,
+            node: MIDDLE,
         };
     }
     let half_extent = 0.5 * (highest - lowest) / stds.mean;
@@ -264,6 +271,7 @@ pub fn band_lines(wo_t: f64, lowest: f64, highest: f64, stds: BandStds) -> BandL
         share: table.cdf(highest / stds.mean) - share_below,
         channel_shares: [seen(red), seen(green), seen(blue)],
         stds,
+        node: MIDDLE,
     }
 }
 
@@ -339,9 +347,19 @@ impl BandLines {
         BandLine::new(wo, self.stds.mean * self.quantile(node))
     }
 
+    /// The same by one line, below which the share `node` of the lit part of the band lies: right in the mean over `node`, where the bands of
+    /// all channels are about as wide.
+    pub fn by_one_line(self, node: f64) -> Self {
+        Self {
+            count: self.count.min(1),
+            node,
+            ..self
+        }
+    }
+
     /// The line that stands for the band alone, or the middle one of several.
     pub fn middle_line(&self, wo: DVec3) -> BandLine {
-        BandLine::new(wo, self.stds.mean * self.quantile(0.5))
+        BandLine::new(wo, self.stds.mean * self.quantile(self.node))
     }
 
     /// The band's integral over a light, given the light integral on a line: the mean over the lines by their weights, times each

@@ -116,6 +116,51 @@ fn lines_integral(wo: DVec3, lowest: f64, highest: f64, on_line: impl Fn(BandLin
     lines.integral(wo, |line| [on_line(line); 3]).x
 }
 
+/// One line of very many scratches: the mean over where it lies is that of a fine quadrature.
+#[test]
+fn one_line_is_right_in_the_mean() {
+    let (wo, width_um) = (DVec3::new(0.1, 0.2, 0.9).normalize(), 2.0);
+    let cap = sphere_cap(DVec3::new(-0.05, 0.3, 1.0), 0.2).turned(ALONG_X);
+    let (lowest, highest) = sphere_band_extent(wo, cap);
+    for std in [0.02, 0.1, 0.25] {
+        // Red is a little wider, as under a wide footprint.
+        let stds = BandStds {
+            mean: std,
+            channels: [1.01 * std, std, 0.99 * std],
+        };
+        let on_line = |line: BandLine| {
+            sphere_chord(line, cap).integral(line, |q| [chord_integral(q, width_um, NM * 1e-3); 3])
+        };
+        let count = 512;
+        // By xi_t, which shares no node with them.
+        let step = (highest - lowest) / f64::from(count);
+        let density =
+            |xi_t: f64, std: f64| (-0.5 * (xi_t / std).powi(2)).exp() / (std * (2.0 * PI).sqrt());
+        let expected = |std: f64| -> f64 {
+            let xis = (0..count).map(|i| lowest + step * (f64::from(i) + 0.5));
+            xis.map(|xi_t| step * density(xi_t, std) * on_line(BandLine::new(wo, xi_t))[1])
+                .sum()
+        };
+        let expected = stds.channels.map(expected);
+        let lines = band_lines(wo.x, lowest, highest, stds);
+        let one = |i| lines.by_one_line((f64::from(i) + 0.5) / f64::from(count));
+        let mean = (0..count)
+            .map(|i| one(i).integral(wo, on_line))
+            .sum::<DVec3>();
+        let mean = mean / f64::from(count);
+        println!("{std}: {mean} {expected:?}");
+        for (found, expected) in mean.to_array().into_iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 5e-3, "{found} {expected}");
+        }
+        // Nodes that do not lie evenly are told.
+        let uneven = (0..count).map(|i| {
+            let node = ((f64::from(i) + 0.5) / f64::from(count)).powi(2);
+            lines.by_one_line(node).integral(wo, on_line).y / f64::from(count)
+        });
+        assert!((uneven.sum::<f64>() / expected[1] - 1.0).abs() > 5e-3);
+    }
+}
+
 fn relative_rms(pairs: &[(f64, f64)]) -> f64 {
     let (error2, value2) = pairs.iter().fold((0.0, 0.0), |(e, v), (value, expected)| {
         (e + (value - expected).powi(2), v + expected * expected)
