@@ -7,7 +7,7 @@
 
 use rayon::prelude::*;
 
-use crate::found::{Found, FoundLight, FoundPixel, variance};
+use crate::found::{Found, FoundLight, FoundPixel, left, variance};
 use crate::tone_map::tone_luminance as luminance;
 use crate::{Image, Noise};
 
@@ -164,7 +164,9 @@ impl Signals {
 
     /// What they make of a closed form.
     fn light(&self, of: &FoundLight) -> [f32; 3] {
-        std::array::from_fn(|c| of.open[c] * self.share[c] + of.around[c] * self.bounced[c])
+        let [r, g, b, _] = self.share;
+        let left = left(of.open, [r, g, b]);
+        std::array::from_fn(|c| left[c] + of.around[c] * self.bounced[c])
     }
 }
 

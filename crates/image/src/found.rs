@@ -62,8 +62,8 @@ impl FoundLight {
 
     /// The light that is left, with that of other objects.
     pub fn light(&self) -> [f32; 3] {
-        let share = self.share();
-        std::array::from_fn(|c| self.open[c] * share[c] + self.bounced[c])
+        let left = left(self.open, self.share());
+        std::array::from_fn(|c| left[c] + self.bounced[c])
     }
 
     /// Adds what further rounds found: `share` is their share of all.
@@ -92,6 +92,15 @@ pub(crate) fn variance([sum, squares]: [f32; 2], count: u32) -> f32 {
     }
     let n = count as f32;
     ((squares - sum * sum / n) / (n * (n - 1.0))).max(0.0)
+}
+
+/// What is left of a closed form by the shares of its channels. A channel below 0, where a colour lies outside of the gamut, goes with the
+/// luminance of the others: what is left is never darker than none. Twin: `found_left`.
+pub(crate) fn left(open: [f32; 3], share: [f32; 3]) -> [f32; 3] {
+    let bright = open.map(|value| value.max(0.0));
+    let bright_left = std::array::from_fn(|c| bright[c] * share[c]);
+    let of_bright = ratio(luminance(bright_left), luminance(bright)).unwrap_or(0.0);
+    std::array::from_fn(|c| open[c] * if open[c] < 0.0 { of_bright } else { share[c] })
 }
 
 /// None where there is nothing to take a part of.
@@ -166,6 +175,19 @@ impl FoundLight {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_left_of_a_saturated_colour_is_light() {
+        let open = [-0.1, 0.35, 0.48];
+        assert_eq!(left(open, [1.0; 3]), open);
+        assert_eq!(left(open, [1.0, 0.0, 0.0]), [0.0; 3]);
+        for share in [[1.0, 0.2, 0.0], [1.0, 0.0, 0.3], [0.0, 1.0, 0.1]] {
+            let left = left(open, share);
+            assert!(luminance(left) > 0.0 && left[0] >= open[0], "{left:?}");
+        }
+        // The red of a channel by itself would be left alone.
+        assert!(luminance([open[0], 0.0, 0.0]) < 0.0);
+    }
 
     #[test]
     fn light_lies_between_nothing_and_the_closed_form() {

@@ -10,6 +10,7 @@ mod gratings;
 mod groove_maps;
 mod lamps;
 mod models;
+mod negative;
 mod physics;
 mod published_scenes;
 mod scenes;

@@ -21,17 +21,21 @@ fn root() -> PathBuf {
         .to_owned()
 }
 
-fn load(path: &Path) -> Scene {
-    let scene = Scene::load(path).unwrap_or_else(|error| panic!("{error}"));
-    middle_of(scene, WIDTH_PX, MIDDLE_PX)
-}
-
-fn gpu_and_cpu_show_the_same(name: &str) {
+/// A scene of [`ALL`].
+pub(super) fn scene(name: &str) -> Scene {
     let path = match name {
         "built_in_scene" => root().join("apps/hairline/src/built_in_scene.toml"),
         _ => root().join("scenes").join(name).with_extension("toml"),
     };
-    let scene = load(&path);
+    Scene::load(path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn middle(name: &str) -> Scene {
+    middle_of(scene(name), WIDTH_PX, MIDDLE_PX)
+}
+
+fn gpu_and_cpu_show_the_same(name: &str) {
+    let scene = middle(name);
     let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {
         return;
     };
@@ -47,7 +51,7 @@ fn gpu_and_cpu_show_the_same(name: &str) {
 /// A test for each scene.
 macro_rules! scenes {
     ($($name:ident)*) => {
-        const ALL: &[&str] = &[$(stringify!($name)),*];
+        pub(super) const ALL: &[&str] = &[$(stringify!($name)),*];
         $(
             #[test]
             fn $name() {
@@ -72,7 +76,7 @@ fn no_scene_is_left_out() {
 /// What the comparison would let pass is less than one scratch of ten that is a tenth wider.
 #[test]
 fn a_wrong_scratch_is_seen() {
-    let scene = load(&root().join("scenes/plate.toml"));
+    let scene = middle("plate");
     let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {
         return;
     };

@@ -12,7 +12,7 @@ fn radiance_at(at: u32) -> vec3f {
     var radiance = base_emission(base_light[at]);
     for (var layer = 0u; layer < found_layers(); layer += 1u) {
         let i = found_at(at, layer);
-        radiance += hit_found[i].open * found_share(hit_found[i].weight, hit_found[i].seen);
+        radiance += found_left(hit_found[i].open, found_share(hit_found[i].weight, hit_found[i].seen));
     }
     return max(found_finite(radiance), vec3f(0.0));
 }

@@ -251,7 +251,7 @@ fn filter_film(@builtin(global_invocation_id) id: vec3u) {
     let at = id.y * settings.size_px.x + id.x;
     let pixel = vec2u(id.x, id.y + settings.first_row);
     let own = layer_at(at);
-    let light = found_rgb(own.open) * textureLoad(shares, pixel, 0).xyz + found_rgb(own.around) * textureLoad(bounced, pixel, 0).xyz;
+    let light = found_left(found_rgb(own.open), textureLoad(shares, pixel, 0).xyz) + found_rgb(own.around) * textureLoad(bounced, pixel, 0).xyz;
     if settings.layer == FILTER_DIFFUSE {
         film.pixels[at].base = found_rgb(film_found[at].rest) + light;
     } else if settings.layer == FILTER_SPECULAR {

@@ -36,3 +36,11 @@ fn found_share(weight: vec3f, seen: vec3f) -> vec3f {
     let of_all = found_ratio(rgb_luminance(seen), rgb_luminance(weight), 1.0);
     return vec3f(found_ratio(seen.x, weight.x, of_all), found_ratio(seen.y, weight.y, of_all), found_ratio(seen.z, weight.z, of_all));
 }
+
+// What is left of a closed form by the shares of its channels. A channel below 0, where a colour lies outside of the gamut, goes with the
+// luminance of the others: what is left is never darker than none.
+fn found_left(open: vec3f, share: vec3f) -> vec3f {
+    let bright = max(open, vec3f(0.0));
+    let of_bright = found_ratio(rgb_luminance(bright * share), rgb_luminance(bright), 0.0);
+    return open * select(share, vec3f(of_bright), open < vec3f(0.0));
+}

@@ -13,5 +13,5 @@ fn found_plus(rgb: array<f32, 3>, more: vec3f) -> array<f32, 3> {
 
 // The light that is left, with that of other objects.
 fn found_light(light: FoundLight) -> vec3f {
-    return found_rgb(light.open) * found_share(found_rgb(light.weight), found_rgb(light.seen)) + found_rgb(light.bounced);
+    return found_left(found_rgb(light.open), found_share(found_rgb(light.weight), found_rgb(light.seen))) + found_rgb(light.bounced);
 }

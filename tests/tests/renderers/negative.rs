@@ -1,0 +1,104 @@
+//! No light of any scene is negative, however few rays there are: of both renderers, before the filter and after it.
+
+use super::scenes::{ALL, scene};
+use conformance::middle_of;
+use conformance::two_renderers::on_the_gpu_by;
+use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_image::{Image, filter_found};
+use hairline_index::method::Method;
+use hairline_scene::{DEFAULT_TRANSPORT, Scene};
+
+/// Of the first pixel with a layer that is no light, before the filter or after it: its layer and colour.
+///
+/// The colours of scratches may lie outside of the gamut of Rec.709: a channel is below zero there. Rays take no channel further down than
+/// the closed form has it, and luminance is never negative.
+fn no_light(image: &Image) -> Option<String> {
+    let mut filtered = image.clone();
+    filter_found(&mut filtered);
+    for (stage, image) in [("found", image), ("filtered", &filtered)] {
+        for (i, pixel) in image
+            .found
+            .iter()
+            .flat_map(|found| &found.pixels)
+            .enumerate()
+        {
+            let layers = [
+                ("base", image.base[i], [0.0; 3]),
+                ("scratches", image.scratches[i], pixel.scratches.open),
+                ("diffuse bounced", pixel.diffuse.bounced, [0.0; 3]),
+                ("specular bounced", pixel.specular.bounced, [0.0; 3]),
+                ("scratches bounced", pixel.scratches.bounced, [0.0; 3]),
+            ];
+            for (layer, color, open) in layers {
+                let rounding = 1e-5 * color.into_iter().fold(0.0, f32::max);
+                let is_light =
+                    |(value, open): (f32, f32)| value >= 1.0001 * open.min(0.0) - rounding;
+                let is_bright = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2] >= 0.0;
+                if !is_bright || !color.into_iter().zip(open).all(is_light) {
+                    return Some(format!(
+                        "{layer} {stage}, pixel {i}: {color:?}, open {open:?}"
+                    ));
+                }
+            }
+        }
+    }
+    None
+}
+
+fn check(name: &str, samples: u32, image: &Image) {
+    assert!(image.found.is_some(), "{name} has no rays");
+    assert_eq!(no_light(image), None, "{name}, {samples} samples");
+}
+
+fn small(name: &str) -> Scene {
+    middle_of(scene(name), 320, [40, 30])
+}
+
+#[test]
+fn no_light_is_negative_on_the_cpu() {
+    for &name in ALL {
+        let scene = small(name);
+        let prepared = Prepared::new(&scene);
+        for samples in [1, 4] {
+            let options = RenderOptions {
+                samples,
+                shadows: DEFAULT_TRANSPORT.shadows,
+                bounces: DEFAULT_TRANSPORT.bounces,
+                ..RenderOptions::default()
+            };
+            check(name, samples, &prepared.render(&options, &|_| {}));
+        }
+    }
+}
+
+#[test]
+#[ignore = "minutes: cargo test --release -p conformance negative_on_the_gpu -- --ignored"]
+fn no_light_is_negative_on_the_gpu() {
+    for &name in ALL {
+        let scene = small(name);
+        for samples in [1, 4] {
+            let bounces = Some(DEFAULT_TRANSPORT.bounces);
+            let Some(image) = on_the_gpu_by(&scene, &Method::default(), samples, bounces) else {
+                return;
+            };
+            check(name, samples, &image);
+        }
+    }
+}
+
+/// One channel of one pixel is told.
+#[test]
+fn one_value_is_told() {
+    let options = RenderOptions {
+        shadows: true,
+        ..RenderOptions::default()
+    };
+    let image = Prepared::new(&small("plate")).render(&options, &|_| {});
+    assert_eq!(no_light(&image), None);
+    let mut negative = image.clone();
+    negative.base[7][2] = -1e-6;
+    assert!(no_light(&negative).is_some());
+    let mut nan = image;
+    nan.scratches[3][1] = f32::NAN;
+    assert!(no_light(&nan).is_some());
+}
