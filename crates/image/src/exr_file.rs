@@ -134,7 +134,14 @@ pub fn window(path: &Path) -> std::result::Result<Window, Error> {
         )
     });
     let largest = parts.max_by_key(|window| window.size_px[0] as u64 * window.size_px[1] as u64);
-    largest.ok_or_else(|| unusable("it has no parts".to_owned()))
+    let largest = largest.ok_or_else(|| unusable("it has no parts".to_owned()))?;
+    let [width, height] = largest.size_px;
+    if u64::from(width) * u64::from(height) > LARGEST_PX {
+        return Err(unusable(format!(
+            "it says that it has {width} x {height} pixels"
+        )));
+    }
+    Ok(largest)
 }
 
 /// The width and height of the picture in a file: of its display window.
@@ -320,10 +327,12 @@ impl Window {
     fn of(at: Vec2<i32>, size: Vec2<usize>, display: IntegerBounds) -> Self {
         let at = [at.0, at.1].map(i64::from);
         let corner = [display.position.0, display.position.1].map(i64::from);
+        // Windows that end before they begin are huge to the library.
+        let px = |size: Vec2<usize>| [size.0, size.1].map(|n| u32::try_from(n).unwrap_or(u32::MAX));
         Self {
             at_px: [at[0] - corner[0], at[1] - corner[1]],
-            size_px: [size.0 as u32, size.1 as u32],
-            of_px: [display.size.0 as u32, display.size.1 as u32],
+            size_px: px(size),
+            of_px: px(display.size),
         }
     }
 
@@ -361,7 +370,7 @@ impl fmt::Display for Window {
     }
 }
 
-/// The largest picture that a few pixels may be placed in.
+/// The largest picture that is read, or that a few pixels may be placed in.
 const LARGEST_PX: u64 = 1 << 29;
 
 /// All that a file holds.
@@ -436,6 +445,8 @@ impl Part {
 
 impl Contents {
     pub(crate) fn read(path: &Path) -> std::result::Result<Self, Error> {
+        // Before anything is decoded.
+        window(path)?;
         let file = held::open(path).map_err(|e| Error::cannot_read(path, &e))?;
         let file = read()
             .no_deep_data()

@@ -115,6 +115,38 @@ fn a_comparison_sees_where_pixels_lie() {
     assert!((rms / expected - 1.0).abs() < 1e-6, "{rms}");
 }
 
+/// A few chunks of so many pixels would take gigabytes.
+#[test]
+fn more_pixels_than_a_picture_can_have_are_refused_before_they_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("window.exr");
+    let mut layer = Layer::new(
+        (16, 16),
+        LayerAttributes::default(),
+        Encoding::SMALL_LOSSLESS,
+        AnyChannels::sort(
+            RGB.map(|(name, value)| AnyChannel::new(name, FlatSamples::F32(vec![value; 256])))
+                .into_iter()
+                .collect(),
+        ),
+    );
+    layer.encoding.blocks = Blocks::ScanLines;
+    let file = exr::prelude::Image::from_layer(layer);
+    file.write().to_file(&path).unwrap();
+    let mut bytes = std::fs::read(&path).unwrap();
+    let name = b"dataWindow\0box2i\0";
+    let at = bytes
+        .windows(name.len())
+        .position(|part| part == name)
+        .unwrap();
+    // The first column; the size of the value comes before its four numbers.
+    let first = at + name.len() + 4;
+    bytes[first..first + 4].copy_from_slice(&(-1_000_000_000_i32).to_le_bytes());
+    std::fs::write(&path, bytes).unwrap();
+    let error = Layers::read(&path).unwrap_err().to_string();
+    assert!(error.contains("1000000016 x 16 pixels"), "{error}");
+}
+
 /// By the matrices of ITU-R BT.2087 and IEC 61966-2-1.
 #[test]
 fn colours_of_other_primaries_are_told_in_rec_709() {

@@ -108,8 +108,9 @@ fn read_if(path: &Path, check_size: CheckSize) -> Result<Picture, Error> {
     match ending(path).as_deref() {
         Some("hdr") => read_radiance(path, check_size),
         Some("exr") => {
-            let size_px = exr_file::size_px(path).map_err(|e| from_exr(path, e))?;
-            check_size(path, size_px)?;
+            let window = exr_file::window(path).map_err(|e| from_exr(path, e))?;
+            check_size(path, window.of_px)?;
+            check_width(path, window.size_px)?;
             let picture = exr_file::read_picture(path).map_err(|e| from_exr(path, e))?;
             check_size(path, picture.size_px)?;
             Ok(picture)
