@@ -35,7 +35,7 @@ fn pair(picture: impl Fn(u32) -> Option<Image>, bounces: u32) -> Option<[Image; 
 }
 
 /// What other objects add is what they add on the CPU, in the mean over the picture. Bound: four standard deviations of the mean, which the
-/// differences of the pixels tell and which are about one percent, and 0.2 % for single precision and for what the GPU keeps in fewer bits.
+/// differences of the pixels tell and which are one to two percent, and 0.2 % for single precision and for what the GPU keeps in fewer bits.
 #[test]
 fn the_gpus_bounces_are_the_cpus_in_the_mean() {
     let more = [
@@ -43,8 +43,8 @@ fn the_gpus_bounces_are_the_cpus_in_the_mean() {
         ("a wall in a mirror", a_wall_in_a_mirror()),
     ];
     let scenes = scenes().into_iter().chain(more);
-    let few = [1, 1, 3, 1, 1].map(|bounces| (bounces, 128));
-    let settings = few.into_iter().chain([(1, 96), (2, 272)]);
+    let few = [1, 1, 3, 1, 1].map(|bounces| (bounces, 48));
+    let settings = few.into_iter().chain([(1, 32), (2, 96)]);
     for ((bounces, samples), (name, scene)) in settings.zip(scenes) {
         let on_gpu = |bounces| on_gpu(&scene, samples, Some(bounces));
         let Some([with, without]) = pair(on_gpu, bounces) else {
@@ -73,7 +73,7 @@ fn the_gpus_bounces_are_the_cpus_in_the_mean() {
                 assert!(found.iter().all(|v| *v == 0.0), "{name}");
                 continue;
             }
-            assert!(std < 0.012, "{name}: {std}");
+            assert!(std < 0.02, "{name}: {std}");
             assert!(off.abs() < 2e-3 + 4.0 * std, "{name}: {off} {std}");
         }
     }

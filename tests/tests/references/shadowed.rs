@@ -258,7 +258,7 @@ pub(super) fn luminance(image: &Image, layer: Layer) -> Vec<f64> {
 #[test]
 fn many_rays_come_to_the_path_tracers_shadows() {
     for (name, scene) in scenes() {
-        let (exact, reference) = (closed(&scene, 2048, true), sampled(&scene, SHADOWS, 6));
+        let (exact, reference) = (closed(&scene, 768, true), sampled(&scene, SHADOWS, 6));
         let (open, open_reference) = (closed(&scene, 1, false), sampled(&scene, LINEAR, 4));
         for (layer, limit) in [(Layer::Scratches, 0.03), (Layer::Base, 0.02)] {
             let found = compared(name, &exact, &reference, layer);

@@ -101,11 +101,11 @@ fn what_rays_find_is_what_the_cpus_find() {
 #[test]
 fn on_edges_rays_find_what_the_cpus_find() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/lid.toml");
-    let scene = middle_of(Scene::load(&path).unwrap(), 1280, [120, 88]);
-    let Some(on_gpu) = on_gpu(&scene, 16, Some(1)) else {
+    let scene = middle_of(Scene::load(&path).unwrap(), 1280, [72, 56]);
+    let Some(on_gpu) = on_gpu(&scene, 8, Some(1)) else {
         return;
     };
-    let on_cpu = bounced(&scene, 16, true, 1);
+    let on_cpu = bounced(&scene, 8, true, 1);
     let one = closed(&scene, 1, false);
     let is_edge = |i: usize| one.density[i] != on_cpu.density[i];
     let edges = (0..one.density.len()).filter(|i| is_edge(*i)).count();
