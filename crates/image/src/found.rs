@@ -99,8 +99,13 @@ pub(crate) fn variance([sum, squares]: [f32; 2], count: u32) -> f32 {
 pub(crate) fn left(open: [f32; 3], share: [f32; 3]) -> [f32; 3] {
     let bright = open.map(|value| value.max(0.0));
     let bright_left = std::array::from_fn(|c| bright[c] * share[c]);
-    let of_bright = ratio(luminance(bright_left), luminance(bright)).unwrap_or(0.0);
-    std::array::from_fn(|c| open[c] * if open[c] < 0.0 { of_bright } else { share[c] })
+    match ratio(luminance(bright_left), luminance(bright)) {
+        Some(of_bright) => {
+            std::array::from_fn(|c| open[c] * if open[c] < 0.0 { of_bright } else { share[c] })
+        }
+        // Nothing is bright: a base of which a mask without bounds takes more than all.
+        None => std::array::from_fn(|c| open[c] * share[c]),
+    }
 }
 
 /// None where there is nothing to take a part of.
@@ -185,6 +190,7 @@ mod tests {
             let left = left(open, share);
             assert!(luminance(left) > 0.0 && left[0] >= open[0], "{left:?}");
         }
+        assert_eq!(left([-0.1; 3], [1.0; 3]), [-0.1; 3]);
         // The red of a channel by itself would be left alone.
         assert!(luminance([open[0], 0.0, 0.0]) < 0.0);
     }

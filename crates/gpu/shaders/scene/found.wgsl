@@ -41,6 +41,7 @@ fn found_share(weight: vec3f, seen: vec3f) -> vec3f {
 // luminance of the others: what is left is never darker than none.
 fn found_left(open: vec3f, share: vec3f) -> vec3f {
     let bright = max(open, vec3f(0.0));
-    let of_bright = found_ratio(rgb_luminance(bright * share), rgb_luminance(bright), 0.0);
-    return open * select(share, vec3f(of_bright), open < vec3f(0.0));
+    let all = rgb_luminance(bright);
+    let of_bright = found_ratio(rgb_luminance(bright * share), all, 0.0);
+    return open * select(share, vec3f(of_bright), vec3<bool>(all > 0.0) & (open < vec3f(0.0)));
 }
