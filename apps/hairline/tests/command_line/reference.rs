@@ -306,9 +306,21 @@ mod interrupted {
         assert!(status.unwrap().success());
     }
 
+    /// Under `nohup` the tests, and so the program, pass it over.
+    fn hang_ups_are_ignored() -> bool {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+        let bits = ignored.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok());
+        bits.unwrap_or(0) & 1 == 1
+    }
+
     #[test]
     fn work_is_saved_and_goes_on_as_if_nothing_had_been() {
         for name in ["-INT", "-TERM", "-HUP"] {
+            if name == "-HUP" && hang_ups_are_ignored() {
+                eprintln!("skipped: SIGHUP is ignored here");
+                continue;
+            }
             let folder = folder_with_scene();
             let path = folder.path();
             let (mut child, mut stderr) =
