@@ -8,6 +8,7 @@ mod closed_form;
 mod contact;
 mod depth_of_field;
 mod environment;
+mod filtered;
 mod full_wave;
 mod furnace;
 mod going_on;

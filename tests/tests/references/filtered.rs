@@ -1,0 +1,74 @@
+//! What the filter of found light leaves as it is: the mean of each layer, and the contrast of scratches in half shadow.
+
+use super::shadowed::{bounced, luminance, scenes};
+use conformance::two_renderers::at_width;
+use hairline_image::{Image, Layer, filter_found};
+use hairline_scene::{DEFAULT_SAMPLES, Scene};
+use std::path::Path;
+
+/// A picture with default samples, as rays found it and filtered.
+fn found_and_filtered(scene: &Scene) -> [Image; 2] {
+    let found = bounced(scene, DEFAULT_SAMPLES, true, 1);
+    let mut filtered = found.clone();
+    filter_found(&mut filtered);
+    [found, filtered]
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// The part of a pattern's contrast that a picture has, whatever its noise: 1 where it has all.
+fn contrast(found: &[f64], truth: &[f64]) -> f64 {
+    let (mean_found, mean_truth) = (mean(found), mean(truth));
+    let both = found.iter().zip(truth);
+    let covariance: f64 = both.map(|(f, t)| (f - mean_found) * (t - mean_truth)).sum();
+    let variance: f64 = truth.iter().map(|t| (t - mean_truth).powi(2)).sum();
+    covariance / variance
+}
+
+/// The scenes of `cargo xtask unbiased`. The light of a slit as narrow as few pixels is drawn over the dark beside it, where scratches see less of it.
+#[test]
+fn means_stay() {
+    let bounds = [
+        ("corner", 5e-3),
+        ("edge", 5e-3),
+        ("mirrors", 5e-3),
+        ("sheets", 5e-3),
+        ("sky", 5e-3),
+        ("slit", 2e-2),
+    ];
+    for (name, bound) in bounds {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shadows");
+        let scene = Scene::load(folder.join(name).with_extension("toml")).unwrap();
+        let [found, filtered] = found_and_filtered(&at_width(scene, 96));
+        for layer in [Layer::Base, Layer::Scratches] {
+            let [before, after] = [&found, &filtered].map(|image| mean(&luminance(image, layer)));
+            let off = after / before - 1.0;
+            println!("{name}, {}: {:+.3} %", layer.name(), 100.0 * off);
+            assert!(off.abs() < bound, "{name}, {}: {off}", layer.name());
+        }
+    }
+}
+
+/// Scratches as wide as a pixel, where lamps are half hidden.
+#[test]
+fn scratches_in_half_shadow_stay_sharp() {
+    // The others have gratings and a sky, which are smooth.
+    for (name, scene) in scenes().into_iter().take(7) {
+        let images = found_and_filtered(&scene);
+        let truth = luminance(&bounced(&scene, 256, true, 1), Layer::Scratches);
+        let [before, after] =
+            images.map(|image| contrast(&luminance(&image, Layer::Scratches), &truth));
+        println!("{name}: {before:.4}, filtered {after:.4}");
+        assert!(
+            (after / before - 1.0).abs() < 0.05,
+            "{name}: {before} {after}"
+        );
+        // The mean of five pixels in a row is told.
+        let blurred: Vec<f64> = (0..truth.len())
+            .map(|i| mean(&truth[i.saturating_sub(2)..(i + 3).min(truth.len())]))
+            .collect();
+        assert!(contrast(&blurred, &truth) < 0.9, "{name}");
+    }
+}
