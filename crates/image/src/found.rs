@@ -95,7 +95,7 @@ pub(crate) fn variance([sum, squares]: [f32; 2], count: u32) -> f32 {
 }
 
 /// What is left of a closed form by the shares of its channels. A channel below 0, where a colour lies outside of the gamut, goes with the
-/// luminance of the others: what is left is never darker than none. Twin: `found_left`.
+/// luminance of the others: what is left has no negative luminance. Twin: `found_left`.
 pub(crate) fn left(open: [f32; 3], share: [f32; 3]) -> [f32; 3] {
     let bright = open.map(|value| value.max(0.0));
     let bright_left = std::array::from_fn(|c| bright[c] * share[c]);
@@ -103,7 +103,7 @@ pub(crate) fn left(open: [f32; 3], share: [f32; 3]) -> [f32; 3] {
         Some(of_bright) => {
             std::array::from_fn(|c| open[c] * if open[c] < 0.0 { of_bright } else { share[c] })
         }
-        // Nothing is bright: a base of which a mask without bounds takes more than all.
+        // No channel is above 0: the linear mask may take more than all of the base.
         None => std::array::from_fn(|c| open[c] * share[c]),
     }
 }

@@ -108,10 +108,10 @@ fn pictures(open: &Scene, scene: &Scene) -> Vec<(&'static str, f64, [Image; 2])>
     let by_cpu = [closed(open, 1, false), closed(scene, 1024, true)];
     let by_gpu = [on_gpu(open, 1, None), on_gpu(scene, 384, Some(0))];
     let by_gpu = match by_gpu {
-        [Some(open), Some(image)] => Some(("GPU", 1.6e-2, [open, image])),
+        [Some(open), Some(image)] => Some(("GPU", 1.4e-2, [open, image])),
         _ => None,
     };
-    [("CPU", 8e-3, by_cpu)].into_iter().chain(by_gpu).collect()
+    [("CPU", 5e-3, by_cpu)].into_iter().chain(by_gpu).collect()
 }
 
 #[test]

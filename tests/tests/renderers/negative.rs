@@ -4,14 +4,15 @@ use super::scenes::{ALL, scene};
 use conformance::middle_of;
 use conformance::two_renderers::on_the_gpu_by;
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_image::tone_map::tone_luminance;
 use hairline_image::{Image, filter_found};
 use hairline_index::method::Method;
 use hairline_scene::{DEFAULT_TRANSPORT, Scene};
 
-/// Of the first pixel with a layer that is no light, before the filter or after it: its layer and colour.
+/// Finds the first pixel, before the filter or after it, whose luminance is negative, or a channel of which is below both zero and the closed
+/// form. It tells the layer and the colours.
 ///
-/// The colours of scratches may lie outside of the gamut of Rec.709: a channel is below zero there. Rays take no channel further down than
-/// the closed form has it, and luminance is never negative.
+/// Colours of scratches may lie outside of the gamut of Rec.709: the closed form itself has a channel below zero then.
 fn no_light(image: &Image) -> Option<String> {
     let mut filtered = image.clone();
     filter_found(&mut filtered);
@@ -33,7 +34,7 @@ fn no_light(image: &Image) -> Option<String> {
                 let rounding = 1e-5 * color.into_iter().fold(0.0, f32::max);
                 let is_light =
                     |(value, open): (f32, f32)| value >= 1.0001 * open.min(0.0) - rounding;
-                let is_bright = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2] >= 0.0;
+                let is_bright = tone_luminance(color) >= 0.0;
                 if !is_bright || !color.into_iter().zip(open).all(is_light) {
                     return Some(format!(
                         "{layer} {stage}, pixel {i}: {color:?}, open {open:?}"
@@ -86,7 +87,7 @@ fn no_light_is_negative_on_the_gpu() {
     }
 }
 
-/// One channel of one pixel is told.
+/// The search finds one negative channel, and one that is no number.
 #[test]
 fn one_value_is_told() {
     let options = RenderOptions {

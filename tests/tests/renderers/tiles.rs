@@ -8,6 +8,7 @@ use conformance::{Sequence, lay, middle, sphere_light, square};
 use glam::{DVec3, Vec3};
 use hairline_cpu::closed_form;
 use hairline_gpu::{RenderOptions, Renderer, headless};
+use hairline_image::metrics::layer_difference;
 use hairline_image::{Image, Layer};
 use hairline_index::ScratchIndex;
 use hairline_index::method::Method;
@@ -98,31 +99,26 @@ fn thousands_of_scratches_in_each_pixel() {
     let scene = scratched([SIDE; 2], 40_000);
     let cpu = on_the_cpu(&scene, 1);
     if let Some(gpu) = on_the_gpu(&scene, 1) {
-        let difference = relative_rms(&gpu.scratches, &cpu.scratches);
+        let difference = of_scratches(&gpu, &cpu);
         assert!(difference < 1e-3, "{difference}");
     }
     // The same scratches by lists that are short enough for all lines, filtered as far as a pixel of the first picture is.
     let mut finer = scene.clone();
     finer.render.size_px = [SIDE * FINER; 2];
     let std_px = scene.render.filter_std_px;
-    let finer = blurred(
-        &on_the_cpu(&finer, 1),
-        FINER,
-        std_px * f64::from(FINER * FINER - 1).sqrt(),
-    );
-    let difference = relative_rms(&cpu.scratches, &finer);
+    let left_px = std_px * f64::from(FINER * FINER - 1).sqrt();
+    let finer = Image {
+        scratches: blurred(&on_the_cpu(&finer, 1), FINER, left_px),
+        ..cpu.clone()
+    };
+    let difference = of_scratches(&cpu, &finer);
     println!("scratches: {difference:.4} off finer pixels");
     // The footprints of wide pixels are off by 0.016 with all lines, too.
     assert!(difference < 0.025, "{difference}");
 }
 
-fn relative_rms(found: &[[f32; 3]], expected: &[[f32; 3]]) -> f64 {
-    let (mut error2, mut value2) = (0.0, 0.0);
-    for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
-        error2 += f64::from(found - expected).powi(2);
-        value2 += f64::from(*expected).powi(2);
-    }
-    (error2 / value2).sqrt()
+fn of_scratches(found: &Image, expected: &Image) -> f64 {
+    layer_difference(found, expected, Layer::Scratches, None).relative_rms()
 }
 
 /// The scratches of a square picture under Gaussian filters, in the middles of squares of `step` pixels.
@@ -234,9 +230,7 @@ fn a_part_is_the_same_as_in_the_whole() {
     let whole = rows_of(&on_the_cpu(&scene, SAMPLES), rows);
     let off = |a: &Image, b: &Image| {
         let layers = [Layer::Base, Layer::Scratches, Layer::Density];
-        let off = layers.map(|layer| {
-            hairline_image::metrics::layer_difference(a, b, layer, None).relative_rms()
-        });
+        let off = layers.map(|layer| layer_difference(a, b, layer, None).relative_rms());
         off.into_iter().fold(0.0, f64::max)
     };
     assert!(off(&part, &whole) < 5e-3, "{}", off(&part, &whole));

@@ -38,7 +38,7 @@ fn found_share(weight: vec3f, seen: vec3f) -> vec3f {
 }
 
 // What is left of a closed form by the shares of its channels. A channel below 0, where a colour lies outside of the gamut, goes with the
-// luminance of the others: what is left is never darker than none.
+// luminance of the others: what is left has no negative luminance.
 fn found_left(open: vec3f, share: vec3f) -> vec3f {
     let bright = max(open, vec3f(0.0));
     let all = rgb_luminance(bright);
