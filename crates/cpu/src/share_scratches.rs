@@ -5,7 +5,7 @@ use crate::sample_point::{SamplePoint, Seen, Shared, Wide};
 use glam::DVec2;
 
 /// The least cosine between normals that are those of one surface.
-const ALIKE_COS: f64 = 0.98;
+const ALIKE_COS: f64 = 0.9994;
 
 /// Has one sample stand for the scratches of all that see the same surface, of those of a pixel from `first` of the batch on: the one nearest to the
 /// pixel's middle, with the pixel's whole filter. Scratches are most of the work, and a pixel without an edge has them once, too.

@@ -3,8 +3,8 @@
 //! Inputs: the films of a canvas. Output: base and scratches there. What was found stays: more samples may come.
 
 use hairline_image::filter::{
-    LEAST_ALIKE, MIRROR_STEP_PX, NOISE_STD, NORMAL_POWER, OFF_PLANE, OUTLINE_PX, PASSES,
-    ROUGH_NORMALS, ROUGH_STEP_PX, VARIANCE_PX,
+    LEAST_ALIKE, LEAST_AROUND, MIRROR_STEP_PX, NOISE_STD, NORMAL_POWER, OFF_PLANE, OUTLIER_STD,
+    OUTLINE_PX, PASSES, ROUGH_NORMALS, ROUGH_STEP_PX, VARIANCE_PX,
 };
 use wgpu::{
     BindGroupLayoutEntry, BindingResource, BufferUsages, ShaderStages, TextureFormat, TextureUsages,
@@ -114,6 +114,8 @@ impl FilterPasses {
                 mirror_step_px: MIRROR_STEP_PX,
                 rough_step_px: ROUGH_STEP_PX,
                 variance_px: VARIANCE_PX,
+                outlier_std: OUTLIER_STD,
+                least_around: LEAST_AROUND,
                 least_alike: LEAST_ALIKE,
                 ..FilterSettings::default()
             };

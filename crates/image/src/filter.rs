@@ -31,6 +31,10 @@ pub const ROUGH_STEP_PX: f32 = 40.0;
 pub const OUTLINE_PX: i32 = 2;
 /// Pixels to each side over which variances are averaged.
 pub const VARIANCE_PX: i32 = 2;
+/// Bounced light is an outlier beyond so many standard deviations of the pixels around: with fewer, light that few rays find would be lost.
+pub const OUTLIER_STD: f32 = 12.0;
+/// Fewer pixels around tell nothing of outliers: the sum of how alike they are.
+pub const LEAST_AROUND: f32 = 2.0;
 /// Pixels that are less alike do not count.
 pub const LEAST_ALIKE: f32 = 1e-3;
 
@@ -354,7 +358,7 @@ impl Sum {
 }
 
 /// Variances of few rounds are noisy themselves: each becomes the mean over the pixels around. After one round alone they are those of the
-/// values there.
+/// values there. Outliers of bounced light go first.
 fn smooth_variances(
     guides: &Guides,
     layer: Layer,
@@ -368,47 +372,93 @@ fn smooth_variances(
             return own;
         }
         let normal_power = layer.normal_power(guide);
-        let mut sums = [[0.0f32; 4]; 2];
+        let mut around = [Around::default(); 2];
         for dy in -VARIANCE_PX..=VARIANCE_PX {
             for dx in -VARIANCE_PX..=VARIANCE_PX {
                 let Some(j) = guides.index([x + dx, y + dy]) else {
                     continue;
                 };
-                let alike = if i == j {
-                    1.0
-                } else {
-                    guides.alike(normal_power, guide, &guides.pixels[j], [dx, dy])
-                };
-                if alike < LEAST_ALIKE {
+                if i == j {
                     continue;
                 }
-                let other = &signals[j];
-                for (sum, [r, g, b, variance]) in sums.iter_mut().zip([other.share, other.bounced])
-                {
-                    if variance >= 0.0 {
-                        let value = luminance([r, g, b]);
-                        let added = [1.0, variance, value, value * value];
-                        for (sum, added) in sum.iter_mut().zip(added) {
-                            *sum += alike * added;
-                        }
-                    }
+                let alike = guides.alike(normal_power, guide, &guides.pixels[j], [dx, dy]);
+                if alike >= LEAST_ALIKE {
+                    let other = &signals[j];
+                    around[0].add(&other.share, alike);
+                    around[1].add(&other.bounced, alike);
                 }
             }
         }
-        for (signal, [weights, variances, values, squares]) in
-            [&mut own.share, &mut own.bounced].into_iter().zip(sums)
-        {
-            if signal[3] >= 0.0 && weights > 0.0 {
-                let mean = values / weights;
-                signal[3] = match rounds {
-                    0 | 1 => (squares / weights - mean * mean).max(0.0),
-                    // A firefly knows that it is one.
-                    _ => signal[3].max(variances / weights),
-                };
-            }
+        own.bounced = around[1].without_outlier(own.bounced, rounds);
+        for (signal, mut around) in [&mut own.share, &mut own.bounced].into_iter().zip(around) {
+            around.add(signal, 1.0);
+            signal[3] = around.smoothed(signal[3], rounds);
         }
         own
     })
+}
+
+/// Weighted sums of what a signal is in pixels around.
+#[derive(Clone, Copy, Default)]
+struct Around {
+    weights: f32,
+    variances: f32,
+    /// Of the luminance.
+    values: f32,
+    squares: f32,
+}
+
+impl Around {
+    fn add(&mut self, &[r, g, b, variance]: &[f32; 4], weight: f32) {
+        if variance >= 0.0 {
+            let value = luminance([r, g, b]);
+            self.weights += weight;
+            self.variances += weight * variance;
+            self.values += weight * value;
+            self.squares += weight * value * value;
+        }
+    }
+
+    fn mean(&self) -> f32 {
+        self.values / self.weights
+    }
+
+    /// The variance of the values.
+    fn spread(&self) -> f32 {
+        let mean = self.mean();
+        (self.squares / self.weights - mean * mean).max(0.0)
+    }
+
+    /// A signal no brighter than the pixels around make likely, as far as its own noise may be what makes it so. Else a single ray that meets a lamp's
+    /// mirror image would become a bright star, as wide as the filter. The limit of many rounds is the signal.
+    fn without_outlier(&self, own: [f32; 4], rounds: u32) -> [f32; 4] {
+        let [r, g, b, variance] = own;
+        if variance < 0.0 || self.weights < LEAST_AROUND {
+            return own;
+        }
+        let value = luminance([r, g, b]);
+        // One round tells no variance.
+        let noise = if rounds > 1 { variance.sqrt() } else { value };
+        let likely = self.mean() + OUTLIER_STD * self.spread().sqrt();
+        let most = likely.max(value - NOISE_STD * noise);
+        if value <= most {
+            return own;
+        }
+        let less = most / value;
+        [r * less, g * less, b * less, variance * less * less]
+    }
+
+    /// A variance, given those around and its own.
+    fn smoothed(&self, own: f32, rounds: u32) -> f32 {
+        if own < 0.0 || !(self.weights > 0.0) {
+            return own;
+        }
+        match rounds {
+            0 | 1 => self.spread(),
+            // A firefly knows that it is one.
+            _ => own.max(self.variances / self.weights),
+        }
+    }
 }
 
 impl Guides {

@@ -143,7 +143,24 @@ fn smoothed(own: f32, sums: vec4f) -> f32 {
     return select(max(own, sums.y / sums.x), max(sums.w / sums.x - mean * mean, 0.0), settings.rounds < 2u);
 }
 
-// Variances become means over the pixels around; after one round those of the values there.
+// A signal no brighter than the pixels around make likely, as far as its own noise may be what makes it so.
+fn without_outlier(own: vec4f, around: vec4f) -> vec4f {
+    if own.w < 0.0 || around.x < settings.least_around {
+        return own;
+    }
+    let value = rgb_luminance(own.xyz);
+    let noise = select(value, sqrt(own.w), settings.rounds > 1u);
+    let mean = around.z / around.x;
+    let spread = max(around.w / around.x - mean * mean, 0.0);
+    let most = max(mean + settings.outlier_std * sqrt(spread), value - settings.noise_std * noise);
+    if value <= most {
+        return own;
+    }
+    let less = most / value;
+    return own * vec4f(vec3f(less), less * less);
+}
+
+// Variances become means over the pixels around; after one round those of the values there. Outliers of bounced light go first.
 @compute @workgroup_size(8, 8)
 fn filter_variances(@builtin(global_invocation_id) id: vec3u) {
     let pixel = vec2i(id.xy);
@@ -160,7 +177,7 @@ fn filter_variances(@builtin(global_invocation_id) id: vec3u) {
         for (var y = -settings.variance_px; y <= settings.variance_px; y += 1) {
             for (var x = -settings.variance_px; x <= settings.variance_px; x += 1) {
                 let there = pixel + vec2i(x, y);
-                if !is_in(there) {
+                if !is_in(there) || all(there == pixel) {
                     continue;
                 }
                 let weight = alike(own, slope, guide_at(there), vec2i(x, y));
@@ -170,8 +187,9 @@ fn filter_variances(@builtin(global_invocation_id) id: vec3u) {
                 }
             }
         }
-        share.w = smoothed(share.w, share_sums);
-        light.w = smoothed(light.w, light_sums);
+        light = without_outlier(light, light_sums);
+        share.w = smoothed(share.w, share_sums + noise_of(share));
+        light.w = smoothed(light.w, light_sums + noise_of(light));
     }
     textureStore(shares_out, id.xy, share);
     textureStore(bounced_out, id.xy, light);

@@ -7,7 +7,7 @@
 @group(3) @binding(3) var<storage, read_write> film: Film;
 
 // The least cosine between normals that are those of one surface.
-const ALIKE_COS: f32 = 0.98;
+const ALIKE_COS: f32 = 0.9994;
 
 fn material_of(at: u32) -> u32 {
     return vertices[3u * paints[at].triangle].material & ~VERTEX_BITANGENT_FLIPPED;

@@ -351,6 +351,8 @@ struct FilterSettings {
     mirror_step_px: f32,
     rough_step_px: f32,
     variance_px: i32,
+    outlier_std: f32,
+    least_around: f32,
     least_alike: f32,
 }
 
