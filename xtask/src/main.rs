@@ -14,6 +14,7 @@ mod rooms;
 mod shaders;
 mod touches;
 mod unbiased;
+mod wear;
 mod web;
 mod wheel;
 
@@ -50,6 +51,8 @@ enum Command {
     Touches(touches::Touches),
     /// Measure shadows and bounces against the path tracer, and write docs/accuracy/shadows.md.
     Unbiased(unbiased::Unbiased),
+    /// Measure how much of models shows their wear, in the light of `hairline render MODEL`.
+    Wear(wear::WearShown),
     /// Make the viewer for browsers, a folder of static files.
     Web(web::Web),
     /// Make the package for Python, a wheel for Linux, and test it in an environment of its own.
@@ -72,6 +75,7 @@ fn main() -> anyhow::Result<()> {
         Command::Shaders(command) => command.run(),
         Command::Touches(command) => command.run(),
         Command::Unbiased(command) => command.run(),
+        Command::Wear(command) => command.run(),
         Command::Web(command) => command.run(),
         Command::Wheel(command) => command.run(),
     }

@@ -165,6 +165,10 @@ pub struct Render {
     /// corner. The first light that is not hidden, or the one of this name.
     #[arg(long, value_name = "X,Y[,LIGHT]", value_parser = highlight::parse)]
     pub highlight: Option<highlight::Highlight>,
+    /// Light the scene for its scratches, in the place of its lights and its environment: up to three small hard lamps whose highlights lie where
+    /// most of the surface shows the colours around them, two dim strips and a dark room. A model without lights of its own is lit so anyway.
+    #[arg(long, conflicts_with = "highlight")]
+    pub show_scratches: bool,
     /// Render again whenever the scene or one of its files changes, until Ctrl-C.
     #[arg(long, conflicts_with_all = ["frames", "turntable", "zoom", "animation", "stability"])]
     pub watch: bool,

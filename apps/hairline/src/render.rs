@@ -49,6 +49,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         time_s: arguments.time.map(|[from, _]| from),
         camera: arguments.camera.as_deref(),
         highlight: arguments.highlight.as_ref(),
+        is_lit_for_scratches: arguments.show_scratches,
     };
     let mut loaded = scene_file::load(arguments.scene.as_deref(), &overrides, &target.paths())?;
     if let Some(motion) = &motion {

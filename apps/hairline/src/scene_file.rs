@@ -35,6 +35,8 @@ pub struct Overrides<'a> {
     pub tone_map: Option<ToneMap>,
     /// Where a light's mirror image is to lie.
     pub highlight: Option<&'a Highlight>,
+    /// Whether other lights than its own show its scratches.
+    pub is_lit_for_scratches: bool,
 }
 
 /// A scene with what it was made from.
@@ -126,6 +128,11 @@ pub fn load(
     let mut scene = built.map_err(wrong)?;
     if let Some(wanted) = overrides.highlight {
         highlight::place(wanted, &mut description, &scene)?;
+    }
+    if overrides.is_lit_for_scratches {
+        description.light_for_scratches(&scene);
+    }
+    if overrides.highlight.is_some() || overrides.is_lit_for_scratches {
         // Nothing but the lights is made again.
         let built = builder.build(&loader, &description, &source.folder);
         scene = built.map_err(wrong)?;

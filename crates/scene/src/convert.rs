@@ -37,7 +37,7 @@ pub(crate) fn without_surfaces(description: &Description) -> Scene {
     }
 }
 
-fn camera(camera: &description::Camera) -> Camera {
+pub(crate) fn camera(camera: &description::Camera) -> Camera {
     Camera {
         position_m: camera.position_m.into(),
         target_m: camera.target_m.into(),

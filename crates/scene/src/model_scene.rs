@@ -2,14 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 
 use crate::camera::framing;
 use crate::description::{
-    Camera, Description, Environment, Ground, Map, Object, Render, Studio, Surface, Up,
+    Camera, Description, Environment, Map, Object, Render, Studio, Surface, Up,
 };
 use crate::environment::BuiltInMap;
 use crate::error::Error;
+use crate::probe::ProbedMesh;
+use crate::scene::Mesh;
+use crate::scratch_studio::{DARK_GROUND, Subject};
 use crate::studio::PhotoSet;
 use crate::text::shown;
 use crate::wear::Wear;
@@ -26,8 +29,10 @@ const FOV_Y_DEG: f64 = 28.0;
 /// Around the lights of a model's file: its brightest box behind the camera, to the side.
 const STUDIO_ROTATION_DEG: f64 = 220.0;
 const STUDIO_INTENSITY: f64 = 0.75;
-/// From the model to the camera: from above, a little from the left.
-const VIEW: DVec3 = DVec3::new(-0.42, -1.0, 0.5);
+/// On the floor plan, from the model to the camera: a little from the left.
+const VIEW: DVec2 = DVec2::new(-0.42, -1.0);
+/// How high the camera stands: of what is flat, and of what is as high as it is wide, whose walls mirror what stands about it.
+const ELEVATION_DEG: [f64; 2] = [32.0, 12.0];
 
 impl Description {
     /// Whether a file is a model by its name: .glb or .gltf.
@@ -41,7 +46,12 @@ impl Description {
     /// # Errors
     /// What is wrong with the file.
     pub fn for_model(path: &Path) -> Result<Self, Error> {
-        let summary = probe::mesh(path)?;
+        let ProbedMesh {
+            mesh,
+            materials,
+            textures,
+            summary,
+        } = probe::read_mesh(path)?;
         let name = path.file_name().map_or_else(|| path.into(), PathBuf::from);
         let mut notes = Vec::new();
         let (mut factor, mut fit_m) = (1.0, None);
@@ -75,7 +85,7 @@ impl Description {
             }
         }
         let (least, most) = summary.bounds_m;
-        let upright = |p: glam::Vec3| turned(p.as_dvec3());
+        let upright = |p: Vec3| turned(p.as_dvec3());
         let [a, b] = [least, most].map(upright);
         let points_m: Vec<_> = summary
             .extreme_points_m
@@ -92,11 +102,17 @@ impl Description {
             .unwrap_or_else(|| "model".to_owned());
         let camera = camera(&points_m, render.size_px);
         let set = PhotoSet::new(&camera, (a.min(b), a.max(b)));
-        let studio = Studio::default();
         let environment = match lamps.is_empty() {
             true => {
-                lamps = set.lights(&studio);
-                studio.room()
+                let mesh = in_scene(mesh, factor);
+                let subject = Subject {
+                    meshes: &[&mesh],
+                    count: 1,
+                    materials: &materials,
+                    textures: &textures,
+                };
+                lamps = subject.lights(&camera, render.size_px);
+                Environment::dark_room()
             }
             // Whose strength is not known.
             false => Environment {
@@ -106,7 +122,7 @@ impl Description {
                 visible: true,
             },
         };
-        let (mut ground, ground_material) = set.ground(&Ground::default());
+        let (mut ground, ground_material) = set.ground(&DARK_GROUND);
         if object == ground.name {
             ground.name += " under it";
         }
@@ -153,9 +169,36 @@ fn metres(length_m: f64) -> String {
     }
 }
 
+/// A model as the scene has it: z up, so many times as large.
+fn in_scene(mut mesh: Mesh, factor: f64) -> Mesh {
+    let turned = |p: Vec3| Vec3::new(p.x, -p.z, p.y);
+    for position_m in &mut mesh.positions_m {
+        *position_m = factor as f32 * turned(*position_m);
+    }
+    for normal in &mut mesh.normals {
+        *normal = turned(*normal);
+    }
+    mesh
+}
+
 /// From [`VIEW`], as near as lets all points be seen.
 fn camera(points_m: &[DVec3], [width, height]: [u32; 2]) -> Camera {
-    let forward = -VIEW.normalize();
+    let least = points_m
+        .iter()
+        .copied()
+        .reduce(DVec3::min)
+        .unwrap_or_default();
+    let most = points_m
+        .iter()
+        .copied()
+        .reduce(DVec3::max)
+        .unwrap_or_default();
+    let size_m = most - least;
+    let [flat_deg, tall_deg] = ELEVATION_DEG;
+    let tallness = (size_m.z / size_m.truncate().max_element()).clamp(0.0, 1.0);
+    let elevation_rad = (flat_deg + (tall_deg - flat_deg) * tallness).to_radians();
+    let view = VIEW.normalize() * elevation_rad.cos();
+    let forward = -view.extend(elevation_rad.sin());
     let right = forward.cross(DVec3::Z).normalize();
     let tan_y = FILLED * (0.5 * FOV_Y_DEG.to_radians()).tan();
     let tan = DVec2::new(tan_y * f64::from(width) / f64::from(height), tan_y);

@@ -10,7 +10,7 @@ use crate::environment;
 use crate::error::Error;
 use crate::mesh_file::{self, Placing, Stock};
 use crate::reading;
-use crate::scene::{Base, Material, Texture};
+use crate::scene::{Base, Material, Mesh, Texture};
 
 /// What a mesh file holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +64,21 @@ pub struct EnvironmentSummary {
 /// # Errors
 /// What is wrong with the file.
 pub fn mesh(path: &Path) -> Result<MeshSummary, Error> {
+    Ok(read_mesh(path)?.summary)
+}
+
+/// A mesh file that was read.
+pub(crate) struct ProbedMesh {
+    /// In the file's frame.
+    pub mesh: Mesh,
+    /// Those of its triangles.
+    pub materials: Vec<Material>,
+    pub textures: Vec<Texture>,
+    pub summary: MeshSummary,
+}
+
+/// The same as [`mesh`], with what was read.
+pub(crate) fn read_mesh(path: &Path) -> Result<ProbedMesh, Error> {
     let (mut materials, mut textures) = (Vec::new(), Vec::new());
     let mut moved_from = None;
     let stock = Stock {
@@ -87,13 +102,19 @@ pub fn mesh(path: &Path) -> Result<MeshSummary, Error> {
         .triangle_materials
         .iter()
         .filter(|i| is_metal[**i as usize]);
-    Ok(MeshSummary {
+    let summary = MeshSummary {
         metal_share: metals.count() as f64 / mesh.triangles.len() as f64,
         moved_from,
         triangles: mesh.triangles.len(),
         bounds_m: mesh.bounds_m(),
         extreme_points_m: mesh.extreme_points_m(),
-        materials: materials.into_iter().map(|m| m.name).collect(),
+        materials: materials.iter().map(|m| m.name.clone()).collect(),
+    };
+    Ok(ProbedMesh {
+        mesh,
+        materials,
+        textures,
+        summary,
     })
 }
 

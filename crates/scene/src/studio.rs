@@ -33,6 +33,20 @@ pub(crate) struct PhotoSet {
     elevation_rad: f64,
 }
 
+/// A rectangle that shines on what a set is about. Lengths are in the set's radii, axes to the right, behind and up.
+pub(crate) struct SoftBox {
+    pub name: &'static str,
+    /// Its middle.
+    pub at: [f64; 3],
+    /// Width and height.
+    pub size: [f64; 2],
+    pub radiance: f64,
+    /// Linear Rec.709.
+    pub color: [f64; 3],
+    /// Where its width lies.
+    pub along: DVec3,
+}
+
 impl Studio {
     /// What it lights a scene with, in the place of which these would do: `bounds_m` is the box around all of the scene's objects.
     pub fn lights(&self, camera: &Camera, bounds_m: (DVec3, DVec3)) -> Vec<Light> {
@@ -79,39 +93,50 @@ impl PhotoSet {
         }
     }
 
+    /// Of the box around all objects, half the diagonal.
+    pub(crate) fn radius_m(&self) -> f64 {
+        self.radius_m
+    }
+
     /// A large soft box above, a strip on either side, a dim one behind the camera, and a small lamp that colours scratches.
     pub(crate) fn lights(&self, studio: &Studio) -> Vec<Light> {
-        let soft_box = |name, at: [f64; 3], size: [f64; 2], radiance, color, along| {
-            self.soft_box(studio, name, at, size, radiance, color, along)
-        };
-        let (side, depth) = (DVec3::X, DVec3::Y);
-        let mut lights = vec![
-            soft_box(
-                "soft box above",
-                [0.2, 0.1, 3.2],
-                [3.4, 2.2],
-                4.0,
-                [1.0; 3],
-                side,
-            ),
-            soft_box(
-                "strip left",
-                [-3.0, 0.0, 1.7],
-                [1.2, 2.8],
-                4.5,
-                [0.93, 0.97, 1.0],
-                depth,
-            ),
-            soft_box(
-                "strip right",
-                [3.0, 0.7, 1.5],
-                [0.6, 2.6],
-                7.0,
-                [1.0, 0.95, 0.88],
-                depth,
-            ),
-            soft_box("fill", [1.4, -3.6, 2.8], [3.0, 2.2], 0.8, [1.0; 3], side),
+        let soft_boxes = [
+            SoftBox {
+                name: "soft box above",
+                at: [0.2, 0.1, 3.2],
+                size: [3.4, 2.2],
+                radiance: 4.0,
+                color: [1.0; 3],
+                along: DVec3::X,
+            },
+            SoftBox {
+                name: "strip left",
+                at: [-3.0, 0.0, 1.7],
+                size: [1.2, 2.8],
+                radiance: 4.5,
+                color: [0.93, 0.97, 1.0],
+                along: DVec3::Y,
+            },
+            SoftBox {
+                name: "strip right",
+                at: [3.0, 0.7, 1.5],
+                size: [0.6, 2.6],
+                radiance: 7.0,
+                color: [1.0, 0.95, 0.88],
+                along: DVec3::Y,
+            },
+            SoftBox {
+                name: "fill",
+                at: [1.4, -3.6, 2.8],
+                size: [3.0, 2.2],
+                radiance: 0.8,
+                color: [1.0; 3],
+                along: DVec3::X,
+            },
         ];
+        let mut lights: Vec<Light> = (soft_boxes.iter())
+            .map(|soft_box| self.soft_box(studio, soft_box))
+            .collect();
         // About where a level surface mirrors it to the camera: its colours lie on what lies flat.
         let (low, high) = LAMP_ELEVATION_DEG.into_inner();
         let elevation_rad = self
@@ -137,30 +162,21 @@ impl PhotoSet {
         self.base_m + self.radius_m * (turn * way)
     }
 
-    #[expect(clippy::too_many_arguments, reason = "the row of a table")]
-    fn soft_box(
-        &self,
-        studio: &Studio,
-        name: &str,
-        at: [f64; 3],
-        [width, height]: [f64; 2],
-        radiance: f64,
-        color: [f64; 3],
-        along: DVec3,
-    ) -> Light {
+    pub(crate) fn soft_box(&self, studio: &Studio, soft_box: &SoftBox) -> Light {
+        let [width, height] = soft_box.size;
         let mut kind = LightKind::Rectangle {
-            center_m: self.at(studio, at.into()).into(),
+            center_m: self.at(studio, soft_box.at.into()).into(),
             target_m: self.at(studio, DVec3::new(0.0, 0.0, 0.4)).into(),
             width_m: width * self.radius_m,
             height_m: height * self.radius_m,
             rotation_deg: 0.0,
             two_sided: false,
         };
-        kind.lay_width_along(self.at(studio, along) - self.base_m);
+        kind.lay_width_along(self.at(studio, soft_box.along) - self.base_m);
         Light {
-            name: Some(name.to_owned()),
-            radiance: radiance * studio.intensity,
-            color,
+            name: Some(soft_box.name.to_owned()),
+            radiance: soft_box.radiance * studio.intensity,
+            color: soft_box.color,
             ..Light::new(kind)
         }
     }

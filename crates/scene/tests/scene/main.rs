@@ -18,6 +18,7 @@ mod meshopt;
 mod places;
 mod poses;
 mod probe;
+mod scratch_studio;
 mod scratches;
 mod strokes;
 mod studio;

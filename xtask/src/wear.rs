@@ -1,0 +1,150 @@
+//! `cargo xtask wear`: how much of an object shows its wear, in the light of `hairline render MODEL` and in that of a `[studio]`.
+//!
+//! The share of the object's pixels that change by 5 of 255 or more when the wear is taken away, in pictures with default options.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_image::{Display, Image, Output, filter_found};
+use hairline_optics::metal::Metal;
+use hairline_scene::description::{Description, Material, MaterialKind, MetalColor, Studio};
+use hairline_scene::wear::Wear;
+use hairline_scene::{DEFAULT_SAMPLES, Loader, SceneBuilder};
+
+/// A change that an eye notices beside the pixel as it was, of 255.
+const NOTICED: f64 = 5.0;
+
+/// Options of `wear`.
+#[derive(clap::Args)]
+pub struct WearShown {
+    /// Models, .glb or .gltf.
+    #[arg(required = true)]
+    models: Vec<PathBuf>,
+
+    /// Width and height of the pictures.
+    #[arg(long, num_args = 2, default_values_t = [320, 180])]
+    size_px: Vec<u32>,
+
+    /// Not beside the light of a `[studio]`.
+    #[arg(long)]
+    alone: bool,
+
+    /// A folder for the pictures.
+    #[arg(long)]
+    pictures: Option<PathBuf>,
+}
+
+impl WearShown {
+    /// Measures all, and prints the table.
+    pub fn run(self) -> Result<()> {
+        println!("| model | material | worn | old | worn, `[studio]` | old, `[studio]` |");
+        println!("|---|---|---:|---:|---:|---:|");
+        for model in &self.models {
+            let name = model.file_stem().unwrap_or_default().to_string_lossy();
+            for material in materials() {
+                let mut row = format!("| {name} | {} |", material.name);
+                for is_studio in [false, true].into_iter().take(2 - usize::from(self.alone)) {
+                    for wear in [Wear::Worn, Wear::Old] {
+                        let share = self.share(model, &material, wear, is_studio)?;
+                        row += &format!(" {:.0} % |", 100.0 * share);
+                    }
+                }
+                println!("{row}");
+            }
+        }
+        Ok(())
+    }
+
+    fn share(&self, model: &Path, material: &Material, wear: Wear, is_studio: bool) -> Result<f64> {
+        let mut description = Description::for_model(model)?;
+        description.render.size_px = [self.size_px[0], self.size_px[1]];
+        description.scratches.clear();
+        description.materials.push(material.clone());
+        description.objects[0].material = Some(material.name.clone());
+        let folder = model.parent().unwrap_or(Path::new(""));
+        let mut builder = SceneBuilder::new();
+        let mut build =
+            |description: &Description| builder.build(&Loader::default(), description, folder);
+        let (least, most) = build(&description)?.objects[0].mesh.bounds_m();
+        let bounds_m = (least.as_dvec3(), most.as_dvec3());
+        let scene = build(&description)?;
+        description.light_for_scratches(&scene);
+        if is_studio {
+            let studio = Studio::default();
+            description.lights = studio.lights(&description.camera, bounds_m);
+            description.environment = Some(studio.room());
+        }
+        let without = picture(&build(&description)?);
+        let object = description.objects[0].name.clone();
+        description.scratches = wear.layers(&object, bounds_m.0.distance(bounds_m.1));
+        let scene = build(&description)?;
+        let worn = picture(&scene);
+        let display = Display {
+            exposure_ev: scene.camera.exposure_ev,
+            tone_map: scene.render.tone_map,
+        };
+        if let Some(folder) = &self.pictures {
+            std::fs::create_dir_all(folder).context("make the folder for pictures")?;
+            let light = if is_studio { "studio" } else { "model" };
+            let name = format!("{object} {} {} {light}.png", material.name, wear.name());
+            Output::check(&folder.join(name))?.write_image(&worn, &display)?;
+        }
+        Ok(noticed(&worn, &without, &display))
+    }
+}
+
+fn materials() -> [Material; 3] {
+    let metal =
+        |name: &str, metal| material(name, MaterialKind::Metal(MetalColor::Measured(metal)));
+    let black = MaterialKind::Dielectric {
+        ior: 1.5,
+        base_color: [0.012, 0.014, 0.02],
+    };
+    [
+        metal("steel", Metal::StainlessSteel),
+        metal("gold", Metal::Gold),
+        material("black plastic", black),
+    ]
+}
+
+fn material(name: &str, kind: MaterialKind) -> Material {
+    Material {
+        name: name.to_owned(),
+        kind,
+        roughness: 0.06,
+        coherence_um: 20.0,
+        coat: None,
+        anisotropy: None,
+    }
+}
+
+fn picture(scene: &hairline_scene::Scene) -> Image {
+    let options = RenderOptions {
+        samples: DEFAULT_SAMPLES,
+        shadows: true,
+        bounces: 1,
+        ..RenderOptions::default()
+    };
+    let mut image = Prepared::new(scene).render(&options, &|_| {});
+    filter_found(&mut image);
+    image
+}
+
+/// The share of the first object's pixels that differ.
+fn noticed(worn: &Image, without: &Image, display: &Display) -> f64 {
+    let objects = worn.found.iter().flat_map(|found| &found.pixels);
+    let (worn, without) = (worn.shown(), without.shown());
+    let (mut all, mut differ) = (0, 0);
+    for ((pixel, a), b) in objects.zip(&worn.rgb).zip(&without.rgb) {
+        if pixel.object == 1 {
+            all += 1;
+            let [a, b] = [a, b].map(|rgb| display.apply(*rgb));
+            let most = (0..3)
+                .map(|c| f64::from((a[c] - b[c]).abs()))
+                .fold(0.0, f64::max);
+            differ += u32::from(255.0 * most >= NOTICED);
+        }
+    }
+    f64::from(differ) / f64::from(all.max(1))
+}
