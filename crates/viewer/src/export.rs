@@ -12,15 +12,16 @@ use std::time::Duration;
 
 use egui::{Align2, Id, ProgressBar, Rect};
 use hairline_image::Output;
-use hairline_scene::DEFAULT_SAMPLES;
+use hairline_scene::{DEFAULT_SAMPLES, Description};
 use web_time::Instant;
 
 use crate::engine::SHADOW_SAMPLES;
 use crate::files::Purpose;
 use crate::jobs::Job;
 use crate::notices::Notices;
+use crate::viewport::camera;
 use crate::workspace::Workspace;
-use form::{Answer, Form};
+use form::{Answer, Form, Shown};
 use work::{End, Report, Wish};
 
 /// What is being asked and what is being exported.
@@ -79,7 +80,8 @@ impl Export {
                 let path = folder.join(purpose.proposal(&work.document));
                 let size_px = work.document.description().render.size_px;
                 // As many as the window adds up.
-                let samples = match work.transport.shadows {
+                let has_lens = has_lens(work.document.description());
+                let samples = match work.transport.shadows || has_lens {
                     true => SHADOW_SAMPLES,
                     false => DEFAULT_SAMPLES,
                 };
@@ -88,14 +90,20 @@ impl Export {
         self.form = Some(form);
     }
 
-    /// Takes the path that was chosen in a dialog.
-    pub fn take_path(&mut self, work: &mut Workspace, purpose: Purpose, path: &Path) {
+    /// Takes the path that was chosen in a dialog. One of the system `has_asked` about a file that is there.
+    pub fn take_path(
+        &mut self,
+        work: &mut Workspace,
+        purpose: Purpose,
+        path: &Path,
+        has_asked: bool,
+    ) {
         if self.form.is_none() {
             self.ask(work, purpose);
         }
         if let Some(form) = &mut self.form {
-            form.path = path.display().to_string();
-            form.refused = None;
+            form.set_path(path);
+            form.agreed = has_asked.then(|| path.to_owned());
         }
     }
 
@@ -109,12 +117,19 @@ impl Export {
     /// The question, if it is open. What a file is wanted for, if one is to be chosen.
     pub fn show_form(&mut self, ctx: &egui::Context, work: &mut Workspace) -> Option<Purpose> {
         let mut form = self.form.take()?;
-        let scene_px = work.document.description().render.size_px;
+        let description = work.document.description();
+        let scene_px = description.render.size_px;
         let window_px = work
             .engine
             .latest()
             .map_or(scene_px, |frame| fitting(scene_px, frame.view.size_px));
-        let answer = form.show(ctx, window_px, scene_px, work.free_view.is_free());
+        let scene = Shown {
+            scene_px,
+            window_px,
+            has_lens: has_lens(description),
+            is_view_free: work.free_view.is_free(),
+        };
+        let answer = form.show(ctx, &scene);
         match answer {
             None => self.form = Some(form),
             Some(Answer::ChooseFile) => {
@@ -159,7 +174,8 @@ impl Export {
             }
             Ok(_) => {
                 work.notices.clear("export");
-                form.refused = None;
+                // The next picture of this name would replace this one.
+                (form.refused, form.agreed) = (None, None);
                 self.remember(form);
                 self.waiting = Some(wish);
             }
@@ -289,6 +305,11 @@ impl Running {
             ui.weak("Cancelling keeps the pictures that are complete.");
         }
     }
+}
+
+/// Whether the scene's camera has depth of field.
+fn has_lens(description: &Description) -> bool {
+    camera(&description.camera).has_lens()
 }
 
 fn percent(share: f64) -> String {

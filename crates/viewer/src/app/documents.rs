@@ -195,7 +195,7 @@ impl Viewer {
                 self.dialogs.ask(Question::Path(Purpose::SaveAs, typed));
             }
             Answer::Fulfil(wish) => self.fulfil(ctx, wish),
-            Answer::Path(purpose, path) => self.take_typed_path(ctx, purpose, &path),
+            Answer::Path(purpose, path) => self.take_path(ctx, purpose, &path, false),
             Answer::Reload => self.work.reload("was loaded again."),
             Answer::PassOver => self.work.document.pass_over_disk(),
             Answer::AddModel(path, fit_m) => self.add_model(&path, fit_m),

@@ -24,29 +24,29 @@ impl Viewer {
                 let proposal = purpose.proposal(&self.work.document);
                 self.dialogs.ask(Question::Path(purpose, proposal));
             }
-            Choice::Path(purpose, path) => self.take_path(ctx, purpose, &path),
+            Choice::Path(purpose, path) => self.take_path(ctx, purpose, &path, true),
             Choice::Probed(purpose, path, probed) => self.take_probed(purpose, &path, probed),
         }
     }
 
-    /// Uses a path for what it was wanted for.
-    pub(super) fn take_path(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {
+    /// Uses a path for what it was wanted for. A dialog of the system `has_asked` about a file that would be replaced; a path
+    /// that was typed nobody has asked about.
+    pub(super) fn take_path(
+        &mut self,
+        ctx: &egui::Context,
+        purpose: Purpose,
+        path: &Path,
+        has_asked: bool,
+    ) {
         match purpose {
             Purpose::Open => self.wish(ctx, Wish::Open(path.to_owned())),
-            Purpose::SaveAs => self.save_as(ctx, path, true),
+            Purpose::SaveAs => self.save_as(ctx, path, has_asked),
             Purpose::AddModel => self.probe(ctx, Purpose::AddModel, path),
             Purpose::Environment => self.probe(ctx, Purpose::Environment, path),
             Purpose::Screenshot | Purpose::Turntable => {
-                self.export.take_path(&mut self.work, purpose, path)
+                let work = &mut self.work;
+                self.export.take_path(work, purpose, path, has_asked);
             }
-        }
-    }
-
-    /// The same of a path that was typed: nobody has asked about a file that is there.
-    pub(super) fn take_typed_path(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {
-        match purpose {
-            Purpose::SaveAs => self.save_as(ctx, path, false),
-            _ => self.take_path(ctx, purpose, path),
         }
     }
 

@@ -200,7 +200,16 @@ fn refine(
 ) {
     let go_on = |_| !stop.is_asked();
     let (transport, built) = (wanted.transport, &wanted.built);
-    let picture = bands::render(built, scene, PICTURE_SAMPLES, transport, BAND_PX, &go_on);
+    let batches = transport.batches(&scene.camera, PICTURE_SAMPLES);
+    let picture = bands::render(
+        built,
+        scene,
+        PICTURE_SAMPLES,
+        transport,
+        batches,
+        BAND_PX,
+        &go_on,
+    );
     let Some(picture) = picture else {
         return;
     };

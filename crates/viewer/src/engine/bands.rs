@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use hairline_cpu::closed_form::{Prepared, RenderOptions, TILE_PX};
-use hairline_image::{Batch, Found, FoundPixel, Image, Tone, Tones};
+use hairline_image::{Batch, Batches, Found, FoundPixel, Image, Tone, Tones};
 use hairline_scene::{Scene, Transport};
 use web_time::Instant;
 
@@ -51,13 +51,14 @@ pub(super) fn prepared<'s>(built: &Built, scene: &'s Scene) -> Prepared<'s> {
 }
 
 /// Renders `scene`, which is that of `built` from elsewhere, in bands of `band_px` pixels at first, then of as many as are
-/// soon done. `go_on` is told before each which share of the picture is done; when it says no, there is no picture. Samples of shadows
-/// add up, and are rounded up to whole batches.
+/// soon done. `go_on` is told before each which share of the picture is done; when it says no, there is no picture. `batches` add up; without
+/// them all samples are taken at once.
 pub(crate) fn render(
     built: &Built,
     scene: &Scene,
     samples: u32,
     transport: Transport,
+    batches: Option<Batches>,
     band_px: u32,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Image> {
@@ -68,7 +69,7 @@ pub(crate) fn render(
         ..OF_A_THREAD
     };
     let mut options = options(samples, transport, None);
-    let Some(mut batches) = transport.batches(&scene.camera, samples) else {
+    let Some(mut batches) = batches else {
         return render_once(&prepared, size_px, &options, size, go_on);
     };
     options.samples = batches.samples();

@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use egui::{DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
+use hairline_image::{BATCH_SAMPLES, Batches};
 
-use super::work::{Motion, numbered};
+use super::work::Motion;
+use crate::engine::SHADOW_SAMPLES;
 
 /// Width and height; more is more than a file format or a machine is likely to hold.
 const SIDE_PX: std::ops::RangeInclusive<u32> = 1..=16_384;
@@ -28,8 +30,22 @@ pub(super) struct Form {
     pub path: String,
     /// Why it cannot be done so.
     pub refused: Option<String>,
-    /// The first file's path when it was last looked for, and whether it was there.
-    seen: Option<(PathBuf, bool)>,
+    /// Of a file that a dialog of the system has asked about: it may be replaced.
+    pub agreed: Option<PathBuf>,
+    /// Whether files that are there may be replaced; none while that is not asked.
+    question: Option<String>,
+}
+
+/// What of the scene and the window the form depends on.
+pub(super) struct Shown {
+    /// Size of the scene's picture.
+    pub scene_px: [u32; 2],
+    /// Of the picture in the window.
+    pub window_px: [u32; 2],
+    /// Whether there is depth of field.
+    pub has_lens: bool,
+    /// Whether the window looks from elsewhere than the scene's camera.
+    pub is_view_free: bool,
 }
 
 /// What was pressed.
@@ -52,7 +68,8 @@ impl Form {
             degrees: 360.0,
             path: path.display().to_string(),
             refused: None,
-            seen: None,
+            agreed: None,
+            question: None,
         }
     }
 
@@ -76,26 +93,18 @@ impl Form {
         }
     }
 
+    /// Puts another path in the place of what is typed.
+    pub fn set_path(&mut self, path: &Path) {
+        self.path = path.display().to_string();
+        (self.refused, self.question) = (None, None);
+    }
+
     fn is_too_large(&self) -> bool {
         self.size_px.map(u64::from).iter().product::<u64>() > MOST_PX
     }
 
-    fn first_path(&self) -> PathBuf {
-        match self.motion() {
-            Motion::Still => self.path(),
-            Motion::Turntable { .. } => numbered(&self.path(), 1),
-        }
-    }
-
-    /// Shows it. `window_px` is the size of the picture in the window, `scene_px` that of the scene; `is_view_free` if the
-    /// window looks from elsewhere than the scene's camera.
-    pub fn show(
-        &mut self,
-        ctx: &egui::Context,
-        window_px: [u32; 2],
-        scene_px: [u32; 2],
-        is_view_free: bool,
-    ) -> Option<Answer> {
+    /// Shows it; what was pressed, if anything was.
+    pub fn show(&mut self, ctx: &egui::Context, scene: &Shown) -> Option<Answer> {
         let modal = Modal::new(Id::unique("export")).show(ctx, |ui| {
             ui.set_width(500.0);
             ui.heading(if self.is_turntable {
@@ -106,13 +115,18 @@ impl Form {
             ui.add_space(4.0);
             let mut answer = None;
             Grid::new("export").num_columns(2).show(ui, |ui| {
-                self.size_rows(ui, window_px, scene_px);
+                self.size_rows(ui, scene.window_px, scene.scene_px);
                 let samples = DragValue::new(&mut self.samples).range(1..=4096);
                 row(ui, "Samples", samples).on_hover_text(
                     "Samples of a pixel that has an edge or a crease in it; elsewhere one is enough. With shadows also the rays to \
                      each light",
                 );
-                if is_view_free {
+                if scene.has_lens {
+                    ui.label("");
+                    ui.label(RichText::new(self.lens_remark()).weak());
+                    ui.end_row();
+                }
+                if scene.is_view_free {
                     ui.label("Seen from");
                     ui.horizontal(|ui| {
                         ui.selectable_value(&mut self.is_as_seen, true, "Where the window looks from");
@@ -128,7 +142,10 @@ impl Form {
                     );
                 ui.end_row();
                 if self.is_turntable {
-                    row(ui, "Pictures", DragValue::new(&mut self.frames).range(1..=9999));
+                    let frames = DragValue::new(&mut self.frames).range(1..=9999);
+                    if row(ui, "Pictures", frames).changed() {
+                        self.question = None;
+                    }
                     let degrees = DragValue::new(&mut self.degrees)
                         .range(-3600.0..=3600.0)
                         .suffix("°");
@@ -141,24 +158,89 @@ impl Form {
             });
             self.remarks(ui);
             ui.add_space(8.0);
-            ui.horizontal(|ui| {
-                let can_start = !self.is_too_large() && !self.path.trim().is_empty();
-                let start = egui::Button::new(if self.is_turntable {
-                    "Export"
-                } else {
-                    "Save the picture"
-                });
-                if ui.add_enabled(can_start, start).clicked() {
-                    answer = Some(Answer::Start);
-                }
-                if ui.button("Cancel").clicked() {
-                    answer = Some(Answer::Close);
-                }
-            });
-            answer
+            answer.or(match self.question.clone() {
+                Some(question) => self.replace_buttons(ui, &question),
+                None => self.buttons(ui),
+            })
         });
-        let should_close = modal.should_close();
-        modal.inner.or(should_close.then_some(Answer::Close))
+        match modal.should_close() {
+            // Escape answers the question first.
+            true if self.question.take().is_some() => modal.inner,
+            should_close => modal.inner.or(should_close.then_some(Answer::Close)),
+        }
+    }
+
+    fn buttons(&mut self, ui: &mut Ui) -> Option<Answer> {
+        let can_start = !self.is_too_large() && !self.path.trim().is_empty();
+        let start = egui::Button::new(if self.is_turntable {
+            "Export"
+        } else {
+            "Save the picture"
+        });
+        ui.horizontal(|ui| {
+            let is_started = ui.add_enabled(can_start, start).clicked();
+            if is_started {
+                self.question = self.question_before();
+            }
+            if ui.button("Cancel").clicked() {
+                return Some(Answer::Close);
+            }
+            (is_started && self.question.is_none()).then_some(Answer::Start)
+        })
+        .inner
+    }
+
+    /// What is asked before files are replaced; none where none is there, or only the one that a dialog has asked about.
+    fn question_before(&self) -> Option<String> {
+        let frames = match self.motion() {
+            Motion::Still => 1,
+            Motion::Turntable { frames, .. } => frames,
+        };
+        let paths = (0..frames).map(|frame| self.motion().path(&self.path(), frame));
+        let there: Vec<PathBuf> = paths
+            .filter(|path| self.agreed.as_ref() != Some(path) && path.is_file())
+            .collect();
+        let first = there.first()?.display();
+        Some(match (self.is_turntable, there.len()) {
+            (false, _) => format!("\"{first}\" is there already. Its contents would be lost."),
+            (true, 1) => format!(
+                "\"{first}\" is there already, one of {frames} pictures. Its contents would be lost."
+            ),
+            (true, n) => format!(
+                "{n} of {frames} pictures are there already, \"{first}\" first. Their contents would be lost."
+            ),
+        })
+    }
+
+    fn replace_buttons(&mut self, ui: &mut Ui, question: &str) -> Option<Answer> {
+        ui.colored_label(ui.visuals().warn_fg_color, question);
+        let answer = ui.horizontal(|ui| {
+            let replace = match self.is_turntable {
+                true => "Replace the pictures",
+                false => "Replace the file",
+            };
+            if ui.button(replace).clicked() {
+                return Some(Some(Answer::Start));
+            }
+            ui.button("Choose another name").clicked().then_some(None)
+        });
+        let answer = answer.inner?;
+        self.question = None;
+        answer
+    }
+
+    /// What the samples are with depth of field.
+    fn lens_remark(&self) -> String {
+        let samples = Batches::new(self.samples).samples();
+        let points = samples.div_ceil(BATCH_SAMPLES);
+        let s = if points == 1 { "" } else { "s" };
+        let grain = match samples < SHADOW_SAMPLES {
+            true => format!("; {SHADOW_SAMPLES} make blur smooth"),
+            false => String::new(),
+        };
+        format!(
+            "Depth of field: {samples} samples look through {points} point{s} of the lens{grain}."
+        )
     }
 
     fn size_rows(&mut self, ui: &mut Ui, window_px: [u32; 2], scene_px: [u32; 2]) {
@@ -199,7 +281,7 @@ impl Form {
             let edit = TextEdit::singleline(&mut self.path).desired_width(300.0);
             let response = ui.add(edit).labelled_by(label.id);
             if response.changed() {
-                self.refused = None;
+                (self.refused, self.question) = (None, None);
             }
             if ui.button("Choose file…").clicked() {
                 answer = Some(Answer::ChooseFile);
@@ -211,11 +293,7 @@ impl Form {
 
     /// What will come of it.
     fn remarks(&mut self, ui: &mut Ui) {
-        let first = self.first_path();
-        let is_there = match &self.seen {
-            Some((path, is_there)) if *path == first => *is_there,
-            _ => first.exists(),
-        };
+        let first = self.motion().path(&self.path(), 0);
         let ending = first.extension().unwrap_or_default().to_string_lossy();
         let format = match ending.to_lowercase().as_str() {
             "png" => "PNG: as the window shows it.",
@@ -224,15 +302,14 @@ impl Form {
             }
             _ => "End the name in .png or .exr.",
         };
-        let names = first.file_name().unwrap_or_default().to_string_lossy();
-        let names = match (self.is_turntable, is_there) {
-            (true, false) => format!(" The first picture is {names}."),
-            (true, true) => format!(" {names} exists: pictures of these names are replaced."),
-            (false, true) => format!(" {names} exists and is replaced."),
-            (false, false) => String::new(),
+        let names = match self.is_turntable {
+            true => {
+                let name = first.file_name().unwrap_or_default();
+                format!(" The first picture is {}.", name.to_string_lossy())
+            }
+            false => String::new(),
         };
         ui.label(RichText::new(format!("{format}{names}")).weak());
-        self.seen = Some((first, is_there));
         if self.is_too_large() {
             ui.label(format!("At most {} million pixels.", MOST_PX >> 20));
         }

@@ -6,9 +6,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use hairline_cpu::closed_form::TILE_PX;
 use hairline_editor::navigate;
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
-use hairline_image::{Display, Image, Output, filter_found};
+use hairline_image::{Batches, Display, Image, Output, filter_found};
 use hairline_index::method::Method;
-use hairline_scene::{Description, Scene, Transport};
+use hairline_scene::{Camera, Description, Scene, Transport};
 
 use crate::engine::{Backend, Built, Wake, bands};
 use crate::jobs::Stop;
@@ -20,6 +20,16 @@ pub(super) enum Motion {
     Still,
     /// Pictures on the way around the target. The step after the last one would complete the angle.
     Turntable { frames: u32, degrees: f64 },
+}
+
+impl Motion {
+    /// Where a picture goes, counted from 0: NAME.png, or NAME-0001.png and on.
+    pub fn path(self, path: &Path, frame: u32) -> PathBuf {
+        match self {
+            Self::Still => path.to_owned(),
+            Self::Turntable { .. } => numbered(path, frame + 1),
+        }
+    }
 }
 
 /// What is to be exported.
@@ -47,12 +57,9 @@ impl Wish {
         }
     }
 
-    /// Where a picture goes, counted from 0: NAME.png, or NAME-0001.png and on.
+    /// Where a picture goes, counted from 0.
     pub fn frame_path(&self, frame: u32) -> PathBuf {
-        match self.motion {
-            Motion::Still => self.path.clone(),
-            Motion::Turntable { .. } => numbered(&self.path, frame + 1),
-        }
+        self.motion.path(&self.path, frame)
     }
 
     fn scene(&self, built: &Built, frame: u32) -> Scene {
@@ -71,6 +78,15 @@ impl Wish {
         }
     }
 
+    /// The batches that a picture's samples add up in, if they do. As many as were asked for: elsewhere a lens has 64 at least, and the form
+    /// says what fewer look like.
+    fn batches(&self, camera: &Camera) -> Option<Batches> {
+        match camera.has_lens() {
+            true => Some(Batches::new(self.samples)),
+            false => self.transport.batches(camera, self.samples),
+        }
+    }
+
     fn display(&self) -> Display {
         Display {
             exposure_ev: self.description.camera.exposure_ev,
@@ -79,7 +95,7 @@ impl Wish {
     }
 }
 
-pub(super) fn numbered(path: &Path, number: u32) -> PathBuf {
+fn numbered(path: &Path, number: u32) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!("{stem}-{number:04}.{ending}"))
@@ -176,7 +192,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
             return Ok(false);
         }
         if wish.is_transparent {
-            let batches = wish.transport.batches(&scene.camera, wish.samples);
+            let batches = wish.batches(&scene.camera);
             let all = batches.map_or(wish.samples, |it| it.samples());
             image.alpha = Some(hairline_cpu::alpha(&scene, &built.triangles, all, all));
         }
@@ -256,8 +272,16 @@ impl Painter {
         match self {
             Self::Cpu => {
                 let (samples, transport) = (wish.samples, wish.transport);
-                let image = bands::render(built, scene, samples, transport, CPU_BAND_PX, go_on);
-                Ok(image)
+                let batches = wish.batches(&scene.camera);
+                Ok(bands::render(
+                    built,
+                    scene,
+                    samples,
+                    transport,
+                    batches,
+                    CPU_BAND_PX,
+                    go_on,
+                ))
             }
             Self::Gpu {
                 renderer,
@@ -269,7 +293,7 @@ impl Painter {
                     ..Default::default()
                 };
                 let band_px = *band_px;
-                let Some(mut batches) = wish.transport.batches(&scene.camera, wish.samples) else {
+                let Some(mut batches) = wish.batches(&scene.camera) else {
                     return on_gpu_in_bands(renderer, uploaded, scene, &options, band_px, go_on)
                         .await;
                 };

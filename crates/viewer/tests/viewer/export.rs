@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use egui_kittest::{Harness, kittest::Queryable};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_editor::navigate;
 use hairline_gpu::headless;
@@ -332,4 +333,82 @@ fn a_transparent_picture_has_alpha_and_is_taken_from_where_the_window_looks() {
             assert_eq!(bytes[25], 6, "red, green, blue and alpha");
         }
     }
+}
+
+/// Asked once, answered no by Escape and yes by the button; the next export asks again.
+#[test]
+fn a_picture_that_is_there_is_replaced_only_after_a_question() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("done.png");
+    std::fs::write(&path, "a finished picture").unwrap();
+    let mut harness = viewer(TINY);
+    for _ in 0..2 {
+        let before = std::fs::read(&path).unwrap();
+        save_picture(&mut harness, &path);
+        assert!(!harness.state().is_exporting());
+        harness.get_by_label_contains("done.png\" is there already");
+        common::key(&mut harness, Key::Escape);
+        assert!(harness.query_by_label("Replace the file").is_none());
+        common::click_on(&mut harness, "Save the picture");
+        assert_eq!(std::fs::read(&path).unwrap(), before);
+        common::click_on(&mut harness, "Replace the file");
+        wait_exported(&mut harness);
+        assert_eq!(codes_of(&path).len(), 3 * 48 * 32);
+    }
+}
+
+#[test]
+fn pictures_of_a_turntable_that_are_there_are_counted_before_they_are_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["t-0002.png", "t-0003.png", "t-0007.png"] {
+        std::fs::write(folder.path().join(name), "a finished picture").unwrap();
+    }
+    let mut harness = viewer(TINY);
+    export_turntable(&mut harness, &folder.path().join("t.png"), 3);
+    assert!(!harness.state().is_exporting());
+    harness.get_by_label_contains("2 of 3 pictures are there already");
+    common::click_on(&mut harness, "Replace the pictures");
+    wait_exported(&mut harness);
+    assert_eq!(
+        codes_of(&folder.path().join("t-0003.png")).len(),
+        3 * 48 * 32
+    );
+}
+
+/// As many samples as were asked for are taken of a lens too, and the dialog says what few of them look like.
+#[test]
+fn a_lens_has_the_samples_that_were_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = viewer(TINY);
+    let document = harness.state_mut().document_mut();
+    document.edit("by the test", |d| d.camera.aperture_mm = Some(5.0));
+    common::wait_built(&mut harness);
+    let path = folder.path().join("a.exr");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::P);
+    harness.run_steps(3);
+    let samples = |harness: &Harness<'static, Viewer>| {
+        let node = harness.get_by_role_and_label(Role::SpinButton, "Samples");
+        node.accesskit_node().numeric_value()
+    };
+    assert_eq!(samples(&harness), Some(64.0), "enough for a smooth blur");
+    harness
+        .get_by_role_and_label(Role::SpinButton, "Samples")
+        .set_value_accesskit(4.0);
+    harness.run_steps(3);
+    harness.get_by_label_contains("4 samples look through 1 point of the lens");
+    type_path(&mut harness, &path);
+    common::click_on(&mut harness, "Save the picture");
+    wait_exported(&mut harness);
+    let description = common::description(&harness);
+    let scene = Loader::default()
+        .build(&description, Path::new(""))
+        .unwrap();
+    let options = RenderOptions {
+        samples: 4,
+        ..RenderOptions::default()
+    };
+    let right = closed_form::render(&scene, &options, &|_| {});
+    let found = exr_file::read_image(&path).unwrap();
+    let difference = layer_difference(&found, &right, Layer::Beauty, None);
+    assert!(difference.relative_rms() < 1e-3, "{difference:?}");
 }
