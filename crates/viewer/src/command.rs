@@ -279,14 +279,28 @@ impl Command {
                 .count()
         };
         keys.sort_by_key(|(_, key)| std::cmp::Reverse(modifiers(&key.modifiers)));
-        let wanted = |(command, key): (Self, KeyboardShortcut)| {
+        keys.retain(|(_, key)| {
             let is_taken = is_typing && !key.modifiers.command
                 || escape_is_taken && key.logical_key == Key::Escape;
-            let is_pressed = !is_taken && ctx.input_mut(|input| input.consume_shortcut(&key));
-            is_pressed.then_some(command)
-        };
-        keys.into_iter().filter_map(wanted).collect()
+            !is_taken
+        });
+        // One by one and in their order: a slow pass gathers several presses of a key.
+        let mut pressed = Vec::new();
+        ctx.input_mut(|input| {
+            input.events.retain(|event| {
+                let command = keys.iter().find(|(_, key)| is_press(event, key));
+                pressed.extend(command.map(|(command, _)| *command));
+                command.is_none()
+            });
+        });
+        pressed
     }
+}
+
+/// Whether an event is the press of a shortcut, with further modifiers or without.
+fn is_press(event: &egui::Event, shortcut: &KeyboardShortcut) -> bool {
+    matches!(event, egui::Event::Key { key, modifiers, pressed: true, .. }
+        if *key == shortcut.logical_key && modifiers.matches_logically(shortcut.modifiers))
 }
 
 /// The keys of a command besides its first.

@@ -193,3 +193,38 @@ fn menus_hold_what_keys_do() {
     // The toolbar has one too.
     assert!(harness.query_all_by_label_contains("Undo").count() >= 2);
 }
+
+/// However many of them a slow pass has gathered, and in their order.
+#[test]
+fn each_press_of_undo_and_redo_in_one_pass_is_a_step() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    for i in 1..=12 {
+        let document = harness.state_mut().document_mut();
+        document.edit("Exposure", |d| d.camera.exposure_ev = f64::from(i));
+    }
+    let exposure_ev = |harness: &Harness<'static, Viewer>| description(harness).camera.exposure_ev;
+    let mut pressed = |shift: &[bool]| {
+        for shift in shift {
+            let modifiers = match shift {
+                true => Modifiers::COMMAND | Modifiers::SHIFT,
+                false => Modifiers::COMMAND,
+            };
+            for pressed in [true, false] {
+                harness.input_mut().events.push(egui::Event::Key {
+                    key: Key::Z,
+                    physical_key: None,
+                    pressed,
+                    repeat: false,
+                    modifiers,
+                });
+            }
+        }
+        harness.run_steps(2);
+        exposure_ev(&harness)
+    };
+    assert_eq!(pressed(&[false; 10]), 2.0);
+    assert_eq!(pressed(&[true; 7]), 9.0);
+    // Back three, forth one, back one: in another order it would be something else.
+    assert_eq!(pressed(&[true, true, true, true, false, true, false]), 11.0);
+}
