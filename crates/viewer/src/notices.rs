@@ -61,6 +61,12 @@ impl Notices {
         self.list.retain(|notice| notice.topic != topic);
     }
 
+    /// Another scene is there: what was told of the one before goes. What is told of the machine stays.
+    pub fn begin_scene(&mut self) {
+        self.list
+            .retain(|notice| matches!(notice.topic, "device" | "autosave"));
+    }
+
     fn push(&mut self, kind: Kind, topic: &'static str, text: String) {
         self.clear(topic);
         self.list.push(Notice {

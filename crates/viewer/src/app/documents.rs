@@ -151,7 +151,8 @@ impl Viewer {
         work.free_view.end();
         work.toolbox.tool = Tool::Select;
         work.snapshots = Snapshots::default();
-        work.notices.clear("open");
+        work.closed_lens = None;
+        work.notices.begin_scene();
         work.tell_notes();
         work.bookmarks.open(work.document.path());
         if let Some(path) = work.document.path() {

@@ -320,3 +320,25 @@ fn a_models_axis_and_size_are_in_its_panel() {
     click_on(&mut harness, "z, as in CAD");
     assert_eq!(object(&harness).up, hairline_scene::description::Up::Z);
 }
+
+/// What was wrong with the scene before is nothing to the one that is opened.
+#[test]
+fn messages_about_a_scene_go_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("other.toml");
+    std::fs::write(&path, SMALL).unwrap();
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    harness.key_press(egui::Key::L);
+    harness.run_steps(2);
+    let on_disk = crate::common::picture(&harness).center() + egui::vec2(40.0, 60.0);
+    crate::common::click_at(&mut harness, on_disk);
+    harness.run_steps(2);
+    let told = harness.state().messages().concat();
+    assert!(told.contains("Select a light first"), "{told:?}");
+    drop_file(&mut harness, &folder.path().join("none.toml"));
+    assert_eq!(harness.state().messages().len(), 2);
+    drop_file(&mut harness, &path);
+    assert_eq!(harness.state().document().path(), Some(path.as_path()));
+    assert_eq!(harness.state().messages(), [""; 0]);
+}
