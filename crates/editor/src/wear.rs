@@ -1,7 +1,7 @@
 //! What an object has been through, as one choice that lays and removes several layers of scratches.
 
 use hairline_scene::Description;
-use hairline_scene::description::{Object, Scratches};
+use hairline_scene::description::{Distribution, Layer, Object, Pattern, Scratches};
 use hairline_scene::wear::is_wear;
 
 pub use hairline_scene::wear::Wear;
@@ -9,19 +9,73 @@ pub use hairline_scene::wear::Wear;
 use crate::actions::ActionError;
 use crate::selection::Selection;
 
-/// What an object has been through: none if layers of wear were changed by hand.
-pub fn wear_of(description: &Description, object: &str, diagonal_m: f64) -> Option<Wear> {
+/// What an object has been through: none if layers of wear were changed by hand. The size that they were laid for is read from them: the
+/// object may be another size by now, and its box is measured in more than one way.
+pub fn wear_of(description: &Description, object: &str) -> Option<Wear> {
     let layers = description.scratches.iter();
     let there: Vec<&Scratches> = layers
         .filter(|layer| layer.object == object && is_wear(layer))
         .collect();
     Wear::ALL.into_iter().find(|wear| {
+        let lengths_m = [wear.layers(object, 1.0).first(), there.first().copied()].map(length_m);
+        let diagonal_m = match lengths_m {
+            [Some(of_a_metre), Some(found)] => found / of_a_metre,
+            _ => 1.0,
+        };
         let wanted = wear.layers(object, diagonal_m);
-        wanted.len() == there.len() && wanted.iter().zip(&there).all(|(a, b)| a.layer == b.layer)
+        wanted.len() == there.len()
+            && wanted
+                .iter()
+                .zip(&there)
+                .all(|(a, b)| is_alike(&a.layer, &b.layer))
     })
 }
 
-/// Gives an object a wear: its layers of wear, in the place of those that were there, behind its other layers.
+fn length_m(layer: Option<&Scratches>) -> Option<f64> {
+    match &layer?.layer {
+        Layer::Laid(laid) => Some(laid.length_m.mean),
+        _ => None,
+    }
+}
+
+/// Whether two layers are the same but for the rounding of what scales with their object's size.
+fn is_alike(a: &Layer, b: &Layer) -> bool {
+    let (Layer::Laid(a), Layer::Laid(b)) = (a, b) else {
+        return false;
+    };
+    let mut rounded = b.clone();
+    take_rounded(&mut rounded.length_m, &a.length_m);
+    match (&mut rounded.pattern, &a.pattern) {
+        (
+            Pattern::Random { curvature_per_m },
+            Pattern::Random {
+                curvature_per_m: to,
+            },
+        )
+        | (
+            Pattern::Swirl { curvature_per_m },
+            Pattern::Swirl {
+                curvature_per_m: to,
+            },
+        ) => {
+            take_rounded(curvature_per_m, to);
+        }
+        _ => {}
+    }
+    rounded == *a
+}
+
+/// Takes the numbers of `to` where they differ by a rounding.
+fn take_rounded(value: &mut Distribution, to: &Distribution) {
+    for (value, to) in [(&mut value.mean, to.mean), (&mut value.spread, to.spread)] {
+        if (*value - to).abs() <= 1e-9 * to.abs() {
+            *value = to;
+        }
+    }
+}
+
+/// Gives an object a wear: its layers of wear, in the place of the first of those that were there; behind its other layers where there were
+/// none.
 ///
 /// # Errors
 /// [`ActionError::Missing`].
@@ -36,9 +90,11 @@ pub fn set_wear(
     };
     let name = name.clone();
     let layers = &mut description.scratches;
-    layers.retain(|layer| layer.object != name || !is_wear(layer));
-    let last = layers.iter().rposition(|layer| layer.object == name);
-    let place = last.map_or(layers.len(), |last| last + 1);
+    let is_own_wear = |layer: &Scratches| layer.object == name && is_wear(layer);
+    let first = layers.iter().position(is_own_wear);
+    layers.retain(|layer| !is_own_wear(layer));
+    let behind = || Some(layers.iter().rposition(|layer| layer.object == name)? + 1);
+    let place = first.or_else(behind).unwrap_or(layers.len());
     layers.splice(place..place, wear.layers(&name, diagonal_m));
     Ok(Selection::Object(object))
 }
@@ -46,7 +102,7 @@ pub fn set_wear(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hairline_scene::description::{Amount, Laid, Layer};
+    use hairline_scene::description::{Amount, Laid};
     use std::path::Path;
 
     const SCENE: &str = "[camera]\nposition_m = [0.0, -1.0, 1.0]\ntarget_m = [0.0, 0.0, 0.0]\n\
@@ -72,13 +128,13 @@ mod tests {
     fn grades_replace_one_another_and_leave_other_layers_alone() {
         let mut description = Description::from_toml(SCENE, Path::new("scene.toml")).unwrap();
         let before = description.clone();
-        assert_eq!(wear_of(&description, "pan", 0.28), Some(Wear::New));
+        assert_eq!(wear_of(&description, "pan"), Some(Wear::New));
         let mut sums = Vec::new();
         for wear in [Wear::Used, Wear::Old, Wear::Worn, Wear::Old] {
             let selection = set_wear(&mut description, 0, 0.28, wear).unwrap();
             assert_eq!(selection, Selection::Object(0));
-            assert_eq!(wear_of(&description, "pan", 0.28), Some(wear));
-            assert_eq!(wear_of(&description, "lid", 0.28), Some(Wear::New));
+            assert_eq!(wear_of(&description, "pan"), Some(wear));
+            assert_eq!(wear_of(&description, "lid"), Some(Wear::New));
             description.check().unwrap();
             // Behind the object's own layers, before those of the next.
             assert_eq!(description.scratches[0], before.scratches[0]);
@@ -91,10 +147,53 @@ mod tests {
         );
         // What was changed by hand has no grade.
         description.scratches[1].layer = before.scratches[0].layer.clone();
-        assert_eq!(wear_of(&description, "pan", 0.28), None);
+        assert_eq!(wear_of(&description, "pan"), None);
         set_wear(&mut description, 0, 0.28, Wear::New).unwrap();
         assert_eq!(description, before);
         assert!(set_wear(&mut description, 7, 0.28, Wear::Old).is_err());
+    }
+
+    #[test]
+    fn a_grade_takes_the_place_of_the_one_before() {
+        let mut description = Description::from_toml(SCENE, Path::new("scene.toml")).unwrap();
+        set_wear(&mut description, 0, 0.28, Wear::Used).unwrap();
+        // One's own layers around it, and one in its middle.
+        let own = Scratches {
+            name: Some("own".to_owned()),
+            ..description.scratches[0].clone()
+        };
+        description.scratches.insert(2, own.clone());
+        description.scratches.insert(4, own);
+        set_wear(&mut description, 0, 0.28, Wear::Old).unwrap();
+        let names: Vec<_> = description
+            .scratches
+            .iter()
+            .map(|layer| layer.name.as_deref().unwrap_or("-"))
+            .collect();
+        assert_eq!(
+            names,
+            [
+                "-",
+                "wear: hairlines",
+                "wear: swirls of cleaning",
+                "wear: marks",
+                "wear: gouges",
+                "own",
+                "own",
+                "-"
+            ]
+        );
+    }
+
+    #[test]
+    fn the_grade_is_known_whatever_size_it_was_laid_for() {
+        let mut description = Description::from_toml(SCENE, Path::new("scene.toml")).unwrap();
+        for diagonal_m in [0.001, 0.0319, 0.28, 7.77] {
+            for wear in Wear::ALL {
+                set_wear(&mut description, 0, diagonal_m, wear).unwrap();
+                assert_eq!(wear_of(&description, "pan"), Some(wear), "{diagonal_m}");
+            }
+        }
     }
 
     #[test]

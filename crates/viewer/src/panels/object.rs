@@ -106,7 +106,7 @@ fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
     let Some(name) = description.objects.get(object).map(|o| o.name.clone()) else {
         return;
     };
-    let is = wear::wear_of(description, &name, diagonal_m);
+    let is = wear::wear_of(description, &name);
     ui.label("Wear");
     let mut chosen = None;
     // The panel keeps its width.

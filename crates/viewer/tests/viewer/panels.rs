@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::common::{self, BUILT_IN, click_on, description, viewer, wait_built};
+use crate::common::{
+    self, BUILT_IN, SMALL, click_on, description, viewer, viewer_with, wait_built,
+};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -12,7 +14,8 @@ use hairline_image::{Display, Output, Picture};
 use hairline_scene::Description;
 use hairline_scene::description::Amount;
 use hairline_scene::description::{Environment, Layer, Map, Pattern};
-use hairline_viewer::Viewer;
+use hairline_viewer::engine::Backend;
+use hairline_viewer::{Options, Viewer};
 
 /// What the panel on the right holds of a kind.
 pub fn controls(harness: &Harness<'static, Viewer>, role: Role) -> Vec<String> {
@@ -393,4 +396,71 @@ fn undo_all_redo_all_save_and_open() {
     let read = Description::from_toml(&saved, &path).unwrap();
     assert_eq!(read, *last);
     assert!(Arc::strong_count(&last) > 0);
+}
+
+/// Neither before it is built nor after: its box is measured anew by whoever asks.
+#[test]
+fn wear_that_was_laid_for_an_opened_model_is_its_grade() {
+    let folder = tempfile::tempdir().unwrap();
+    crate::picking::two_squares(folder.path());
+    let path = folder.path().join("a.gltf");
+    let mut harness = viewer_with(Options {
+        scene: Some(path),
+        built_in: SMALL,
+        backend: Backend::Cpu,
+        state_dir: None,
+        native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
+    });
+    harness
+        .state_mut()
+        .document_mut()
+        .select(Selection::Object(0));
+    let by_hand = |harness: &Harness<'static, Viewer>| {
+        harness.query_by_label_contains("changed by hand").is_some()
+    };
+    harness.step();
+    assert!(!by_hand(&harness), "before it is built");
+    wait_built(&mut harness);
+    assert!(!by_hand(&harness), "once it is built");
+    let document = harness.state_mut().document_mut();
+    document.edit("by the test", |d| d.objects[0].scale = [2.0; 3]);
+    wait_built(&mut harness);
+    assert!(!by_hand(&harness), "of another size");
+}
+
+/// Whatever is selected: else the picture would be painted anew.
+#[test]
+fn the_picture_keeps_its_width() {
+    let mut harness = viewer(BUILT_IN);
+    wait_built(&mut harness);
+    let d = description(&harness);
+    let width = |harness: &Harness<'static, Viewer>| {
+        let view = harness.state().view();
+        view.map(|view| view.size_px)
+    };
+    let before = width(&harness);
+    let lights = (0..d.lights.len()).map(Selection::Light);
+    let objects = (0..d.objects.len()).map(Selection::Object);
+    let layers = (0..d.scratches.len()).map(Selection::Layer);
+    let materials = (0..d.materials.len()).map(Selection::Material);
+    let others = [
+        Selection::Camera,
+        Selection::Environment,
+        Selection::Studio,
+        Selection::Ground,
+        Selection::None,
+    ];
+    for selection in lights
+        .chain(objects)
+        .chain(layers)
+        .chain(materials)
+        .chain(others)
+    {
+        harness.state_mut().document_mut().select(selection);
+        for _ in 0..4 {
+            harness.step();
+            assert_eq!(width(&harness), before, "{selection:?}");
+        }
+    }
 }
