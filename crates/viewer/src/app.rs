@@ -120,6 +120,7 @@ impl Viewer {
             gallery: Gallery::default(),
             bookmarks,
             snapshots: Snapshots::default(),
+            closed_lens: None,
             model_notes: Vec::new(),
             wished: Vec::new(),
         };

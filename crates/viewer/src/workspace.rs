@@ -36,6 +36,8 @@ pub(crate) struct Workspace {
     pub gallery: Gallery,
     pub bookmarks: Bookmarks,
     pub snapshots: Snapshots,
+    /// Opening in millimetres and focus of the camera when depth of field was switched off, to be taken up again.
+    pub closed_lens: Option<(f64, Option<f64>)>,
     /// What was told of the scene's models last.
     pub model_notes: Vec<String>,
     /// What panels ask for, to be done once all are shown.

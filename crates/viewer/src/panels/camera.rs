@@ -23,7 +23,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     form.number(Parameter::FieldOfView, &mut camera.fov_y_deg);
     let size_px = description.render.size_px;
     focal_length(&mut form, &mut camera, size_px);
-    lens(&mut form, &mut camera, size_px);
+    lens(&mut form, &mut camera, size_px, &mut work.closed_lens);
     form.vector(Parameter::CameraPosition, &mut camera.position_m);
     form.vector(Parameter::CameraTarget, &mut camera.target_m);
     form.vector(Parameter::CameraUp, &mut camera.up);
@@ -110,19 +110,30 @@ fn in_metres(form: &mut Form, parameter: Parameter, before_mm: f64, set_mm: impl
     }
 }
 
-/// A lens in place of a pinhole.
-fn lens(form: &mut Form, camera: &mut Camera, size_px: [u32; 2]) {
+/// A lens in place of a pinhole. `closed` is the one that was taken off last.
+fn lens(
+    form: &mut Form,
+    camera: &mut Camera,
+    size_px: [u32; 2],
+    closed: &mut Option<(f64, Option<f64>)>,
+) {
+    let had_lens = camera.aperture_mm.is_some();
     let mut has_lens = camera.aperture_mm.is_some();
     form.toggle(
         "Depth of field",
         "A lens in place of a pinhole: what is nearer or farther than its focus blurs, once the view stands still",
         &mut has_lens,
     );
-    let mut focus_m = camera.lens().focus_m;
     if !has_lens {
+        let open = camera.aperture_mm.map(|mm| (mm, camera.focus_distance_m));
+        *closed = open.or(*closed);
         (camera.aperture_mm, camera.focus_distance_m) = (None, None);
         return;
     }
+    if let (false, Some((aperture_mm, focus_m))) = (had_lens, *closed) {
+        (camera.aperture_mm, camera.focus_distance_m) = (Some(aperture_mm), focus_m);
+    }
+    let mut focus_m = camera.lens().focus_m;
     // By default a hundredth of the distance of what is in focus.
     let aperture_mm = *camera.aperture_mm.get_or_insert(10.0 * focus_m);
     // A closed one has no f-stop.
