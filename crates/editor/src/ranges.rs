@@ -1,7 +1,8 @@
 //! What the controls of a panel need to know of each number of the scene file: where a slider ends, where the scene does,
 //! how it counts, and what it does to the look.
 //!
-//! Hard limits are the scene's own, from [`limits`]; sliders end where looks do, and typing goes on to the hard ones.
+//! Hard limits are the scene's own, from [`limits`]; sliders end where looks do, and typing goes on to the hard ones. Where the scene has no
+//! limit, typing ends far beyond any use, so that a slip of the hand is refused.
 
 mod parameter;
 mod texts;
@@ -21,7 +22,7 @@ pub struct Range {
     pub label: &'static str,
     /// From one end of the slider to the other: what looks good lies within.
     pub slider: RangeInclusive<f64>,
-    /// What the scene allows.
+    /// What may be typed.
     pub hard: RangeInclusive<f64>,
     /// Whether equal ways of the slider are equal factors.
     pub logarithmic: bool,
@@ -144,10 +145,13 @@ impl Parameter {
             true => diagonal_m.clamp(1e-3, 100.0),
             false => DEFAULT_DIAGONAL_M,
         };
-        const ANY: RangeInclusive<f64> = -f64::MAX..=f64::MAX;
+        // Times all exposures of a scene it is still a number of single precision.
+        const BRIGHTNESS: RangeInclusive<f64> = 0.0..=1e15;
+        // Some thousand turns.
+        const TURN_DEG: RangeInclusive<f64> = -1e6..=1e6;
+        const DENSITY: RangeInclusive<f64> = 0.0..=1e12;
         // 2^53: beyond it a control's number is no longer the whole number that it shows. The scene's own end is 2^63.
         const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
-        const NOT_NEGATIVE: RangeInclusive<f64> = 0.0..=f64::MAX;
         let (slider, hard) = match self {
             P::CameraPosition | P::CameraTarget => (-5.0 * d..=5.0 * d, limits::COORDINATE_M),
             P::CameraUp | P::Axis | P::Direction | P::SunDirection => {
@@ -162,13 +166,13 @@ impl Parameter {
             P::Exposure => (-8.0..=8.0, limits::EXPOSURE_EV),
             P::PictureSize => (64.0..=4096.0, limits::PICTURE_PX),
             P::Filter => (0.3..=2.0, limits::FILTER_STD_PX),
-            P::EnvironmentRotation | P::StudioRotation | P::Rotation => (-180.0..=180.0, ANY),
-            P::EnvironmentIntensity | P::StudioIntensity => (0.01..=10.0, NOT_NEGATIVE),
+            P::EnvironmentRotation | P::StudioRotation | P::Rotation => (-180.0..=180.0, TURN_DEG),
+            P::EnvironmentIntensity | P::StudioIntensity => (0.01..=10.0, BRIGHTNESS),
             P::Roughness => (0.0..=0.6, limits::ROUGHNESS),
             P::Clearcoat => (0.0..=1.0, limits::CLEARCOAT),
             P::ClearcoatRoughness => (0.0..=0.6, limits::ROUGHNESS),
             P::Anisotropy => (0.0..=1.0, limits::ANISOTROPY),
-            P::AnisotropyDirection => (-90.0..=90.0, ANY),
+            P::AnisotropyDirection => (-90.0..=90.0, TURN_DEG),
             P::Coherence => (5.0..=100.0, limits::COHERENCE_UM),
             P::Ior => (1.0..=2.5, limits::IOR),
             P::BaseColor => (0.0..=1.0, limits::BASE_COLOR),
@@ -187,7 +191,7 @@ impl Parameter {
             P::ProfileRadius => (0.0..=d, limits::PROFILE_RADIUS_M),
             P::ProfileHeight | P::GroundHeight => (-d..=d, limits::COORDINATE_M),
             P::Count => (10.0..=100_000.0, 0.0..=LARGEST_EXACT),
-            P::Density => (10.0 / (d * d)..=100_000.0 / (d * d), NOT_NEGATIVE),
+            P::Density => (10.0 / (d * d)..=100_000.0 / (d * d), DENSITY),
             P::Seed => (0.0..=1000.0, 0.0..=LARGEST_EXACT),
             P::Length => (1e-3 * d..=2.0 * d, above_zero(limits::SCRATCH_LENGTH_M)),
             P::LengthSpread => (0.0..=1.5, limits::LOG_NORMAL_SPREAD),
@@ -213,22 +217,22 @@ impl Parameter {
             }
             P::AxisCenter | P::PlaceCenter => (-d..=d, limits::COORDINATE_M),
             P::BrushRadius => (2e-3 * d..=0.3 * d, limits::SIZE_M),
-            P::BrushDensity => (10.0 / d..=10_000.0 / d, NOT_NEGATIVE),
+            P::BrushDensity => (10.0 / d..=10_000.0 / d, DENSITY),
             P::BrushWidth | P::BrushDepth => (0.25..=4.0, limits::STROKE_FACTOR),
             P::LightCenter | P::LightTarget | P::LightVertex | P::LightEnd => {
                 (-5.0 * d..=5.0 * d, limits::COORDINATE_M)
             }
             P::LightRadius | P::LightWidth | P::LightHeight => (2e-3 * d..=d, limits::SIZE_M),
             P::SunAngle => (0.1..=10.0, limits::SUN_ANGLE_DEG),
-            P::Irradiance => (1e-3..=10.0, NOT_NEGATIVE),
+            P::Irradiance => (1e-3..=10.0, BRIGHTNESS),
             P::LightCone => (5.0..=180.0, limits::CONE_DEG),
             P::LightSoftness => (0.0..=1.0, 0.0..=1.0),
             P::LightDoor => (0.0..=90.0, limits::BARN_DOOR_DEG),
             P::LightRotation => (-180.0..=180.0, limits::ROTATION_DEG),
-            P::Radiance => (0.01..=1000.0, NOT_NEGATIVE),
+            P::Radiance => (0.01..=1000.0, BRIGHTNESS),
             P::LightExposure => (-8.0..=8.0, limits::EXPOSURE_EV),
             P::LightTemperature => (1800.0..=10_000.0, limits::TEMPERATURE_K),
-            P::LightColor => (0.0..=1.0, NOT_NEGATIVE),
+            P::LightColor => (0.0..=1.0, BRIGHTNESS),
         };
         let text = texts::of(self);
         Range {

@@ -21,8 +21,6 @@ pub(super) struct NumberBox<'a> {
 enum Typed {
     #[default]
     Taken,
-    /// Taken, but not as it was typed.
-    Cut(String),
     Refused(String),
 }
 
@@ -50,6 +48,8 @@ impl NumberBox<'_> {
         };
         let mut drag = DragValue::new(value)
             .range(range.hard.clone())
+            // A file may hold more than may be typed: to look at it changes nothing.
+            .clamp_existing_to_range(false)
             .speed(speed)
             .prefix(self.prefix)
             .custom_formatter(|number, _| self.shown.text(number))
@@ -75,24 +75,22 @@ impl NumberBox<'_> {
                 return (Typed::Refused(why), None);
             }
         };
-        let beyond = |end: f64, most: &str| {
-            let end = self.range.unit.shown(end).text(end);
-            Typed::Cut(format!(
-                "{}: {end} is the {most} that the scene allows.",
-                self.label
-            ))
-        };
-        let typed = match number {
-            _ if number > *hard.end() => beyond(*hard.end(), "most"),
-            // Zero is refused where the least is the smallest number that there is.
-            _ if number < *hard.start() && *hard.start() == f64::MIN_POSITIVE => {
-                let why = format!("{}: must be more than 0.", self.label);
-                return (Typed::Refused(why), None);
-            }
-            _ if number < *hard.start() => beyond(*hard.start(), "least"),
-            _ => Typed::Taken,
-        };
-        (typed, Some(number))
+        if !hard.contains(&number) {
+            let [least, most] =
+                [hard.start(), hard.end()].map(|end| self.range.unit.shown(*end).text(*end));
+            let right = match *hard.start() == f64::MIN_POSITIVE {
+                // Zero is refused where the least is the smallest number that there is.
+                true => format!("more than 0 and at most {most}"),
+                false => format!("from {least} to {most}"),
+            };
+            let why = format!(
+                "{}: \"{}\" is out of range; it must be {right}.",
+                self.label,
+                words.trim()
+            );
+            return (Typed::Refused(why), None);
+        }
+        (Typed::Taken, Some(number))
     }
 
     /// A red rim and the reason while what was typed last was refused; else the tooltip.
@@ -140,7 +138,7 @@ fn remember(ui: &Ui, response: &Response, typed: Option<Typed>) {
             Typed::Refused(why) => {
                 data.insert_temp(refused_id(response), why.clone());
             }
-            Typed::Taken | Typed::Cut(_) => data.remove::<String>(refused_id(response)),
+            Typed::Taken => data.remove::<String>(refused_id(response)),
         }
         data.insert_temp(told_id(), typed);
     });
@@ -151,6 +149,6 @@ pub(crate) fn told(ctx: &Context) -> Option<Result<(), String>> {
     let typed = ctx.data_mut(|data| data.remove_temp::<Typed>(told_id()))?;
     Some(match typed {
         Typed::Taken => Ok(()),
-        Typed::Cut(why) | Typed::Refused(why) => Err(why),
+        Typed::Refused(why) => Err(why),
     })
 }

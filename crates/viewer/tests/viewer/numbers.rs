@@ -79,7 +79,7 @@ fn what_cannot_be_read_is_told_and_changes_nothing() {
     // What the scene does not allow is said, too.
     type_into(&mut harness, "Width", "1 m");
     let told = harness.state().messages().join(" ");
-    assert!(told.contains("the most"), "{told:?}");
+    assert!(told.contains("at most 100 µm"), "{told:?}");
     // Given up.
     let before = description(&harness);
     harness
@@ -200,4 +200,67 @@ fn a_camera_is_described_by_its_lens_too() {
     let saved = description(&harness).to_toml().unwrap();
     let again = hairline_scene::Description::from_toml(&saved, std::path::Path::new("saved"));
     assert_eq!(again.unwrap(), *description(&harness));
+}
+
+#[test]
+fn what_is_out_of_range_is_refused_with_the_range() {
+    let mut harness = with_layer();
+    let before = description(&harness);
+    for (selection, name, typed, says) in [
+        (
+            Selection::Layer(0),
+            "Width",
+            "0-5",
+            "more than 0 and at most 100 µm",
+        ),
+        (Selection::Layer(0), "Width", "1 m", "at most 100 µm"),
+        (Selection::Layer(0), "Seed", "-1", "from 0 to"),
+        (Selection::Light(0), "Radiance", "1e99", "from 0 to"),
+        (
+            Selection::Object(0),
+            "Rotation x",
+            "1e99",
+            "from -1000000° to 1000000°",
+        ),
+        (Selection::Studio, "Intensity", "1e99", "from 0 to"),
+        (
+            Selection::Camera,
+            "Field of view",
+            "0",
+            "from 0.001° to 179°",
+        ),
+    ] {
+        harness.state_mut().document_mut().select(selection);
+        harness.run_steps(3);
+        type_into(&mut harness, name, typed);
+        assert_eq!(*description(&harness), *before, "{name}: {typed}");
+        let told = harness.state().messages().join(" ");
+        assert!(told.contains(name) && told.contains(typed), "{told:?}");
+        assert!(told.contains(says), "{says:?} is not in {told:?}");
+    }
+}
+
+#[test]
+fn depth_of_field_comes_back_as_it_was() {
+    let mut harness = with_layer();
+    let document = harness.state_mut().document_mut();
+    document.edit("by the test", |d| {
+        d.camera.set_focal_length_mm(50.0, d.render.size_px);
+        d.camera.aperture_mm = Some(50.0 / 5.6);
+        d.camera.focus_distance_m = Some(0.4);
+    });
+    document.select(Selection::Camera);
+    harness.run_steps(3);
+    let before = description(&harness);
+    assert_eq!(shown(&harness, "F-stop"), "5.6");
+    let toggle = |harness: &mut Harness<'static, Viewer>| {
+        harness
+            .get_by_role_and_label(Role::CheckBox, "Depth of field")
+            .click();
+        harness.run_steps(3);
+    };
+    toggle(&mut harness);
+    assert_eq!(description(&harness).camera.aperture_mm, None);
+    toggle(&mut harness);
+    assert_eq!(*description(&harness), *before);
 }
