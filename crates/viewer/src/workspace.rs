@@ -6,9 +6,9 @@ mod view;
 use std::path::Path;
 
 use hairline_editor::bookmarks::Bookmarks;
-use hairline_editor::{ActionError, Document, Selection, actions};
+use hairline_editor::{ActionError, Document, DragKey, Selection, actions};
 use hairline_scene::description::Map;
-use hairline_scene::{Description, Transport};
+use hairline_scene::{Description, Error, Transport};
 
 use crate::command::Command;
 use crate::engine::{Backend, Engine};
@@ -59,6 +59,25 @@ impl Workspace {
         match self.document.apply(label, action) {
             Ok(()) => self.notices.clear("action"),
             Err(error) => self.notices.error("action", error.to_string()),
+        }
+    }
+
+    /// Changes the scene as part of a drag, as [`Document::drag`] does; or tells which of it a scene file could not hold, and changes nothing:
+    /// what is edited can be saved and loaded.
+    pub fn drag(&mut self, label: &str, key: DragKey, change: impl FnOnce(&mut Description)) {
+        let before = self.document.description();
+        let mut changed = Description::clone(before);
+        change(&mut changed);
+        match flaw(&changed) {
+            // What was wrong before is none of this change's.
+            Some(error) if flaw(before).as_ref() != Some(&error) => {
+                let why = format!("{label}: {}; {}.", error.found(), error.right());
+                self.notices.error("change", why);
+            }
+            _ => {
+                self.notices.clear("change");
+                self.document.drag(label, key, |d| *d = changed);
+            }
         }
     }
 
@@ -172,4 +191,10 @@ impl Workspace {
             _ => None,
         }
     }
+}
+
+/// What of a scene its file could not hold.
+fn flaw(description: &Description) -> Option<Error> {
+    let is_right = description.check();
+    is_right.and_then(|()| description.check_references()).err()
 }

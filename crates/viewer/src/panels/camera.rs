@@ -32,8 +32,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
         if camera.exposure_ev == work.document.description().camera.exposure_ev {
             work.free_view.end();
         }
-        work.document
-            .drag(&change.label, change.key, |d| d.camera = camera);
+        work.drag(&change.label, change.key, |d| d.camera = camera);
     }
     ui.add_space(8.0);
     ui.strong("Look from");
@@ -232,7 +231,6 @@ pub(super) fn show_render(ui: &mut Ui, work: &mut Workspace) {
     form.boxes(Parameter::PictureSize, &["w", "h"], &mut size);
     if let Some(change) = form.change() {
         render.size_px = size.map(|side| side.round() as u32);
-        work.document
-            .drag(&change.label, change.key, |d| d.render = render);
+        work.drag(&change.label, change.key, |d| d.render = render);
     }
 }

@@ -49,7 +49,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
         &mut environment.visible,
     );
     if let Some(change) = form.change() {
-        work.document.drag(&change.label, change.key, |d| {
+        work.drag(&change.label, change.key, |d| {
             d.environment = Some(environment);
         });
     }

@@ -202,6 +202,8 @@ impl<'a> Form<'a> {
             let is_given_up = ui.input(|input| input.key_pressed(egui::Key::Escape));
             let changed = response.lost_focus() && typed != *value && !is_given_up;
             if changed {
+                // What was pasted may have ends of lines, which names and paths of scene files have not.
+                typed.retain(|c| !c.is_control());
                 *value = typed;
             }
             changed

@@ -105,7 +105,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace, object: usize, index: usize, mut grat
         }
     }
     if let Some(change) = form.change() {
-        work.document.drag(&change.label, change.key, |d| {
+        work.drag(&change.label, change.key, |d| {
             d.gratings[index] = grating.clone();
         });
     }

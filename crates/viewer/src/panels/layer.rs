@@ -71,7 +71,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         }),
     }
     if let Some(change) = form.change() {
-        work.document.drag(&change.label, change.key, |d| {
+        work.drag(&change.label, change.key, |d| {
             d.scratches[index] = layer.clone();
         });
     }

@@ -102,7 +102,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     doors(&mut form, &mut light);
     picture(&mut form, &mut light);
     if let Some(change) = form.change() {
-        work.document.drag(&change.label, change.key, |d| {
+        work.drag(&change.label, change.key, |d| {
             d.lights[index] = light.clone();
         });
     }
@@ -224,7 +224,7 @@ fn vertices(ui: &mut Ui, work: &mut Workspace, index: usize, vertices_m: &[[f64;
     }
     if let Some((i, to_m, change)) = moved {
         let mut failed = None;
-        work.document.drag(&change.label, change.key, |d| {
+        work.drag(&change.label, change.key, |d| {
             failed = place_light::move_vertex(&mut d.lights[index], i, to_m.into()).err();
         });
         if let Some(error) = failed {

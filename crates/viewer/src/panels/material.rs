@@ -165,7 +165,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             // Objects call it by its name.
             work.apply("Rename material", |d, _| materials::rename(d, index, &name));
         } else {
-            work.document.drag(&change.label, change.key, |d| {
+            work.drag(&change.label, change.key, |d| {
                 d.materials[index] = material;
             });
         }

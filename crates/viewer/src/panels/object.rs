@@ -63,7 +63,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         if name != object.name {
             work.apply("Rename object", |d, _| objects::rename(d, index, &name));
         } else {
-            work.document.drag(&change.label, change.key, |d| {
+            work.drag(&change.label, change.key, |d| {
                 d.objects[index] = object.clone()
             });
         }

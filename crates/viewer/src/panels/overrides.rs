@@ -72,7 +72,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace, index: usize, name: &str, made: &Mate
         (own.base_color, own.metal) = (Some(color), None);
     }
     if let Some(change) = form.change() {
-        work.document.drag(&change.label, change.key, |d| {
+        work.drag(&change.label, change.key, |d| {
             let overrides = &mut d.objects[index].overrides;
             match overrides.iter_mut().find(|it| it.material == name) {
                 Some(known) => *known = own,

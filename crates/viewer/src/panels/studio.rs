@@ -21,7 +21,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     form.number(Parameter::StudioIntensity, &mut studio.intensity);
     form.number(Parameter::StudioRotation, &mut studio.rotation_deg);
     if let Some(change) = form.change() {
-        work.document.drag(&change.label, change.key, |d| {
+        work.drag(&change.label, change.key, |d| {
             d.studio = studio;
         });
     }
@@ -73,7 +73,7 @@ pub(super) fn show_ground(ui: &mut Ui, work: &mut Workspace) {
         }
     }
     if let Some(change) = form.change() {
-        work.document.drag(&change.label, change.key, |d| {
+        work.drag(&change.label, change.key, |d| {
             d.ground = ground;
         });
     }

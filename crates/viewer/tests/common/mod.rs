@@ -4,6 +4,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use egui::accesskit::Role;
 use egui::{PointerButton, Pos2, Rect};
 use egui_kittest::{Harness, kittest::Queryable};
 use hairline_scene::Description;
@@ -16,6 +17,9 @@ pub const BUILT_IN: &str = include_str!("../../../../apps/hairline/src/built_in_
 
 /// A disk with a few scratches, a lamp and a square light, all in the picture; small enough to be built at once.
 pub const SMALL: &str = include_str!("small_scene.toml");
+
+/// Something of each kind that a panel changes; slow to render.
+pub const FULL: &str = include_str!("full_scene.toml");
 
 /// No test waits longer than this for another thread: machines that test may be tenfold slower than they were, for minutes.
 const PATIENCE: Duration = Duration::from_secs(600);
@@ -101,7 +105,7 @@ pub fn light(harness: &Harness<'static, Viewer>, i: usize) -> Light {
 
 /// Where the picture is.
 pub fn picture(harness: &Harness<'static, Viewer>) -> Rect {
-    harness.get_by_label("Picture").rect()
+    harness.get_by_role_and_label(Role::Image, "Picture").rect()
 }
 
 /// Clicks on what has this label, as soon as it is there and no longer moves: what another thread tells of is seen a pass

@@ -29,4 +29,5 @@ mod shadows;
 mod snapshots;
 mod studio;
 mod tooltips;
+mod typed;
 mod views;

@@ -432,7 +432,7 @@ fn wear_that_was_laid_for_an_opened_model_is_its_grade() {
 /// Whatever is selected: else the picture would be painted anew.
 #[test]
 fn the_picture_keeps_its_width() {
-    let mut harness = viewer(BUILT_IN);
+    let mut harness = viewer(common::FULL);
     wait_built(&mut harness);
     let d = description(&harness);
     let width = |harness: &Harness<'static, Viewer>| {
