@@ -66,7 +66,10 @@ fn what_is_typed_into_any_control_can_be_saved_and_loaded() {
     let mut taken = 0;
     for selection in selections {
         selected(&mut harness, selection);
-        for (role, typed) in [(Role::TextInput, TEXTS), (Role::SpinButton, NUMBERS)] {
+        for (role, typed) in [
+            (Role::TextInput, &TEXTS[..]),
+            (Role::SpinButton, &NUMBERS[..]),
+        ] {
             let labels = labels(&harness, role);
             for (place, label) in labels.iter().enumerate() {
                 for text in typed {
