@@ -107,6 +107,18 @@ pub fn set_environment(
     Selection::Environment
 }
 
+/// Names another file wherever one is named.
+///
+/// It is written relative to `base_dir`, the document's.
+pub fn replace_file(description: &mut Description, from: &Path, to: &Path, base_dir: &Path) {
+    let to = paths::written(to, base_dir);
+    for (_, file) in description.files_mut() {
+        if file == from {
+            file.clone_from(&to);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

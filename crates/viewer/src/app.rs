@@ -21,10 +21,11 @@ use crate::compare::{Compare, Figures};
 use crate::dialogs::{Dialogs, Wish};
 use crate::engine::{Backend, Engine};
 use crate::export::Export;
-use crate::files::Files;
+use crate::files::{Files, Purpose};
 use crate::free_view::FreeView;
 use crate::gallery::Gallery;
 use crate::loss::WindowLoss;
+use crate::missing;
 use crate::notices::Notices;
 use crate::overlays::Overlays;
 use crate::panels;
@@ -63,6 +64,10 @@ pub struct Viewer {
     frame_when_built: bool,
     /// The window may close.
     is_closing: bool,
+    /// What was typed last in the line for a path, until it was of use.
+    typed: Option<(Purpose, PathBuf)>,
+    /// The file that is not there and is being looked for, as the scene names it.
+    sought: Option<PathBuf>,
     /// Once the scene is saved, this is done.
     after_save: Option<Wish>,
     hides_list: bool,
@@ -121,6 +126,7 @@ impl Viewer {
             bookmarks,
             snapshots: Snapshots::default(),
             closed_lens: None,
+            missing: Vec::new(),
             model_notes: Vec::new(),
             wished: Vec::new(),
         };
@@ -133,6 +139,8 @@ impl Viewer {
             compare: Compare::default(),
             frame_when_built: false,
             is_closing: false,
+            typed: None,
+            sought: None,
             after_save: None,
             hides_list: false,
             hides_inspector: false,
@@ -233,13 +241,16 @@ impl Viewer {
         self.hear_of_files(&ctx);
         let has_popup = egui::Popup::is_any_open(&ctx);
         self.viewport.shield(&ctx, has_popup);
-        if !self.dialogs.is_modal() && !self.export.is_asking() {
+        if !self.is_asking() {
             self.viewport.cancel_on_escape(&ctx, &mut self.work);
-            // It closes what is open and ends what is typed, and egui has taken the keyboard from a text by now.
-            let escape_is_taken = has_popup || self.was_typing;
-            for command in Command::pressed(&ctx, escape_is_taken) {
-                self.run(&ctx, command);
-            }
+        }
+        // It closes what is open and ends what is typed, and egui has taken the keyboard from a text by now.
+        let escape_is_taken = has_popup || self.was_typing;
+        // What is typed after the key of a command that asks something belongs to the answer.
+        while !self.is_asking()
+            && let Some(command) = Command::next_pressed(&ctx, escape_is_taken)
+        {
+            self.run(&ctx, command);
         }
         let is_comparing = self.compare.is_open();
         let recent = panels::menu::show(ui, &mut self.work, &self.files, is_comparing);
@@ -261,6 +272,10 @@ impl Viewer {
         let area = self.show_picture(ui);
         let is_building = self.work.engine.is_building();
         self.work.notices.show(&ctx, area, is_building);
+        if let Some((of, path)) = missing::show(&ctx, &self.work, area) {
+            self.sought = Some(path);
+            self.ask_path(&ctx, Purpose::Find(of));
+        }
         if !self.dialogs.is_modal()
             && let Some(purpose) = self.export.show_form(&ctx, &mut self.work)
         {
@@ -291,6 +306,11 @@ impl Viewer {
             ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
             self.title = title;
         }
+    }
+
+    /// Whether keys are answers and not commands.
+    fn is_asking(&self) -> bool {
+        self.dialogs.is_modal() || self.export.is_asking() || self.files.is_about_to_ask()
     }
 
     /// Has the window closed, without a question, when `loss` is told.

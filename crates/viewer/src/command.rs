@@ -261,9 +261,9 @@ impl Command {
         SECTIONS.contains(&self)
     }
 
-    /// The commands whose keys were pressed. None while a text is being edited, but for those with the command key; and not
-    /// Escape where it `is_taken` by what is open.
-    pub fn pressed(ctx: &egui::Context, escape_is_taken: bool) -> Vec<Self> {
+    /// The next command whose key was pressed: a slow pass gathers several presses. None while a text is being edited, but for those with
+    /// the command key; and not Escape where it `is_taken` by what is open.
+    pub fn next_pressed(ctx: &egui::Context, escape_is_taken: bool) -> Option<Self> {
         let is_typing = ctx.text_edit_focused();
         let own = entries().filter_map(|entry| Some((entry.command, entry.shortcut?)));
         let also = ALSO
@@ -284,16 +284,14 @@ impl Command {
                 || escape_is_taken && key.logical_key == Key::Escape;
             !is_taken
         });
-        // One by one and in their order: a slow pass gathers several presses of a key.
-        let mut pressed = Vec::new();
         ctx.input_mut(|input| {
-            input.events.retain(|event| {
-                let command = keys.iter().find(|(_, key)| is_press(event, key));
-                pressed.extend(command.map(|(command, _)| *command));
-                command.is_none()
-            });
-        });
-        pressed
+            let of = |event: &egui::Event| {
+                let pressed = keys.iter().find(|(_, key)| is_press(event, key));
+                pressed.map(|(command, _)| *command)
+            };
+            let i = input.events.iter().position(|event| of(event).is_some())?;
+            of(&input.events.remove(i))
+        })
     }
 }
 

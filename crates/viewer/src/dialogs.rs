@@ -4,6 +4,7 @@ mod answer;
 mod ask;
 mod fit;
 mod on_disk;
+mod path_line;
 mod recovery;
 mod thumbnails;
 
@@ -13,9 +14,9 @@ use egui::{Grid, Id, Modal, Ui};
 use hairline_editor::autosave::Pending;
 
 use crate::command::{self, Group};
-use crate::files::{Purpose, from_home};
 pub(crate) use answer::{Answer, Wish};
 use ask::{Loses, ask};
+pub(crate) use path_line::PathLine;
 use recovery::Recovery;
 
 /// What is being asked.
@@ -25,7 +26,7 @@ pub(crate) enum Question {
     /// Autosaves of earlier runs that did not end as they should.
     Recover(Recovery),
     /// The path of a file, where the system has no dialog for it.
-    Path(Purpose, String),
+    Path(PathLine),
     /// Another program has written the scene file, and there are unsaved changes here.
     Changed,
     /// The scene file is to be loaded again, and there are unsaved changes here.
@@ -94,7 +95,7 @@ impl Question {
         match self {
             Self::Unsaved(wish) => unsaved(ctx, title, wish),
             Self::Recover(recovery) => recovery.show(ctx),
-            Self::Path(purpose, text) => path(ctx, *purpose, text),
+            Self::Path(line) => line.show(ctx),
             Self::Changed => on_disk::changed(ctx, title),
             Self::Reload => on_disk::reload(ctx, title),
             Self::SaveOver => on_disk::save_over(ctx, title),
@@ -118,35 +119,6 @@ fn unsaved(ctx: &egui::Context, title: &str, wish: &Wish) -> Option<Answer> {
         1 => Answer::Fulfil(wish.clone()),
         _ => Answer::Cancel,
     })
-}
-
-fn path(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Option<Answer> {
-    let modal = Modal::new(Id::unique("path")).show(ctx, |ui| {
-        ui.set_width(460.0);
-        ui.heading(purpose.title());
-        let label = ui.label("Path");
-        let edit = egui::TextEdit::singleline(text).desired_width(f32::INFINITY);
-        let response = ui.add(edit).labelled_by(label.id);
-        let entered =
-            response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-        // Asked for before it is read, the focus would not count as lost.
-        if !entered && ctx.memory(|memory| memory.focused().is_none()) {
-            response.request_focus();
-        }
-        ui.add_space(8.0);
-        ui.horizontal(|ui| {
-            let ok = ui.button("OK").clicked() || entered;
-            let cancel = ui.button("Cancel").clicked();
-            (ok, cancel)
-        })
-        .inner
-    });
-    let should_close = modal.should_close();
-    match modal.inner {
-        (true, _) if !text.trim().is_empty() => Some(Answer::Path(purpose, from_home(text.trim()))),
-        (_, true) => Some(Answer::CancelSaving),
-        _ => should_close.then_some(Answer::CancelSaving),
-    }
 }
 
 /// All keys and what the mouse does; true when it is to be closed.

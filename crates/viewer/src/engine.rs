@@ -155,6 +155,11 @@ impl Engine {
         self.shared.is_building()
     }
 
+    /// Whether the description that was given last makes no scene.
+    pub fn has_failed(&self) -> bool {
+        self.shared.has_failed()
+    }
+
     /// What happened since the last call.
     pub fn events(&self) -> Vec<Event> {
         self.shared.take_events()

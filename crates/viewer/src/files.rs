@@ -12,6 +12,7 @@ use std::time::Duration;
 use hairline_editor::Document;
 use hairline_editor::autosave::{self, Autosave, Pending};
 use hairline_editor::recent::Recent;
+use hairline_scene::description::FileUse;
 use hairline_scene::probe::{self, MeshSummary};
 use web_time::Instant;
 
@@ -27,6 +28,8 @@ pub(crate) enum Purpose {
     Environment,
     Screenshot,
     Turntable,
+    /// A file that the scene names and that is not there.
+    Find(FileUse),
 }
 
 impl Purpose {
@@ -39,6 +42,7 @@ impl Purpose {
             Self::Environment => "Set the environment",
             Self::Screenshot => "Save a picture",
             Self::Turntable => "Export a turntable: name of the first frame",
+            Self::Find(_) => "Find the file",
         }
     }
 
@@ -50,10 +54,15 @@ impl Purpose {
             Self::AddModel => ("glTF models", &["glb", "gltf"]),
             Self::Environment => ("Environment maps", &["hdr", "exr"]),
             Self::Screenshot | Self::Turntable => ("Pictures", &["png", "exr"]),
+            Self::Find(FileUse::Map) => Self::Environment.filter(),
+            Self::Find(FileUse::Mesh(_)) => Self::AddModel.filter(),
+            Self::Find(FileUse::ScratchList(_)) => ("Lists of scratches", &["csv"]),
+            Self::Find(_) => ("Pictures", &["png", "jpg", "jpeg", "webp", "hdr", "exr"]),
         }
     }
 
-    fn writes(self) -> bool {
+    /// Whether a file is written there.
+    pub fn writes(self) -> bool {
         matches!(self, Self::SaveAs | Self::Screenshot | Self::Turntable)
     }
 
@@ -62,7 +71,7 @@ impl Purpose {
         let stem = document.path().and_then(Path::file_stem);
         let stem = stem.map_or("scene".into(), |stem| stem.to_string_lossy());
         match self {
-            Self::Open | Self::AddModel | Self::Environment => String::new(),
+            Self::Open | Self::AddModel | Self::Environment | Self::Find(_) => String::new(),
             Self::SaveAs => format!("{stem}.toml"),
             Self::Screenshot => format!("{stem}.png"),
             Self::Turntable => format!("{stem}-turntable.png"),
@@ -150,6 +159,12 @@ impl Files {
         // Without a place to write the work goes on; nothing better could be done.
         self.autosave = Autosave::new(folder).ok();
         left
+    }
+
+    /// Whether it is not known yet who asks for the path: the system, or a line in the window.
+    pub fn is_about_to_ask(&self) -> bool {
+        let waiting = self.waiting.as_ref();
+        waiting.is_some_and(|waiting| waiting.since.elapsed() <= NO_HAND)
     }
 
     /// Asks for a path; the answer comes by [`Self::chosen`].

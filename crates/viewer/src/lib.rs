@@ -32,6 +32,7 @@ mod gallery;
 mod jobs;
 mod link;
 mod loss;
+mod missing;
 mod notices;
 mod overlays;
 #[cfg(target_arch = "wasm32")]

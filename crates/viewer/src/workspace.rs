@@ -3,11 +3,11 @@
 mod fit;
 mod view;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hairline_editor::bookmarks::Bookmarks;
 use hairline_editor::{ActionError, Document, DragKey, Selection, actions};
-use hairline_scene::description::Map;
+use hairline_scene::description::{FileUse, Map};
 use hairline_scene::{Description, Error, Transport};
 
 use crate::command::Command;
@@ -38,6 +38,8 @@ pub(crate) struct Workspace {
     pub snapshots: Snapshots,
     /// Opening in millimetres and focus of the camera when depth of field was switched off, to be taken up again.
     pub closed_lens: Option<(f64, Option<f64>)>,
+    /// Files that the scene names and that were not there when it was to be built.
+    pub missing: Vec<(FileUse, PathBuf)>,
     /// What was told of the scene's models last.
     pub model_notes: Vec<String>,
     /// What panels ask for, to be done once all are shown.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::SystemTime;
 
 use hairline_image::output::write_atomically;
+use hairline_scene::description::FileUse;
 use hairline_scene::{Description, Error, reading};
 
 use super::{Document, layout, next_revision};
@@ -122,6 +123,18 @@ impl Document {
     pub fn files(&self) -> Vec<PathBuf> {
         let named = self.state.description.files().into_iter();
         named.map(|(_, path)| self.base_dir.join(path)).collect()
+    }
+
+    /// Of these those that are not there, as the scene names them, each once; with what the first of its places takes it for.
+    pub fn missing_files(&self) -> Vec<(FileUse, PathBuf)> {
+        let mut missing: Vec<(FileUse, PathBuf)> = Vec::new();
+        for (of, path) in self.state.description.files() {
+            let is_known = missing.iter().any(|(_, known)| known == path);
+            if !is_known && !self.base_dir.join(path).exists() {
+                missing.push((of, path.clone()));
+            }
+        }
+        missing
     }
 
     /// Takes the file's text as the one that the document began with, unless it was written after `since`.

@@ -9,7 +9,7 @@ use hairline_editor::autosave::Pending;
 use hairline_editor::document::SaveError;
 
 use super::Viewer;
-use crate::dialogs::{Answer, Question, Wish};
+use crate::dialogs::{Answer, PathLine, Question, Wish};
 use crate::files::Purpose;
 use crate::link;
 use crate::platform;
@@ -38,7 +38,7 @@ impl Viewer {
         };
         match opened {
             Ok(document) => self.replace_document(document),
-            Err(error) => self.work.notices.error("open", error.to_string()),
+            Err(error) => self.tell_wrong_file("open", error.to_string()),
         }
     }
 
@@ -80,8 +80,9 @@ impl Viewer {
                 self.after_save = after;
                 self.dialogs.ask(Question::SaveOver);
             }
-            Err(error) => self.work.notices.error("save", error.to_string()),
+            Err(error) => self.tell_wrong_file("save", error.to_string()),
             Ok(()) => {
+                self.typed = None;
                 let work = &mut self.work;
                 work.notices.clear("save");
                 self.files.watch(&work.document);
@@ -145,7 +146,7 @@ impl Viewer {
     /// Puts another document in the place of this one.
     pub(super) fn replace_document(&mut self, document: Document) {
         self.files.reopen();
-        self.asked = None;
+        (self.asked, self.typed, self.sought) = (None, None, None);
         let work = &mut self.work;
         work.document = document;
         work.free_view.end();
@@ -179,8 +180,8 @@ impl Viewer {
             return;
         };
         match answer {
-            Answer::Cancel => {}
-            Answer::CancelSaving => self.after_save = None,
+            Answer::Cancel => self.typed = None,
+            Answer::CancelSaving => (self.typed, self.after_save) = (None, None),
             Answer::SaveBefore(wish) => {
                 self.after_save = Some(wish);
                 self.save(ctx);
@@ -192,11 +193,11 @@ impl Viewer {
             Answer::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
             Answer::Replace(path) => self.write_as(ctx, &path),
             Answer::Rename(path) => {
-                let typed = path.display().to_string();
-                self.dialogs.ask(Question::Path(Purpose::SaveAs, typed));
+                let line = PathLine::new(Purpose::SaveAs, path.display().to_string());
+                self.dialogs.ask(Question::Path(line));
             }
             Answer::Fulfil(wish) => self.fulfil(ctx, wish),
-            Answer::Path(purpose, path) => self.take_path(ctx, purpose, &path, false),
+            Answer::Path(purpose, path) => self.take_typed(ctx, purpose, path),
             Answer::Reload => self.work.reload("was loaded again."),
             Answer::PassOver => self.work.document.pass_over_disk(),
             Answer::AddModel(path, fit_m) => self.add_model(&path, fit_m),

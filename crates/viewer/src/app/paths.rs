@@ -2,18 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use hairline_editor::actions::{layers, objects};
+use hairline_editor::actions::{self, layers, objects};
 use hairline_scene::description::Map;
 use hairline_scene::probe::{self, MeshSummary};
 
 use super::Viewer;
-use crate::dialogs::{Question, Wish};
+use crate::dialogs::{PathLine, Question, Wish};
 use crate::files::{Choice, Purpose};
+use crate::platform::HAS_DISK;
 
 impl Viewer {
     pub(super) fn ask_path(&mut self, ctx: &egui::Context, purpose: Purpose) {
         self.files.ask(purpose, &self.work.document, ctx.clone());
-        // An answer that is there at once is taken in the next pass.
+        // Where the system is not asked the line is there at once, for what is typed next.
+        if let Some(choice) = self.files.chosen() {
+            self.take_choice(ctx, choice);
+        }
         ctx.request_repaint();
     }
 
@@ -22,7 +26,8 @@ impl Viewer {
             Choice::Nothing => self.after_save = None,
             Choice::NoDialogs(purpose) => {
                 let proposal = purpose.proposal(&self.work.document);
-                self.dialogs.ask(Question::Path(purpose, proposal));
+                let line = PathLine::new(purpose, proposal);
+                self.dialogs.ask(Question::Path(line));
             }
             Choice::Path(purpose, path) => self.take_path(ctx, purpose, &path, true),
             Choice::Probed(purpose, path, probed) => self.take_probed(purpose, &path, probed),
@@ -47,11 +52,55 @@ impl Viewer {
                 let work = &mut self.work;
                 self.export.take_path(work, purpose, path, has_asked);
             }
+            Purpose::Find(_) => self.take_found(path),
         }
+    }
+
+    /// Uses a path that was typed. The line comes back with what is wrong with it.
+    pub(super) fn take_typed(&mut self, ctx: &egui::Context, purpose: Purpose, path: PathBuf) {
+        self.typed = Some((purpose, path.clone()));
+        match refusal(purpose, &path) {
+            Some(why) => self.tell_wrong_file("file", why),
+            None => self.take_path(ctx, purpose, &path, false),
+        }
+    }
+
+    /// Says what is wrong with a file: in the line where its path was typed, if it was.
+    pub(super) fn tell_wrong_file(&mut self, topic: &'static str, why: String) {
+        match self.typed.take() {
+            Some((purpose, path)) => {
+                let line = PathLine::again(purpose, &path, why);
+                self.dialogs.ask(Question::Path(line));
+            }
+            None => self.work.notices.error(topic, why),
+        }
+    }
+
+    /// Puts a file in the place of the one that was not there, and does the same for others that were beside that one and are beside this one.
+    fn take_found(&mut self, path: &Path) {
+        let Some(sought) = self.sought.take() else {
+            return;
+        };
+        let found = absolute(path);
+        let base_dir = self.work.document.base_dir().to_owned();
+        let beside = self.work.missing.iter().filter_map(|(_, other)| {
+            let is_beside = *other != sought && other.parent() == sought.parent();
+            let moved = found.with_file_name(other.file_name()?);
+            (is_beside && moved.is_file()).then(|| (other.clone(), moved))
+        });
+        let mut moves: Vec<(PathBuf, PathBuf)> = beside.collect();
+        moves.push((sought, found));
+        self.work.apply("Find a file", |d, selection| {
+            for (from, to) in &moves {
+                actions::replace_file(d, from, to, &base_dir);
+            }
+            Ok(selection)
+        });
     }
 
     /// A file from outside, by its ending. What is wrong with it is told, and then nothing changes.
     pub(crate) fn take_file(&mut self, ctx: &egui::Context, path: &Path) {
+        self.typed = None;
         let ending = path.extension().unwrap_or_default();
         match ending.to_string_lossy().to_lowercase().as_str() {
             "toml" => self.wish(ctx, Wish::Open(path.to_owned())),
@@ -92,10 +141,11 @@ impl Viewer {
         let summary = match probed {
             Ok(summary) => summary,
             Err(error) => {
-                self.work.notices.error("file", error.to_string());
+                self.tell_wrong_file("file", error.to_string());
                 return;
             }
         };
+        self.typed = None;
         self.work.notices.clear("file");
         if purpose == Purpose::Environment {
             let map = Map::File(path.to_owned());
@@ -124,6 +174,22 @@ impl Viewer {
             }
             Ok(selection)
         });
+    }
+}
+
+/// Why a path that was typed is of no use, where that is seen at once.
+fn refusal(purpose: Purpose, path: &Path) -> Option<String> {
+    let shown = path.display();
+    let folder = path.parent().filter(|it| !it.as_os_str().is_empty());
+    match folder {
+        // A page has no folders.
+        _ if !HAS_DISK => None,
+        _ if path.is_dir() => Some(format!("{shown} is a folder; give the path of a file.")),
+        Some(folder) if purpose.writes() && !folder.is_dir() => {
+            Some(format!("There is no folder {}.", folder.display()))
+        }
+        _ if !purpose.writes() && !path.exists() => Some(format!("{shown} is not there.")),
+        _ => None,
     }
 }
 

@@ -10,6 +10,7 @@ use crate::badges;
 use crate::engine::{Event, Frame, View};
 use crate::panels::busy::Busy;
 use crate::panels::status;
+use crate::platform::HAS_DISK;
 use crate::reading;
 use crate::seen::makes_same_scene;
 use crate::viewport::Area;
@@ -38,7 +39,9 @@ impl Viewer {
                 let canvas = &mut self.viewport.canvas;
                 canvas.paint(ui, place, &area, &frame, &wanted);
             } else {
-                ui.put(rect, Busy::size(32.0));
+                if !self.work.engine.has_failed() {
+                    ui.put(rect, Busy::size(32.0));
+                }
                 let words = RichText::new(status::before_the_first(&self.work.engine)).size(14.0);
                 // Words that could be selected would take the mouse from what lies under them.
                 let label = Label::new(words).selectable(false);
@@ -106,7 +109,15 @@ impl Viewer {
                 // Of a scene that is another by now nobody wants to know: it may be right again.
                 Event::NotBuilt { revision, message } => {
                     if revision == self.asked_revision {
-                        notices.error("scene", message);
+                        self.work.missing = match HAS_DISK {
+                            true => self.work.document.missing_files(),
+                            false => Vec::new(),
+                        };
+                        if self.work.missing.is_empty() {
+                            notices.error("scene", message);
+                        } else {
+                            eprintln!("error: {message}");
+                        }
                     }
                 }
                 Event::FellBack { message } => {
@@ -139,6 +150,7 @@ impl Viewer {
         let is_seen_alike = |asked: &Arc<_>| makes_same_scene(asked, description);
         if !self.asked.as_ref().is_some_and(is_seen_alike) {
             work.notices.clear("scene");
+            work.missing.clear();
             self.asked_revision = work.document.revision();
             work.engine.set_scene(
                 self.asked_revision,

@@ -28,6 +28,8 @@ struct State {
     view: Option<View>,
     frame: Option<Arc<Frame>>,
     events: Vec<Event>,
+    /// The newest scene could not be built.
+    has_failed: bool,
     /// The interface waits for a frame.
     is_awaited: bool,
 }
@@ -110,12 +112,15 @@ impl Shared {
     }
 
     pub fn want_scene(&self, revision: u64, description: Arc<Description>, base_dir: PathBuf) {
-        self.lock().wanted_scene = Some(WantedScene {
+        let mut state = self.lock();
+        state.has_failed = false;
+        state.wanted_scene = Some(WantedScene {
             revision,
             description,
             base_dir,
             asked: Instant::now(),
         });
+        drop(state);
         self.news.notify_all();
     }
 
@@ -222,6 +227,7 @@ impl Shared {
 
     pub fn put_event(&self, event: Event) {
         let mut state = self.lock();
+        state.has_failed |= matches!(event, Event::NotBuilt { .. });
         state.events.push(event);
         let is_awaited = state.is_awaited;
         drop(state);
@@ -265,6 +271,10 @@ impl Shared {
     pub fn is_building(&self) -> bool {
         let state = self.lock();
         state.is_building || state.wanted_scene.is_some()
+    }
+
+    pub fn has_failed(&self) -> bool {
+        self.lock().has_failed
     }
 
     pub fn take_events(&self) -> Vec<Event> {

@@ -46,6 +46,7 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, viewport: &Viewport) {
 pub(crate) fn before_the_first(engine: &Engine) -> &'static str {
     match engine.built() {
         Some(_) => "rendering the first picture",
+        None if engine.has_failed() => "the scene could not be built",
         None => "building the scene",
     }
 }

@@ -8,7 +8,7 @@ use crate::common::{
 };
 use egui::{Event, Key, Modifiers, MouseWheelUnit, Pos2, Rect, Vec2, vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{DVec2, DVec3};
 use hairline_editor::{Selection, navigate};
 use hairline_viewer::engine::Backend;
@@ -399,4 +399,83 @@ fn the_colour_picker_has_all_its_signs() {
         .click();
     harness.run_steps(4);
     assert!(egui::Popup::is_any_open(&harness.ctx));
+}
+
+/// With what is wrong, and what was typed.
+#[test]
+fn the_line_for_a_path_stays_until_the_path_is_right() {
+    let folder = tempfile::tempdir().unwrap();
+    let wrong = folder.path().join("wrong.toml");
+    std::fs::write(&wrong, "fow_y_deg = 3\n").unwrap();
+    let right = folder.path().join("right.toml");
+    std::fs::write(&right, SMALL).unwrap();
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    let before = description(&harness);
+    let mut typed = String::new();
+    let mut enter = |harness: &mut Harness<'static, Viewer>, path: &Path| {
+        for _ in 0..typed.chars().count() {
+            harness.key_press(Key::Backspace);
+        }
+        typed = path.display().to_string();
+        harness.event(Event::Text(typed.clone()));
+        harness.run_steps(2);
+        harness.key_press(Key::Enter);
+        harness.run_steps(4);
+    };
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    harness.run_steps(4);
+    for (path, says) in [
+        (folder.path().join("none.toml"), "none.toml is not there."),
+        (
+            folder.path().to_owned(),
+            "is a folder; give the path of a file.",
+        ),
+        (wrong, "fow_y_deg"),
+    ] {
+        enter(&mut harness, &path);
+        harness.get_by_label_contains(says);
+        harness.get_by_label("Path");
+        assert_eq!(*description(&harness), *before);
+        assert!(harness.state().messages().is_empty());
+    }
+    enter(&mut harness, &right);
+    assert_eq!(harness.state().document().path(), Some(right.as_path()));
+    assert!(harness.query_by_label("Path").is_none());
+    // A folder that is not there to save into.
+    save_as(
+        &mut harness,
+        folder.path().join("no/a.toml").to_str().unwrap(),
+    );
+    harness.get_by_label_contains("There is no folder");
+    harness.get_by_label("Path");
+}
+
+/// In one slow pass: the path's letters are no commands.
+#[test]
+fn what_is_typed_after_the_key_for_open_is_the_path() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    let before = harness.state().camera();
+    let key = |key: Key, modifiers: Modifiers| Event::Key {
+        key,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers,
+    };
+    harness.input_mut().events.extend([
+        key(Key::O, Modifiers::COMMAND),
+        key(Key::Num5, Modifiers::NONE),
+        Event::Text("5".to_owned()),
+    ]);
+    harness.step();
+    harness
+        .input_mut()
+        .events
+        .extend([key(Key::Num6, Modifiers::NONE), Event::Text("6".to_owned())]);
+    harness.run_steps(3);
+    assert_eq!(harness.state().camera(), before);
+    let line = harness.get_by_role_and_label(egui::accesskit::Role::TextInput, "Path");
+    assert_eq!(line.accesskit_node().value().as_deref(), Some("56"));
 }

@@ -17,6 +17,7 @@ mod gizmos;
 mod gratings;
 mod habits;
 mod lost;
+mod missing;
 mod model_files;
 mod numbers;
 mod on_disk;
