@@ -67,6 +67,29 @@ pub fn zoom_to(camera: &mut Camera, point_m: DVec3, steps: f64) {
     }
 }
 
+/// The same for a point of the ground behind or beside what the view is about: the target keeps its depth in place of coming to the point,
+/// as long as it stays before the camera.
+pub fn zoom_past(camera: &mut Camera, point_m: DVec3, steps: f64) {
+    let target_m = DVec3::from(camera.target_m);
+    zoom_to(camera, point_m, steps);
+    if let Some(depth_m) = depth_m(camera, target_m) {
+        let place = DVec3::from(camera.position_m) + Axes::of(camera).forward * depth_m;
+        camera.target_m = place.into();
+    }
+}
+
+/// How far a point lies before a camera, along its view; none where it can be neither target nor in focus.
+pub fn depth_m(camera: &Camera, point_m: DVec3) -> Option<f64> {
+    let from_eye = point_m - DVec3::from(camera.position_m);
+    let depth_m = from_eye.dot(Axes::of(camera).forward);
+    DISTANCES_M.contains(&depth_m).then_some(depth_m)
+}
+
+/// The point in the middle of the view that is in focus.
+pub fn focused_m(camera: &Camera) -> DVec3 {
+    DVec3::from(camera.position_m) + Axes::of(camera).forward * camera.lens().focus_m
+}
+
 /// Makes a point the target, and moves the camera along with it: direction and distance stay.
 pub fn center_on(camera: &mut Camera, point_m: DVec3) {
     shift(camera, point_m - DVec3::from(camera.target_m));

@@ -40,6 +40,19 @@ pub fn rotate(light: &mut Light, axis: DVec3, angle_rad: f64) {
     turn(light, DQuat::from_axis_angle(axis, angle_rad));
 }
 
+/// How far a light reaches from its middle; of a sun nothing.
+pub fn extent_m(light: &Light) -> f64 {
+    let middle = center(light);
+    match &light.kind {
+        LightKind::Sphere { radius_m, .. } => *radius_m,
+        LightKind::Tube { ends_m, radius_m } => radius_m + middle.distance(ends_m[0].into()),
+        LightKind::Sun { .. } => 0.0,
+        kind => (kind.corners_m().iter())
+            .map(|v| v.distance(middle))
+            .fold(0.0, f64::max),
+    }
+}
+
 /// Scales a light about its middle, as far as lights may be small or large. What it radiates per area stays, so a larger one
 /// lights more. A sun stays as it is.
 pub fn resize(light: &mut Light, factor: f64) {
@@ -47,13 +60,7 @@ pub fn resize(light: &mut Light, factor: f64) {
         return;
     }
     let middle = center(light);
-    let extent_m = match &light.kind {
-        LightKind::Sphere { radius_m, .. } => *radius_m,
-        LightKind::Tube { ends_m, radius_m } => radius_m + middle.distance(ends_m[0].into()),
-        kind => (kind.corners_m().iter())
-            .map(|v| v.distance(middle))
-            .fold(0.0, f64::max),
-    };
+    let extent_m = extent_m(light);
     // Corners stay within the coordinates that scenes have.
     let largest_m = (LARGEST_M - middle.abs().max_element()).max(SMALLEST_M);
     let wanted_m = (extent_m * factor).clamp(SMALLEST_M, largest_m);
@@ -110,6 +117,14 @@ pub fn place_highlight(light: &mut Light, eye_m: DVec3, point_m: DVec3, normal: 
     }
     translate(light, point_m + wi * distance_m - middle);
     face(light, point_m);
+}
+
+/// Brings a light nearer to a point, or farther from it, in the direction in which it stands. Nothing happens where its middle is the point.
+pub fn set_distance_m(light: &mut Light, point_m: DVec3, distance_m: f64) {
+    let middle = center(light);
+    if let Some(way) = (middle - point_m).try_normalize() {
+        translate(light, point_m + way * distance_m - middle);
+    }
 }
 
 /// Turns a flat light about its middle, by the shortest way, until it faces a point. Others stay as they are.

@@ -3,12 +3,15 @@
 //! Whoever turns, moves or frames the view leaves the scene's camera where it is, and can go back to it or bring it along. The
 //! free view has the camera's up and exposure.
 
+use glam::DVec3;
 use hairline_scene::description::Camera;
 
 /// The view, if it is not that of the scene's camera.
 #[derive(Default)]
 pub(crate) struct FreeView {
     pub camera: Option<Camera>,
+    /// What was made sharp in it; none: what the scene's camera has in focus.
+    pub focused_m: Option<DVec3>,
     /// Whether navigation moves the scene's camera.
     pub moves_camera: bool,
     /// Whether it goes round.
@@ -34,7 +37,7 @@ impl FreeView {
 
     /// Looks through the scene's camera again.
     pub fn end(&mut self) {
-        self.camera = None;
+        (self.camera, self.focused_m) = (None, None);
         self.turns = false;
     }
 

@@ -12,7 +12,7 @@ pub(crate) enum Tool {
     Brush,
     /// Drag takes scratches of the selected layer away.
     Eraser,
-    /// Click moves the selected light so that its highlight falls there.
+    /// Click or drag moves the selected light so that its highlight falls there.
     PlaceLight,
     /// Click keeps the selected layer to the part of the model that is there.
     PickPart,
@@ -34,7 +34,7 @@ impl Tool {
             Self::Brush => "Drag over an object to lay scratches along the stroke",
             Self::Eraser => "Drag over an object to take scratches of the selected layer away",
             Self::PlaceLight => {
-                "Click on an object: the selected light moves so that its highlight falls there"
+                "Click on an object, or drag over it: the selected light moves so that its highlight falls there"
             }
             Self::PickPart => {
                 "Click on a part of an object: the selected layer of scratches lies on that part alone"

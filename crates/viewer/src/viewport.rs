@@ -9,11 +9,13 @@ mod line_field;
 mod mouse;
 mod overlays;
 mod pick;
+mod place;
 mod strokes;
 
 use std::time::Duration;
 
 use eframe::egui_wgpu::RenderState;
+use glam::DVec3;
 
 use crate::engine::View;
 use crate::workspace::Workspace;
@@ -34,6 +36,10 @@ pub(crate) struct Viewport {
     pub interface_time: Duration,
     /// That the engine was given last.
     pub view: Option<View>,
+    /// Where the pointer is in the picture, or where its right button opened a menu.
+    pointed: Option<(Area, egui::Pos2)>,
+    /// A light goes where the pointer drags its highlight.
+    is_placing: bool,
     /// When the wheel was last turned, seconds: its turns in a row are one step.
     wheeled: f64,
     /// The button went down to close a popup, and does nothing else until it goes down again.
@@ -52,6 +58,8 @@ impl Viewport {
             line_fields: Vec::new(),
             interface_time: Duration::ZERO,
             view: None,
+            pointed: None,
+            is_placing: false,
             wheeled: f64::NEG_INFINITY,
             is_shielded: false,
         }
@@ -75,12 +83,18 @@ impl Viewport {
         ctx.input(|input| input.time) - self.wheeled < WHEEL_PAUSE_S
     }
 
+    /// The place on a surface that the pointer is at.
+    pub fn pointed_m(&self, work: &Workspace) -> Option<DVec3> {
+        let (area, pos) = self.pointed?;
+        Some(pick::surface(work, &area, pos)?.point_m)
+    }
+
     /// Escape takes back what a handle or the brush is doing. To be asked before the commands: else it means to select nothing.
     pub fn cancel_on_escape(&mut self, ctx: &egui::Context, work: &mut Workspace) {
         if !ctx.input(|input| input.key_pressed(egui::Key::Escape)) {
             return;
         }
-        let is_held = self.gizmo.cancel();
+        let is_held = self.gizmo.cancel() | std::mem::take(&mut self.is_placing);
         if is_held {
             work.document.cancel_drag();
         }

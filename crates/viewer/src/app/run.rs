@@ -55,6 +55,13 @@ impl Viewer {
             | Command::ToggleSolo => self.on_selection(command),
             Command::FrameAll => self.work.frame(None),
             Command::FrameSelection => self.work.frame_selection(),
+            Command::FocusHere => match self.viewport.pointed_m(&self.work) {
+                Some(point_m) => self.work.focus_on(point_m),
+                None => self.work.notices.note(
+                    "focus",
+                    "Point at what is to be sharp and press Shift+F, or click it with the right button.",
+                ),
+            },
             Command::ToggleList => self.hides_list = !self.hides_list,
             Command::ToggleInspector => self.hides_inspector = !self.hides_inspector,
             Command::FullScreen => {

@@ -146,6 +146,7 @@ pub(crate) fn on_selection(ui: &mut Ui, work: &mut Workspace) {
     }
     for command in [
         Command::FrameSelection,
+        Command::FocusHere,
         Command::ToggleHidden,
         Command::ToggleSolo,
         Command::Duplicate,

@@ -2,7 +2,6 @@
 
 use egui::{PointerButton, Response};
 use glam::DVec2;
-use hairline_editor::place_light::place_highlight;
 use hairline_editor::{DragKey, Selection, navigate};
 
 use crate::parts;
@@ -11,7 +10,7 @@ use crate::workspace::Workspace;
 
 use super::lens::Lens;
 use super::pick::Picked;
-use super::{Area, Viewport, gizmo, pick};
+use super::{Area, Viewport, gizmo, pick, place};
 
 /// A notch of a wheel is this many points in egui.
 const POINTS_A_NOTCH: f64 = 50.0;
@@ -33,11 +32,14 @@ impl Viewport {
         let delta = response.drag_delta();
         let moved = DVec2::new(delta.x.into(), delta.y.into());
 
+        let is_free = !alt && !shift && !self.is_shielded;
+        self.place_by_drag(work, area, response, is_free);
         // Alt orbits with any tool, as in every other program.
-        let orbits = response.dragged_by(PointerButton::Primary) && !shift && (!is_brush || alt)
+        let is_held = is_brush || self.is_placing;
+        let orbits = response.dragged_by(PointerButton::Primary) && !shift && (!is_held || alt)
             || response.dragged_by(PointerButton::Secondary);
         let pans = response.dragged_by(PointerButton::Middle)
-            || response.dragged_by(PointerButton::Primary) && shift && !is_brush;
+            || response.dragged_by(PointerButton::Primary) && shift && !is_held;
         // Two fingers move and pinch; egui takes the first of them for a pointer.
         let fingers = ui.input(|input| input.multi_touch());
         let fingers = fingers.filter(|_| response.hovered() || response.dragged());
@@ -66,9 +68,19 @@ impl Viewport {
             });
         }
         self.wheel(ui, work, area, response);
+        self.note_pointer(ui.ctx(), area, response);
         if !is_shielded {
             self.click(work, area, response);
-            context_menu(work, area, response);
+        }
+        // Also under a press on its own entries, which would find no menu.
+        context_menu(work, area, response);
+    }
+
+    fn note_pointer(&mut self, ctx: &egui::Context, area: &Area, response: &Response) {
+        if response.secondary_clicked() {
+            self.pointed = response.interact_pointer_pos().map(|pos| (*area, pos));
+        } else if !egui::Popup::is_any_open(ctx) {
+            self.pointed = response.hover_pos().map(|pos| (*area, pos));
         }
     }
 
@@ -86,10 +98,12 @@ impl Viewport {
             return;
         }
         self.wheeled = now;
-        let under = pick::surface(work, area, pos).map(|hit| hit.point_m);
+        let under = pick::surface(work, area, pos);
+        let under = under.map(|hit| (hit.point_m, work.is_of_subject(hit.object)));
         let key = DragKey::of("zoom");
         work.move_view("Zoom", Some(key), |camera| match under {
-            Some(point_m) => navigate::zoom_to(camera, point_m, steps),
+            Some((point_m, true)) => navigate::zoom_to(camera, point_m, steps),
+            Some((point_m, false)) => navigate::zoom_past(camera, point_m, steps),
             None => navigate::dolly(camera, steps),
         });
     }
@@ -115,27 +129,12 @@ impl Viewport {
                     let picked = picked(work, area, pos);
                     work.document.select(picked);
                 }
-                (Tool::PlaceLight, Some(hit)) => place_light(work, &hit),
+                (Tool::PlaceLight, Some(hit)) => place::place_light(work, &hit),
                 (Tool::PickPart, Some(hit)) => pick_part(work, &hit),
                 _ => {}
             }
         }
     }
-}
-
-/// Moves the selected light so that its highlight falls on a place.
-fn place_light(work: &mut Workspace, hit: &Picked) {
-    let Selection::Light(i) = work.selection() else {
-        let text = "Select a light first: it is moved so that its highlight falls where you click.";
-        work.notices.error("place", text);
-        return;
-    };
-    let eye_m = work.eye_m();
-    work.document.edit("Place light", |d| {
-        if let Some(light) = d.lights.get_mut(i) {
-            place_highlight(light, eye_m, hit.point_m, hit.normal);
-        }
-    });
 }
 
 /// Keeps the selected layer to the part that was clicked on: what is of its material and of the node that it belongs to.

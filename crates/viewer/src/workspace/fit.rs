@@ -92,6 +92,11 @@ impl Workspace {
         }
     }
 
+    /// Whether it is one of those, by its place among the objects that were built.
+    pub fn is_of_subject(&self, object: usize) -> bool {
+        self.subject().contains(&object)
+    }
+
     /// The objects that the scene is about.
     fn subject(&self) -> Vec<usize> {
         hairline_editor::subject::objects(self.document.description(), &self.boxes_m())

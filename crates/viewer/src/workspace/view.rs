@@ -21,9 +21,42 @@ impl Workspace {
                 exposure_ev: scene.exposure_ev,
                 sensor_width_mm: scene.sensor_width_mm,
                 aperture_mm: scene.aperture_mm,
-                focus_distance_m: scene.focus_distance_m,
+                focus_distance_m: self.free_focus_m(free),
                 ..free.clone()
             },
+        }
+    }
+
+    /// How far away a free view is in focus: what is sharp stays sharp while the view moves. None: at its target.
+    fn free_focus_m(&self, free: &Camera) -> Option<f64> {
+        let scene = &self.document.description().camera;
+        scene.aperture_mm?;
+        let of_scene = scene.focus_distance_m;
+        let focused_m = self.free_view.focused_m;
+        let point_m = focused_m.or(of_scene.map(|_| navigate::focused_m(scene)))?;
+        navigate::depth_m(free, point_m).or(of_scene)
+    }
+
+    /// Puts a point in focus.
+    pub fn focus_on(&mut self, point_m: DVec3) {
+        let camera = self.camera();
+        if camera.aperture_mm.is_none() {
+            let text = "Depth of field is off, so all is in focus: switch it on in the camera's panel first.";
+            self.notices.error("focus", text);
+            return;
+        }
+        let Some(depth_m) = navigate::depth_m(&camera, point_m) else {
+            return;
+        };
+        self.notices.clear("focus");
+        if self.free_view.is_free() {
+            self.free_view.focused_m = Some(point_m);
+        } else {
+            // To the micrometre, in a file that people read.
+            let depth_m = (1e6 * depth_m).round() / 1e6;
+            self.document.edit("Focus here", |d| {
+                d.camera.focus_distance_m = Some(depth_m);
+            });
         }
     }
 

@@ -24,6 +24,7 @@ mod on_disk;
 mod panels;
 mod panics;
 mod picking;
+mod placing;
 mod reading;
 mod rest;
 mod shadows;

@@ -6,7 +6,7 @@ use crate::common::{
 use egui::{Key, Modifiers, Shape, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use hairline_editor::Selection;
+use hairline_editor::{Selection, navigate};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 
@@ -175,4 +175,95 @@ fn each_kind_of_overlay_has_its_switch() {
     assert!(lines == 0 && !words.contains("lamp"), "{lines} {words}");
     key(&mut harness, Modifiers::NONE, Key::O);
     assert!(drawn(&harness).1.contains("lamp"));
+}
+
+/// A disk on the ground, with depth of field.
+const ON_GROUND: &str = concat!(include_str!("../common/small_scene.toml"), "\n[ground]\n");
+
+fn wheel(harness: &mut Harness<'static, Viewer>, at: egui::Pos2) {
+    harness.hover_at(at);
+    harness.run_steps(2);
+    for _ in 0..4 {
+        harness.event(egui::Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Line,
+            delta: vec2(0.0, 1.0),
+            source: egui::MouseWheelSource::Wheel,
+            phase: egui::TouchPhase::Move,
+            modifiers: Modifiers::NONE,
+        });
+        harness.run_steps(6);
+    }
+}
+
+/// Zooming beside the object leaves target and focus at its depth, and K takes them over.
+#[test]
+fn a_zoom_at_the_ground_leaves_target_and_focus_where_they_are() {
+    for focus_m in [None, Some(0.5)] {
+        let mut harness = viewer(ON_GROUND);
+        let document = harness.state_mut().document_mut();
+        document.edit("by the test", |d| {
+            d.camera.aperture_mm = Some(2.0);
+            d.camera.focus_distance_m = focus_m;
+        });
+        wait_built(&mut harness);
+        let before = description(&harness).camera.clone();
+        let sharp_m = navigate::focused_m(&before);
+        let beside = common::picture(&harness).center() + vec2(250.0, 200.0);
+        wheel(&mut harness, beside);
+        key(&mut harness, Modifiers::NONE, Key::K);
+        let camera = description(&harness).camera.clone();
+        assert_ne!(camera, before);
+        let depth_m = |point_m| navigate::depth_m(&camera, point_m).unwrap();
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-9;
+        assert!(close(camera.lens().focus_m, depth_m(sharp_m)), "{camera:?}");
+        let target_m = glam::DVec3::from(camera.target_m);
+        let kept_m = depth_m(before.target_m.into());
+        assert!(close(depth_m(target_m), kept_m), "{camera:?}");
+    }
+}
+
+#[test]
+fn focus_here_makes_what_is_under_the_pointer_sharp() {
+    let mut harness = viewer(ON_GROUND);
+    wait_built(&mut harness);
+    let at = common::picture(&harness).center() + vec2(40.0, 60.0);
+    let menu = |harness: &mut Harness<'static, Viewer>| {
+        // Without handles, which would take the mouse.
+        harness.state_mut().document_mut().select(Selection::None);
+        harness.hover_at(at);
+        harness.run_steps(2);
+        for pressed in [true, false] {
+            harness.event(egui::Event::PointerButton {
+                pos: at,
+                button: egui::PointerButton::Secondary,
+                pressed,
+                modifiers: Modifiers::NONE,
+            });
+            harness.step();
+        }
+        harness.run_steps(2);
+        let entry = harness.get_by_label_contains("Focus here").rect();
+        common::click_at(harness, entry.center());
+        harness.run_steps(3);
+    };
+    let before = description(&harness);
+    menu(&mut harness);
+    assert_eq!(*description(&harness), *before);
+    let told = harness.state().messages().concat();
+    assert!(told.contains("Depth of field is off"), "{told:?}");
+    let document = harness.state_mut().document_mut();
+    document.edit("by the test", |d| d.camera.aperture_mm = Some(2.0));
+    menu(&mut harness);
+    // The disk lies in the plane z = 0, below the target, so it is nearer there.
+    let focus_m = description(&harness).camera.focus_distance_m.unwrap();
+    let target_m = description(&harness).camera.lens().focus_m;
+    assert_eq!(focus_m, target_m);
+    let at_target_m = before.camera.lens().focus_m;
+    assert!(focus_m < at_target_m - 0.01 && focus_m > 0.4, "{focus_m}");
+    assert!(harness.state().messages().is_empty());
+    // By the key, at another place: farther away.
+    harness.hover_at(at - vec2(0.0, 90.0));
+    harness.run_steps(2);
+    key(&mut harness, Modifiers::SHIFT, Key::F);
+    assert!(description(&harness).camera.focus_distance_m.unwrap() > focus_m + 0.01);
 }
