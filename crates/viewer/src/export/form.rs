@@ -215,14 +215,15 @@ impl Form {
     fn replace_buttons(&mut self, ui: &mut Ui, question: &str) -> Option<Answer> {
         ui.colored_label(ui.visuals().warn_fg_color, question);
         let answer = ui.horizontal(|ui| {
+            // Where the button that asked was: a double click on that replaces nothing.
+            if ui.button("Choose another name").clicked() {
+                return Some(None);
+            }
             let replace = match self.is_turntable {
                 true => "Replace the pictures",
                 false => "Replace the file",
             };
-            if ui.button(replace).clicked() {
-                return Some(Some(Answer::Start));
-            }
-            ui.button("Choose another name").clicked().then_some(None)
+            ui.button(replace).clicked().then_some(Some(Answer::Start))
         });
         let answer = answer.inner?;
         self.question = None;
