@@ -5,7 +5,7 @@ use hairline_scene::environment::BuiltInMap;
 /// What a menu calls it.
 pub fn name(map: BuiltInMap) -> &'static str {
     match map {
-        BuiltInMap::Studio => "Studio",
+        BuiltInMap::Studio => "Studio map",
         BuiltInMap::Window => "Room with a window",
         BuiltInMap::Overcast => "Overcast sky",
     }

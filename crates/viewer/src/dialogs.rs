@@ -143,6 +143,8 @@ fn help(ui: &mut Ui) -> bool {
             "opens a scene, adds a model, sets the environment",
         ),
     ];
+    // egui has these keys by itself.
+    const SIZES: &str = "Ctrl and +, - or 0: all of the window larger, smaller, as it was";
     ui.set_width(860.0);
     ui.heading("Keys and mouse");
     // A row for each line, with what is around it: so that all of it fits a small screen, and scrolls on a smaller one.
@@ -165,6 +167,7 @@ fn help(ui: &mut Ui) -> bool {
                 for (what, does) in MOUSE {
                     ui.label(format!("{what}: {does}"));
                 }
+                ui.label(SIZES);
             });
         });
     ui.add_space(8.0);

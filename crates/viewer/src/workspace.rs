@@ -155,7 +155,11 @@ impl Workspace {
             Command::Screenshot => HAS_THREADS || !matches!(self.engine.backend(), Backend::Cpu),
             Command::Undo => self.document.undo_label().is_some(),
             Command::Redo => self.document.redo_label().is_some(),
-            Command::Duplicate | Command::Delete | Command::MoveUp | Command::MoveDown => {
+            Command::Rename
+            | Command::Duplicate
+            | Command::Delete
+            | Command::MoveUp
+            | Command::MoveDown => {
                 matches!(
                     selection,
                     Selection::Object(_)

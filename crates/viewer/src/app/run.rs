@@ -8,6 +8,7 @@ use super::Viewer;
 use crate::command::Command;
 use crate::dialogs::Wish;
 use crate::files::Purpose;
+use crate::panels;
 use crate::tools::Tool;
 
 /// What a press of a bracket does to the brush.
@@ -46,6 +47,10 @@ impl Viewer {
                     let text = format!("Done again: {label}");
                     self.work.notices.note("undo", text);
                 }
+            }
+            Command::Rename => {
+                self.hides_inspector = false;
+                panels::form::name_anew(ctx);
             }
             Command::Duplicate
             | Command::Delete

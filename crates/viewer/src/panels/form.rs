@@ -5,7 +5,9 @@
 
 use std::hash::Hash;
 
-use egui::{Align, Layout, Response, Slider, SliderClamping, TextEdit, Ui};
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
+use egui::{Align, Context, Id, Layout, Response, Slider, SliderClamping, TextEdit, Ui};
 use hairline_editor::DragKey;
 use hairline_editor::quantity::Shown;
 use hairline_editor::ranges::{Parameter, Range};
@@ -17,6 +19,9 @@ use super::number::NumberBox;
 const LABEL_WIDTH: f32 = 110.0;
 /// Width of a number's box.
 const VALUE_WIDTH: f32 = 78.0;
+
+/// The label of the row that a part is called by.
+pub(super) const NAME: &str = "Name";
 
 /// What a control changed.
 #[derive(Clone, Debug, PartialEq)]
@@ -194,6 +199,9 @@ impl<'a> Form<'a> {
                 .unwrap_or_else(|| value.clone());
             let edit = TextEdit::singleline(&mut typed).desired_width(ui.available_width() - 8.0);
             let response = ui.add(edit).labelled_by(text.id);
+            if label == NAME && end_naming(ui.ctx()) {
+                select_all(&response, value.chars().count());
+            }
             if response.has_focus() {
                 ui.data_mut(|data| data.insert_temp(id, typed));
                 return false;
@@ -346,4 +354,30 @@ fn another_seed(seed: u64) -> u64 {
         .wrapping_mul(0x5851_f42d_4c95_7f2d);
     let thrown = (mixed >> 33) % 9000 + 1000;
     if thrown == seed { thrown + 1 } else { thrown }
+}
+
+fn naming_id() -> Id {
+    Id::unique("the name in the panel is to be typed anew")
+}
+
+/// The name in the panel gets the keyboard, all of it selected.
+pub(crate) fn name_anew(ctx: &Context) {
+    ctx.data_mut(|data| data.insert_temp(naming_id(), ()));
+    ctx.request_repaint();
+}
+
+/// Whether it was to get it: once, and not later where a panel has no name.
+pub(super) fn end_naming(ctx: &Context) -> bool {
+    ctx.data_mut(|data| data.remove_temp::<()>(naming_id()))
+        .is_some()
+}
+
+/// Gives the keyboard to a text of so many characters, and selects all of it.
+fn select_all(response: &Response, count: usize) {
+    response.request_focus();
+    let ctx = &response.ctx;
+    let mut state = TextEditState::load(ctx, response.id).unwrap_or_default();
+    let all = CCursorRange::two(CCursor::new(0), CCursor::new(count));
+    state.cursor.set_char_range(Some(all));
+    state.store(ctx, response.id);
 }

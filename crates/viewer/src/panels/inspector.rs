@@ -28,6 +28,7 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
                     Selection::Light(i) => light::show(ui, work, i),
                 }
                 super::menu::brush_settings(ui, work);
+                super::form::end_naming(ui.ctx());
             });
         });
 }

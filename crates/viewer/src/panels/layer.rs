@@ -6,7 +6,7 @@ use hairline_editor::presets::LayerPreset;
 use hairline_editor::ranges::Parameter;
 use hairline_scene::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
 
-use super::form::Form;
+use super::form::{Form, NAME};
 use super::layer_place;
 use crate::command::Command;
 use crate::parts;
@@ -25,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     ui.heading("Scratches");
     let mut form = Form::new(ui, ("layer", index), diagonal_m);
     let mut name = layer.name.clone().unwrap_or_default();
-    form.text("Name", "What the outliner calls it", &mut name);
+    form.text(NAME, "What the outliner calls it", &mut name);
     layer.name = (!name.is_empty()).then_some(name);
     let objects = description
         .objects

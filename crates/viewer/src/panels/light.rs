@@ -9,7 +9,7 @@ use hairline_editor::ranges::Parameter;
 use hairline_editor::{Selection, place_light};
 use hairline_scene::description::{Cone, Light, LightKind};
 
-use super::form::Form;
+use super::form::{Form, NAME};
 use crate::command::Command;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
@@ -25,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     ui.heading("Light");
     let mut form = Form::new(ui, ("light", index), work.diagonal_m(None));
     let mut name = light.name.clone().unwrap_or_default();
-    form.text("Name", "What the outliner calls it", &mut name);
+    form.text(NAME, "What the outliner calls it", &mut name);
     light.name = (!name.is_empty()).then_some(name);
     form.toggle("Hidden", "A hidden light gives no light", &mut light.hidden);
     if light.kind.sunbeam().is_none() {

@@ -8,7 +8,7 @@ use hairline_optics::metal::Metal;
 use hairline_scene::description::{MaterialKind, MetalColor};
 use hairline_scene::{Anisotropy, Coat, Specular};
 
-use super::form::Form;
+use super::form::{Form, NAME};
 use super::outliner::material_cards;
 use crate::command::Command;
 use crate::gallery::metal_swatches;
@@ -113,7 +113,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     ui.heading("Material");
     let mut form = Form::new(ui, ("material", index), work.diagonal_m(None));
     let mut name = material.name.clone();
-    form.text("Name", "What objects call it", &mut name);
+    form.text(NAME, "What objects call it", &mut name);
     let mut kind = Kind::of(&material.kind);
     form.choice(
         "Kind",

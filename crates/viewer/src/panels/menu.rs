@@ -149,6 +149,7 @@ pub(crate) fn on_selection(ui: &mut Ui, work: &mut Workspace) {
         Command::FocusHere,
         Command::ToggleHidden,
         Command::ToggleSolo,
+        Command::Rename,
         Command::Duplicate,
         Command::MoveUp,
         Command::MoveDown,

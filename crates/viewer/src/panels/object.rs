@@ -8,7 +8,7 @@ use hairline_editor::ranges::Parameter;
 use hairline_editor::wear::{self, Wear};
 use hairline_scene::description::{Shape, Surface, Up};
 
-use super::form::Form;
+use super::form::{Form, NAME};
 use super::overrides;
 use crate::command::Command;
 use crate::gallery::{SIDE, Thumb, card, cards};
@@ -24,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     wear_row(ui, work, index);
     let mut form = Form::new(ui, ("object", index), diagonal_m);
     let mut name = object.name.clone();
-    form.text("Name", "What layers of scratches call it", &mut name);
+    form.text(NAME, "What layers of scratches call it", &mut name);
     // A mesh may keep the materials of its file.
     let keeps_own =
         matches!(object.surface, Surface::Mesh(_)).then(|| (None, "of its file".to_owned()));

@@ -61,7 +61,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace) {
 
     let ground = Switched {
         selection: Selection::Ground,
-        name: "Ground",
+        name: "Ground plane",
         is_shown: description.ground.as_ref().is_some_and(|g| !g.hidden),
         what: "the ground",
         tooltip: "Whether there is a floor under all objects",
@@ -71,7 +71,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace) {
     section(ui, "Lights", |ui| add_light(ui, work));
     let of_studio = Switched {
         selection: Selection::Studio,
-        name: "Studio",
+        name: "Studio lights",
         is_shown: !description.studio.hidden,
         what: "the studio",
         tooltip: "Whether soft boxes, a lamp and a dim room light all objects",
@@ -171,7 +171,7 @@ fn line(ui: &mut Ui, work: &mut Workspace, selection: Selection, name: &str, is_
         work.document.select(selection);
     }
     if response.double_clicked() {
-        work.wished.push(Command::FrameSelection);
+        work.wished.push(Command::Rename);
     }
     if response.secondary_clicked() {
         work.document.select(selection);
@@ -224,8 +224,15 @@ fn add_light(ui: &mut Ui, work: &mut Workspace) {
 
 fn add_material(ui: &mut Ui, work: &mut Workspace) {
     if let Some(preset) = material_cards(ui, work) {
+        // What is selected is made of it.
+        let object = work.selected_object();
         work.apply("Add a material", |d, _| {
-            Ok(materials::add(d, preset.material()))
+            let selection = materials::add(d, preset.material());
+            let name = d.materials.last().map(|material| material.name.clone());
+            if let Some(object) = object.and_then(|object| d.objects.get_mut(object)) {
+                object.material = name;
+            }
+            Ok(selection)
         });
     }
 }

@@ -9,7 +9,7 @@ use crate::workspace::Workspace;
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     let mut studio = work.document.description().studio.clone();
-    ui.heading("Studio");
+    ui.heading("Studio lights");
     ui.label("Soft boxes, a lamp and a dim room about what the camera sees.");
     let is_lit = !studio.hidden;
     let mut form = Form::new(ui, "studio", work.diagonal_m(None));
@@ -46,7 +46,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
 pub(super) fn show_ground(ui: &mut Ui, work: &mut Workspace) {
     let description = work.document.description();
     let mut ground = description.ground.clone();
-    ui.heading("Ground");
+    ui.heading("Ground plane");
     ui.label("A wide floor that takes shadows and mirrors what stands on it.");
     let mut form = Form::new(ui, "ground", work.diagonal_m(None));
     let mut is_hidden = ground.as_ref().is_none_or(|ground| ground.hidden);

@@ -479,3 +479,45 @@ fn what_is_typed_after_the_key_for_open_is_the_path() {
     let line = harness.get_by_role_and_label(egui::accesskit::Role::TextInput, "Path");
     assert_eq!(line.accesskit_node().value().as_deref(), Some("56"));
 }
+
+#[test]
+fn f2_and_a_double_click_in_the_list_rename() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    let document = harness.state_mut().document_mut();
+    document.select(Selection::Light(0));
+    harness.run_steps(3);
+    key(&mut harness, Key::F2);
+    harness.event(Event::Text("bulb".to_owned()));
+    harness.run_steps(2);
+    key(&mut harness, Key::Enter);
+    let name = |harness: &Harness<'static, Viewer>| description(harness).lights[0].name.clone();
+    assert_eq!(name(&harness).as_deref(), Some("bulb"));
+    let line = harness.get_by_label("disk").rect().center();
+    crate::common::double_click_at(&mut harness, line);
+    harness.run_steps(2);
+    harness.event(Event::Text("plate".to_owned()));
+    harness.run_steps(2);
+    key(&mut harness, Key::Enter);
+    let d = description(&harness);
+    assert_eq!(d.objects[0].name, "plate");
+    assert_eq!(d.scratches[0].object, "plate");
+}
+
+#[test]
+fn a_new_material_is_given_to_what_is_selected() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    let document = harness.state_mut().document_mut();
+    document.select(Selection::Object(0));
+    harness.run_steps(3);
+    let before = description(&harness);
+    click_on(&mut harness, "Add to materials");
+    click_on(&mut harness, "Mirror");
+    let d = description(&harness);
+    let added = d.materials.last().unwrap().name.clone();
+    assert_eq!(d.materials.len(), before.materials.len() + 1);
+    assert_eq!(d.objects[0].material.as_ref(), Some(&added));
+    crate::common::undo(&mut harness);
+    assert_eq!(*description(&harness), *before);
+}

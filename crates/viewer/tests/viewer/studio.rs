@@ -26,7 +26,10 @@ fn built(harness: &Harness<'static, Viewer>) -> Scene {
 fn studio_and_ground_are_switched_in_the_list_and_by_a_key() {
     let mut harness = bare();
     let is_off = |d: &Description| (d.studio.hidden, d.ground.as_ref().is_none_or(|g| g.hidden));
-    for (line, off) in [("Studio", (true, false)), ("Ground", (false, true))] {
+    for (line, off) in [
+        ("Studio lights", (true, false)),
+        ("Ground plane", (false, true)),
+    ] {
         let before = description(&harness);
         assert_eq!(is_off(&before), (false, false));
         click_on(&mut harness, &format!("Show the {}", line.to_lowercase()));
@@ -53,7 +56,7 @@ fn studio_and_ground_are_switched_in_the_list_and_by_a_key() {
 #[test]
 fn lights_in_the_place_of_the_studio_light_the_same_picture() {
     let mut harness = bare();
-    click_on(&mut harness, "Studio");
+    click_on(&mut harness, "Studio lights");
     let (described, before) = (description(&harness), built(&harness));
     click_on(&mut harness, "Make ordinary lights of it");
     wait_built(&mut harness);
@@ -74,7 +77,7 @@ fn lights_in_the_place_of_the_studio_light_the_same_picture() {
 #[test]
 fn the_ground_lies_where_it_is_said_to() {
     let mut harness = bare();
-    click_on(&mut harness, "Ground");
+    click_on(&mut harness, "Ground plane");
     let level = |harness: &Harness<'static, Viewer>| built(harness).objects[1].mesh.bounds_m().0.z;
     let under_m = level(&harness);
     assert!(under_m < 0.0 && under_m > -1e-3, "{under_m}");
