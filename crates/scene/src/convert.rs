@@ -113,11 +113,15 @@ pub(crate) fn environment_map(
 fn built_in_map(map: BuiltInMap) -> Environment {
     static MADE: [OnceLock<Environment>; BuiltInMap::ALL.len()] =
         [const { OnceLock::new() }; BuiltInMap::ALL.len()];
-    let make = || {
-        let picture = map.picture(environment::BUILT_IN_SIZE_PX);
-        Environment::from_map(picture, 0.0, 1.0, true)
-    };
-    MADE[map as usize].get_or_init(make).clone()
+    let made = &MADE[map as usize];
+    if let Some(map) = made.get() {
+        return map.clone();
+    }
+    let picture = map.picture(environment::BUILT_IN_SIZE_PX);
+    // Outside of `get_or_init`: it is made by several threads, and one that waits for the others may take up the building of another scene,
+    // which would wait for the map for ever. Two may make it; the first one stays.
+    let map = Environment::from_map(picture, 0.0, 1.0, true);
+    made.get_or_init(|| map).clone()
 }
 
 /// The map as it is described, its top along `up`.
