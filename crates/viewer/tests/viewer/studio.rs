@@ -26,13 +26,13 @@ fn built(harness: &Harness<'static, Viewer>) -> Scene {
 fn studio_and_ground_are_switched_in_the_list_and_by_a_key() {
     let mut harness = bare();
     let is_off = |d: &Description| (d.studio.hidden, d.ground.as_ref().is_none_or(|g| g.hidden));
-    for (line, off) in [
-        ("Studio lights", (true, false)),
-        ("Ground plane", (false, true)),
+    for (line, box_of, off) in [
+        ("Studio lights", "Show the studio", (true, false)),
+        ("Ground plane", "Show the ground", (false, true)),
     ] {
         let before = description(&harness);
         assert_eq!(is_off(&before), (false, false));
-        click_on(&mut harness, &format!("Show the {}", line.to_lowercase()));
+        click_on(&mut harness, box_of);
         assert_eq!(is_off(&description(&harness)), off, "{line}");
         common::undo(&mut harness);
         assert_eq!(*description(&harness), *before);
