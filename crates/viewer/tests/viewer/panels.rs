@@ -188,20 +188,17 @@ fn the_environment() {
     });
     select(&mut harness, Selection::Environment);
     assert_eq!(every_number_is_live(&mut harness), 2);
-    // What cannot be read is told of, and the picture stays.
-    common::wait_until(&mut harness, "a message", |viewer| {
-        viewer
-            .messages()
-            .iter()
-            .any(|text| text.contains("there is none.hdr"))
+    // What is not there is told of, and the picture stays.
+    common::wait_until(&mut harness, "the scene is looked at", |viewer| {
+        viewer.engine().has_failed()
     });
+    harness.run_steps(2);
+    harness.get_by_label("The environment map there is none.hdr is not there.");
     assert!(harness.state().engine().built().is_some());
     click_on(&mut harness, "Remove the map");
     assert_eq!(description(&harness).environment, None);
-    // It goes when the scene without the map is built, which another thread does in its own time.
-    common::wait_until(&mut harness, "the message goes", |viewer| {
-        viewer.messages().is_empty()
-    });
+    harness.run_steps(2);
+    assert!(harness.query_by_label_contains("is not there").is_none());
 }
 
 /// A scene that is put right before its builder has found out what is wrong with it: nothing is told of what was.
