@@ -58,6 +58,7 @@ impl Viewer {
             | Command::MoveDown
             | Command::ToggleHidden
             | Command::ToggleSolo => self.on_selection(command),
+            Command::LightForScratches => self.work.light_for_scratches(),
             Command::FrameAll => self.work.frame(None),
             Command::FrameSelection => self.work.frame_selection(),
             Command::FocusHere => match self.viewport.pointed_m(&self.work) {

@@ -99,6 +99,9 @@ pub(super) fn add_layer(ui: &mut Ui, work: &mut Workspace, object: usize) {
     }
 }
 
+/// Where scratches are noticed in a smaller share of the scratched pixels, other light is offered.
+const FAINT: f32 = 0.08;
+
 /// How worn the object is: one choice over its layers of wear.
 fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
     let diagonal_m = work.diagonal_m(Some(object));
@@ -126,6 +129,19 @@ fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
     }
     if is.is_none() {
         ui.weak("Its layers of wear were changed by hand: a grade replaces them.");
+    }
+    let is_worn = is != Some(Wear::New);
+    // A coarse picture has other scratches.
+    let frame = work
+        .engine
+        .latest()
+        .filter(|frame| frame.painted.thin == 1 && frame.painted.size_px == frame.view.size_px);
+    if let Some(share) = frame.and_then(|frame| frame.findings.noticed)
+        && is_worn
+        && share < FAINT
+    {
+        ui.weak("Little of the scratches is seen: they are bright beside the mirror images of small lamps, before something dark.");
+        super::button(ui, work, Command::LightForScratches);
     }
     ui.add_space(6.0);
     if let Some(grade) = chosen.filter(|grade| is != Some(*grade)) {

@@ -29,7 +29,14 @@ pub struct Findings {
     pub histogram: Option<Histogram>,
     /// Nearest and farthest surface of a picture of depths, metres.
     pub depths_m: Option<[f32; 2]>,
+    /// The share of the scratched pixels in which scratches are noticed; none where there are no such pixels.
+    pub noticed: Option<f32>,
 }
+
+/// What scratches add to a pixel is noticed from here on, of 255.
+const NOTICED: f32 = 5.0;
+/// One pixel of so many is looked at.
+const LOOKED_AT: usize = 7;
 
 /// The picture that is shown of a render, and what is to be told with it. `full_px` is the size of a picture that is not coarse.
 pub(crate) fn develop(
@@ -55,6 +62,23 @@ pub(crate) fn develop(
     let findings = Findings {
         histogram,
         depths_m,
+        noticed: noticed(image, display),
     };
     (ColorImage::from_rgb(size, &pixels), findings)
+}
+
+fn noticed(image: &Image, display: &Display) -> Option<f32> {
+    let (mut scratched, mut noticed) = (0, 0);
+    for i in (0..image.pixel_count()).step_by(LOOKED_AT) {
+        if image.density[i] == [0.0; 3] {
+            continue;
+        }
+        scratched += 1;
+        let (base, scratches) = (image.base[i], image.scratches[i]);
+        let without = display.apply(base);
+        let with = display.apply(std::array::from_fn(|c| base[c] + scratches[c]));
+        let is_noticed = (0..3).any(|c| 255.0 * (with[c] - without[c]).abs() >= NOTICED);
+        noticed += u32::from(is_noticed);
+    }
+    (scratched > 0).then(|| noticed as f32 / scratched as f32)
 }

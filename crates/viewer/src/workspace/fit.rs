@@ -120,6 +120,25 @@ impl Workspace {
         is_built.then(|| self.bounds_of(|i| i < objects.len()))?
     }
 
+    /// Lights that show scratches, in the place of those that there are.
+    pub fn light_for_scratches(&mut self) {
+        let built = self.engine.built();
+        match (built, self.built_bounds_m()) {
+            (Some(built), Some(_)) => self.apply("Light for the scratches", |d, selection| {
+                d.light_for_scratches(&built.scene);
+                // Lights that were selected are gone.
+                Ok(match selection {
+                    Selection::Light(_) | Selection::Studio => Selection::None,
+                    other => other,
+                })
+            }),
+            _ => (self.notices).note(
+                "light",
+                "Lights are placed by the shapes: wait until the picture shows them.",
+            ),
+        }
+    }
+
     /// Where their lowest point is along the vertical.
     pub fn lowest_m(&self) -> Option<f64> {
         let up = self.document.description().camera.world_up();

@@ -33,3 +33,4 @@ mod studio;
 mod tooltips;
 mod typed;
 mod views;
+mod worn;

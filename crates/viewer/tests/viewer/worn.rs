@@ -1,0 +1,37 @@
+//! Light in which wear shows.
+
+use crate::common::{self, click_on, description, viewer, wait_built, wait_until};
+use egui_kittest::kittest::Queryable;
+use hairline_editor::Selection;
+use hairline_viewer::Viewer;
+
+/// A few scratches on a ball that mirrors an even sky.
+const FAINT: &str = "[camera]\nposition_m = [0, -1, 0.5]\ntarget_m = [0, 0, 0]\nup = [0, 0, 1]\nfov_y_deg = 15\n\
+    [environment]\nbuiltin = \"overcast\"\nintensity = 0.01\n[[material]]\nname = \"steel\"\nkind = \"metal\"\nmetal = \"steel\"\n\
+    [[object]]\nname = \"ball\"\nshape = { sphere = { radius_m = 0.1 } }\nmaterial = \"steel\"\n\
+    [[scratches]]\nobject = \"ball\"\npattern = \"random\"\ncount = 40000\nlength_m = 0.02\nwidth_um = 3.0\ndepth_nm = 150.0\nname = \"wear: hairlines\"\n";
+
+const LIGHT: &str = "Light for the scratches";
+
+#[test]
+fn scratches_that_are_hardly_seen_are_offered_other_light() {
+    let mut harness = viewer(FAINT);
+    wait_built(&mut harness);
+    (harness.state_mut().document_mut()).select(Selection::Object(0));
+    let noticed = |viewer: &Viewer| viewer.engine().latest()?.findings.noticed;
+    wait_until(&mut harness, "few are noticed", |viewer| {
+        noticed(viewer).is_some_and(|share| share < 0.05)
+    });
+    let before = description(&harness);
+    click_on(&mut harness, LIGHT);
+    let lit = description(&harness);
+    assert!(lit.lights.len() >= 3 && lit.environment != before.environment);
+    assert_eq!(lit.scratches, before.scratches);
+    wait_until(&mut harness, "more are noticed", |viewer| {
+        noticed(viewer).is_some_and(|share| share > 0.1)
+    });
+    harness.run_steps(2);
+    assert!(harness.query_by_label(LIGHT).is_none(), "it is done");
+    common::undo(&mut harness);
+    assert_eq!(*description(&harness), *before);
+}
