@@ -10,6 +10,9 @@ pub const BATCH_SAMPLES: u32 = 4;
 /// Samples at most in a batch of what rays find: their closed forms are computed once for each batch.
 pub const BATCH_ROUNDS: u32 = 16;
 
+/// Those of the first batch while somebody looks: as few as tell how they vary.
+const FIRST_ROUNDS: u32 = 2;
+
 /// Some of the samples of each pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Batch {
@@ -41,7 +44,7 @@ impl Batch {
     /// Those that `samples` rounds of rays add up in while somebody looks: the first one is soon there, and later ones are as large as can be.
     pub fn growing(samples: u32) -> impl Iterator<Item = Self> {
         let after = move |first: u32| {
-            let count = first.clamp(BATCH_SAMPLES, BATCH_ROUNDS);
+            let count = (3 * first).clamp(FIRST_ROUNDS, BATCH_ROUNDS);
             (first < samples).then(|| Self {
                 first,
                 count: count.min(samples - first),
@@ -310,8 +313,8 @@ mod tests {
     #[test]
     fn batches_grow_to_all_samples() {
         let counts = |samples| -> Vec<u32> { Batch::growing(samples).map(|b| b.count).collect() };
-        assert_eq!(counts(64), [4, 4, 8, 16, 16, 16]);
-        assert_eq!(counts(3), [3]);
+        assert_eq!(counts(64), [2, 6, 16, 16, 16, 8]);
+        assert_eq!(counts(3), [2, 1]);
         assert_eq!(Batch::growing(64).last().unwrap().range().end, 64);
     }
 

@@ -121,6 +121,28 @@ fn unsaved(ctx: &egui::Context, title: &str, wish: &Wish) -> Option<Answer> {
     })
 }
 
+/// Shorter than docs/first-shot.md, which has the same.
+const ADVICE: [(&str, [&str; 4]); 2] = [
+    (
+        "Why do I see no scratches?",
+        [
+            "Soft boxes or a bright sky fill the mirror image around the highlight: Edit, Light for the scratches.",
+            "The highlight lies elsewhere: L and a click put it where you want it.",
+            "The base is rough: above 0.2 its own highlight drowns them.",
+            "They are narrow and the object is far: come nearer, or lay more.",
+        ],
+    ),
+    (
+        "What gives beauty",
+        [
+            "Depths of 100 to 250 nm give the colour; a spread above 0.2 washes it out.",
+            "Widths of 2 to 6 µm show the rainbow along a scratch.",
+            "One pattern tells how the thing was made, a second one how it was used.",
+            "A small lamp for colour, a strip for the form, darkness for the rest.",
+        ],
+    ),
+];
+
 /// All keys and what the mouse does; true when it is to be closed.
 fn help(ui: &mut Ui) -> bool {
     const MOUSE: [(&str, &str); 9] = [
@@ -169,6 +191,13 @@ fn help(ui: &mut Ui) -> bool {
                 }
                 ui.label(SIZES);
             });
+            for (title, lines) in ADVICE {
+                ui.collapsing(title, |ui| {
+                    for line in lines {
+                        ui.label(line);
+                    }
+                });
+            }
         });
     ui.add_space(8.0);
     ui.button("Close").clicked()

@@ -28,8 +28,10 @@ struct State {
     view: Option<View>,
     frame: Option<Arc<Frame>>,
     events: Vec<Event>,
-    /// The newest scene could not be built.
-    has_failed: bool,
+    /// The revision of the newest scene that was asked for.
+    asked: u64,
+    /// The revision of the last one that could not be built.
+    failed: Option<u64>,
     /// The interface waits for a frame.
     is_awaited: bool,
 }
@@ -113,7 +115,7 @@ impl Shared {
 
     pub fn want_scene(&self, revision: u64, description: Arc<Description>, base_dir: PathBuf) {
         let mut state = self.lock();
-        state.has_failed = false;
+        state.asked = revision;
         state.wanted_scene = Some(WantedScene {
             revision,
             description,
@@ -227,7 +229,9 @@ impl Shared {
 
     pub fn put_event(&self, event: Event) {
         let mut state = self.lock();
-        state.has_failed |= matches!(event, Event::NotBuilt { .. });
+        if let Event::NotBuilt { revision, .. } = event {
+            state.failed = Some(revision);
+        }
         state.events.push(event);
         let is_awaited = state.is_awaited;
         drop(state);
@@ -274,7 +278,8 @@ impl Shared {
     }
 
     pub fn has_failed(&self) -> bool {
-        self.lock().has_failed
+        let state = self.lock();
+        state.failed == Some(state.asked)
     }
 
     pub fn take_events(&self) -> Vec<Event> {

@@ -2,13 +2,14 @@
 
 use egui::Ui;
 use hairline_editor::Selection;
-use hairline_editor::actions::{layers, objects};
+use hairline_editor::actions::{layers, materials, objects};
 use hairline_editor::presets::LayerPreset;
 use hairline_editor::ranges::Parameter;
 use hairline_editor::wear::{self, Wear};
 use hairline_scene::description::{Shape, Surface, Up};
 
 use super::form::{Form, NAME};
+use super::outliner::material_cards;
 use super::overrides;
 use crate::command::Command;
 use crate::gallery::{SIDE, Thumb, card, cards};
@@ -76,7 +77,10 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             work.document.select(Selection::Layer(i));
         }
     }
-    ui.menu_button("Add scratches…", |ui| add_layer(ui, work, index));
+    ui.horizontal(|ui| {
+        ui.menu_button("Add scratches…", |ui| add_layer(ui, work, index));
+        ui.menu_button("Make it of…", |ui| make_of(ui, work, index));
+    });
     ui.add_space(8.0);
     super::grating::section(ui, work, index);
     ui.add_space(8.0);
@@ -84,6 +88,24 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         for command in [Command::FrameSelection, Command::Duplicate, Command::Delete] {
             super::button(ui, work, command);
         }
+    });
+}
+
+/// The presets of materials as a menu. A material of the scene that is like the preset is taken again.
+fn make_of(ui: &mut Ui, work: &mut Workspace, object: usize) {
+    let Some(preset) = material_cards(ui, work) else {
+        return;
+    };
+    work.apply("Material", |d, selection| {
+        let material = preset.material();
+        if !d.materials.contains(&material) {
+            materials::add(d, material.clone());
+        }
+        let same = d.materials.iter().find(|it| **it == material);
+        // Its own name may have been taken.
+        let given = same.or(d.materials.last()).map(|it| it.name.clone());
+        d.objects[object].material = given;
+        Ok(selection)
     });
 }
 

@@ -35,3 +35,20 @@ fn scratches_that_are_hardly_seen_are_offered_other_light() {
     common::undo(&mut harness);
     assert_eq!(*description(&harness), *before);
 }
+
+#[test]
+fn an_object_is_made_of_a_preset_in_one_move() {
+    let mut harness = viewer(FAINT);
+    wait_built(&mut harness);
+    (harness.state_mut().document_mut()).select(Selection::Object(0));
+    let before = description(&harness);
+    for _ in 0..2 {
+        click_on(&mut harness, "Make it of…");
+        click_on(&mut harness, "Gold");
+        let after = description(&harness);
+        // The second time it is there.
+        assert_eq!(after.materials.len(), before.materials.len() + 1);
+        assert_eq!(after.objects[0].material.as_deref(), Some("gold"));
+        assert_eq!(harness.state().document().selection(), Selection::Object(0));
+    }
+}
