@@ -6,14 +6,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_editor::presets::MaterialPreset;
 use hairline_image::{Display, Image, Output, filter_found};
 use hairline_optics::metal::Metal;
-use hairline_scene::description::{Description, Material, MaterialKind, MetalColor, Studio};
+use hairline_scene::description::{Description, Material, Studio};
 use hairline_scene::wear::Wear;
 use hairline_scene::{DEFAULT_SAMPLES, Loader, SceneBuilder};
-
-/// A change that an eye notices beside the pixel as it was, of 255.
-const NOTICED: f64 = 5.0;
 
 /// Options of `wear`.
 #[derive(clap::Args)]
@@ -66,9 +64,9 @@ impl WearShown {
         let mut builder = SceneBuilder::new();
         let mut build =
             |description: &Description| builder.build(&Loader::default(), description, folder);
-        let (least, most) = build(&description)?.objects[0].mesh.bounds_m();
-        let bounds_m = (least.as_dvec3(), most.as_dvec3());
         let scene = build(&description)?;
+        let (least, most) = scene.objects[0].mesh.bounds_m();
+        let bounds_m = (least.as_dvec3(), most.as_dvec3());
         description.light_for_scratches(&scene);
         if is_studio {
             let studio = Studio::default();
@@ -95,28 +93,16 @@ impl WearShown {
 }
 
 fn materials() -> [Material; 3] {
-    let metal =
-        |name: &str, metal| material(name, MaterialKind::Metal(MetalColor::Measured(metal)));
-    let black = MaterialKind::Dielectric {
-        ior: 1.5,
-        base_color: [0.012, 0.014, 0.02],
-    };
+    let metal = |metal| MaterialPreset::Metal(metal).material();
     [
-        metal("steel", Metal::StainlessSteel),
-        metal("gold", Metal::Gold),
-        material("black plastic", black),
+        metal(Metal::StainlessSteel),
+        metal(Metal::Gold),
+        Material {
+            name: "black plastic".to_owned(),
+            roughness: 0.06,
+            ..MaterialPreset::CarPaint.material()
+        },
     ]
-}
-
-fn material(name: &str, kind: MaterialKind) -> Material {
-    Material {
-        name: name.to_owned(),
-        kind,
-        roughness: 0.06,
-        coherence_um: 20.0,
-        coat: None,
-        anisotropy: None,
-    }
 }
 
 fn picture(scene: &hairline_scene::Scene) -> Image {
@@ -139,11 +125,7 @@ fn noticed(worn: &Image, without: &Image, display: &Display) -> f64 {
     for ((pixel, a), b) in objects.zip(&worn.rgb).zip(&without.rgb) {
         if pixel.object == 1 {
             all += 1;
-            let [a, b] = [a, b].map(|rgb| display.apply(*rgb));
-            let most = (0..3)
-                .map(|c| f64::from((a[c] - b[c]).abs()))
-                .fold(0.0, f64::max);
-            differ += u32::from(255.0 * most >= NOTICED);
+            differ += u32::from(display.is_noticed(*a, *b));
         }
     }
     f64::from(differ) / f64::from(all.max(1))

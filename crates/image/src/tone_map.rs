@@ -55,7 +55,16 @@ impl Display {
         let gain = self.exposure_ev.exp2() as f32;
         tone_map(self.tone_map, radiance.map(|c| c * gain)).map(srgb_from_linear)
     }
+
+    /// Whether an eye notices that one radiance is shown in the place of another: by [`NOTICED`] of 255 in a channel.
+    pub fn is_noticed(&self, one: [f32; 3], other: [f32; 3]) -> bool {
+        let (one, other) = (self.apply(one), self.apply(other));
+        (0..3).any(|c| 255.0 * (one[c] - other[c]).abs() >= NOTICED)
+    }
 }
+
+/// See [`Display::is_noticed`].
+const NOTICED: f32 = 5.0;
 
 /// The largest radiance that the curves see: they are all flat by far, and its square is still finite.
 const TONE_RADIANCE_MAX: f32 = 1e9;

@@ -152,9 +152,8 @@ impl Subject<'_> {
             } => (1.0 - metallic) * mean(base_color),
         };
         let of_texture = material.base_color_texture.map_or(1.0, |texture| {
-            // Of some thousand texels, as bright as a display shows them.
-            let texels = &self.textures[texture].levels[0];
-            let some = texels.iter().step_by(1 + texels.len() / 4096);
+            // As bright as a display shows them.
+            let some = self.textures[texture].some_texels();
             let linear =
                 |texel: &[u8; 4]| mean([0, 1, 2].map(|c| (f64::from(texel[c]) / 255.0).powf(2.2)));
             some.clone().map(linear).sum::<f64>() / some.count().max(1) as f64
@@ -176,6 +175,7 @@ struct Lamps<'a> {
 impl Lamps<'_> {
     /// One after the other, each where the fan around its highlight holds most of the points that those before leave.
     fn places(&self, seen: &[SeenPoint]) -> Vec<DVec3> {
+        let [fan_cos, apart_cos] = [FAN_DEG, APART_DEG].map(|angle| angle.to_radians().cos());
         let mut left: Vec<SeenPoint> = seen.to_vec();
         let mut lamps = Vec::new();
         while lamps.len() < LAMPS_MAX {
@@ -185,7 +185,7 @@ impl Lamps<'_> {
                     let lamp_m = self.lamp_for(point)?;
                     let held = left
                         .iter()
-                        .filter(|it| self.is_near(it, lamp_m, FAN_DEG))
+                        .filter(|it| self.is_near(it, lamp_m, fan_cos))
                         .count();
                     Some((held, lamp_m, point.position_m))
                 })
@@ -201,7 +201,7 @@ impl Lamps<'_> {
                 break;
             }
             lamps.push(*lamp_m);
-            left.retain(|it| !self.is_near(it, *lamp_m, APART_DEG));
+            left.retain(|it| !self.is_near(it, *lamp_m, apart_cos));
         }
         lamps
     }
@@ -220,12 +220,12 @@ impl Lamps<'_> {
         Some(point.position_m + self.distance_m * to_lamp)
     }
 
-    /// Whether the normal at a point is so near to the one that would mirror a lamp.
-    fn is_near(&self, point: &SeenPoint, lamp_m: DVec3, angle_deg: f64) -> bool {
+    /// Whether the normal at a point and the one that would mirror a lamp have at least this cosine.
+    fn is_near(&self, point: &SeenPoint, lamp_m: DVec3, least_cos: f64) -> bool {
         let to_eye = (self.eye_m - point.position_m).normalize_or_zero();
         let to_lamp = (lamp_m - point.position_m).normalize_or_zero();
         let half = (to_eye + to_lamp).normalize_or_zero();
-        to_lamp.dot(point.normal) > 0.0 && half.dot(point.normal) > angle_deg.to_radians().cos()
+        to_lamp.dot(point.normal) > 0.0 && half.dot(point.normal) > least_cos
     }
 }
 
@@ -238,7 +238,7 @@ fn is_hidden(meshes: &[&Mesh], from_m: DVec3, lamp_m: DVec3) -> bool {
         mesh.triangles.iter().any(|corners| {
             let [a, b, c] = corners.map(|corner| mesh.positions_m[corner as usize].as_dvec3());
             let (ab, ac, to) = (b - a, c - a, from_m - a);
-            // T. Möller and B. Trumbore, 1997.
+            // T. Möller and B. Trumbore, 1997, as `intersect_triangle` of hairline-index, which depends on this crate.
             let p = way.cross(ac);
             let det = ab.dot(p);
             if det == 0.0 {

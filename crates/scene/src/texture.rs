@@ -136,6 +136,12 @@ pub(crate) fn of(image: Texels, channels: Channels, with_mips: bool) -> Texture 
 }
 
 impl Texture {
+    /// Some thousand texels of the first level, spread over it: enough for a mean.
+    pub(crate) fn some_texels(&self) -> impl Iterator<Item = &[u8; 4]> + Clone {
+        let texels = &self.levels[0];
+        texels.iter().step_by(1 + texels.len() / 4096)
+    }
+
     /// Of sRGB codes, row by row from the top; it ends at its borders.
     pub fn of_colors(size_px: [u32; 2], texels: Vec<[u8; 4]>) -> Self {
         let mut texture = with_mips(size_px, texels, Channels::Color);

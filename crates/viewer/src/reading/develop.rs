@@ -33,8 +33,6 @@ pub struct Findings {
     pub noticed: Option<f32>,
 }
 
-/// What scratches add to a pixel is noticed from here on, of 255.
-const NOTICED: f32 = 5.0;
 /// One pixel of so many is looked at.
 const LOOKED_AT: usize = 7;
 
@@ -75,10 +73,8 @@ fn noticed(image: &Image, display: &Display) -> Option<f32> {
         }
         scratched += 1;
         let (base, scratches) = (image.base[i], image.scratches[i]);
-        let without = display.apply(base);
-        let with = display.apply(std::array::from_fn(|c| base[c] + scratches[c]));
-        let is_noticed = (0..3).any(|c| 255.0 * (with[c] - without[c]).abs() >= NOTICED);
-        noticed += u32::from(is_noticed);
+        let with = std::array::from_fn(|c| base[c] + scratches[c]);
+        noticed += u32::from(display.is_noticed(base, with));
     }
     (scratched > 0).then(|| noticed as f32 / scratched as f32)
 }

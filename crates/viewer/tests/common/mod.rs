@@ -44,16 +44,21 @@ pub fn viewer_with(options: Options) -> Harness<'static, Viewer> {
 
 /// A scene's file, on the CPU, once it is built.
 pub fn viewer_of_file(scene: &std::path::Path) -> Harness<'static, Viewer> {
-    let mut harness = viewer_with(Options {
+    let mut harness = viewer_of_any_file(scene);
+    wait_built(&mut harness);
+    harness
+}
+
+/// A scene's file, on the CPU, which may make no scene.
+pub fn viewer_of_any_file(scene: &std::path::Path) -> Harness<'static, Viewer> {
+    viewer_with(Options {
         scene: Some(scene.to_owned()),
         built_in: SMALL,
         backend: Backend::Cpu,
         state_dir: None,
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
-    });
-    wait_built(&mut harness);
-    harness
+    })
 }
 
 /// The same in another size.
@@ -195,4 +200,20 @@ fn button_event(pos: Pos2, pressed: bool) -> egui::Event {
         pressed,
         modifiers: egui::Modifiers::NONE,
     }
+}
+
+/// Clicks with the right button.
+pub fn right_click(harness: &mut Harness<'static, Viewer>, at: Pos2) {
+    harness.hover_at(at);
+    harness.run_steps(2);
+    for pressed in [true, false] {
+        harness.event(egui::Event::PointerButton {
+            pos: at,
+            button: egui::PointerButton::Secondary,
+            pressed,
+            modifiers: egui::Modifiers::NONE,
+        });
+        harness.step();
+    }
+    harness.run_steps(2);
 }

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::common::{
-    SMALL, click_at, click_on, description, key, picture, viewer, viewer_of, viewer_with,
-    wait_built, wait_until,
+    SMALL, click_at, click_on, description, key, picture, right_click, viewer, viewer_of,
+    viewer_with, wait_built, wait_until,
 };
 use egui::{Event, Key, Modifiers, MouseWheelUnit, Pos2, Rect, Vec2, vec2};
 use egui_kittest::Harness;
@@ -308,21 +308,6 @@ fn panels_hide_and_come_back() {
     key(&mut harness, Key::F10);
     harness.run_steps(30);
     assert!((picture(&harness).width() - width).abs() < 2.0);
-}
-
-fn right_click(harness: &mut Harness<'static, Viewer>, at: Pos2) {
-    harness.hover_at(at);
-    harness.run_steps(2);
-    for pressed in [true, false] {
-        harness.event(Event::PointerButton {
-            pos: at,
-            button: egui::PointerButton::Secondary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        });
-        harness.step();
-    }
-    harness.run_steps(2);
 }
 
 #[test]

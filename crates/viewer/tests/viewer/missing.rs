@@ -2,21 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::common::{self, SMALL, click_on, description, viewer_with, wait_built, wait_until};
+use crate::common::{
+    self, SMALL, click_on, description, viewer_of_any_file, wait_built, wait_until,
+};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use hairline_viewer::engine::Backend;
-use hairline_viewer::{Options, Viewer};
+use hairline_viewer::Viewer;
 
 fn opened(scene: &Path) -> Harness<'static, Viewer> {
-    let mut harness = viewer_with(Options {
-        scene: Some(scene.to_owned()),
-        built_in: SMALL,
-        backend: Backend::Cpu,
-        state_dir: None,
-        native_dialogs: false,
-        transport: hairline_scene::Transport::DIRECT,
-    });
+    let mut harness = viewer_of_any_file(scene);
     wait_until(&mut harness, "the scene is looked at", |viewer| {
         !viewer.engine().is_building()
     });

@@ -230,18 +230,7 @@ fn focus_here_makes_what_is_under_the_pointer_sharp() {
     let menu = |harness: &mut Harness<'static, Viewer>| {
         // Without handles, which would take the mouse.
         harness.state_mut().document_mut().select(Selection::None);
-        harness.hover_at(at);
-        harness.run_steps(2);
-        for pressed in [true, false] {
-            harness.event(egui::Event::PointerButton {
-                pos: at,
-                button: egui::PointerButton::Secondary,
-                pressed,
-                modifiers: Modifiers::NONE,
-            });
-            harness.step();
-        }
-        harness.run_steps(2);
+        common::right_click(harness, at);
         let entry = harness.get_by_label_contains("Focus here").rect();
         common::click_at(harness, entry.center());
         harness.run_steps(3);
