@@ -9,9 +9,8 @@ use hairline_scene::description::{MaterialKind, MetalColor};
 use hairline_scene::{Anisotropy, Coat, Specular};
 
 use super::form::{Form, NAME};
-use super::outliner::material_cards;
 use crate::command::Command;
-use crate::gallery::metal_swatches;
+use crate::gallery::{Thumb, cards, metal_swatches};
 use crate::workspace::Workspace;
 
 /// The kinds by name, each as it begins.
@@ -186,4 +185,10 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         super::button(ui, work, Command::Duplicate);
         super::button(ui, work, Command::Delete);
     });
+}
+
+/// All materials to begin with.
+pub(super) fn material_cards(ui: &mut Ui, work: &mut Workspace) -> Option<MaterialPreset> {
+    let choices = MaterialPreset::all().map(|p| (p, Thumb::Material(p), p.name(), p.tooltip()));
+    cards(ui, &mut work.gallery, "materials", choices)
 }

@@ -9,7 +9,7 @@ use hairline_editor::wear::{self, Wear};
 use hairline_scene::description::{Shape, Surface, Up};
 
 use super::form::{Form, NAME};
-use super::outliner::material_cards;
+use super::material::material_cards;
 use super::overrides;
 use crate::command::Command;
 use crate::gallery::{SIDE, Thumb, card, cards};

@@ -4,10 +4,11 @@ use egui::{Panel, RichText, ScrollArea, Ui};
 use hairline_editor::Selection;
 use hairline_editor::actions::{ActionError, layers, lights, materials, objects, studio};
 use hairline_editor::maps;
-use hairline_editor::presets::{LightPreset, MaterialPreset, ShapePreset};
+use hairline_editor::presets::{LightPreset, ShapePreset};
 use hairline_scene::Description;
 use hairline_scene::description::Map;
 
+use super::material::material_cards;
 use super::object::add_layer;
 use crate::command::Command;
 use crate::gallery::{Thumb, cards};
@@ -235,10 +236,4 @@ fn add_material(ui: &mut Ui, work: &mut Workspace) {
             Ok(selection)
         });
     }
-}
-
-/// All materials to begin with.
-pub(super) fn material_cards(ui: &mut Ui, work: &mut Workspace) -> Option<MaterialPreset> {
-    let choices = MaterialPreset::all().map(|p| (p, Thumb::Material(p), p.name(), p.tooltip()));
-    cards(ui, &mut work.gallery, "materials", choices)
 }
