@@ -56,7 +56,7 @@ impl Display {
         tone_map(self.tone_map, radiance.map(|c| c * gain)).map(srgb_from_linear)
     }
 
-    /// Whether an eye notices that one radiance is shown in the place of another: by [`NOTICED`] of 255 in a channel.
+    /// Whether an eye notices that one radiance is shown in the place of another: by 5 of 255 in a channel.
     pub fn is_noticed(&self, one: [f32; 3], other: [f32; 3]) -> bool {
         let (one, other) = (self.apply(one), self.apply(other));
         (0..3).any(|c| 255.0 * (one[c] - other[c]).abs() >= NOTICED)
