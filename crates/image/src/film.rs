@@ -179,6 +179,28 @@ impl Image {
         }
     }
 
+    /// The picture of the closed forms alone, if rays found something beside them.
+    pub fn open(&self) -> Option<Self> {
+        let found = self.found.as_ref()?;
+        let (base, scratches) = found
+            .pixels
+            .iter()
+            .map(|pixel| <(_, _)>::from(pixel.open()))
+            .unzip();
+        Some(Self {
+            size_px: self.size_px,
+            base,
+            scratches,
+            density: self.density.clone(),
+            depth_m: self.depth_m.clone(),
+            normal: self.normal.clone(),
+            alpha: self.alpha.clone(),
+            noise: None,
+            found: None,
+            tones: self.tones.clone(),
+        })
+    }
+
     /// The picture as a display is to have it: edges of what is far brighter than white are averaged as they look ([`Tones`]).
     pub fn shown(&self) -> Picture {
         let mut picture = self.beauty();

@@ -124,6 +124,13 @@ impl FoundPixel {
         [base, self.scratches.light()]
     }
 
+    /// The same where nothing is hidden and nothing reflected.
+    pub fn open(&self) -> [[f32; 3]; 2] {
+        let (diffuse, specular) = (&self.diffuse.open, &self.specular.open);
+        let base = std::array::from_fn(|c| self.rest[c] + (diffuse[c] + specular[c]));
+        [base, self.scratches.open]
+    }
+
     /// The mean over the samples of a pixel, of which this is the sum; `covered` of them see a surface. Each sample has rays of its own: what they
     /// tell of noise adds up.
     #[must_use]

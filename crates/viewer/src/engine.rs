@@ -26,6 +26,7 @@ mod pace;
 mod painter;
 mod partial;
 mod pool;
+mod remembered;
 mod request;
 mod sketch;
 mod steps;

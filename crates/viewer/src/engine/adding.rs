@@ -27,7 +27,6 @@ impl Adding {
         let mean = batches.image().cloned();
         let mut mean = mean.unwrap_or_else(|| unreachable!("one was added"));
         filter_found(&mut mean);
-        mean.found = None;
         (mean, batches.done())
     }
 }

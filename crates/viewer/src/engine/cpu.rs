@@ -17,6 +17,7 @@ use super::frame::Picture;
 use super::pace::{self, Kind};
 use super::partial::Backdrop;
 use super::pool::Crew;
+use super::remembered::Remembered;
 use super::request::Order;
 use super::steps::Step;
 use crate::reading::{Findings, Shows, develop};
@@ -30,6 +31,7 @@ pub(super) struct CpuEasel {
     last: Option<Last>,
     begun: Option<Begun>,
     adding: Adding,
+    remembered: Option<Remembered>,
     drafts: Drafts,
     band_size: BandSize,
     /// Whether a picture is shown before it is finished, which takes time of its own.
@@ -39,6 +41,8 @@ pub(super) struct CpuEasel {
 /// The last picture that was done.
 struct Last {
     image: Image,
+    /// With what is remembered of the picture before it.
+    completed: Option<Image>,
     step: Step,
     order: Order,
     /// That it has.
@@ -72,6 +76,7 @@ impl CpuEasel {
             last: None,
             begun: None,
             adding: Adding::default(),
+            remembered: None,
             drafts: Drafts::default(),
             band_size,
             shows_parts: band_size.breaks_off,
@@ -182,12 +187,15 @@ impl Easel for CpuEasel {
             });
             return Ok(false);
         }
-        let (image, samples) = match step.batch {
+        let (mut image, samples) = match step.batch {
             None => (bands.image, step.samples),
             Some(batch) => crew.install(|| self.adding.add(order, batch, bands.image)),
         };
+        let completed = crew.install(|| self.complete(order, step, &image));
+        image.found = None;
         let last = Last {
             image,
+            completed,
             step: *step,
             order: order.clone(),
             samples,
@@ -216,6 +224,27 @@ impl Easel for CpuEasel {
     }
 }
 
+impl CpuEasel {
+    /// A picture with what it lacks of the one before, if there is something. It is remembered itself.
+    fn complete(&mut self, order: &Order, step: &Step, image: &Image) -> Option<Image> {
+        let before = self.remembered.as_ref().filter(|it| it.is_of(order));
+        if order.built.is_sketch() || !step.is_whole(&order.view) {
+            return before?.sharpen(image, order);
+        }
+        let (completed, remembered) = match image.open() {
+            // It has rays of its own.
+            Some(open) => (None, Remembered::new(order, &open, Some(image))),
+            None => {
+                let completed = before.and_then(|it| it.shade(image, order));
+                let remembered = Remembered::new(order, image, completed.as_ref());
+                (completed, remembered)
+            }
+        };
+        self.remembered = Some(remembered);
+        completed
+    }
+}
+
 impl Last {
     fn shown(&self, order: &Order) -> Shown {
         let (view, step) = (&order.view, &self.step);
@@ -223,8 +252,11 @@ impl Last {
         let (_, picture, findings) = match shown.take() {
             Some(shown) if shown.0.is_shown_as(view) => shown,
             _ => {
-                let (pixels, findings) =
-                    develop(&self.image, view.size_px, &view.display, &view.reading);
+                // Readings are of the picture itself.
+                let completed = self.completed.as_ref();
+                let completed = completed.filter(|_| view.reading.shows == Shows::Beauty);
+                let image = completed.unwrap_or(&self.image);
+                let (pixels, findings) = develop(image, view.size_px, &view.display, &view.reading);
                 (*view, Picture::Pixels(Arc::new(pixels)), findings)
             }
         };
