@@ -1,4 +1,4 @@
-//! What the whole field costs: finding it around a point, and one direction at the eight wavelengths of a sample.
+//! Benchmarks of the whole field: building it around a point, and one direction at the eight wavelengths of a sample.
 //!
 //! Directions are drawn as the renderer draws them: a third in the specular peak, a third in some groove's band, a third
 //! anywhere.
@@ -34,7 +34,7 @@ fn place(random: &mut Pcg64, reach_um: f64) -> DVec2 {
         )
 }
 
-/// As on a worn plate: millimetres long, as wide as in the scenes, so that all that meets crosses.
+/// Grooves of a worn plate: millimetres long and as wide as in the scenes, so that all that meet cross.
 fn long_grooves(count: usize) -> Vec<GroovePiece> {
     let mut random = Pcg64::seed_from_u64(1);
     (0..count)

@@ -1,4 +1,4 @@
-//! What one scratch costs under one light, step by step: the default path beside the method of 2018.
+//! Benchmarks of one scratch under one light, step by step: the default path beside the method of 2018.
 //!
 //! Inputs are drawn beforehand, near the band, so that most lights meet it.
 

@@ -1,5 +1,5 @@
-//! Where an area light meets the band of a scratch (docs/model.md, section 4; after Velinov, Werner, Hullin, *Real-Time
-//! Rendering of Wave-Optical Effects on Scratched Surfaces*, 2018; the signed boundary sum is Hairline's own).
+//! Intersects an area light with the band of a scratch (docs/model.md, section 4; after Velinov, Werner, Hullin, *Real-Time Rendering of
+//! Wave-Optical Effects on Scratched Surfaces*, 2018; the signed boundary sum is Hairline's own).
 //!
 //! A scratch lights the directions with xi_t = 0, a Gaussian band around them in truth. Directions of one line of the band
 //! form a cone about the tangent: w(phi) = w_t t + r (cos phi n + sin phi N), phi in [0, pi] above the horizon. A light
@@ -399,7 +399,7 @@ impl BandFrame {
 pub struct PolygonView<'a> {
     /// Unit directions to its vertices, in order.
     pub directions: &'a [DVec3],
-    /// Its plane's normal (of any length), turned away from the point.
+    /// Normal of the polygon's plane, of any length, turned away from the point.
     pub away: DVec3,
     /// 1 if the vertices are seen counter-clockwise, -1 if clockwise, 0 if the polygon shines to the other side or is
     /// seen edge-on.
@@ -504,8 +504,7 @@ impl PolygonView<'_> {
     }
 }
 
-/// How a planar polygon faces a point: its normal turned away from the point, and [`PolygonView::facing`]. `vertices` are
-/// relative to the point.
+/// Returns the normal of a planar polygon turned away from the point, and [`PolygonView::facing`]. `vertices` are relative to the point.
 pub fn polygon_facing(
     vertices: impl Iterator<Item = DVec3> + Clone,
     two_sided: bool,

@@ -26,7 +26,7 @@ pub const ROW_CELLS: usize = 48;
 /// A part of a light's chord on a grating, of one depth, is no longer in q.
 const ROW_PART: f64 = 0.05;
 
-/// In how many parts a grating sees a chord of so much in q.
+/// Returns the number of parts into which a chord of the given length in q is cut for a grating.
 pub fn row_part_count(length: f64) -> usize {
     (length / ROW_PART).ceil().clamp(1.0, ROW_CELLS as f64) as usize
 }

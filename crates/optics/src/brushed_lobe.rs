@@ -32,7 +32,7 @@ const RULE: [[f64; 2]; 8] = [
     [0.995_184_726_672_197, 0.016_802_755_230_479],
 ];
 
-/// The same with fewer nodes: for look-ups of an environment, two a slice.
+/// [`RULE`] with fewer nodes, for look-ups of an environment, two a slice.
 const RULE_AROUND: [[f64; 2]; 4] = [
     [0.195_090_322_016_128, 0.385_876_602_222_307],
     [0.555_570_233_019_602, 0.324_152_519_064_524],
@@ -58,9 +58,10 @@ const LEAST_SHARE: f64 = 1e-12;
 pub struct BrushedLobe {
     /// The viewer, in a frame whose x axis is the longer one of the slopes.
     wo: DVec3,
-    /// That axis in the local frame.
+    /// The frame's x axis, in the local frame.
     along: DVec2,
-    /// As the parts of a [`crate::filtered_lobe::FilteredLobe`]: of the pixel, wider by the root of 2, of the surface, which masks.
+    /// Facets of the parts of a [`crate::filtered_lobe::FilteredLobe`]: the pixel's, the same wider by the root of 2, and the surface's own, which
+    /// mask.
     facets: [Facets; 3],
     /// [`crate::filtered_lobe::FilteredLobe::excess`].
     excess: f64,
@@ -72,10 +73,10 @@ struct Slice {
     parts: [SlicePart; 3],
 }
 
-/// What a slice has of facets of one kind: their slopes across the axis.
+/// Facets of one kind in a slice, by their slopes across the axis.
 #[derive(Clone, Copy, Default)]
 struct SlicePart {
-    /// How many there are, over those of the first kind.
+    /// Number of these facets, over that of the first kind.
     weight: f64,
     middle: f64,
     alpha: f64,
@@ -84,10 +85,11 @@ struct SlicePart {
     to: f64,
 }
 
-/// Of the part of a slice that sees a light. Slopes are the middle one and alpha times a tangent.
+/// Moments of the part of a slice that sees a light. A slope is `middle` plus `alpha` times a tangent.
 #[derive(Clone, Copy)]
 struct Moments {
-    /// How often what is above the middle counts whole: as tails are subtracted from that, those of faint parts keep their digits.
+    /// Signed count of the crossings above the middle: each stands for a whole slice, from which `share` takes the tail, so that small tails keep their
+    /// digits.
     whole: f64,
     /// Integrals of the density of slopes, less what `whole` tells; and of it times the sine and its square.
     share: f64,
@@ -105,7 +107,7 @@ pub struct BrushedTap {
     pub direction: DVec3,
     /// Perceptual.
     pub roughness: f64,
-    /// What it reflects, single scattering.
+    /// Light that the tap reflects, single scattering, in each colour channel.
     pub reflected: [f64; 3],
 }
 
@@ -205,7 +207,7 @@ impl BrushedLobe {
         turned(self.along, w.truncate()).extend(w.z)
     }
 
-    /// Where a direction lies among the slices, from -1 to 1, each as likely.
+    /// Returns the place of a direction's slice, from -1 to 1, such that facets are evenly spread over places.
     fn place(&self, w: DVec3) -> f64 {
         let length = w.length();
         let x = -(w.x + self.wo.x * length) / self.facets[0].alphas.x;
@@ -219,7 +221,7 @@ impl BrushedLobe {
         x / (1.0 + x * x).sqrt()
     }
 
-    /// What of a range of places reflects to above the horizon.
+    /// Cuts a range of places to those whose facets reflect to directions above the horizon.
     fn visible(&self, range: [f64; 2]) -> [f64; 2] {
         let [from, to] = [-1.0, 1.0].map(|end| self.place_of_slope((end - self.wo.x) / self.wo.z));
         [range[0].max(from), range[1].min(to)]
@@ -281,7 +283,8 @@ impl BrushedLobe {
             .map(|tan| self.facet(slice, k, tan, 0.5 * share, of))
     }
 
-    /// Where facets of a kind at a place of a slice reflect to, their normal, and what so many of them reflect.
+    /// Returns the direction to which facets of kind `k` reflect at the tangent `tan` of a slice, their normal, and the light that the share `share` of
+    /// them reflects.
     fn facet(
         &self,
         slice: &Slice,
@@ -303,7 +306,7 @@ impl BrushedLobe {
         (wi, h, of.eval(cos).map(|facet| weight * facet))
     }
 
-    /// How much facets of a kind count at a slope.
+    /// Weight of facets of kind `k` at a slope.
     fn counts(&self, k: usize, slopes: DVec2) -> f64 {
         if self.excess == 0.0 {
             return 1.0;
@@ -352,7 +355,7 @@ impl BrushedLobe {
         sum.map(|channel| channel.max(0.0))
     }
 
-    /// What the surface reflects of light from all around, single scattering: of its own facets, whatever the pixel shows.
+    /// Computes what the surface reflects of light from all around, single scattering. It counts the surface's own facets, whatever the pixel shows.
     pub fn albedo(&self, of: &FresnelRgb) -> [f64; 3] {
         let [from, to] = self.visible([-1.0, 1.0]);
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
@@ -410,8 +413,8 @@ impl BrushedLobe {
         taps
     }
 
-    /// What the lobe reflects of a sphere, single scattering, over its radiance. `axis` is the unit direction to its centre in the local frame, `sin2`
-    /// the squared sine of its angular radius; from inside (sin2 >= 1) everything is lit.
+    /// Computes the light that the lobe reflects of a sphere, single scattering, over the sphere's radiance. `axis` is the unit direction to its centre
+    /// in the local frame, `sin2` the squared sine of its angular radius; from inside (sin2 >= 1) everything is lit.
     pub fn sphere(&self, axis: DVec3, sin2: f64, of: &FresnelRgb) -> [f64; 3] {
         let c = self.turned(axis);
         let wo = self.wo;
@@ -474,7 +477,7 @@ impl BrushedLobe {
         })
     }
 
-    /// The same of a plane polygon, convex or not, either orientation; vertices relative to the point, in the local frame.
+    /// Computes the same for a plane polygon, convex or not, in either orientation. The vertices are relative to the point, in the local frame.
     pub fn polygon(&self, vertices: &[DVec3], of: &FresnelRgb) -> [f64; 3] {
         let edges = |visit: &mut dyn FnMut(DVec3, DVec3)| {
             for (i, &a) in vertices.iter().enumerate() {
@@ -516,8 +519,8 @@ impl BrushedLobe {
         })
     }
 
-    /// Where an edge crosses the circle of a slope: the zeros of w.x + x w.z + k |w|, which along the edge is convex or concave as k is above zero or
-    /// below.
+    /// Finds the points where an edge crosses the circle of a slope: zeros of w.x + x w.z + k |w|, which along the edge is convex for k above zero and
+    /// concave below.
     fn crossings(&self, x: f64, a: DVec3, b: DVec3, add: &mut dyn FnMut(f64, f64)) {
         let wo = self.wo;
         let k = wo.x + x * wo.z;

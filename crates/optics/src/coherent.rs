@@ -21,7 +21,7 @@ use glam::DVec2;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// What may be left out of a term of [`GrooveField::responses`], relative to the window's whole integral.
+/// Largest part of a term of [`GrooveField::responses`] that may be left out, relative to the window's whole integral.
 const TOLERANCE: f64 = 5e-10;
 
 /// One straight piece of a groove as seen from the point that the window is centred on, in the surface's frame.
@@ -31,9 +31,9 @@ pub struct GroovePiece {
     pub tangent: DVec2,
     /// p: where the groove's middle line lies along n = N x t, from the point.
     pub offset_um: f64,
-    /// Where the piece starts along t, from the point; may be -infinity.
+    /// Start of the piece along t, from the point; may be -infinity.
     pub start_um: f64,
-    /// Where it ends along t, at or after its start; may be infinity.
+    /// End of the piece along t, from the point; at or after its start, may be infinity.
     pub end_um: f64,
     /// Width W, 0 or more.
     pub width_um: f64,
@@ -42,7 +42,7 @@ pub struct GroovePiece {
 }
 
 impl GroovePiece {
-    /// Where it begins and ends along n = N x t, from the point.
+    /// Edges of the piece along n = N x t, from the point.
     pub(crate) fn across_um(&self) -> [f64; 2] {
         let half = 0.5 * self.width_um;
         [self.offset_um - half, self.offset_um + half]
@@ -72,7 +72,7 @@ pub struct CoherentResponse {
 }
 
 impl CoherentResponse {
-    /// From the amplitudes B and S in um.
+    /// Computes the response from the amplitudes B and S in um.
     pub fn of(base_um: f64, scratches_um: Complex64, coherence_um: f64) -> Self {
         let per_area = 1.0 / (PI * coherence_um * coherence_um);
         Self {

@@ -19,10 +19,10 @@ pub struct EnvironmentTap {
     pub direction: DVec3,
     /// Perceptual.
     pub roughness: f64,
-    /// Its share of the lobe, but for a factor. The first one's is above zero.
+    /// Relative weight of the round lobe in the GGX lobe. The first one's is above zero.
     pub weight: f64,
-    /// Its share of the lobe times (1 - cos)^5 at the half vector, but for a factor: what facets reflect beyond normal incidence. The first one's is
-    /// above zero.
+    /// Relative weight of the round lobe times (1 - cos)^5 at the half vector: what facets reflect beyond normal incidence. The first one's is above
+    /// zero.
     pub grazing_weight: f64,
 }
 

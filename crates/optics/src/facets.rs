@@ -9,12 +9,12 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-/// How slopes spread: s = (x, y) of round facets of alpha 1 is (alphas.x x, alphas.y (y + shear x)) of these.
+/// Spread of the facets' slopes: s = (x, y) of round facets of alpha 1 is (alphas.x x, alphas.y (y + shear x)) of these.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facets {
     /// Alpha along the x axis; and across it, at one place along it.
     pub alphas: DVec2,
-    /// How far the middle of the latter moves, over the second alpha, while the place along the axis moves by the first.
+    /// Displacement of the mean slope in y, over `alphas.y`, for a slope in x of one `alphas.x`.
     pub shear: f64,
 }
 
@@ -33,7 +33,7 @@ pub fn anisotropic_alpha(alpha: f64, anisotropy: f64) -> f64 {
 }
 
 impl FacetAxes {
-    /// With slopes that spread further by the same variance in all directions.
+    /// Adds the same variance in all directions to the slopes.
     pub fn spread_by(self, squared_alpha: f64) -> Self {
         let squares = self.alphas * self.alphas + squared_alpha;
         Self {
@@ -44,7 +44,7 @@ impl FacetAxes {
 }
 
 impl Facets {
-    /// The same in all directions.
+    /// Facets whose slopes spread alike in all directions.
     pub fn round(alpha: f64) -> Self {
         Self {
             alphas: DVec2::splat(alpha),
@@ -52,7 +52,7 @@ impl Facets {
         }
     }
 
-    /// By their axes.
+    /// Facets from the axes of their spread.
     pub fn new(axes: FacetAxes) -> Self {
         let FacetAxes { along, alphas } = axes;
         let squares = alphas * alphas;
@@ -128,7 +128,8 @@ impl Facets {
         (2.0 * wo.dot(h) * h - wo).normalize_or(DVec3::Z)
     }
 
-    /// As [`crate::ggx`] draws them: J. Dupuy and A. Benyoub, "Sampling visible GGX normals with spherical caps" (HPG 2023).
+    /// Draws a visible normal as [`crate::ggx`] does: J. Dupuy and A. Benyoub, "Sampling visible GGX normals with spherical caps" (HPG 2023).
+    /// Dupuy and A. Benyoub, "Sampling visible GGX normals with spherical caps" (HPG 2023).
     fn sample_normal(&self, wo: DVec3, u: DVec2) -> DVec3 {
         let wo_std = self.stretched(wo).normalize_or(DVec3::Z);
         let z = (1.0 - u.y) * (1.0 + wo_std.z) - wo_std.z;

@@ -14,7 +14,8 @@ use crate::ltc::LtcLobe;
 
 /// The largest variance of slopes in a direction: rims narrower than a pixel stay sharp, as in the paper.
 const MAX_VARIANCE: f64 = 0.06;
-/// The same in the plane of view and normal, over the squared cosine of the view: normals that the viewer sees do not turn away from them.
+/// Largest variance of slopes in the plane of view and normal, over the squared cosine of the view: normals that the viewer sees do not turn
+/// away from them.
 const MAX_VARIANCE_OVER_COS2: f64 = 0.1;
 /// The square of an arc's distance from its chord, over the squared alpha, at which it counts as bent by half.
 const BEND2: f64 = 0.25;
@@ -25,7 +26,7 @@ const MIN_EXCESS: f64 = 0.02;
 /// `small_lamps_have_the_tails_of_a_sharp_lobe` prints.
 const TAILS: [f64; 2] = [1.5, 3.2];
 
-/// How slopes spread about their mean, in the plane of view and normal (x) and across it (y).
+/// Spread of slopes about their mean, in the plane of view and normal (x) and across it (y).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SlopeSpread {
     /// Variances.
@@ -48,7 +49,7 @@ impl SlopeSpread {
     }
 }
 
-/// What a variance of slopes adds to the square of an alpha.
+/// Increase of a squared alpha by a variance of slopes.
 fn widening(variance: f64, alpha: f64) -> f64 {
     (2.6 + 2.5 / (1.0 + 1.5 * variance.sqrt() / alpha)) * variance
 }
@@ -99,7 +100,7 @@ pub(crate) fn filtered_facets(
     (axes, if excess < MIN_EXCESS { 0.0 } else { excess })
 }
 
-/// How far the sharp lobe has taken over so many widths from the first one's middle.
+/// Share, 0 to 1, that the sharp lobe has taken over at so many widths from the first lobe's middle.
 pub(crate) fn filtered_tails(widths: f64) -> f64 {
     let [from, to] = TAILS;
     let t = ((widths - from) / (to - from)).clamp(0.0, 1.0);
@@ -157,9 +158,9 @@ pub fn filtered_lobe(alpha: f64, spread: SlopeSpread, cos_o: f64) -> FilteredLob
 pub struct LobePart {
     /// The lobe.
     pub lobe: LtcLobe,
-    /// Its weight for light around the middle.
+    /// Weight of the lobe for light around the middle.
     pub core: f64,
-    /// Its weight for light far from the middle.
+    /// Weight of the lobe for light far from the middle.
     pub tails: f64,
     /// [`LtcLobe::alphas`] and [`LtcLobe::shear`] of the first.
     first: (DVec2, f64),
@@ -171,7 +172,7 @@ impl LobePart {
         self.core != 0.0 || self.tails != 0.0
     }
 
-    /// Its weight for a light of this vector irradiance in the lobe's cosine space.
+    /// Returns the lobe's weight for a light of this vector irradiance in the lobe's cosine space.
     pub fn weight(&self, vector: DVec3) -> f64 {
         if self.core == self.tails {
             return self.core;

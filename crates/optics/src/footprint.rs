@@ -18,11 +18,11 @@ pub struct Footprint {
     pub cross_um2: f64,
 }
 
-/// How the square of a finite scratch's longitudinal integral, E^2, is stood for by one smooth interval: its integral
-/// and its variance are exact.
+/// A smooth interval that stands for the square of a finite scratch's longitudinal integral, E^2, with the exact
+/// integral and variance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ends {
-    /// By how much each free end moves inwards.
+    /// Distance by which each free end moves inwards.
     pub shrink_um: f64,
     /// Standard deviation s of the Gaussian that smooths each end.
     pub blur_um: f64,
@@ -56,12 +56,12 @@ pub fn ends(length_um: f64, coherence_um: f64) -> Ends {
     }
 }
 
-/// What [`scratch_share`] returns.
+/// Result of [`scratch_share`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScratchShare {
     /// The share of the coherence window that the segment covers, rho.
     pub segment: f64,
-    /// The same for an endless scratch along the segment's line.
+    /// The share that an endless scratch along the segment's line covers.
     pub line: f64,
 }
 

@@ -68,7 +68,7 @@ pub fn half_vector_cos(wi: DVec3, wo: DVec3) -> f64 {
     0.5 * (wi + wo).length()
 }
 
-/// How reflectance goes with the angle, in linear Rec.709: F(c) = t(c) + s(c) F0, with t in three channels and s in all alike. A measured surface has
+/// Fresnel reflectance over the angle, in linear Rec.709: F(c) = t(c) + s(c) F0, with t in three channels and one s for all. A measured surface has
 /// its whole reflectance in t, and s = 0. Schlick's curve, t = (1 - c)^5 and s = 1 - t, serves every F0.
 #[derive(Clone, Debug)]
 pub struct FresnelCurve {
@@ -143,7 +143,7 @@ pub struct FresnelRgb<'a> {
     pub f0: [f64; 3],
     /// Reflectance at grazing incidence of Schlick's curve: a factor on t. 1 of all other curves.
     pub f90: f64,
-    /// How it goes with the angle.
+    /// Curve of the reflectance over the angle.
     pub curve: &'a FresnelCurve,
 }
 

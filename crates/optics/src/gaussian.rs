@@ -9,13 +9,13 @@ use std::sync::LazyLock;
 pub struct Gaussian {
     /// The share beyond a place, and its slope times the step: cubic between nodes.
     tail: [[f64; 2]; CDF_COUNT],
-    /// How far out a tail of a given share begins, and that times the step.
+    /// Distance at which a tail of a given share begins, and the slope of that times the step.
     quantile: [[f64; 2]; QUANTILE_COUNT],
 }
 
 /// Nodes per unit.
 const CDF_NODES: f64 = 32.0;
-/// Beyond this there is nothing: 6e-16.
+/// Distance beyond which the tail, 6e-16, counts as nothing.
 const CDF_REACH: f64 = 8.0;
 const CDF_COUNT: usize = (CDF_NODES * CDF_REACH) as usize + 1;
 

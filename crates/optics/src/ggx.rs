@@ -145,14 +145,14 @@ pub(crate) fn ggx_quadrature(
     }
 }
 
-/// What multiple scattering multiplies the single-scattering lobe with: 1 + f0 (1/E0 - 1), as glTF renderers do.
-/// A lobe of albedo E0 and f0 = 1 comes back to albedo 1.
+/// Factor of multiple scattering on the single-scattering lobe: 1 + f0 (1/E0 - 1), as in glTF renderers. A lobe of albedo E0 and f0 = 1 comes back
+/// to albedo 1.
 pub fn ggx_multiple_scattering(f0: f64, e0: f64) -> f64 {
     1.0 + f0 * (1.0 / e0.clamp(1e-3, 1.0) - 1.0)
 }
 
-/// What a rough surface reflects from its single scattering, over a light or over the hemisphere: multiple scattering added. `f0` is the reflectance
-/// at normal incidence, `e0` the lobe's albedo for F = 1.
+/// Adds multiple scattering to what a rough surface reflects by single scattering, over a light or over the hemisphere. `f0` is the reflectance at
+/// normal incidence, `e0` the lobe's albedo for F = 1.
 pub fn ggx_area_reflectance(single: [f64; 3], f0: [f64; 3], e0: f64) -> [f64; 3] {
     std::array::from_fn(|ch| single[ch] * ggx_multiple_scattering(f0[ch], e0))
 }

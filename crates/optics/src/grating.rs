@@ -23,7 +23,7 @@ const PHASES: u32 = 16;
 /// A row of parallel grooves of rectangular profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grating {
-    /// From one groove to the next, in the mean.
+    /// Mean distance from one groove to the next.
     pub pitch_um: f64,
     /// Width of each groove, at most the pitch.
     pub width_um: f64,
@@ -59,7 +59,7 @@ impl Grating {
         f64::from(order) * wavelength_nm * 1e-3 / self.pitch_um
     }
 
-    /// What an order other than 0 sends of any wavelength, over |E D|^2: the same for all.
+    /// Energy that an order other than 0 sends of any wavelength, over |E D|^2; it is the same for all wavelengths.
     pub fn order_weight(&self, order: i32) -> f64 {
         self.envelope(f64::from(order) / self.pitch_um)[0] * self.order_kept(order)
     }
@@ -70,7 +70,7 @@ impl Grating {
         (-displaced * displaced).exp()
     }
 
-    /// What a groove's width leaves at so many turns of the phase for each um across, and how that rises with them.
+    /// Envelope of the orders from a groove's width, where the phase makes `turns_per_um` turns for each um across, and its derivative.
     fn envelope(&self, turns_per_um: f64) -> [f64; 2] {
         let x = PI * self.width_um * turns_per_um;
         let slit = sinc(x);

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-/// Between these boundary lengths (radians) a polygon goes from the small-polygon formula to the sum over its edges.
+/// Boundary lengths in radians between which a polygon changes from the small-polygon formula to the sum over its edges.
 /// In single precision the sum over edges loses about 1e-4 / length; the small formula is off by length^2 / 20.
 const SMALL_PERIMETER: [f64; 2] = [0.05, 0.1];
 

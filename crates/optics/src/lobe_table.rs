@@ -164,7 +164,7 @@ pub fn albedo_lookup(roughness: f64, cos_o: f64) -> f64 {
 /// Points along each axis of the quadrature behind [`mean_over_lobes`].
 const MEAN_STEPS: usize = 32;
 
-/// For each node of the grid, what share of the lobe lies at each node of a [`crate::fresnel::FresnelCurve`].
+/// Share of the lobe at each node of a [`crate::fresnel::FresnelCurve`], for each node of the grid.
 static SHARES: LazyLock<Vec<[f32; FRESNEL_NODES]>> = LazyLock::new(|| {
     let last = (FRESNEL_NODES - 1) as f64;
     let node = |i: usize| {

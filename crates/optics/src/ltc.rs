@@ -49,12 +49,13 @@ pub struct LtcLobe {
     pub x_axis: DVec2,
     /// GGX alpha of the surface: what masks and shadows.
     pub alpha: f64,
-    /// Of the normals, more where a pixel's differ: GGX alpha in the plane of view and normal, and across it for normals of one place in that plane.
+    /// GGX alphas of the normals, wider where a pixel's normals differ: in the plane of view and normal, and across it for normals of one slope in that
+    /// plane.
     pub alphas: DVec2,
-    /// How far the middle of the latter moves, over the second alpha, while the place in the plane moves by the first.
+    /// Displacement of the mean slope across the plane, over the second alpha, for a slope in the plane of one first alpha.
     pub shear: f64,
-    /// How far, from 0 to 1, the lobe's core is too bent for the correction. Normals that spread across the plane of view and normal reflect
-    /// to an arc; the fit draws its chord, and where the two are further apart than they are wide the correction would find next to nothing.
+    /// Share, 0 to 1, by which the lobe's core is too bent for the correction. Normals that spread across the plane of view and normal reflect to an arc; the
+    /// fit draws its chord, and where the two are further apart than they are wide the correction would find next to nothing.
     pub bent: f64,
     /// The share of the normals' spread that is the pixel's: its normals count by what the picture shows of them, and not as facets do.
     pub turned: f64,
@@ -84,7 +85,7 @@ pub fn ltc_lobe(wo: DVec3, roughness: f64) -> LtcLobe {
 }
 
 impl LtcLobe {
-    /// As [`ltc_lobe`], from parameters instead of the table: what the fit varies.
+    /// Builds the lobe of [`ltc_lobe`] from parameters instead of the table; the fit varies them.
     pub fn new(wo: DVec3, alpha: f64, shape: LtcShape, albedo: f64) -> Self {
         let (x_axis, sin_cos) = viewer_frame(wo);
         let lean = alpha * shape.lean * sin_cos.x;
@@ -106,7 +107,7 @@ impl LtcLobe {
         }
     }
 
-    /// The same with other normals.
+    /// Returns the lobe with other normals.
     pub(crate) fn widened(&self, alphas: DVec2, shear: f64, bent: f64, turned: f64) -> Self {
         Self {
             alphas,
@@ -118,7 +119,7 @@ impl LtcLobe {
         }
     }
 
-    /// From the local frame into the viewer's.
+    /// Rotates a vector from the local frame into the viewer's.
     pub fn rotate(&self, w: DVec3) -> DVec3 {
         DVec3::new(
             self.x_axis.x * w.x + self.x_axis.y * w.y,
@@ -127,12 +128,12 @@ impl LtcLobe {
         )
     }
 
-    /// From the viewer's frame into the cosine's space; linear, keeps z.
+    /// Maps a vector from the viewer's frame into the cosine's space; linear, keeps z.
     pub(crate) fn to_cosine(self, w: DVec3) -> DVec3 {
         self.cosine_by(self.width.recip(), w)
     }
 
-    /// The same with the reciprocal widths at hand.
+    /// [`Self::to_cosine`] from the reciprocal widths.
     fn cosine_by(&self, per_width: DVec2, w: DVec3) -> DVec3 {
         let x = self.peak.y * (self.peak.y * w.x + self.peak.x * w.z) * per_width.x;
         DVec3::new(x, w.y * per_width.y - self.shear * x, w.z)
@@ -171,17 +172,17 @@ impl LtcLobe {
     }
 }
 
-/// What the lobe's facets reflect.
+/// Fresnel reflectance of the lobe's facets.
 #[derive(Clone, Copy, Debug)]
 pub struct LobeFresnel<'a> {
-    /// Of a facet.
+    /// Reflectance of a facet.
     pub fresnel: FresnelRgb<'a>,
-    /// Of the whole lobe: directional albedo, single scattering.
+    /// Directional albedo of the whole lobe, single scattering.
     pub albedo: [f64; 3],
 }
 
 impl<'a> LobeFresnel<'a> {
-    /// For the lobe of [`ltc_lobe`].
+    /// Reflectance for the lobe of [`ltc_lobe`].
     pub fn new(fresnel: FresnelRgb<'a>, wo: DVec3, roughness: f64) -> Self {
         Self {
             fresnel,
@@ -226,7 +227,7 @@ pub fn ltc_vector(lobe: &LtcLobe, vertices: &[DVec3]) -> DVec3 {
     irradiance_end(&state)
 }
 
-/// What the lobe reflects of the polygon, either orientation: as [`polygon_light`].
+/// Returns the light that the lobe reflects of the polygon, in either orientation, as [`polygon_light`].
 pub fn ltc_end(state: &PolygonIrradiance, lobe: &LtcLobe, of: &LobeFresnel) -> [f64; 3] {
     ltc_reflected(lobe, of, irradiance_end(state))
 }
@@ -444,13 +445,13 @@ fn ltc_rotate_pair(u: DVec3, v: DVec3) -> (DVec3, DVec3) {
     (cos * (u - tangent * v), cos * (v + tangent * u))
 }
 
-/// Where the fit is compared with GGX: the centre and a ring, in units of the sine of the light's radius, with weights. The
-/// rule integrates cubics over a disk.
+/// Radius of the ring on which the fit is compared with GGX, besides the centre, in units of the sine of the light's radius. The rule integrates cubics over
+/// a disk.
 const RING_RADIUS: f64 = 0.866_025_403_784_438_6;
 const RING_WEIGHT: f64 = 1.0 / 6.0;
 const CENTRE_WEIGHT: f64 = 1.0 / 3.0;
-/// How far the ring may go down from its centre, over the centre's height above the horizon: 1 less this times the viewer's cosine. GGX rises
-/// steeply near the horizon, the more the flatter the view.
+/// Factor of the limit on how far the ring goes down from its centre: over the centre's height above the horizon it is 1 less this times the viewer's cosine.
+/// GGX rises steeply near the horizon, the more the flatter the view.
 const RING_LIFT: f64 = 0.12;
 /// The longest radius of the ring.
 const RING_MAX: f64 = 0.97;
@@ -459,8 +460,8 @@ const FIT_FROM: f64 = 0.0003;
 /// The share of the cosine from which on the rest of the hemisphere counts, more and more up to the whole.
 const REST_FROM: f64 = 0.3;
 
-/// What the lobe reflects, from the light's vector irradiance in the cosine's space: E0 times the share of the cosine, times
-/// the mean of GGX over the fit (`ltc_means`); then that, times the mean of Fresnel's reflectance over GGX.
+/// Computes the light that the lobe reflects from the light's vector irradiance in the cosine's space: E0 times the share of the cosine, times the mean of
+/// GGX over the fit (`ltc_means`); then that, times the mean of Fresnel's reflectance over GGX.
 ///
 /// What is missing in E0 is the same integral over the part of the hemisphere that the light leaves free. Of a light and the rest the smaller is
 /// the better known, so with a growing share the result goes over from the one to the other. The means fade as the light comes to fill the
@@ -489,7 +490,8 @@ pub fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3
     std::array::from_fn(|ch| integral * (mean[ch] + fade * (of.albedo[ch] / e0 - mean[ch])))
 }
 
-/// What the lobe reflects, single scattering, of a light so small that it lies in one direction, from its vector irradiance in the cosine's space.
+/// Computes the light that the lobe reflects, single scattering, of a light so small that it lies in one direction, from its vector irradiance in the
+/// cosine's space.
 pub fn ltc_small_light(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3] {
     let length = vector.length().max(1e-30);
     if vector.z <= 0.0 {

@@ -37,7 +37,7 @@ pub fn depth_coherence(depths: impl Iterator<Item = (f64, f64)> + Clone) -> f64 
     }
 }
 
-/// What the scratches under one footprint add up to.
+/// Sums over the scratches under one footprint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ScratchSums {
     /// Sum of rho_m.
@@ -103,13 +103,13 @@ impl ScratchSums {
     }
 }
 
-/// How the base pays for what scratches scatter.
+/// The way in which the base loses the light that scratches scatter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Mask {
     /// |D|^2 rho in colour, scratches weakening one another: equation (9) of docs/model.md.
     #[default]
     Energy,
-    /// The same without the weakening and without a bound: linear in the shares, so its mean over a pixel is the mask of the mean
+    /// `Energy` without the weakening and without a bound: linear in the shares, so its mean over a pixel is the mask of the mean
     /// share. For comparisons; dense scratches take more than there is.
     Linear,
     /// The density of Velinov, Werner and Hullin (2018): twice the share, without colour (2 is the mean of |D|^2), and

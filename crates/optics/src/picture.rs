@@ -12,18 +12,18 @@ use crate::ltc::LtcLobe;
 /// A parallelogram that a picture lies on, relative to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PicturePlane {
-    /// Where the picture's left and lower edges meet.
+    /// Corner between the picture's left and lower edges.
     pub corner: DVec3,
-    /// Along its lower edge.
+    /// Vector along the lower edge.
     pub right: DVec3,
-    /// Along its left edge.
+    /// Vector along the left edge.
     pub up: DVec3,
 }
 
 /// A look-up in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureLook {
-    /// From its left upper corner to the right and down, each from 0 to 1.
+    /// Position from the picture's left upper corner to the right and down, each from 0 to 1.
     pub uv: DVec2,
     /// Standard deviation of the blur over the root of the picture's area.
     pub spread: f64,
@@ -42,18 +42,18 @@ const PART_WIDEST: f64 = 16.0;
 
 /// Parts of a chord of a light with a picture, each of which has one look-up at the middle.
 pub const PICTURE_CELLS: usize = 12;
-/// The same for a grating: its orders are narrower than a twelfth of a soft box.
+/// [`PICTURE_CELLS`] for a grating: its orders are narrower than a twelfth of a soft box.
 pub const PICTURE_ROW_CELLS: usize = 48;
 /// Scale of x as u = W q, as for an environment's cells.
 const CELL_SCALE_UM: f64 = 0.3;
-/// Of an even chord the standard deviation, over its length; half of it, for what it blurs across it has not.
+/// Standard deviation of a cell's blur over its length: half of an even chord's, because the blur also acts across the chord, which has no width.
 const CELL_STD: f64 = 0.145;
 
 impl PicturePlane {
-    /// Of a light's corners, counter-clockwise as seen from where it shines: the first is at the left and below.
+    /// Makes the plane from a light's corners, counter-clockwise as seen from where it shines. The first is the left lower one.
     ///
     /// # Panics
-    /// Of fewer than four.
+    /// Panics with fewer than four corners.
     pub fn of(corners: &[DVec3]) -> Self {
         Self {
             corner: corners[0],
@@ -80,7 +80,7 @@ impl PicturePlane {
         }
     }
 
-    /// Where a direction meets the picture; beside it, at its nearest edge.
+    /// Returns the position at which a direction meets the picture; beside the picture, that on its nearest edge.
     pub fn picture_uv(&self, toward: DVec3) -> DVec2 {
         let normal = self.right.cross(self.up);
         let per_area2 = 1.0 / normal.length_squared().max(1e-30);
@@ -93,7 +93,7 @@ impl PicturePlane {
         DVec2::new(right, 1.0 - up).clamp(DVec2::ZERO, DVec2::ONE)
     }
 
-    /// What a cosine about the normal sees of the picture in the mean, given the picture's vector irradiance.
+    /// Returns the look-up for the mean of the picture under a cosine about the normal, given the picture's vector irradiance.
     pub fn picture_look(&self, vector: DVec3) -> PictureLook {
         let normal = self.right.cross(self.up);
         let area = normal.length().max(1e-30);
@@ -106,7 +106,7 @@ impl PicturePlane {
         }
     }
 
-    /// The same of a lobe; the vector irradiance is that in the cosine's space.
+    /// Returns the look-up for a lobe; the vector irradiance is that in the cosine's space.
     pub fn picture_on_lobe(&self, lobe: &LtcLobe, vector: DVec3) -> PictureLook {
         let in_cosine = |w: DVec3| lobe.to_cosine(lobe.rotate(w));
         let plane = Self {
@@ -134,7 +134,7 @@ impl PicturePlane {
     }
 }
 
-/// Where part `i` lies in the picture: its left upper corner; each side is one over [`PICTURE_PARTS`].
+/// Left upper corner of part `i` in the picture; each side is one over [`PICTURE_PARTS`].
 pub fn picture_part_uv(i: usize) -> DVec2 {
     let (x, y) = (i % PICTURE_PARTS, PICTURE_PARTS - 1 - i / PICTURE_PARTS);
     DVec2::new(x as f64, y as f64) / PICTURE_PARTS as f64

@@ -1,4 +1,4 @@
-//! From spectra to linear Rec.709: the CIE 1931 observer under illuminant D65.
+//! Conversion of spectra to linear Rec.709: the CIE 1931 observer under illuminant D65.
 //!
 //! A light of radiance (1, 1, 1) has the spectrum of D65; a surface that reflects every wavelength fully shows it as
 //! (1, 1, 1). So a spectral reflectance r becomes the channels `sum over lambda of w_c(lambda) r(lambda)`, with weights
@@ -86,7 +86,7 @@ pub fn rgb_from_reflectance(reflectance: impl Fn(f64) -> f64) -> [f64; 3] {
     rgb_from_spectral_rgb(|nm| [reflectance(nm); 3])
 }
 
-/// As [`rgb_from_reflectance`] for a function that computes something of its own for each channel.
+/// [`rgb_from_reflectance`] for a function that computes a value of its own for each channel.
 pub(crate) fn rgb_from_spectral_rgb(value: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
     samples().iter().fold([0.0; 3], |sum, s| {
         let v = value(s.wavelength_nm);

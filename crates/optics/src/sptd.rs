@@ -73,7 +73,7 @@ pub fn sptd_lobe(wo: DVec3, roughness: f64) -> SptdLobe {
 }
 
 impl SptdLobe {
-    /// As [`sptd_lobe`], from parameters instead of the table: what the fit varies.
+    /// Builds the lobe of [`sptd_lobe`] from parameters instead of the table; the fit varies them.
     pub fn new(wo: DVec3, alpha: f64, shape: SptdShape, albedo: f64) -> Self {
         let (x_axis, sin_cos) = viewer_frame(wo);
         let lean = alpha * shape.lean * sin_cos.x;
@@ -206,7 +206,7 @@ pub fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> SphericalRegio
     }
 }
 
-/// As [`sptd_cap_intersection`], of caps that are at most hemispheres.
+/// Intersects caps that are at most hemispheres, as [`sptd_cap_intersection`].
 ///
 /// Two sectors less the kite between the centres and the corners. With the kite's area by L'Huilier's formula all three are
 /// small when the caps are; the textbook sum of angles would cancel.
@@ -298,8 +298,8 @@ fn sptd_visible(lobe: &SptdLobe, axis: DVec3, sin2: f64) -> SphericalRegion {
     sptd_cap_region(image) - sptd_cap_intersection(image, sptd_transform_cap(lobe, NADIR))
 }
 
-/// Where the fit is compared with GGX: the centre and a ring that cuts off three quarters of the cap, with weights. On a
-/// small cap, a disk, the rule integrates cubics.
+/// Share of a cap's area inside the ring on which the fit is compared with GGX, besides the centre, with weights. On a small
+/// cap, a disk, the rule integrates cubics.
 const RING_SHARE: f64 = 0.75;
 const RING_WEIGHT: f64 = 1.0 / 6.0;
 const CENTRE_WEIGHT: f64 = 1.0 / 3.0;

@@ -151,7 +151,7 @@ fn row_at(depth_nm: f64) -> (usize, f64) {
 pub struct TableRow<'a> {
     near: &'a [[u32; 4]],
     far: &'a [[u32; 4]],
-    /// Of `far`.
+    /// Weight of `far`.
     share: f64,
 }
 

@@ -47,7 +47,7 @@ impl DrawnChord {
         self.intervals.iter().map(|&(low, high, _)| (low, high))
     }
 
-    /// What the scratch sends from all of them.
+    /// Light that the scratch sends from all intervals.
     pub fn total(&self) -> f64 {
         self.total
     }

@@ -12,9 +12,9 @@ pub const BAND_REACH_STD: f64 = 4.0;
 /// Standard deviations of a band in xi_t: it is wider the longer the wavelength.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BandStds {
-    /// At the wavelength that stands for the visible; lines are placed by it.
+    /// Standard deviation at the wavelength that stands for the visible; lines are placed by it.
     pub mean: f64,
-    /// At the mean wavelength of each colour channel.
+    /// Standard deviations at the mean wavelength of each colour channel.
     pub channels: [f64; 3],
 }
 
@@ -39,11 +39,11 @@ impl BandStds {
     }
 }
 
-/// Beyond this a pixel sees light from all around, and the small-angle picture of a turning normal is void.
+/// Largest standard deviation of a band. A pixel with a wider one sees light from all around, and a turning normal is no longer a small angle.
 pub const BAND_STD_MAX: f64 = 0.3;
 
-/// How xi_t = (wi + wo).t moves over one standard deviation of the pixel's filter, to the right or down: for each scratch of the surface
-/// the part of this along its tangent t. `turn` is how the normal turns, and t with it. `axis` is the step on the surface: both
+/// Returns how far xi_t = (wi + wo).t moves over one standard deviation of the pixel's filter, to the right or down. The movement for a
+/// scratch is the component along its tangent t. `turn` is how the normal turns, and t with it. `axis` is the step on the surface: both
 /// directions turn against it. Vectors are in the surface's frame, or in any frame with its normal for z. A light at infinity has no
 /// distance to divide by: `per_distance_i` is 1/distance, per unit of the axis, like `per_distance_o`.
 pub fn band_moves(
@@ -61,7 +61,7 @@ pub fn band_moves(
 /// A band as a pixel sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MovedBand {
-    /// What xi_t is greater by, in the mean over the part of the pixel that sees the scratch, than at the pixel's centre.
+    /// Mean of xi_t over the part of the pixel that sees the scratch, less its value at the pixel's centre.
     pub shift: f64,
     /// The band, widened by how xi_t varies there.
     pub stds: BandStds,
@@ -82,7 +82,7 @@ pub fn moved_band(
         .band(stds)
 }
 
-/// Where a scratch lies under a pixel: what of [`moved_band`] is the same for all lights.
+/// Position of a scratch under a pixel: the terms of [`moved_band`] that are the same for all lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandPlace {
     across_um: [f64; 2],
@@ -92,14 +92,14 @@ pub struct BandPlace {
     window_um2: f64,
 }
 
-/// Where a scratch begins and ends under a pixel.
+/// Ends of a scratch under a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Along {
     /// The components along the scratch of one standard deviation of the pixel's filter to the right and down.
     pub steps_um: [f64; 2],
-    /// By how much the scratch is blurred along itself.
+    /// Standard deviation of the scratch's blur along itself.
     pub blur_um: f64,
-    /// In standard deviations of what lies along it.
+    /// Distances of the scratch's ends from the pixel's centre, in standard deviations along the scratch.
     pub ends: [f64; 2],
 }
 
@@ -116,7 +116,7 @@ impl BandPlace {
         }
     }
 
-    /// Of what lies everywhere under the pixel.
+    /// Returns the place of a scratch that covers the whole pixel evenly.
     pub fn everywhere() -> Self {
         Self::new([0.0; 2], 0.0, 1.0)
     }
@@ -145,7 +145,7 @@ impl BandPlace {
         [right + left[0] * missing, down + left[1] * missing]
     }
 
-    /// How the band moves towards a light.
+    /// Computes how the pixel shifts and widens the band towards a light, of which `moves` are [`band_moves`].
     #[inline]
     pub fn moved(&self, moves: [f64; 2]) -> BandMotion {
         let slope = moves[0] * self.slopes[0] + moves[1] * self.slopes[1];
@@ -166,7 +166,7 @@ impl BandPlace {
 pub struct BandMotion {
     /// See [`MovedBand`].
     pub shift: f64,
-    /// Of xi_t over the part of the pixel that sees the scratch.
+    /// Variance of xi_t over the part of the pixel that sees the scratch.
     pub variance: f64,
 }
 
@@ -207,7 +207,7 @@ pub struct BandLines {
     pub share_below: f64,
     /// The band's share within the light's extent.
     pub share: f64,
-    /// The same by the band of each colour channel.
+    /// Share of each colour channel's band within the light's extent.
     pub channel_shares: [f64; 3],
     /// Standard deviations of the band.
     pub stds: BandStds,
@@ -323,7 +323,7 @@ impl BandLines {
         self.line_by(i, self.narrower())
     }
 
-    /// How many times narrower the band of each channel is than the one that places the lines.
+    /// Ratio of the width of the band that places the lines to that of each channel's band.
     fn narrower(&self) -> DVec3 {
         self.stds.mean / DVec3::from(self.stds.channels)
     }
@@ -335,7 +335,7 @@ impl BandLines {
         (self.stds.mean * x, weight * narrower * exponents.exp())
     }
 
-    /// Where a share of the lit part of the band lies below, in standard deviations.
+    /// Returns the xi_t, in standard deviations, below which the share `node` of the lit part of the band lies.
     fn quantile(&self, node: f64) -> f64 {
         // It is cut where single precision loses it; the band's reach ends before.
         gaussian().quantile((self.share_below + self.share * node).clamp(1e-6, 1.0 - 1e-6))
@@ -347,8 +347,8 @@ impl BandLines {
         BandLine::new(wo, self.stds.mean * self.quantile(node))
     }
 
-    /// The same by one line, below which the share `node` of the lit part of the band lies: right in the mean over `node`, where the bands of
-    /// all channels are about as wide.
+    /// Replaces the lines by a single one, below which the share `node` of the lit part of the band lies: its light is right in the mean over
+    /// `node`, where the bands of all channels are about as wide.
     pub fn by_one_line(self, node: f64) -> Self {
         Self {
             count: self.count.min(1),

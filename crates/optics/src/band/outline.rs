@@ -12,9 +12,9 @@ pub struct OutlineEdge {
     start: DVec3,
     /// Unit direction across it on the edge's great circle, towards the end; zero for an edge of no length.
     across: DVec3,
-    /// Of the angle that it spans.
+    /// Cosine of the angle that the edge spans.
     cos: f64,
-    /// Of the angle that it spans.
+    /// Sine of the angle that the edge spans.
     sin: f64,
 }
 
@@ -48,7 +48,7 @@ impl OutlineEdge {
 /// A polygon as seen from a point.
 #[derive(Clone, Copy, Debug)]
 pub struct Outline<'a> {
-    /// Its edges in order.
+    /// Edges of the polygon in order.
     pub edges: &'a [OutlineEdge],
     /// See [`super::PolygonView::away`].
     pub away: DVec3,
@@ -58,7 +58,7 @@ pub struct Outline<'a> {
     pub sets: bool,
 }
 
-/// Where a line crosses an outline.
+/// Roots of a line on an outline, where it enters or leaves the light.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutlineRoots {
     /// The sign with which the antiderivative counts there, and q. The ends of the arc are among them where the light covers the
@@ -137,7 +137,7 @@ impl Outline<'_> {
         (wo_t + lowest, wo_t + highest)
     }
 
-    /// Where a line crosses the outline: the roots of all edges.
+    /// Finds the roots of all edges: the points where a line crosses the outline.
     pub fn roots(&self, frame: BandFrame, line: BandLine, found: &mut OutlineRoots) {
         let t = frame.tangent;
         found.roots.clear();
@@ -203,7 +203,7 @@ impl Outline<'_> {
         front > 0.0 && self.odd_crossings(t, side)
     }
 
-    /// The same for the tangent's direction or the opposite one.
+    /// Whether the polygon holds the tangent's direction or the opposite one, as [`Self::holds_down`].
     fn holds_pole(&self, t: DVec2) -> bool {
         self.odd_crossings(t, |v| v.z)
     }

@@ -25,7 +25,8 @@ struct TubeEnd {
     x: DVec3,
     y: DVec3,
     half_angle: f64,
-    /// How far corners lie out, over the radius, for a polygon of the arc's area. Those at the sides stay there.
+    /// Distance of the corners between the sides over the radius, such that the polygon has the arc's area. Corners at the sides stay on
+    /// the arc.
     out: f64,
 }
 
@@ -138,7 +139,7 @@ mod tests {
         beside(low) < radius
     }
 
-    /// Along the tube, beside it, near to it, beyond its end and on its axis.
+    /// Tubes that the point sees from aside, from nearby, from beyond an end and from on the axis.
     const TUBES: [(DVec3, DVec3, f64); 6] = [
         (DVec3::new(-1.0, 0.2, 1.0), DVec3::new(1.0, 0.1, 1.2), 0.1),
         (DVec3::new(0.5, 0.2, 0.4), DVec3::new(0.9, 0.1, 3.0), 0.2),
@@ -193,7 +194,7 @@ mod tests {
         assert!(tube_outline(a + DVec3::X * 1.3, b + DVec3::X * 1.3, 0.2).is_some());
     }
 
-    /// On lines through and beside it.
+    /// The lines run through the tube and beside it.
     #[test]
     fn a_tube_sends_a_scratch_what_its_directions_do() {
         const STEPS: i32 = 20_000;

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 /// Parts are at most this many sigma long.
 const LONGEST: f64 = 1.0;
-/// Beyond this many sigma there is 1e-10 of the window's integral.
+/// Radius of the window in sigma; 1e-10 of its integral lies beyond.
 pub(super) const REACH: f64 = 6.5;
 /// Half the change of phase, in radians, that one panel of Gauss's nodes integrates across a tapering part.
 const PHASE_OF_NODES: f64 = 70.0;
@@ -77,7 +77,7 @@ impl Span {
         self.series[0]
     }
 
-    /// As [`super::window_fourier`].
+    /// Fourier integral of the window over the span, as [`super::window_fourier`] has it.
     #[inline(always)]
     pub(crate) fn fourier<const N: usize>(&self, kappa_per_um: Lanes<N>) -> Complexes<N> {
         let mut bessel = [Lanes::ZERO; MOST_TERMS];
@@ -106,7 +106,7 @@ pub(super) struct Cell {
     middle: DVec2,
     /// Half the middle line that is parallel to the edges.
     along: DVec2,
-    /// From the middle of one edge to that of the other, halved.
+    /// Half the vector from the middle of one edge to that of the other.
     across: DVec2,
     /// The edges' lengths are those of the middle line times 1 - taper and 1 + taper.
     taper: f64,
@@ -122,7 +122,7 @@ pub(super) struct Trapezoid {
 }
 
 impl Trapezoid {
-    /// Its parts that the window reaches, to be added or, for a `sign` of -1, taken off.
+    /// Adds the cells of the trapezoid that the window reaches; with a `sign` of -1 they are taken off.
     pub(crate) fn cells(&self, sign: f64, coherence_um: f64, cells: &mut Vec<Cell>) {
         let [[a, b], [c, d]] = self.edges;
         let count = |p: f64, q: f64| (p.max(q) / (LONGEST * coherence_um)).ceil().max(1.0);
@@ -259,7 +259,7 @@ impl Cell {
         total
     }
 
-    /// By Gauss's rule across, as many nodes as the phase wants.
+    /// Integrates over slices across the cell by Gauss's rule, with as many nodes as the phase needs.
     #[inline(always)]
     fn slices<const N: usize>(&self, along: Lanes<N>, across: Lanes<N>) -> Complexes<N> {
         let phase = across.largest_abs() + (along * self.taper).largest_abs();

@@ -10,7 +10,7 @@ use glam::DVec2;
 const FRAME: f64 = 2.0 * REACH;
 /// Parts with less than this share of sigma squared are nothing but rounding.
 const LEAST_AREA: f64 = 1e-11;
-/// As a part of sigma: corners that are one.
+/// Distance of two corners, in sigma, below which they count as one.
 const ROUNDING: f64 = 1e-10;
 
 /// The parts of floors of one depth that are other grooves' floors. Cells that overlap count back.
@@ -20,7 +20,7 @@ pub(super) struct Hidden {
     pub cells: Vec<Cell>,
 }
 
-/// What deeper grooves hide of each; of equal ones the later counts as hidden.
+/// Finds the parts of each groove that deeper ones hide; of grooves of one depth the later is hidden.
 pub(super) fn hidden_parts(pieces: &[GroovePiece], coherence_um: f64) -> Vec<Hidden> {
     let mut hidden = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {

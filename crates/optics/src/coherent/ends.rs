@@ -1,4 +1,4 @@
-//! Along a groove: the window's Fourier integral over it as [`super::window_fourier`] has it, at several wavelengths.
+//! Fourier integral of the window along a groove, as [`super::window_fourier`] has it, at several wavelengths.
 //!
 //! J. A. C. Weideman, *Computation of the Complex Error Function* (1994), where the Faddeeva function is not yet its
 //! asymptotic series.
@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 
 /// Terms of Weideman's series: off by 8e-11 at most.
 const TERMS: usize = 24;
-/// From here on the asymptotic series is good to 2e-10.
+/// Least argument from which the asymptotic series is good to 2e-10.
 const FAR: f64 = 8.0;
 const ASYMPTOTIC: [f64; 6] = [1.0, 0.5, 0.75, 1.875, 6.5625, 29.53125];
 

@@ -34,7 +34,7 @@ struct Strip {
     depth_nm: f64,
     along: Along,
     across: Vec<Span>,
-    /// Of the window's integral, across.
+    /// Share of the window's integral that the piece covers, across.
     share: f64,
 }
 
@@ -265,7 +265,7 @@ struct PhaseSteps<const N: usize> {
 }
 
 impl<const N: usize> PhaseSteps<N> {
-    /// As [`phase_step`].
+    /// [`phase_step`] at each wavelength; the last depth's is kept.
     #[inline(always)]
     fn of(&mut self, depth_nm: f64) -> Complexes<N> {
         match self.last {

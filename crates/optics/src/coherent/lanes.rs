@@ -4,7 +4,8 @@
 use std::array::from_fn;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// Beyond this many radians sin and cos are left to the standard library: the quarter turns no longer count exactly.
+/// Largest angle in radians that is reduced here: beyond it the quarter turns no longer count exactly, and the standard
+/// library serves.
 const LARGEST_RAD: f64 = 1e6;
 /// 1.5 * 2^52: what is added to it is rounded to a whole number, whose last bits are those of the sum.
 const ROUND: f64 = 6_755_399_441_055_744.0;

@@ -76,8 +76,8 @@ pub(super) fn polynomials(x: f64) -> [f64; MOST_TERMS] {
     p
 }
 
-/// How many terms the series of exp(-slope u - (bend u)^2/2) needs: until `size` times a term is below `tolerance`. Term n
-/// is about the n-th derivative, by the recurrence of Hermite's polynomials, over (2n - 1)!!.
+/// Number of terms that the series of exp(-slope u - (bend u)^2/2) needs until `size` times a term is below `tolerance`.
+/// Term n is about the n-th derivative, by the recurrence of Hermite's polynomials, over (2n - 1)!!.
 pub(super) fn terms_needed(slope: f64, bend: f64, size: f64, tolerance: f64) -> usize {
     let (mut before, mut term) = (size, size * slope.abs());
     let mut n = 2;
@@ -90,8 +90,8 @@ pub(super) fn terms_needed(slope: f64, bend: f64, size: f64, tolerance: f64) -> 
     n
 }
 
-/// From here on the recurrence upward from j_0 and j_1 serves: its rounding errors grow as (2n - 1)!!/y^(n+1), and the
-/// terms of a window's series fall faster.
+/// Least argument from which the recurrence upward from j_0 and j_1 serves: its rounding errors grow as (2n -
+/// 1)!!/y^(n+1), and the terms of a window's series fall faster.
 const UPWARD: f64 = 1.0;
 /// Up to here the power series with [`POWERS`] terms is good to 1e-11.
 const SERIES: f64 = 2.4;

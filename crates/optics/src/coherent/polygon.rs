@@ -42,7 +42,7 @@ impl Polygon {
         0.5 * self.corners.windows(2).map(twice).sum::<f64>().abs()
     }
 
-    /// What lies in the half-plane.
+    /// Returns the part of the polygon in the half-plane.
     pub(crate) fn cut(&self, half_plane: &HalfPlane) -> Self {
         let mut corners = Vec::with_capacity(self.corners.len() + 1);
         for (i, &to) in self.corners.iter().enumerate() {
@@ -61,7 +61,7 @@ impl Polygon {
         Self { corners }
     }
 
-    /// What lies in all of them.
+    /// Returns the part of the polygon in all half-planes.
     pub(crate) fn within(&self, half_planes: &[HalfPlane]) -> Self {
         let mut rest = self.clone();
         for half_plane in half_planes {
@@ -73,7 +73,7 @@ impl Polygon {
         rest
     }
 
-    /// What lies outside all that the half-planes share, in convex parts.
+    /// Returns the part of the polygon outside the intersection of the half-planes, as convex polygons.
     pub(crate) fn without(&self, half_planes: &[HalfPlane], least_area: f64) -> Vec<Self> {
         let mut rest = self.clone();
         let mut outside = Vec::new();
@@ -122,7 +122,8 @@ impl Polygon {
             .collect()
     }
 
-    /// Where the line with the value v along `along`'s normal enters and leaves.
+    /// Returns the two points where the line with the value v along `along`'s normal enters and leaves the
+    /// polygon.
     fn chord(&self, along: DVec2, v: f64, tolerance_um: f64) -> [DVec2; 2] {
         let across = along.perp();
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use spec_math::cephes64::{erf, erfc};
 use std::f64::consts::SQRT_2;
 
-/// Beyond 6 sqrt(2) = 8.5 sigma the window holds 2e-17 of its integral.
+/// Radius of the window, in sqrt(2) sigma: beyond 8.5 sigma it holds 2e-17 of its integral.
 pub(super) const REACH: f64 = 6.0;
 
 /// The Fourier integral of the window over an interval, relative to its whole integral:

@@ -11,13 +11,14 @@ use std::f64::consts::PI;
 /// Standard deviation of pixel and window, in pitches, up to which single grooves are seen as they are.
 const SINGLE_STD: f64 = 0.5;
 
-/// And from which on only their mean is: in their places they differ from it by 5e-9 there.
+/// Standard deviation of pixel and window, in pitches, from which on only the mean of the grooves is seen: evenly placed ones differ from it by
+/// 5e-9 there.
 const MEAN_STD: f64 = 1.0;
 
 /// Grooves that are asked for on either side: those that are off their places may be as far away.
 const REACH: i32 = 6;
 
-/// The same of those that branch, which are up to twice as dense.
+/// [`REACH`] of grooves that branch, which are up to twice as dense.
 const BRANCHING_REACH: i32 = 8;
 
 /// Grooves that begin between two others grow within this share of the way on which their distance doubles.
@@ -31,12 +32,12 @@ const MOST_BITS: i32 = 20;
 pub struct GroovesAt {
     /// The number of the groove whose place is the nearest.
     pub number: i32,
-    /// How far off that place is.
+    /// Distance of that place from the point.
     pub offset_um: f64,
-    /// From one place to the next: the pitch, or more where the surface stands slanted to the planes that cut the grooves. Negative where they
-    /// are counted against the direction of `offset_um`.
+    /// Distance from one place to the next: the pitch, or more where the surface stands slanted to the planes that cut the grooves. Negative
+    /// where they are counted against the direction of `offset_um`.
     pub pitch_um: f64,
-    /// Of grooves that come nearer to one another along their way.
+    /// Branching of grooves that come nearer to one another along their way.
     pub branches: Option<Branches>,
 }
 
@@ -50,8 +51,9 @@ pub struct Branches {
 }
 
 impl GroovesAt {
-    /// Of grooves that keep to a number of turns. At the point it is `turns`, and changes by so many per metre along the direction.
-    /// None where they are too many to be told apart.
+    /// Returns the grooves of a row with a fixed number of turns. At the point it is `turns`, and changes by so many per metre along the
+    /// direction. At the point it is `turns`, and changes by so many per metre along the direction. None where they are too many to be told
+    /// apart.
     pub fn branching(turns: f64, turns_per_m: f64, pitch_um: f64) -> Option<Self> {
         // Grooves of this pitch to a turn.
         let count = 1e6 / (pitch_um * turns_per_m.abs().max(1e-12));
@@ -81,7 +83,7 @@ impl GroovesAt {
             .map_or(number, |branches| number << (32 - branches.bits))
     }
 
-    /// How much of a groove there is that comes so many after the nearest.
+    /// Share of the groove `step` after the nearest that has grown, 0 to 1.
     fn grown(&self, step: i32, seed: u32) -> f64 {
         match self.branches {
             Some(branches) if (self.number + step) & 1 == 1 => {
@@ -124,12 +126,12 @@ impl Grating {
         (1.0 + seen * (density - 1.0)).min(1.0 / self.most_taken())
     }
 
-    /// How far grooves are from one another in the mean.
+    /// Mean distance of neighbouring grooves.
     fn mean_pitch_um(&self, at: &GroovesAt) -> f64 {
         at.branches.map_or(at.pitch_um.abs(), |_| self.pitch_um)
     }
 
-    /// How far off the groove is that comes so many after the nearest: displacements are stretched as the places are.
+    /// Distance of the groove `step` after the nearest from the point. Displacements are stretched as the places are.
     pub fn groove_offset_um(&self, at: GroovesAt, step: i32, seed: u32) -> f64 {
         let shift = groove_shift(at.own_number(step), seed);
         let stretch = (self.mean_pitch_um(&at) / self.pitch_um).copysign(at.pitch_um);
@@ -142,7 +144,7 @@ impl Grating {
     }
 }
 
-/// How far a groove is off its place: of mean 0 and variance 1, nearly normal, the same for a number and a seed everywhere.
+/// Displacement of a groove from its place: mean 0, variance 1, nearly normal, and the same for a number and a seed everywhere.
 fn groove_shift(number: u32, seed: u32) -> f64 {
     let first = word_hash(number ^ word_hash(seed));
     let second = word_hash(first ^ 0x9e37_79b9);
@@ -196,7 +198,7 @@ mod tests {
         }
     }
 
-    /// Along the rays of a star, from where there are 512 to where there are 2048.
+    /// The place runs along a ray of a star, from where there are 512 grooves to where there are 2048.
     #[test]
     fn grooves_that_branch_keep_their_mean_and_their_places() {
         let density = |turns: f64, radius_um: f64, std_um: f64| {

@@ -1,4 +1,5 @@
-//! What a row of grooves sends between the mirror's direction and q, in each colour channel: as a table that is looked up as a scratch's is.
+//! Table of the light that a row of grooves sends between the mirror's direction and q, in each colour channel; it is looked up as a scratch's table
+//! is.
 
 use super::Grating;
 use crate::diffraction::{sinc, sinc_squared_integral};
@@ -12,7 +13,7 @@ use std::f64::consts::PI;
 /// direction, 0.004 at q = 1.
 pub const GRATING_WIDTH_UM: f64 = 2.0;
 
-/// And of this depth, of which an oblique path takes its share. The row's own depths are in the table.
+/// Depth of that scratch, of which an oblique path takes a share. The row's own depths are in the table.
 pub const GRATING_DEPTH_NM: f64 = DEPTH_MAX_NM;
 
 /// There are no directions beyond |q| = 2. The table holds its value from here on.
@@ -21,7 +22,7 @@ const Q_MAX: f64 = 2.05;
 /// Edges of orders are summed to this many standard deviations.
 const EDGE_STD: f64 = 6.0;
 
-/// How far apart, in standard deviations of an edge, those of neighbouring wavelengths may lie for their sum to be smooth.
+/// Largest distance of the edges of neighbouring wavelengths, in standard deviations of an edge, at which their sum is smooth.
 const EDGE_STEP_STD: f64 = 0.7;
 
 /// Standard deviation of the sharpest edge that the table holds, in columns: value and slope of the nearest one tell no more.
@@ -204,7 +205,7 @@ impl Grating {
     }
 }
 
-/// Where an order begins to send a wavelength, as q grows.
+/// The q at which an order begins to send a wavelength.
 struct Edge {
     q: f64,
     std: f64,

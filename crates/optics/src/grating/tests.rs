@@ -89,7 +89,7 @@ fn brute_force(row: &Grating, rows: usize, step: f64, count: usize, seed: u64) -
     sums
 }
 
-/// How far the table is off what random rows send to lights of some sizes, relative rms, order 0 aside.
+/// Errors of the table against what random rows send to lights of the given sizes, relative rms, without order 0.
 fn errors(row: &Grating, sizes: &[f64], rows: usize) -> Vec<f64> {
     let table = row.table(SIGMA_UM, green);
     let step = 1e-3;
@@ -188,7 +188,7 @@ fn orders_have_the_angles_and_efficiencies_of_gratings() {
     }
 }
 
-/// What order 0 keeps and what is sent aside is all there is, where all of it has a direction.
+/// Order 0 and the light that is sent aside add up to all light, where all of it has a direction.
 #[test]
 fn energy_is_kept() {
     for (pitch_um, fill, jitter_um, depth_spread) in [

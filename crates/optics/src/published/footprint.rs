@@ -17,9 +17,9 @@ use spec_math::cephes64::erf;
 /// A pixel's parallelogram on the surface, about the shading point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelFootprint {
-    /// By how much the surface moves from one pixel to the next on the right; x along the scratch, y across it, um.
+    /// Step on the surface from one pixel to the next on the right; x along the scratch, y across it, um.
     pub right_um: DVec2,
-    /// And to the next below.
+    /// Step on the surface to the next pixel below, um.
     pub down_um: DVec2,
 }
 
@@ -30,12 +30,12 @@ impl PixelFootprint {
     }
 }
 
-/// What [`published_share`] returns.
+/// Result of [`published_share`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PublishedShare {
     /// The share of the coherence window that the segment covers, mean over the pixel: in the place of rho of (20).
     pub share: f64,
-    /// Its part of rho_phi, by which the talk masks the base: the base keeps max(1 - sum, 0).
+    /// Part of the scratch in rho_phi, by which the talk masks the base: the base keeps max(1 - sum, 0).
     pub density: f64,
 }
 
@@ -147,7 +147,7 @@ mod tests {
             window_share(1.0, overlap, SIGMA_UM)
         }
 
-        /// Its mean over a square pixel, by Gauss-Legendre rules of three points in cells well below the window.
+        /// Mean over a square pixel, by Gauss-Legendre rules of three points in cells well below the window.
         fn mean_over_square(&self, pixel_um: f64) -> f64 {
             let cells = (pixel_um / (0.6 * SIGMA_UM)).ceil() as usize;
             let nodes: Vec<(f64, f64)> = (0..cells)
@@ -172,7 +172,7 @@ mod tests {
             nodes.iter().map(row).sum()
         }
 
-        /// Its mean over a Gaussian pixel, by the trapezoid rule.
+        /// Mean over a Gaussian pixel, by the trapezoid rule.
         fn mean_over_gaussian(&self, std_um: f64) -> f64 {
             let cells = (12.0 * std_um / (0.5 * SIGMA_UM).min(0.5 * std_um)).ceil() as usize;
             let nodes: Vec<(f64, f64)> = (0..=cells)

@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use super::segments::BandSegments;
 
-/// How far outside of an edge, in direction cosines, a point still counts as on it: what single precision rounds off.
+/// Distance outside an edge, in direction cosines, at which a point still counts as on it: the rounding of single precision.
 /// A corner on the line is thus found twice rather than not at all.
 const CULL_SLACK: f64 = 1e-6;
 /// A place beyond the disk: sorts last.
@@ -100,8 +100,8 @@ fn edge_places(x: f64, plane: DVec3, other: DVec3, another: DVec3) -> [f64; 2] {
     })
 }
 
-/// What a triangle above the horizon covers of the line xi_t = 0; `wo` and the corners, unit directions, in the frame of
-/// the scratch.
+/// Finds the segments of the line xi_t = 0 that a triangle above the horizon covers. `wo` and the corners are unit
+/// directions in the frame of the scratch.
 pub fn triangle_segments(wo: DVec3, corners: [DVec3; 3]) -> BandSegments {
     let mut segments = BandSegments::default();
     let [a, b, c] = corners;

@@ -1,4 +1,4 @@
-//! What a light covers of the band's middle line, as segments of q: the talk's "assemble line segments".
+//! Segments of q on the band's middle line that a light covers: the talk's "assemble line segments".
 
 /// A triangle can cut three segments out of the line, a sphere two.
 pub(crate) const SEGMENTS_MAX: usize = 3;
@@ -6,7 +6,7 @@ pub(crate) const SEGMENTS_MAX: usize = 3;
 /// Segments of q = xi_n, each from its low to its high end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BandSegments {
-    /// How many there are.
+    /// Number of segments.
     pub count: usize,
     /// Low and high q of each; zero beyond `count`.
     pub ends: [[f64; 2]; SEGMENTS_MAX],

@@ -12,10 +12,10 @@
 use crate::diffraction;
 use std::f64::consts::PI;
 
-/// Which sine integral a renderer evaluates.
+/// The sine integral that a renderer evaluates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SineIntegral {
-    /// To the last digits of its language: [`diffraction::sine_integral`], in the shader to 1e-6.
+    /// Exact to the last digits of the language: [`diffraction::sine_integral`], in the shader to 1e-6.
     Exact,
     /// [`sine_integral_fast`].
     Fast,
@@ -31,7 +31,7 @@ impl SineIntegral {
     }
 }
 
-/// Beyond this Si is pi/2 to 1e-6, and sines of single precision mean nothing.
+/// Argument beyond which Si is pi/2 to 1e-6, and sines of single precision mean nothing.
 const X_MAX: f64 = 1e6;
 
 /// f(x) = (x + F) / (x^2 + F x + 2 F / pi): pi/2 at 0, 1/x - O(1/x^3) far out.

@@ -19,7 +19,7 @@ const STEPS_NM: f64 = 0.25;
 /// A part of the visible.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PublishedWavelength {
-    /// Its weight in linear Rec.709, times R/F0 of the material.
+    /// Weight of the part in linear Rec.709, times R/F0 of the material.
     pub weight: [f64; 3],
     /// The wavelength that stands for it.
     pub wavelength_um: f64,
@@ -28,7 +28,7 @@ pub struct PublishedWavelength {
 /// The visible in equal parts, with the colour of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PublishedSpectrum {
-    /// From the shortest to the longest; the weights of each channel sum to 1.
+    /// Parts from the shortest wavelength to the longest; the weights of each channel sum to 1.
     pub wavelengths: Vec<PublishedWavelength>,
 }
 
@@ -108,7 +108,8 @@ pub fn published_chord_integral(
     (2.0 * si.eval(x) - 4.0 * s * s / x) / k_w
 }
 
-/// What one wavelength adds to the channels: weight |D|^2 W/lambda times the sum of N(q1) - N(q0) over the segments.
+/// Computes what one wavelength adds to the channels: weight |D|^2 W/lambda times the sum of N(q1) - N(q0) over the
+/// segments.
 pub fn published_radiance(
     wavelength: PublishedWavelength,
     segments: &BandSegments,

@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::segments::BandSegments;
 use crate::band::Cap;
 
-/// What a sphere covers of the line xi_t = 0; `wo` and `cap` in the frame of the scratch.
+/// Finds the segments of the line xi_t = 0 that a sphere covers; `wo` and `cap` are in the frame of the scratch.
 pub fn sphere_segments(wo: DVec3, cap: Cap) -> BandSegments {
     let mut segments = BandSegments::default();
     let (c, sin, cos) = (cap.axis, cap.sin_radius, cap.cos_radius);

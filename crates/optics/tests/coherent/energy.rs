@@ -1,4 +1,4 @@
-//! Where the energy goes: a mirror with random grooves, over the hemisphere and beyond it.
+//! Energy balance of a mirror with random grooves, over the hemisphere and beyond it.
 
 use super::{Groove, pieces, random_grooves};
 use glam::DVec2;

@@ -9,12 +9,12 @@ use std::f64::consts::PI;
 /// Each cell that an edge passes through is averaged over this many points in either direction.
 const SUBDIVISIONS: usize = 16;
 
-/// What the floor is where grooves cross.
+/// Definition of the floor where grooves cross.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Crossing {
-    /// As in the model: 1 - sum of D.
+    /// The model's: 1 - sum of D.
     Sum,
-    /// As on a surface: the deeper floor.
+    /// A surface's: the deeper floor.
     Deepest,
 }
 
@@ -80,7 +80,7 @@ impl Fourier {
         }
     }
 
-    /// In place, forward, by Cooley and Tukey.
+    /// Transforms the values in place, forward, by Cooley and Tukey.
     fn transform(&self, values: &mut [Complex64]) {
         let length = values.len();
         assert_eq!(length, 2 * self.roots.len());

@@ -12,7 +12,7 @@ use rand_pcg::Pcg64;
 use std::f64::consts::PI;
 
 const WAVELENGTHS_NM: [f64; 8] = [383.0, 433.0, 483.0, 533.0, 583.0, 633.0, 683.0, 733.0];
-/// Of amplitudes, relative to the base's peak, as all errors here. Terms below 5e-10 are left out, and some tens of them may
+/// Bound of the errors of amplitudes, relative to the base's peak. Terms below 5e-10 are left out, and some tens of them may
 /// add up.
 const BOUND: f64 = 1e-8;
 
@@ -63,7 +63,7 @@ fn awkward(random: &mut Pcg64, sigma: f64) -> Vec<GroovePiece> {
     grooves
 }
 
-/// In the peak, in a groove's band or across it, or anywhere.
+/// Draws a direction in the peak, in a groove's band or across it, or anywhere.
 fn direction(random: &mut Pcg64, grooves: &[GroovePiece]) -> DVec2 {
     let length = 10f64.powf(random.random_range(-3.0..0.2));
     let anywhere = DVec2::from_angle(random.random_range(-PI..PI));

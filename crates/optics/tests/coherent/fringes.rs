@@ -17,14 +17,15 @@ fn groove(offset_um: f64) -> GroovePiece {
     }
 }
 
-/// What the grooves scatter from the angle `incident_rad` to a viewer at `viewer_rad`, both in the plane across them.
+/// Computes the light that the grooves scatter from the angle `incident_rad` to a viewer at `viewer_rad`, both in the
+/// plane across them.
 fn scattered(grooves: &[GroovePiece], incident_rad: f64, viewer_rad: f64) -> f64 {
     let xi = DVec2::new(0.0, incident_rad.sin() + viewer_rad.sin());
     let cos_sum = incident_rad.cos() + viewer_rad.cos();
     coherent_response(grooves, xi, cos_sum, COHERENCE_UM, WAVELENGTH_NM, false).scratches
 }
 
-/// Where `f` is largest near the middle of three places, by golden section.
+/// Finds the maximum of `f` between two places by golden section.
 fn maximum(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     while high - low > 1e-9 {
@@ -85,7 +86,8 @@ fn fringes_lie_at_the_angles_of_two_slits() {
     }
 }
 
-/// From where the window sees one groove less, the fringes do not reach zero: contrast 2ab/(a^2 + b^2) of amplitudes a, b.
+/// At a point whose window sees one groove less, the fringes do not reach zero: contrast 2ab/(a^2 + b^2) of amplitudes a,
+/// b.
 #[test]
 fn contrast_is_that_of_the_amplitudes() {
     let apart_um = 10.0;

@@ -19,7 +19,7 @@ const GRID: Grid = Grid {
 const COHERENCE_UM: f64 = 5.0;
 const WAVELENGTHS_NM: [f64; 3] = [450.0, 550.0, 650.0];
 
-/// What the grid leaves: cells of 0.03 um alias amplitude from beyond |xi| = lambda/0.03 - 1 = 14, where a groove's
+/// Error of the grid: cells of 0.03 um alias amplitude from beyond |xi| = lambda/0.03 - 1 = 14, where a groove's
 /// spectrum has fallen to a fourteenth and the cell's transfer function to another. At worst 3e-4, at 450 nm.
 const BOUND: f64 = 6e-4;
 
@@ -206,7 +206,7 @@ fn five_that_cross() -> Vec<Groove> {
     .to_vec()
 }
 
-/// Where grooves cross, a surface has one floor. [`GrooveField`] has it too; the plain sum misses it, and by how much is
+/// A surface has one floor where grooves cross. [`GrooveField`] has it too; the plain sum misses it, and by how much is
 /// printed.
 #[test]
 fn one_floor_where_grooves_cross() {
@@ -248,7 +248,7 @@ fn one_floor_where_grooves_cross() {
     }
 }
 
-/// What the window sees on the mean is the specular peak's middle, where floors are counted once too.
+/// The window's mean reflection is the specular peak's middle, where floors are counted once too.
 #[test]
 fn the_mean_reflection_counts_floors_once() {
     // Twice the same groove is one groove, and a groove within a wider one of its depth is nothing.

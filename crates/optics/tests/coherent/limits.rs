@@ -130,7 +130,8 @@ fn an_endless_groove_is_separable() {
     }
 }
 
-/// With ends far away or near, in the band's middle the exact eta is the separable one; off it only the exact has light.
+/// The exact eta is the separable one in the band's middle, with ends far away or near; off it only the exact one has
+/// light.
 #[test]
 fn ends_scatter_off_the_band() {
     let mut groove = endless(1.0, 140.0, 3.0);
@@ -228,7 +229,7 @@ fn pieces_sum_to_the_whole() {
     assert!(worst[0] < 1e-14 && worst[1] < 1e-14, "{worst:?}");
 }
 
-/// Without crossings a field is the plain sum, and a groove cut in pieces hides nothing.
+/// A field without crossings is the plain sum, and a groove cut in pieces hides nothing.
 #[test]
 fn a_field_without_crossings_is_the_sum() {
     let groove = pieces(&random_grooves(1, 5.0, 60.0..80.0, 3))[0];
@@ -280,7 +281,7 @@ fn a_bend_hides_nothing() {
     assert_ne!(field.amplitude(xi, 2.0, 550.0), sum);
 }
 
-/// At right angles, what two grooves share of the window is the product of what each strip has of it. A patch takes the
+/// Two grooves at right angles share as much of the window as the product of the shares of each strip. A patch takes the
 /// window's energy as exponential: off by L^2/12 sigma^2 in each direction, 0.7 % at a fifth of sigma, times |D| below 2.
 #[test]
 fn a_square_crossing_counts_once() {
@@ -398,7 +399,7 @@ fn numbers_come_out_whatever_goes_in() {
     }
 }
 
-/// What a term costs; printed, not bounded: machines differ.
+/// Prints the time of a term. It is not bounded, since machines differ.
 #[test]
 fn a_term_is_cheap() {
     let mut random = Pcg64::seed_from_u64(2);

@@ -23,7 +23,7 @@ struct Groove {
 }
 
 impl Groove {
-    /// As it is seen from `point`.
+    /// The groove in coordinates relative to `point`.
     fn seen_from(&self, point: DVec2) -> GroovePiece {
         let tangent = (self.to - self.from).normalize();
         GroovePiece {

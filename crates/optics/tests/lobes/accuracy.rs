@@ -135,7 +135,7 @@ fn plain_and_reflected(wo: DVec3, alpha: f64) -> impl Fn(DVec3) -> DVec4 {
     move |wi| ggx_eval(wi, wo, alpha) * reflectance(wi).extend(1.0)
 }
 
-/// For each reflectance: the integral's own, and that for F = 1 times the ratio of albedos, which is what many renderers do.
+/// Returns two approximations for each reflectance: the integral's own, and that for F = 1 times the ratio of albedos, as many renderers do.
 fn reflected(surface: &Surface, plain: f64, reflected: [f64; 3]) -> [[f64; 2]; 3] {
     let e0 = albedo_lookup(surface.roughness, surface.wo.z);
     let albedo = fresnel().albedo(surface.roughness, surface.wo.z);
@@ -247,7 +247,7 @@ fn measure<const N: usize>(
     all
 }
 
-/// What [`measure`] compares for a light: each reflectance's two approximations.
+/// Returns the pairs that [`measure`] compares for a light: two approximations of each reflectance, with the exact value.
 fn compared(surface: &Surface, plain: f64, approximate: [f64; 3], exact: DVec3) -> [(f64, f64); 6] {
     let approximate = reflected(surface, plain, approximate);
     std::array::from_fn(|k| (approximate[k / 2][k % 2], exact[k / 2]))
@@ -340,13 +340,13 @@ fn outlines() -> [(&'static str, Vec<(f64, f64)>); 4] {
     ]
 }
 
-/// By turns upright and tilted, which takes half of the time of both.
+/// Polygons are upright and tilted in turn, which takes half of the time of both.
 #[test]
 fn polygons_match_ggx() {
     polygons(|outline| if outline % 2 == 0 { &[0.0] } else { &[1.0] });
 }
 
-/// What docs/lobes.md is made from.
+/// Prints the numbers of docs/lobes.md.
 #[test]
 #[ignore = "takes minutes, and its half is a test"]
 fn all_polygons_match_ggx() {

@@ -18,7 +18,7 @@ const GAUSS: [(f64, f64); 6] = [
     (0.932_469_514_203_152, 0.171_324_492_379_170),
 ];
 
-/// Where a lobe is and how narrow.
+/// Direction and width of a lobe's peak.
 #[derive(Clone, Copy)]
 pub struct Peak {
     pub direction: DVec3,
@@ -63,7 +63,7 @@ impl Patch for Triangle {
     }
 }
 
-/// What can be integrated: a number, or several at once.
+/// Values that can be integrated: a number, or several at once.
 pub trait Integrand: Copy + Default + Add<Output = Self> + Mul<f64, Output = Self> {}
 
 impl<T: Copy + Default + Add<Output = T> + Mul<f64, Output = T>> Integrand for T {}
@@ -83,7 +83,7 @@ pub struct Cell {
     pub centre: DVec3,
     /// The distance to the farthest of its corners and edges' middles.
     pub reach: f64,
-    /// How often the patch was halved.
+    /// Number of times that the patch was halved.
     pub depth: u32,
 }
 
@@ -93,7 +93,7 @@ impl Cell {
     }
 }
 
-/// The same, by a rule of nodes and weights on [-1, 1] in cells that are halved while they are too coarse.
+/// Integrates a patch by a rule of nodes and weights on [-1, 1], in cells that are halved while they are too coarse.
 pub fn integrate_by<T: Integrand>(
     patch: impl Patch,
     rule: &[(f64, f64)],

@@ -8,7 +8,7 @@ use hairline_optics::filtered_lobe::{LobePart, SlopeSpread, filtered_lobe};
 use hairline_optics::ggx::{ggx_alpha, ggx_eval};
 use hairline_optics::ltc::{LobeFresnel, ltc_lobe, ltc_reflected, ltc_sphere_vector, ltc_vector};
 
-/// What a part reflects of a sphere, times its weight.
+/// Light that a part reflects of a sphere, times the part's weight.
 fn sphere_of_part(part: &LobePart, of: &LobeFresnel, axis: DVec3, sin2: f64) -> f64 {
     let vector = ltc_sphere_vector(&part.lobe, axis, sin2);
     part.weight(vector) * ltc_reflected(&part.lobe, of, vector)[0]

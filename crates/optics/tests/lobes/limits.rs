@@ -1,4 +1,5 @@
-//! What the lobes and the light integrals must do for any input: furnace, energy, reciprocity, horizon, degenerate input.
+//! Properties of the lobes and the light integrals for any input: furnace, energy, reciprocity, horizon, degenerate
+//! input.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
