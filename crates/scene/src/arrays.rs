@@ -159,7 +159,7 @@ pub struct ScratchArrays {
 }
 
 impl ScratchArrays {
-    /// What [`ScratchArrays::new`] takes of each scratch besides its ends, in this order.
+    /// Keys of the columns that [`ScratchArrays::new`] takes for each scratch besides its ends, in this order.
     pub const SIZES: [&str; SIZE_COUNT] = {
         let mut keys = [""; SIZE_COUNT];
         let mut i = 0;

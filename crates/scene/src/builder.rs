@@ -85,9 +85,9 @@ struct Work<'a> {
     description: &'a Description,
     base_dir: &'a Path,
     old: &'a Kept,
-    /// What the next build will find.
+    /// Results that the next build can reuse.
     new: Kept,
-    /// What is to be built, but for textures and scratches.
+    /// Memory of the parts to be built, without textures and scratches.
     estimate: Estimate,
 }
 

@@ -1,4 +1,4 @@
-//! From a pixel to a ray and to the footprint that it leaves on a surface.
+//! Rays through pixels, and the footprints that pixels leave on a surface.
 
 use crate::description::limits;
 use crate::scene::{Camera, Lens, RenderSettings};
@@ -20,7 +20,8 @@ pub struct CameraFrame {
     pub per_px_y: DVec3,
     /// Width and height.
     pub size_px: DVec2,
-    /// Where in the picture the ray along `forward` is: in its middle, unless the camera is seen through another point of its lens than that.
+    /// Position of the ray along `forward` in the picture: its middle, unless the camera sees through another point of its lens than the
+    /// middle.
     pub middle_px: DVec2,
 }
 
@@ -46,7 +47,7 @@ impl Camera {
         }
     }
 
-    /// The same for a batch of samples: each of them sees the scene through another point of the lens, the first one through its middle.
+    /// The frame for a batch of samples: each batch sees the scene through another point of the lens, the first one through its middle.
     pub fn frame_of_batch(&self, size_px: [u32; 2], batch: Batch) -> CameraFrame {
         let frame = self.frame(size_px);
         match self.has_lens() {
@@ -74,12 +75,12 @@ impl Camera {
     }
 }
 
-/// Where a camera stands and looks at.
+/// Position and target of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Framing {
     /// The pinhole.
     pub position_m: DVec3,
-    /// In the middle of the picture, as deep as the middle of the points.
+    /// Target in the middle of the picture, as deep as the middle of the points.
     pub target_m: DVec3,
 }
 
@@ -133,7 +134,7 @@ fn lens_point(i: u32) -> DVec2 {
     lens_point_at(on_square)
 }
 
-/// Where a point of the unit square lies on a disk of radius 1; its middle in the middle.
+/// Maps a point of the unit square to a disk of radius 1, middle to middle.
 pub fn lens_point_at(on_square: DVec2) -> DVec2 {
     let DVec2 { x, y } = 2.0 * on_square - 1.0;
     let (radius, angle_rad) = match x.abs() > y.abs() {
@@ -164,8 +165,8 @@ impl CameraFrame {
         self.forward + self.per_px_x * offset.x + self.per_px_y * offset.y
     }
 
-    /// How far a point of the plane through the hit, of unit normal `normal`, moves when the ray moves by one pixel to the
-    /// right and by one pixel down. `ray` is [`Self::camera_ray`]'s, `depth_m` the hit's distance along `forward`.
+    /// Returns the movements of the hit point, in the plane of unit normal `normal`, when the ray moves by one pixel to the right and by one
+    /// pixel down. `ray` is [`Self::camera_ray`]'s, `depth_m` the hit's distance along `forward`.
     pub fn footprint_axes(&self, ray: DVec3, depth_m: f64, normal: DVec3) -> [DVec3; 2] {
         let cos = ray.dot(normal);
         // Beyond 88 degrees a plane no longer stands for the surface under a pixel, and the footprint would grow without bound.
@@ -226,15 +227,15 @@ mod tests {
         }
     }
 
-    /// Where a point is in the picture.
+    /// Position of a point in the picture, in pixels.
     fn projected(frame: &CameraFrame, point_m: DVec3) -> DVec2 {
         let v = point_m - frame.position_m;
         let at = |axis: DVec3| v.dot(axis) / (v.dot(frame.forward) * axis.length_squared());
         frame.middle_px + DVec2::new(at(frame.per_px_x), at(frame.per_px_y))
     }
 
-    /// What is in focus stays; what is not moves by the lens's radius times the distance of both depths, over both, on a disk whose points have
-    /// the middle for their mean, and half its radius for the standard deviation of each axis.
+    /// A point in focus stays; others move by the lens's radius times the distance of both depths, over both, on a disk whose points have the
+    /// middle for their mean, and half its radius for the standard deviation of each axis.
     #[test]
     fn a_lens_blurs_by_its_circle_of_confusion() {
         let mut camera = camera();

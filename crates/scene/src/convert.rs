@@ -1,4 +1,4 @@
-//! From what is described to what it is in a [`Scene`]: units and references.
+//! Conversion of a description to the units and references of a [`Scene`].
 
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -136,7 +136,8 @@ pub(crate) fn environment(
 }
 
 impl description::Grating {
-    /// On an object that is placed so. `mask` and `directions` are the textures of the scene that it names.
+    /// Converts the grating for an object with this transform. `mask` and `directions` are the textures of
+    /// the scene that it names.
     pub(crate) fn in_scene(
         &self,
         world_from_object: &DMat4,
@@ -226,7 +227,7 @@ impl description::Grating {
 }
 
 impl description::Object {
-    /// Where its `scale`, `rotation_deg` and `translation_m` put it.
+    /// Transform of the object by its `scale`, `rotation_deg` and `translation_m`.
     pub fn world_from_object(&self) -> DMat4 {
         world_from_object(self.translation_m, self.rotation_deg, self.scale)
     }

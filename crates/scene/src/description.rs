@@ -86,7 +86,7 @@ pub struct Description {
     /// The model whose own lights the `lights` were made of, as its object names it. Not part of the file.
     #[serde(skip)]
     pub lights_of: Option<PathBuf>,
-    /// What the author should know about the file, a line each. Not part of it.
+    /// Notes on the file for its author, a line each. Not part of it.
     #[serde(skip)]
     pub notes: Vec<String>,
 }
@@ -106,7 +106,7 @@ pub struct Camera {
     pub up: [f64; 3],
     /// Vertical field of view, above 0 and below 180. Default: 30. A file may give `focal_length_mm` and `sensor_width_mm` instead.
     pub fov_y_deg: f64,
-    /// How wide the film is, that is, the picture: what focal lengths and f-stops count by. Default: 36.
+    /// Width of the film, that is, of the picture; focal lengths and f-stops refer to it. Default: 36.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sensor_width_mm: Option<f64>,
     /// Radiances are multiplied by 2^exposure_ev before the tone map. Default: 0.
@@ -114,7 +114,7 @@ pub struct Camera {
     /// Diameter of the lens's opening. Default: a pinhole. A file may give `f_stop` beside `focal_length_mm` instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub aperture_mm: Option<f64>,
-    /// With `aperture_mm`: the distance of what is in focus, along the view. Default: that of the target.
+    /// With `aperture_mm`: the distance along the view at which the picture is sharp. Default: that of the target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub focus_distance_m: Option<f64>,
 }
@@ -187,7 +187,7 @@ impl Map {
 /// `[[material]]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Material {
-    /// What objects call it by; no two are equal. Required.
+    /// Name by which objects refer to it; no two are equal. Required.
     pub name: String,
     /// `kind` and the keys that belong to it.
     #[serde(flatten)]
@@ -221,7 +221,7 @@ pub enum MaterialKind {
     MetallicRoughness {
         /// Linear Rec.709, in [0, 1]. Default: `[1, 1, 1]`.
         base_color: [f64; 3],
-        /// From 0, dielectric, to 1, metal. Default: 1.
+        /// Share of metal from 0, dielectric, to 1, metal. Default: 1.
         metallic: f64,
         /// `specular` and `specular_color`: factors on what it reflects as far as it is no metal. Default: 1 and white.
         #[serde(flatten)]
@@ -231,7 +231,7 @@ pub enum MaterialKind {
     Mirror,
 }
 
-/// What gives a metal its colour.
+/// Colour of a metal.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum MetalColor {
     /// `metal`: measured n and k of `"iron"`, `"steel"` (stainless), `"aluminium"`, `"copper"`, `"gold"`, `"silver"`,
@@ -246,13 +246,13 @@ pub enum MetalColor {
 /// `[[object]]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Object {
-    /// What layers of scratches and gratings call it by; no two are equal. Required.
+    /// Name by which layers of scratches and gratings refer to it; no two are equal. Required.
     pub name: String,
     /// `shape` or `mesh`.
     #[serde(flatten)]
     pub surface: Surface,
-    /// Which axis of a mesh's file points up; it is turned to the axis of the world nearest to the camera's up. Default: `"y"`, as
-    /// glTF has it. Shapes have no such key, and stand on z.
+    /// The axis of a mesh's file that points up; it is turned to the axis of the world nearest to the camera's up. Default: `"y"`, as glTF has
+    /// it. Shapes have no such key, and stand on z.
     #[serde(skip_serializing_if = "is_default", serialize_with = "serialize_named")]
     pub up: Up,
     /// The largest extent of a mesh along its axes before `scale`; it is scaled to that. Default: as large as its file says. Shapes
@@ -300,7 +300,7 @@ impl Up {
     }
 }
 
-/// Where an object's triangles come from.
+/// Source of an object's triangles.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Surface {

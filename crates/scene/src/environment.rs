@@ -59,17 +59,17 @@ pub struct Environment {
 
 #[derive(Debug)]
 struct Maps {
-    /// Not in the levels, nor in the irradiance; in the map's frame, in texel units.
+    /// Suns taken out of the levels and of the irradiance, in the map's frame and in texel units.
     suns: Vec<Sun>,
     background: Picture,
     levels: Vec<Picture>,
-    /// As suns, and the levels without them; none where there is no window.
+    /// Windows, which are lights for scratches as suns are, and the levels without them; none where there is no window.
     windows: Vec<Window>,
     levels_beside_windows: Option<Vec<Picture>>,
     irradiance: Picture,
     texel_scale: f64,
     repaired_texels: usize,
-    /// What the author should know about the file.
+    /// Notes on the file for the scene's author.
     notes: Vec<String>,
 }
 
@@ -98,8 +98,8 @@ impl Environment {
         Ok(Self::of_maps(maps, rotation_rad, intensity, visible))
     }
 
-    /// From an equirectangular map in memory, rows from the top; see [`Environment::load`] for the rest. It stays whole: nothing of
-    /// it becomes a light of its own.
+    /// Makes an environment of an equirectangular map in memory, rows from the top; see [`Environment::load`] for the rest. The map stays whole: no sun or
+    /// window becomes a light of its own. It stays whole: nothing of it becomes a light of its own.
     ///
     /// # Panics
     /// If the map is empty.
@@ -108,7 +108,7 @@ impl Environment {
         Self::of_maps(maps, rotation_rad, intensity, visible)
     }
 
-    /// The same, its suns and windows parted from it as [`Environment::load`] does.
+    /// Makes it as [`Environment::from_map`], with suns and windows parted from the map as [`Environment::load`] does.
     ///
     /// # Panics
     /// If the map is empty.
@@ -154,7 +154,7 @@ impl Environment {
         self
     }
 
-    /// The same radiance from everywhere, visible. Exact if half floats hold the radiance, else within 0.05 %.
+    /// An environment of the same radiance from everywhere, visible. Exact if half floats hold the radiance, else within 0.05 %.
     pub fn uniform(radiance: [f32; 3]) -> Self {
         let map = Picture {
             size_px: [2, 1],
@@ -203,7 +203,7 @@ impl Environment {
         self.prefiltered_lod(dir, environment_lod(roughness))
     }
 
-    /// The same for several directions at once.
+    /// [`Environment::prefiltered`] for several directions at once.
     #[inline(always)]
     pub fn prefiltered_all<const N: usize>(
         &self,
@@ -297,19 +297,19 @@ impl Environment {
         beside.unwrap_or(&self.maps.levels)
     }
 
-    /// How many texels of the file held a negative, infinite or NaN component, or one beyond [what a map can hold](Environment).
+    /// Number of texels of the file with a negative, infinite or NaN component, or one beyond [what a map can hold](Environment).
     pub fn repaired_texels(&self) -> usize {
         self.maps.repaired_texels
     }
 
-    /// What the author of the scene should know about the file, a line each.
+    /// Notes on the file for the scene's author, a line each.
     pub fn notes(&self) -> &[String] {
         &self.maps.notes
     }
 }
 
 impl Maps {
-    /// Of a map whose suns and windows may be taken out.
+    /// Makes the maps; `parts` tells whether suns and windows are taken out.
     fn new(mut map: Picture, parts: bool) -> Self {
         assert!(!map.rgb.is_empty(), "an empty environment map");
         let mut repaired_texels = repair(&mut map);
@@ -346,7 +346,7 @@ impl Maps {
     }
 }
 
-/// What every WebGPU device can hold in one texture.
+/// Largest width: every WebGPU device holds it in one texture.
 const MAP_WIDTH_MAX: u32 = 8192;
 
 fn map_from_world(up: DVec3, rotation_rad: f64) -> DMat3 {

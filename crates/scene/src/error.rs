@@ -1,4 +1,4 @@
-//! What is wrong with a scene, said to the person who wrote it.
+//! Errors of a scene, addressed to the person who wrote it.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::key_line::line_of_key;
 use crate::text::{printable, said};
 
-/// What was found in a scene, where, and what would be right there.
+/// An error of a scene: the key, what was found there, and what would be right.
 ///
 /// It prints as `file:line: key: what was found; what would be right`, leaving out what it does not know.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -38,7 +38,7 @@ impl Error {
         }
     }
 
-    /// What work ends with that its caller gave up.
+    /// Error of work that its caller cancelled.
     pub(crate) fn cancelled() -> Self {
         Self {
             is_cancelled: true,
@@ -91,12 +91,12 @@ impl Error {
         &self.key
     }
 
-    /// What was found there.
+    /// Description of what was found there.
     pub fn found(&self) -> &str {
         &self.found
     }
 
-    /// What would be right.
+    /// Description of what would be right.
     pub fn right(&self) -> &str {
         &self.right
     }

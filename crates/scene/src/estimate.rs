@@ -1,5 +1,5 @@
-//! What a scene takes of the memory, by the costs of [`hairline_memory`], counted before it is built. Scratches, whose number
-//! depends on the built surfaces, are counted where they are laid.
+//! Memory that a scene takes, by the costs of [`hairline_memory`], counted before it is built. Scratches, whose number depends on the
+//! built surfaces, are counted where they are laid.
 
 use std::path::Path;
 
@@ -16,22 +16,23 @@ use crate::texture::texture_bytes;
 pub struct Part {
     /// The way to what asks for it in the scene file.
     pub key: String,
-    /// What it is, with its number: `32768 triangles`.
+    /// Name with its number: `32768 triangles`.
     pub what: String,
-    /// What it takes.
+    /// Memory that it takes.
     pub bytes: f64,
-    /// What to do about it.
+    /// Advice for taking less.
     remedy: &'static str,
 }
 
-/// What a scene takes without its scratches.
+/// Memory that a scene takes without its scratches.
 #[derive(Clone, Debug, Default)]
 pub struct Estimate {
     parts: Vec<Part>,
 }
 
 impl Estimate {
-    /// Of a whole scene and its picture, without its scratches. Of files only the heads are read; what cannot be read counts nothing.
+    /// Estimates a whole scene and its picture, without its scratches. Of files only the heads are read; what cannot be read counts
+    /// nothing.
     pub fn of(description: &Description, base_dir: &Path) -> Self {
         let mut estimate = Self::default();
         estimate.add_lights(description);
@@ -43,12 +44,12 @@ impl Estimate {
         estimate
     }
 
-    /// Its parts, in the order of the scene.
+    /// Parts of the estimate, in the order of the scene.
     pub fn parts(&self) -> &[Part] {
         &self.parts
     }
 
-    /// Of all together.
+    /// Sum of all parts.
     pub fn bytes(&self) -> f64 {
         self.parts.iter().map(|part| part.bytes).sum()
     }
@@ -168,12 +169,12 @@ impl Estimate {
     }
 }
 
-/// What laid scratches take.
+/// Memory that laid scratches take.
 pub fn scratches_bytes(scratches: usize, segments: usize) -> f64 {
     crate::scratches::bytes(scratches, segments)
 }
 
-/// What the textures of a scene take.
+/// Memory that the textures of a scene take.
 pub fn textures_bytes(scene: &crate::Scene) -> f64 {
     scene
         .textures
@@ -199,7 +200,7 @@ fn table_of(key: &str) -> &str {
 struct Size {
     triangles: f64,
     vertices: f64,
-    /// What is held of files while the object is read.
+    /// Memory for files that are held while the object is read.
     file_bytes: f64,
 }
 

@@ -12,7 +12,7 @@ use crate::mesh_file::{self, FileCamera, Placing};
 use crate::upright::vertical_axis;
 
 impl Description {
-    /// The same with the camera of a file that it asks for by `of_file`, if it does.
+    /// Returns the description with the camera of a file that it asks for by `of_file`, if it does.
     ///
     /// # Errors
     /// As of [`Description::see_by`].
@@ -83,7 +83,7 @@ impl Description {
 /// The least cosine between the up of a picture and the axis that its `up` is nearest to.
 const LEAST_RISE: f64 = 0.05;
 
-/// That of a description. Models stand by the axis nearest to its `up`, which therefore has to stay.
+/// Converts a file's camera to that of a description. Models stand by the axis nearest to its `up`, which therefore has to stay.
 fn camera(seen: &FileCamera, before: &Camera, world_up: DVec3) -> Result<Camera, mesh_file::Flaw> {
     let right = seen.forward.cross(seen.up);
     // Of all vectors that are up in this picture the one nearest to the axis; of a camera that looks straight down, one that leans a little.

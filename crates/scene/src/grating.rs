@@ -19,7 +19,7 @@ pub use ground::GrooveGround;
 pub struct Grating {
     /// The grooves.
     pub row: Row,
-    /// Which way they run.
+    /// Directions of the grooves.
     pub field: GrooveField,
     /// Standard deviation of a groove's angle to the field.
     pub angle_std_rad: f64,
@@ -27,38 +27,38 @@ pub struct Grating {
     pub coverage: f64,
     /// The least and the greatest distance from the field's axis, or from the middle of one that has none; 0 and infinity for everywhere.
     pub radii_m: [f64; 2],
-    /// What of the surface they cover besides, place by place: the red of a picture is a factor on their coverage.
+    /// Further factor on their coverage, place by place: the red of a picture.
     pub mask: Option<GroovePicture>,
-    /// By which grooves are off their places, where they are seen one by one.
+    /// Seed of the displacements of single grooves from their places.
     pub seed: u32,
 }
 
 /// A picture on the surface of a grating.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroovePicture {
-    /// Of the scene's.
+    /// Index of the texture in the scene.
     pub texture: usize,
-    /// How it lies there.
+    /// Mapping of the picture onto the surface.
     pub lie: PictureLie,
 }
 
-/// Which way grooves run over a surface, world space.
+/// Directions of grooves over a surface, world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GrooveField {
-    /// Along a direction.
+    /// Grooves along a direction.
     Along {
-        /// Of any length.
+        /// The direction, of any length.
         direction: DVec3,
-        /// What [`Grating::radii_m`] are counted from.
+        /// Point from which [`Grating::radii_m`] are measured.
         center_m: DVec3,
     },
-    /// At a fixed bearing to the circles about an axis.
+    /// Grooves at a fixed bearing to the circles about an axis.
     Around {
         /// A unit vector.
         axis: DVec3,
         /// A point on it.
         center_m: DVec3,
-        /// How the grooves lie to the circles.
+        /// Bearing of the grooves to the circles.
         bearing: Bearing,
     },
     /// Around the middles of spots in rows, pressed into the surface along an axis, each over those before it.
@@ -67,16 +67,16 @@ pub enum GrooveField {
         axis: DVec3,
         /// The middle of a spot.
         center_m: DVec3,
-        /// Along the rows: a unit vector across the axis.
+        /// Direction of the rows: a unit vector across the axis.
         along_row: DVec3,
-        /// From spot to spot and from row to row.
+        /// Distance of neighbouring spots and rows.
         spacing_m: f64,
     },
-    /// By the texture coordinates of the surface.
+    /// Grooves that follow the texture coordinates of the surface.
     ByUv {
-        /// Which way.
+        /// Direction by texture coordinates.
         uv: UvField,
-        /// What [`Grating::radii_m`] are counted from.
+        /// Point from which [`Grating::radii_m`] are measured.
         center_m: DVec3,
     },
 }
@@ -84,32 +84,32 @@ pub enum GrooveField {
 /// A direction by texture coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UvField {
-    /// Along the second coordinate, in place of the first.
+    /// Whether the grooves run along the second coordinate, in place of the first.
     pub along_v: bool,
     /// A picture (linear) of the scene's that turns it: red and green are the parts along the tangent and the bitangent, from -1 to 1.
     pub directions: Option<usize>,
 }
 
-/// Where grooves along a direction go, about a point.
+/// Direction and numbering of grooves about a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct GrooveCourse {
     /// The direction there, of any length.
     pub here: DVec3,
-    /// How it changes over one standard deviation of the pixel's filter to the right and down.
+    /// Change of the direction over one standard deviation of the pixel's filter to the right and down.
     pub steps: [DVec3; 2],
-    /// What grooves by texture coordinates stay at, in turns of the texture, and its gradient: by it they are numbered.
+    /// Texture coordinate that stays the same along a groove, in turns of the texture, and its gradient: grooves are numbered by it.
     pub level: f64,
     pub level_per_m: DVec3,
 }
 
-/// How a pattern about an axis lies to the circles around it.
+/// Bearing of a pattern about an axis to the circles around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bearing {
-    /// Along them.
+    /// Along the circles.
     Circular,
     /// Across them.
     Radial,
-    /// Along circles of this curvature that pass through the axis.
+    /// Along arcs of this curvature that pass through the axis.
     Spun {
         /// One over their radius.
         curvature_per_m: f64,
@@ -119,15 +119,15 @@ pub enum Bearing {
 /// Nearer than this to its axis a field has no direction.
 const NO_DIRECTION_M: f64 = 1e-8;
 
-/// Where a surface stands across a direction, its projection is noise.
+/// Least part of a direction in the plane of a surface: below it the projection is noise.
 const LEAST_PART: f64 = 1e-3;
 
 /// Grooves that a pixel sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroovePlace {
-    /// Along them: a unit vector in the plane of the surface.
+    /// Unit vector along the grooves in the plane of the surface.
     pub tangent: DVec3,
-    /// By which angle they turn over one standard deviation of the pixel's filter to the right and down, to the left.
+    /// Angles by which they turn to the left over one standard deviation of the pixel's filter to the right and down.
     pub turns_rad: [f64; 2],
     /// Standard deviation of their angles at any place.
     pub angle_std_rad: f64,
@@ -322,8 +322,9 @@ impl Grating {
         })
     }
 
-    /// The same towards a light, as one: those across `along`, a direction in the plane of the surface, and with fewer of them the more they turn
-    /// away from it (docs/model.md, equation 45a). `along` is as long as the sine between the mirror's direction and the light's.
+    /// Combines the grooves of [`Self::all_ways`] into one towards a light: the grooves across `along`, a direction in the plane of the surface,
+    /// and fewer of them the more they turn away from it (docs/model.md, equation 45a). `along` is as long as the sine between the mirror's
+    /// direction and the light's.
     pub fn across(&self, seen: GroovePlace, normal: DVec3, along: DVec3) -> Option<GroovePlace> {
         let GrooveField::Spots {
             axis, along_row, ..
@@ -369,7 +370,7 @@ mod tests {
 
     static NO_MESH: LazyLock<Mesh> = LazyLock::new(Mesh::default);
 
-    /// What fields do not look at that are not by texture coordinates.
+    /// A ground for fields that do not use texture coordinates.
     pub(super) static NOWHERE: LazyLock<GrooveGround> = LazyLock::new(|| GrooveGround {
         textures: &[],
         mesh: &NO_MESH,

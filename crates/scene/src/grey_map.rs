@@ -14,7 +14,7 @@ pub(crate) struct GreyMap {
     values: Vec<u8>,
 }
 
-/// What a texel says: the mean of its colours, times its alpha where it has one.
+/// Value of a texel: the mean of its colours, times its alpha where it has one.
 pub(crate) fn share([r, g, b, a]: &[u8; 4]) -> u8 {
     let sum = u32::from(*r) + u32::from(*g) + u32::from(*b);
     // Rounded, and exact for white and black.
@@ -34,7 +34,7 @@ impl GreyMap {
         })
     }
 
-    /// In texels.
+    /// Width and height in texels.
     pub(crate) fn size(&self) -> DVec2 {
         DVec2::new(self.size_px[0].into(), self.size_px[1].into())
     }

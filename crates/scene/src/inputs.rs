@@ -9,9 +9,9 @@ use crate::text::shown;
 /// A file that a scene is made from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Input {
-    /// What the scene takes it for: `its environment`, `the mesh of object "pan"`.
+    /// Use of the file in the scene: `its environment`, `the mesh of object "pan"`.
     pub what: String,
-    /// Where it is.
+    /// Path of the file.
     pub path: PathBuf,
 }
 

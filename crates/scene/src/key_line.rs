@@ -1,4 +1,4 @@
-//! From the way to a key (`light[1].radius_m`) to its line in the file.
+//! Finds the line of a key in the file by its path (`light[1].radius_m`).
 
 use std::ops::Range;
 

@@ -3,13 +3,13 @@
 
 use basisu::{DecodeFlags, SourceFormat, TargetFormat, Transcoder};
 
-/// What files begin with, of this version and of the older one.
+/// First bytes of files of this version and of the older one.
 const MAGIC: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 const ANY_MAGIC: &[u8] = b"\xabKTX ";
 /// Schemes that pack the packed texels again.
 const BASIS_LZ: u32 = 1;
 const ZSTANDARD: u32 = 2;
-/// Of UASTC, for 4 x 4 texels.
+/// Bytes of a UASTC block of 4 x 4 texels.
 const BLOCK_BYTES: u64 = 16;
 
 pub(crate) fn is_ktx(bytes: &[u8]) -> bool {
@@ -66,7 +66,7 @@ impl Head<'_> {
         Ok(length as usize)
     }
 
-    /// Its size, where it is one flat image and all that it names lies within it.
+    /// Returns the size of an image, if it is one flat image and all that it names lies within it.
     fn check(&self, largest_px: u32) -> Result<[u32; 2], Broken> {
         let refused = |found: String| Err(Broken(found));
         if !self.0.starts_with(MAGIC) {

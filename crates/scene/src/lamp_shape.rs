@@ -9,7 +9,7 @@ use glam::{DMat4, DQuat, DVec2, DVec3};
 /// Facets around spheres and tubes: half a picture high they stay within 0.3 pixels of their outline.
 const FACETS: u32 = 96;
 
-/// What the camera at a place sees on a light.
+/// Material of a light as the camera at a place sees it.
 pub(crate) fn material(
     light: &description::Light,
     shining: &scene::Light,
@@ -48,7 +48,7 @@ pub(crate) fn material(
     }
 }
 
-/// Its surface, of one material, facing outwards.
+/// Surface of the light, of one material, facing outwards.
 pub(crate) fn mesh(kind: &LightKind, material: u32) -> Mesh {
     let mut mesh = Mesh::default();
     match kind {
@@ -141,7 +141,7 @@ fn triangles(places: &[DVec2]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// The same surface seen from the other side.
+/// Adds the same surface facing the other way.
 fn add_back(mesh: &mut Mesh) {
     let first = mesh.positions_m.len() as u32;
     mesh.positions_m.extend_from_within(..);

@@ -1,5 +1,5 @@
-//! From a scene file to one validated [`Scene`] in canonical units: the only home of defaults, unit conversion and
-//! errors that speak to a user.
+//! Turns a scene file into one validated [`Scene`] in canonical units: the only home of defaults, unit conversion
+//! and errors that speak to a user.
 //!
 //! ```
 //! use hairline_scene::Scene;

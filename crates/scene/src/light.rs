@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-/// How far away suns are: a scene of some metres is a point beside it, and single precision tells directions to a ten millionth.
+/// Distance of suns: a scene of some metres is a point beside it, and single precision tells directions to a ten millionth.
 pub(crate) const SUN_DISTANCE_M: f64 = 1e5;
 
 /// An area light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
-    /// What it is.
+    /// Shape of the light.
     pub shape: LightShape,
     /// Emitted radiance: linear Rec.709, W sr^-1 m^-2 in effect; (1, 1, 1) has the spectrum of D65.
     pub radiance: [f64; 3],
@@ -24,9 +24,9 @@ pub struct Light {
 pub struct Cone {
     /// Unit vector, away from the light.
     pub axis: DVec3,
-    /// Of the half angle of the rim, where all light ends.
+    /// Cosine of the half angle of the rim, where all light ends.
     pub cos_outer: f64,
-    /// Of the half angle at which light begins to fall; no less than `cos_outer`.
+    /// Cosine of the half angle at which light begins to fall; no less than `cos_outer`.
     pub cos_inner: f64,
     /// Flaps beside the light, if it has any.
     pub doors: Option<Doors>,
@@ -37,7 +37,7 @@ pub struct Cone {
 pub struct Doors {
     /// Unit vector across the axis, to the right as seen from before the light.
     pub across: DVec3,
-    /// Of the angles between the axis and each door: left, right, above and below as seen from before the light.
+    /// Tangents of the angles between the axis and each door: left, right, above and below as seen from before the light.
     pub tans: [f64; 4],
 }
 
@@ -45,7 +45,7 @@ impl Doors {
     /// The part of a door's angle in which light falls off.
     const SOFTNESS: f64 = 0.1;
 
-    /// Over the fall-off at each door, of one; finite where a door is shut.
+    /// Reciprocal widths of the fall-off at each door; finite where a door is shut.
     pub fn per_tan(&self) -> [f64; 4] {
         self.tans.map(|tan| {
             let inner = ((1.0 - Self::SOFTNESS) * tan.atan()).tan();
@@ -53,7 +53,7 @@ impl Doors {
         })
     }
 
-    /// What the doors of a light along an axis leave of the light in a unit direction.
+    /// Share of the light in a unit direction that the doors of a light along an axis leave.
     fn share(&self, axis: DVec3, direction: DVec3) -> f64 {
         let ahead = axis.dot(direction);
         if ahead <= 0.0 {
@@ -80,7 +80,7 @@ impl Cone {
         }
     }
 
-    /// What is left of the light that leaves in a unit direction: the fall-off of KHR_lights_punctual, and what doors leave of it.
+    /// Share of the light in a unit direction that the cone leaves: the fall-off of KHR_lights_punctual, times that of the doors.
     pub fn share(&self, direction: DVec3) -> f64 {
         let past = self.axis.dot(direction) - self.cos_outer;
         let of_cone = (past * self.per_cos()).clamp(0.0, 1.0).powi(2);
@@ -90,7 +90,7 @@ impl Cone {
                 .map_or(1.0, |doors| doors.share(self.axis, direction))
     }
 
-    /// Over the fall-off, of one; finite at a hard rim.
+    /// Reciprocal width of the fall-off; finite at a hard rim.
     pub fn per_cos(&self) -> f64 {
         1.0 / (self.cos_inner - self.cos_outer).max(1e-6)
     }

@@ -41,7 +41,7 @@ impl LightPicture {
         })
     }
 
-    /// Of linear radiances.
+    /// Makes the picture of linear radiances.
     fn of_linear(picture: Picture) -> Result<Self, String> {
         // What is no radiance counts as none.
         let channels = || picture.rgb.iter().flatten().copied();
@@ -118,7 +118,7 @@ mod tests {
         assert!(texels[0][0] > 250 && texels[8 * 16 - 1][0] < 5);
     }
 
-    /// What is no picture, or too large for the memory, is refused in words.
+    /// Files that are no picture, or too large for the memory, are refused in words.
     #[test]
     fn unusable_files() {
         let dir = tempfile::tempdir().unwrap();

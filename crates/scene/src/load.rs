@@ -1,4 +1,4 @@
-//! From a scene file to a [`Scene`].
+//! Loads a scene file to a [`Scene`].
 
 use std::path::Path;
 

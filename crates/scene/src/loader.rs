@@ -5,10 +5,10 @@ use hairline_memory::budget_bytes;
 use crate::arrays::Arrays;
 use crate::error::Error;
 
-/// How far long work has come.
+/// Progress of long work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// What is being done.
+    /// Current stage.
     pub stage: Stage,
     /// Units of it that are done, of `total`.
     pub done: u64,
@@ -16,7 +16,7 @@ pub struct Progress {
     pub total: u64,
 }
 
-/// What takes its time in loading a scene.
+/// The slow stages of loading a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Reading and building the objects' surfaces.
@@ -32,11 +32,11 @@ pub enum Stage {
 pub struct Loader<'a> {
     /// Scenes that would take more memory, here and in what renderers make of them, are refused before they are built.
     pub memory_budget_bytes: u64,
-    /// What lies in memory, where a scene names no file.
+    /// Arrays in memory, where a scene names no file.
     pub arrays: &'a Arrays,
-    /// Is told how far long work has come, from the calling thread.
+    /// Callback for the progress of long work, on the calling thread.
     pub progress: &'a dyn Fn(Progress),
-    /// Is asked now and then, from the calling thread, whether to give up. Then the work ends with an error for which
+    /// Callback on the calling thread that tells whether to give up. Then the work ends with an error for which
     /// [`Error::is_cancelled`] holds.
     pub cancelled: &'a dyn Fn() -> bool,
 }

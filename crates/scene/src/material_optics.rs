@@ -1,4 +1,4 @@
-//! What the materials of a scene mean to the physics: coefficients and tables that every renderer reads alike.
+//! Optical properties of a scene's materials: coefficients and tables that every renderer reads alike.
 
 use crate::grating::Grating;
 use crate::scene::{Base, COAT_IOR, Material, Scene};
@@ -19,15 +19,15 @@ pub struct MaterialOptics {
     pub metallic: f64,
     /// Reflectance of the dielectric part at normal incidence, by its refractive index.
     pub dielectric_f0: f64,
-    /// Which of [`ScratchTables::curves`] its reflectance follows.
+    /// Index of its reflectance in [`ScratchTables::curves`].
     pub curve: u32,
-    /// Which of [`ScratchTables::tables`] its scratches use: white's in a coat.
+    /// Index of its scratches' table in [`ScratchTables::tables`]: white's in a coat.
     pub table: u32,
-    /// The same as `curve`, of its coat.
+    /// Index of its coat's reflectance in [`ScratchTables::curves`].
     pub coat_curve: Option<u32>,
 }
 
-/// What a curve of reflectance over the angle is of.
+/// The surface whose reflectance a curve tabulates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reflector {
     /// Schlick's approximation, which serves every colour.
@@ -39,7 +39,7 @@ pub enum Reflector {
 }
 
 impl Reflector {
-    /// Of a material.
+    /// Reflector of a material.
     pub fn new(material: &Material) -> Self {
         match material.base {
             Base::Metal(metal) => Self::Metal(metal),
@@ -48,7 +48,7 @@ impl Reflector {
         }
     }
 
-    /// Of every coat.
+    /// Reflector of every coat.
     pub const COAT: Self = Self::Dielectric(COAT_IOR);
 
     fn curve(self) -> FresnelCurve {
@@ -68,17 +68,17 @@ pub struct ScratchTables {
     pub metals: Vec<Option<Metal>>,
     /// Distinct curves of reflectance over the angle.
     pub curves: Vec<FresnelCurve>,
-    /// What each curve is of.
+    /// Reflector of each curve.
     pub reflectors: Vec<Reflector>,
     /// One for each material of the scene.
     pub materials: Vec<MaterialOptics>,
-    /// What each table of a grating is of. Those of materials come before them.
+    /// Spectrum of each table of a grating. Tables of materials come before them.
     pub grating_spectra: Vec<GratingSpectrum>,
-    /// Of each material, see [`GratingSpectrum`].
+    /// Coherence of each material, see [`GratingSpectrum`].
     coherences_um: Vec<f64>,
 }
 
-/// What the table of a grating depends on.
+/// Everything that the table of a grating depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GratingSpectrum {
     /// The grooves.
@@ -163,14 +163,14 @@ impl ScratchTables {
         }
     }
 
-    /// Which of [`Self::tables`] a grating of the scene has on a material that it lies on.
+    /// Index in [`Self::tables`] of the table of a grating of the scene on a material that it lies on.
     pub fn grating_table(&self, grating: &Grating, material: usize) -> Option<usize> {
         let spectrum = self.spectrum(grating, material);
         let at = self.grating_spectra.iter().position(|of| *of == spectrum)?;
         Some(self.metals.len() + at)
     }
 
-    /// What the method of 2018 has in the place of each table: `count` wavelengths.
+    /// Spectra of `count` wavelengths that the method of 2018 uses in the place of each table.
     pub fn published_spectra(&self, count: usize) -> Vec<PublishedSpectrum> {
         self.metals
             .iter()
@@ -188,7 +188,7 @@ fn scratch_table(metal: Option<Metal>) -> Arc<ScratchTable> {
     Arc::clone(MADE[at].get_or_init(make))
 }
 
-/// At normal incidence.
+/// Reflectance at normal incidence.
 fn reflectance(metal: Option<Metal>, wavelength_nm: f64) -> f64 {
     metal.map_or(1.0, |m| m.reflectance(1.0, wavelength_nm))
 }

@@ -1,4 +1,4 @@
-//! What a scene's author is told of its models: what their files have and the picture has not.
+//! Notes for a scene's author on its models: contents of their files that the picture does not have.
 
 use std::path::{Path, PathBuf};
 
@@ -7,8 +7,8 @@ use crate::mesh_file::{self, LeftOut, Wanted};
 use crate::text::shown;
 
 impl Description {
-    /// What of its models is not in the picture, file by file, each once. Files are looked for in `base_dir`; what cannot be read has
-    /// nothing.
+    /// Lists the contents of its models that are not in the picture, file by file, each once. Files are looked for in `base_dir`;
+    /// what cannot be read has nothing.
     pub fn left_out(&self, base_dir: &Path) -> Vec<(PathBuf, Vec<LeftOut>)> {
         let mut models: Vec<(&PathBuf, Wanted)> = Vec::new();
         for object in &self.objects {
@@ -31,7 +31,7 @@ impl Description {
         models.into_iter().map(of_file).collect()
     }
 
-    /// The same as notes, a line each: what makes the picture another one.
+    /// The entries of [`Self::left_out`] that change the picture, as notes, a line each.
     pub fn model_notes(&self, base_dir: &Path) -> Vec<String> {
         let left_out = self.left_out(base_dir).into_iter();
         left_out
@@ -51,7 +51,7 @@ impl Wanted {
     }
 }
 
-/// What makes the picture another one, a line each.
+/// Notes on the contents whose absence changes the picture, a line each.
 pub(crate) fn notes(file: &Path, left_out: &[LeftOut]) -> Vec<String> {
     let line = |it: &LeftOut| {
         let what = format!("{} ({}) left out; {}", it.what, it.count, it.meaning);

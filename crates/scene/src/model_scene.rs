@@ -29,9 +29,9 @@ const FOV_Y_DEG: f64 = 28.0;
 /// Around the lights of a model's file: its brightest box behind the camera, to the side.
 const STUDIO_ROTATION_DEG: f64 = 220.0;
 const STUDIO_INTENSITY: f64 = 0.75;
-/// On the floor plan, from the model to the camera: a little from the left.
+/// Direction from the model to the camera on the floor plan: a little from the left.
 const VIEW: DVec2 = DVec2::new(-0.42, -1.0);
-/// How high the camera stands: of what is flat, and of what is as high as it is wide, whose walls mirror what stands about it.
+/// Elevations of the camera: for flat models, and for those as high as wide, whose walls mirror their surroundings.
 const ELEVATION_DEG: [f64; 2] = [32.0, 12.0];
 
 impl Description {
@@ -181,7 +181,7 @@ fn in_scene(mut mesh: Mesh, factor: f64) -> Mesh {
     mesh
 }
 
-/// From [`VIEW`], as near as lets all points be seen.
+/// Places the camera along [`VIEW`], as near as lets all points be seen.
 fn camera(points_m: &[DVec3], [width, height]: [u32; 2]) -> Camera {
     let least = points_m
         .iter()

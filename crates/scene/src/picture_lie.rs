@@ -1,13 +1,13 @@
-//! How pictures lie on surfaces: by texture coordinates, or from the three sides of an object.
+//! Mapping of pictures onto surfaces: by texture coordinates, or from the three sides of an object.
 
 use glam::{DMat4, DVec2, DVec3};
 
-/// How a picture lies on a surface.
+/// Mapping of a picture onto a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PictureLie {
-    /// By the texture coordinates of the mesh.
+    /// Mapping by the texture coordinates of the mesh.
     ByUv,
-    /// From the three sides of the object, repeated.
+    /// Projection from the three sides of the object, repeated.
     FromThreeSides {
         /// The object's own frame, in widths of the picture.
         tiles_from_world: DMat4,
@@ -15,7 +15,8 @@ pub enum PictureLie {
 }
 
 impl PictureLie {
-    /// Of a picture on an object that is placed so, so wide in its own frame; by texture coordinates without a width.
+    /// Mapping for an object with this transform: repeated at a width in the object's own frame, or by texture
+    /// coordinates without a width.
     pub(crate) fn new(tile_m: Option<f64>, world_from_object: &DMat4) -> Self {
         tile_m.map_or(Self::ByUv, |tile_m| Self::FromThreeSides {
             tiles_from_world: DMat4::from_scale(DVec3::splat(1.0 / tile_m))
@@ -24,8 +25,8 @@ impl PictureLie {
     }
 }
 
-/// Where a picture that lies from three sides is looked up for a place of a surface, and how much each side counts. Twin:
-/// groove_places.wgsl.
+/// Returns the look-ups of a picture that is projected from three sides, for a place of a surface, with the weight of
+/// each side. Twin: groove_places.wgsl.
 pub fn three_sides(
     tiles_from_world: &DMat4,
     point_m: DVec3,

@@ -9,7 +9,7 @@ const LEAST_AREA: f64 = 1e-9;
 /// Each pair of edges is looked at, so the number is bounded.
 const MOST_VERTICES: usize = 4096;
 
-/// What is wrong with a polygon.
+/// An error of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum Flaw {
     #[error("found {0} vertices")]
@@ -29,7 +29,7 @@ pub(crate) enum Flaw {
 }
 
 impl Flaw {
-    /// What would be right.
+    /// Description of what would be right.
     pub(crate) fn remedy(self) -> &'static str {
         match self {
             Flaw::Count(n) if n > MOST_VERTICES => "must be at most 4096",

@@ -12,12 +12,12 @@ use crate::mesh_file::{self, Placing, Stock};
 use crate::reading;
 use crate::scene::{Base, Material, Mesh, Texture};
 
-/// What a mesh file holds.
+/// Contents of a mesh file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshSummary {
     /// Triangles that span an area, of all nodes of the file's scene.
     pub triangles: usize,
-    /// Of a model that stands too far from its own origin for single precision its middle, in the file's frame: coordinates count from there.
+    /// Middle of a model that stands too far from its own origin for single precision, in the file's frame: coordinates count from there.
     pub moved_from: Option<DVec3>,
     /// The least and the greatest coordinates, in the file's own frame.
     pub bounds_m: (Vec3, Vec3),
@@ -52,7 +52,7 @@ pub fn scene_extent_m(description: &Description) -> f64 {
     position.distance(target) * (0.5 * camera.fov_y_deg.to_radians()).tan()
 }
 
-/// What an environment file holds.
+/// Contents of an environment file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EnvironmentSummary {
     /// Width and height as in the file.
@@ -69,7 +69,7 @@ pub fn mesh(path: &Path) -> Result<MeshSummary, Error> {
 
 /// A mesh file that was read.
 pub(crate) struct ProbedMesh {
-    /// In the file's frame.
+    /// Mesh in the file's frame.
     pub mesh: Mesh,
     /// Those of its triangles.
     pub materials: Vec<Material>,
@@ -77,7 +77,7 @@ pub(crate) struct ProbedMesh {
     pub summary: MeshSummary,
 }
 
-/// The same as [`mesh`], with what was read.
+/// Reads the file for [`mesh`], and returns its contents.
 pub(crate) fn read_mesh(path: &Path) -> Result<ProbedMesh, Error> {
     let (mut materials, mut textures) = (Vec::new(), Vec::new());
     let mut moved_from = None;

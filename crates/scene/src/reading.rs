@@ -9,12 +9,12 @@ use hairline_memory::{budget_bytes, in_words};
 
 use crate::error::Error;
 
-/// What is taken for a regular file.
+/// Kinds of files that may be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// A file on a disk.
     File,
-    /// That, or a pipe that another program writes into.
+    /// A regular file, or a pipe that another program writes into.
     FileOrPipe,
 }
 
@@ -50,7 +50,7 @@ fn read_at_most(path: &Path, kind: Kind, most: u64) -> Result<Vec<u8>, String> {
     }
 }
 
-/// Of a file that may be read; what is on a disk may have more by now.
+/// Length of a file that may be read; a file on a disk may have become longer by the time it is read.
 fn length(path: &Path, kind: Kind) -> Result<u64, String> {
     if let Some(held) = held::bytes(path) {
         return Ok(held.len() as u64);

@@ -25,7 +25,7 @@ pub const DEFAULT_SAMPLES: u32 = 8;
 pub struct Transport {
     /// Whether objects hide lights and the environment from one another.
     pub shadows: bool,
-    /// How many other objects light may go by; only with shadows.
+    /// Largest number of other objects on a path of light; only with shadows.
     pub bounces: u32,
 }
 
@@ -50,7 +50,7 @@ impl Transport {
 /// Fewer points of a lens would be seen one by one.
 const LENS_SAMPLES: u32 = 64;
 
-/// What `hairline render` does unless it is told otherwise.
+/// Default of `hairline render`.
 pub const DEFAULT_TRANSPORT: Transport = Transport {
     shadows: true,
     bounces: 1,
@@ -65,7 +65,7 @@ pub const DEFAULT_TRANSPORT: Transport = Transport {
 pub struct Scene {
     /// The view.
     pub camera: Camera,
-    /// How the picture is sampled and shown.
+    /// Sampling and display of the picture.
     pub render: RenderSettings,
     /// Light from all around, if there is any.
     pub environment: Option<Environment>,
@@ -77,8 +77,7 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Area lights, those of the environment not among them: see [`Scene::all_lights`].
     pub lights: Vec<Light>,
-    /// What the author should know about the scene file and its models, a line each: a key that has no effect any more, a part of a
-    /// model that is not shown.
+    /// Notes on the scene file and its models for the author, a line each: a key that has no effect any more, a part of a model that is not shown.
     pub notes: Vec<String>,
 }
 
@@ -89,7 +88,7 @@ impl Scene {
         self.lights.iter().chain(suns)
     }
 
-    /// The same scene with nothing to be seen behind its surfaces: its environment shines, and the camera does not see it.
+    /// Returns the scene with nothing to be seen behind its surfaces: its environment shines, and the camera does not see it.
     #[must_use]
     pub fn before_nothing(&self) -> Self {
         let mut scene = self.clone();
@@ -118,7 +117,7 @@ pub struct Camera {
     pub fov_y_rad: f64,
     /// Exposure: radiances are multiplied by 2^exposure_ev before the tone map.
     pub exposure_ev: f64,
-    /// What is in focus.
+    /// Lens of the camera.
     pub lens: Lens,
 }
 
@@ -131,7 +130,7 @@ pub struct Lens {
     pub focus_m: f64,
 }
 
-/// How the picture is sampled and shown.
+/// Sampling and display of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RenderSettings {
     /// Width and height.
@@ -142,7 +141,7 @@ pub struct RenderSettings {
     pub tone_map: hairline_image::ToneMap,
 }
 
-/// What a surface is made of.
+/// Material of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// The name in the scene file or the glTF file.
@@ -165,7 +164,7 @@ pub struct Material {
     pub emission_texture: Option<usize>,
     /// Texture whose red (linear) is what of the environment's light reaches the base, and how much of that counts, in [0, 1].
     pub occlusion_texture: Option<(usize, f64)>,
-    /// Of [`Base::MetallicRoughness`], what is no metal: its reflectance at normal incidence by its refractive index (KHR_materials_ior).
+    /// Reflectance at normal incidence of the dielectric part of [`Base::MetallicRoughness`], by its refractive index (KHR_materials_ior).
     pub dielectric_f0: f64,
     /// Factors on that.
     pub specular: Specular,
@@ -173,7 +172,7 @@ pub struct Material {
     pub specular_textures: [Option<usize>; 2],
     /// Whether it sends its base colour and reflects nothing, as a picture without light (KHR_materials_unlit).
     pub is_unlit: bool,
-    /// Where its surface is not; none if it is everywhere.
+    /// Cutout of its surface; none if it is everywhere on its triangles.
     pub cutout: Option<Cutout>,
     /// A clear layer over all of this. Scratches lie in it.
     pub coat: Option<Coat>,
@@ -187,8 +186,8 @@ pub struct Material {
     pub anisotropy_texture: Option<usize>,
 }
 
-/// What a dielectric reflects besides what its refractive index says (KHR_materials_specular): `dielectric_f0` times the colour, at most 1, times
-/// the weight at normal incidence, and the weight at grazing incidence.
+/// Factors on a dielectric's reflectance by its refractive index (KHR_materials_specular): `dielectric_f0` times the colour, at most 1, times the
+/// weight at normal incidence, and the weight at grazing incidence.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Specular {
     /// `specular`: in [0, 1]. Default: 1.
@@ -255,10 +254,10 @@ pub struct Coat {
 
 /// The refractive index of a [`Coat`].
 pub const COAT_IOR: f64 = 1.5;
-/// What it reflects at normal incidence.
+/// Reflectance of a coat at normal incidence.
 pub const COAT_F0: f64 = 0.04;
 
-/// What glTF says of a dielectric without its extensions: [`Material::dielectric_f0`].
+/// Reflectance at normal incidence of a glTF dielectric without extensions: [`Material::dielectric_f0`].
 pub const GLTF_DIELECTRIC_F0: f64 = 0.04;
 
 /// A surface that is not everywhere on its triangles: rays go through the rest.
@@ -266,11 +265,11 @@ pub const GLTF_DIELECTRIC_F0: f64 = 0.04;
 pub struct Cutout {
     /// Factor on the alpha of the base colour texture and of the vertices.
     pub alpha: f64,
-    /// Where the surface is, by the product of these.
+    /// Rule by which the product of these decides where the surface is.
     pub rule: AlphaRule,
 }
 
-/// What an alpha says of a surface.
+/// Meaning of a surface's alpha.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlphaRule {
     /// The surface is there where alpha is at least this.
@@ -316,14 +315,14 @@ pub struct Texture {
     pub levels: Vec<Vec<[u8; 4]>>,
     /// Whether colour channels are sRGB encoded.
     pub srgb: bool,
-    /// How it is looked up.
+    /// Sampling of the texture.
     pub sampling: Sampling,
 }
 
-/// How a texture is looked up.
+/// Sampling of a texture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Sampling {
-    /// Beyond its left and right borders, and beyond the upper and lower ones.
+    /// Continuation beyond its left and right borders, and beyond the upper and lower ones.
     pub wrap: [Wrap; 2],
     /// Whether its texels, seen large, are rectangles of one value each.
     pub is_sharp: bool,
@@ -331,20 +330,20 @@ pub struct Sampling {
     pub by_other_uvs: bool,
 }
 
-/// What a texture is beyond a border.
+/// Continuation of a texture beyond a border.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Wrap {
-    /// The same again.
+    /// The texture repeats.
     #[default]
     Repeat,
-    /// Its mirror image.
+    /// The texture's mirror image.
     Mirror,
     /// The texels at the border.
     Clamp,
 }
 
 impl Wrap {
-    /// Which of `count` texels in a row stands at a place of the row without an end.
+    /// Index of the texel, of `count` in a row, at a place of the endless row.
     pub fn texel(self, at: i64, count: i64) -> i64 {
         match self {
             Self::Repeat => at.rem_euclid(count),
@@ -368,7 +367,7 @@ pub struct Object {
     pub scratches: Arc<Vec<Scratch>>,
     /// Straight pieces, one triangle each, those of one scratch side by side in the order of its walk.
     pub segments: Arc<Vec<Segment>>,
-    /// What its file calls parts of it; none of a shape.
+    /// Parts of the object that its file names; none of a shape.
     pub parts: Arc<Vec<Part>>,
     /// Grooves that are finer than a pixel.
     pub gratings: Vec<Grating>,
@@ -382,7 +381,7 @@ pub struct Object {
 pub struct Part {
     /// The names of the node and of those above it, from the innermost on.
     pub nodes: Arc<[String]>,
-    /// In [`Mesh::triangles`].
+    /// Range of the part in [`Mesh::triangles`].
     pub triangles: Range<usize>,
 }
 
@@ -453,13 +452,13 @@ pub struct Profile {
 /// unless it is closed to a ring.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scratch {
-    /// What its groove is.
+    /// Profile of its groove.
     pub profile: Profile,
-    /// Which `[[scratches]]` table of the scene file laid it, counted from 0.
+    /// Index of the `[[scratches]]` table of the scene file that laid it, from 0.
     pub layer: u32,
     /// Whether the last segment's end is joined to the first one's start.
     pub closed: bool,
-    /// Its segments in [`Object::segments`].
+    /// Range of its segments in [`Object::segments`].
     pub segments: Range<u32>,
 }
 

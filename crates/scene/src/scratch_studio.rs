@@ -18,19 +18,19 @@ const FAN_DEG: f64 = 10.0;
 const APART_DEG: f64 = 16.0;
 /// The height of a lamp, at least, as a highlight sees it: lower ones would stand in the ground.
 const LEAST_ELEVATION_DEG: f64 = 6.0;
-/// In radii of the set.
+/// Distance of lamps, in radii of the set.
 const LAMP_DISTANCE: f64 = 4.1;
 const LAMP_RADIUS: f64 = 0.05;
-/// Of a lamp over a body that sends back all light: then three of them are white.
+/// Radiance of a lamp over a body that sends back all light: three such lamps make it white.
 const LAMP_RADIANCE: f64 = 800.0;
-/// How many times as bright a lamp is over metals and black bodies, which show their mirror images alone.
+/// Factor on the radiance of a lamp over metals and black bodies, which show their mirror images alone.
 const DARKEST_BODY: f64 = 15.0;
 /// Places that are tried, at most.
 const PLACES_MAX: usize = 400;
-/// What the room sends, over what that of a studio does.
+/// Radiance of the room over that of a studio's room.
 const ROOM: f64 = 0.25;
 
-/// What lies under a model: its mirror image is as dark as the room's.
+/// Ground under a model: its mirror image is as dark as the room's.
 pub(crate) const DARK_GROUND: Ground = Ground {
     hidden: false,
     color: [0.02, 0.02, 0.021],
@@ -73,11 +73,11 @@ impl Environment {
     }
 }
 
-/// What is lit.
+/// Meshes and materials that are lit.
 pub(crate) struct Subject<'a> {
-    /// In world space.
+    /// Meshes in world space.
     pub meshes: &'a [&'a Mesh],
-    /// So many of them, the first ones; others may hide lights.
+    /// Number of meshes to be lit, the first ones; others may hide lights.
     pub count: usize,
     /// Those of the meshes.
     pub materials: &'a [Material],
@@ -85,7 +85,7 @@ pub(crate) struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    /// Its lights; none where there is nothing.
+    /// Lights for the subject; none where there is nothing.
     pub(crate) fn lights(&self, camera: &Camera, size_px: [u32; 2]) -> Vec<Light> {
         let bounds = self.meshes[..self.count].iter().map(|mesh| mesh.bounds_m());
         let Some((least, most)) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
@@ -133,7 +133,7 @@ impl Subject<'_> {
             .collect()
     }
 
-    /// What of the light the bodies send back, not their surfaces.
+    /// Mean albedo of the visible bodies without the reflection of their surfaces.
     fn mean_albedo(&self, seen: &[SeenPoint]) -> f64 {
         let materials = self.materials.iter();
         let albedos: Vec<f64> = materials.map(|it| self.albedo(it)).collect();
@@ -162,13 +162,13 @@ impl Subject<'_> {
     }
 }
 
-/// Where lamps may stand.
+/// Search for the places of lamps.
 struct Lamps<'a> {
     eye_m: DVec3,
     up: DVec3,
-    /// From their highlights.
+    /// Distance of the lamps from their highlights.
     distance_m: f64,
-    /// What may hide them.
+    /// Meshes that may hide the lamps.
     meshes: &'a [&'a Mesh],
 }
 

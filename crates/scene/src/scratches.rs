@@ -46,7 +46,7 @@ use random::Stream;
 use strewn::Strewn;
 use walk::{Course, Walker};
 
-/// How many scratches are laid first to learn how many segments one has.
+/// Number of scratches that are laid first, to learn how many segments one has.
 const PILOTS: u64 = 1024;
 /// Segments that are enough to know.
 const PILOT_SEGMENTS: usize = 1 << 20;
@@ -59,7 +59,7 @@ const CHUNK: u64 = 32;
 const BATCH_FIRST: u64 = 8 * CHUNK;
 const BATCH_MOST: u64 = 256 * CHUNK;
 const BATCH_SEGMENTS: usize = 1 << 14;
-/// So many scratches or segments are worth another thread to copy them.
+/// Number of scratches or segments that are worth another thread to copy them.
 const COPY: usize = 1 << 14;
 
 /// A `[[scratches]]` table with the surface that it goes on.
@@ -68,10 +68,10 @@ pub(crate) struct Table<'a> {
     pub key: String,
     pub layer: &'a Layer,
     pub strokes: &'a [Stroke],
-    /// How many earlier layers on the same object have the same seed.
+    /// Number of earlier layers on the same object with the same seed.
     pub number: u64,
     pub ground: &'a Ground,
-    /// Where on it.
+    /// Places of the surface on which it lies.
     pub means: Means<'a>,
 }
 
@@ -83,7 +83,7 @@ pub(crate) struct Laid {
 }
 
 impl Laid {
-    /// What it takes, here and in what renderers make of it.
+    /// Memory of the scratches, here and in what renderers make of them.
     pub(crate) fn bytes(&self) -> f64 {
         bytes(self.scratches.len(), self.segments.len())
     }
@@ -100,7 +100,7 @@ impl Laid {
     }
 }
 
-/// What laid scratches take, here and in what renderers make of them.
+/// Memory of laid scratches, here and in what renderers make of them.
 pub(crate) fn bytes(scratches: usize, segments: usize) -> f64 {
     (scratches * size_of::<Scratch>()) as f64 + (segments as u64 * SEGMENT_BYTES) as f64
 }
@@ -278,7 +278,7 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// In parts, each of its own.
+    /// Lays a range of scratches in chunks, each on its own.
     fn lay(&self, scratches: std::ops::Range<u64>) -> Vec<Laid> {
         let walker = self.table.ground.walker();
         let chunks: Vec<u64> = scratches.clone().step_by(CHUNK as usize).collect();
@@ -316,7 +316,7 @@ impl<'a> Plan<'a> {
         Stream::new(seed, self.table.number, index).uniform() < chance
     }
 
-    /// What erasers and the layer's places leave of a scratch, in runs; `None` where they leave all of it.
+    /// Returns the parts of a scratch that erasers and the layer's places leave, in runs; `None` where they leave all of it.
     fn rest(
         &self,
         walker: &Walker,

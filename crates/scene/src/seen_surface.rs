@@ -14,15 +14,15 @@ const WIDTH_PX: u32 = 120;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SeenPoint {
     pub position_m: DVec3,
-    /// Of the shading, unit length, towards the camera.
+    /// Unit normal of the shading, towards the camera.
     pub normal: DVec3,
-    /// Which of the meshes.
+    /// Index of the mesh.
     pub mesh: usize,
-    /// Of the triangle.
+    /// Material of the triangle.
     pub material: u32,
 }
 
-/// What a camera sees of some meshes in world space, a point for each pixel that has one.
+/// Finds the points of some meshes in world space that a camera sees, one for each pixel that has one.
 pub(crate) fn seen_points(
     camera: &Camera,
     [width, height]: [u32; 2],

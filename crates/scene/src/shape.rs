@@ -37,7 +37,7 @@ pub(crate) fn surface(shape: &Shape) -> Surface {
     }
 }
 
-/// How many triangles and vertices a shape has at most.
+/// Largest numbers of triangles and vertices of a shape.
 pub(crate) fn size(shape: &Shape) -> [f64; 2] {
     let facets = f64::from(FACETS);
     let turned = |pieces: usize, around: f64| {
@@ -62,7 +62,7 @@ pub(crate) fn size(shape: &Shape) -> [f64; 2] {
     }
 }
 
-/// What is turned about z, or drawn along x. Empty for shapes that are made otherwise.
+/// Profile that is turned about z, or drawn along x. Empty for shapes that are made otherwise.
 fn profile(shape: &Shape) -> Profile {
     let at = DVec2::new;
     match shape {

@@ -8,47 +8,47 @@ use crate::description::{
 };
 use crate::environment::BuiltInMap;
 
-/// What the room around sends: enough that metal is nowhere black, too little to be seen as a wall.
+/// Radiance of the room around: enough that metal is nowhere black, too little to be seen as a wall.
 const ROOM_INTENSITY: f64 = 0.25;
 /// The ground's over the set's radius: its rim is out of the picture unless the camera lies low.
 const GROUND_RADII: f64 = 40.0;
-/// How far below the lowest point the ground lies, over the set's radius: a sheet that lies lowest is not cut by it.
+/// Distance of the ground below the lowest point, over the set's radius: a sheet that lies lowest is not cut by it.
 const GAP: f64 = 2e-4;
 /// A set that reaches farther than so many times what the camera sees is a room: the studio then stands about the camera's target.
 const ROOM: f64 = 3.0;
 /// The lamp's height as it is seen from the set.
 const LAMP_ELEVATION_DEG: std::ops::RangeInclusive<f64> = 25.0..=60.0;
 
-/// What a studio stands around.
+/// Frame of a studio about the objects.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PhotoSet {
-    /// On the ground, in the middle.
+    /// Middle of the set on the ground.
     base_m: DVec3,
     radius_m: f64,
     /// Axes of the world's floor plan as the camera sees it, and up.
     right: DVec3,
     ahead: DVec3,
     up: DVec3,
-    /// Of the camera, above the ground.
+    /// Elevation of the camera above the ground.
     elevation_rad: f64,
 }
 
 /// A rectangle that shines on what a set is about. Lengths are in the set's radii, axes to the right, behind and up.
 pub(crate) struct SoftBox {
     pub name: &'static str,
-    /// Its middle.
+    /// Middle of the box.
     pub at: [f64; 3],
     /// Width and height.
     pub size: [f64; 2],
     pub radiance: f64,
     /// Linear Rec.709.
     pub color: [f64; 3],
-    /// Where its width lies.
+    /// Direction of its width.
     pub along: DVec3,
 }
 
 impl Studio {
-    /// What it lights a scene with, in the place of which these would do: `bounds_m` is the box around all of the scene's objects.
+    /// Returns lights that would replace the studio: `bounds_m` is the box around all of the scene's objects.
     pub fn lights(&self, camera: &Camera, bounds_m: (DVec3, DVec3)) -> Vec<Light> {
         PhotoSet::new(camera, bounds_m).lights(self)
     }
@@ -93,7 +93,7 @@ impl PhotoSet {
         }
     }
 
-    /// Of the box around all objects, half the diagonal.
+    /// Half the diagonal of the box around all objects.
     pub(crate) fn radius_m(&self) -> f64 {
         self.radius_m
     }

@@ -1,4 +1,4 @@
-//! From vertices in double precision, in a frame of their own, to a [`Mesh`] in world space.
+//! Conversion of vertices in double precision, in a frame of their own, to a [`Mesh`] in world space.
 
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
 
@@ -45,7 +45,7 @@ pub(crate) struct Surface {
 
 /// A triangle's height must exceed this many roundings of its coordinates, or its normal is noise.
 const LEAST_HEIGHT_ROUNDINGS: f64 = 4.0;
-/// And this share of its longest edge.
+/// Least height of a triangle, over its longest edge.
 const LEAST_HEIGHT_SHARE: f64 = 1e-6;
 
 impl Surface {
@@ -128,7 +128,7 @@ impl Surface {
     }
 }
 
-/// By which normals go where a linear map takes a surface; unlike the inverse it exists for flattened objects too.
+/// Cofactor matrix, by which a linear map takes normals; unlike the inverse it exists for flattened objects too.
 pub(crate) fn cofactor(linear: &DMat3) -> DMat3 {
     DMat3::from_cols(
         linear.y_axis.cross(linear.z_axis),

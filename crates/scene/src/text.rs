@@ -1,8 +1,8 @@
 //! Text of unknown origin in messages: names, cells, paths. What a terminal would obey is escaped, what is long is shortened.
 
-/// So many characters of a name or a cell are shown.
+/// Number of characters of a name or a cell that are shown.
 const LONGEST: usize = 60;
-/// So many of a whole half of a message.
+/// Number of characters of one half of a message that are shown.
 const LONGEST_HALF: usize = 1000;
 
 /// Text for one line of a message: control characters, line ends and marks that turn the direction of writing are escaped.
@@ -17,12 +17,12 @@ pub fn printable(text: &str) -> String {
     line
 }
 
-/// The same, cut after 60 characters.
+/// [`printable`] text, cut after 60 characters.
 pub fn shown(text: &str) -> String {
     shortened(text, LONGEST)
 }
 
-/// What is said of an input: escaped, and of a length that can be read.
+/// Text of an input for a message: escaped, and short enough to be read.
 pub(crate) fn said(text: &str) -> String {
     shortened(text, LONGEST_HALF)
 }

@@ -15,7 +15,7 @@ use crate::text::shown;
 
 const LARGEST_PX: u32 = 16_384;
 
-/// What the channels of an image are.
+/// Meaning of an image's channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Channels {
     /// Colours, sRGB encoded.
@@ -43,7 +43,7 @@ pub(crate) enum Unusable {
     TooLarge { size_px: [u32; 2], free_bytes: f64 },
 }
 
-/// What a texture takes of the memory.
+/// Memory of a texture.
 pub(crate) fn texture_bytes([width, height]: [u32; 2]) -> f64 {
     f64::from(width) * f64::from(height) * costs::TEXEL
 }
@@ -59,7 +59,7 @@ pub(crate) fn check_memory(size_px: [u32; 2], free_bytes: f64) -> Result<(), Unu
     Ok(())
 }
 
-/// Of the memory that is free, what a file may have.
+/// Largest share of the free memory for a file.
 const SHARE: f64 = 0.25;
 
 /// The picture in a file, upright as its EXIF data says. It may take `free_bytes` as a texture.
@@ -142,7 +142,7 @@ impl Texture {
         texels.iter().step_by(1 + texels.len() / 4096)
     }
 
-    /// Of sRGB codes, row by row from the top; it ends at its borders.
+    /// Makes a texture of sRGB codes, row by row from the top; it ends at its borders.
     pub fn of_colors(size_px: [u32; 2], texels: Vec<[u8; 4]>) -> Self {
         let mut texture = with_mips(size_px, texels, Channels::Color);
         texture.sampling.wrap = [Wrap::Clamp; 2];
@@ -229,7 +229,7 @@ fn halved(texels: &[[f32; 4]], size: [u32; 2], half: [u32; 2]) -> Vec<[f32; 4]> 
         .collect()
 }
 
-/// Which of `n` texels lie under texel `i` of `half`, and their shares of it: two, or three where `n` is odd.
+/// Indices of the texels, of `n`, under texel `i` of `half`, with their shares of it: two, or three where `n` is odd.
 fn covered(i: u32, n: u32, half: u32) -> Vec<(u32, f32)> {
     // In units of 1 / half of a texel everything is a whole number.
     let (from, to) = (i * n, (i + 1) * n);

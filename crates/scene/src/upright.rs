@@ -1,4 +1,4 @@
-//! Which axis of the world points up: models stand by it, and environments have their top there.
+//! The axis of the world that points up: models stand by it, and environments have their top there.
 
 use glam::DVec3;
 

@@ -1,14 +1,14 @@
-//! What use and finishing leave on an object, as one choice of several layers of scratches.
+//! Marks of use and finishing on an object, as one choice of several layers of scratches.
 //!
 //! A grade keeps the scratches of the one before and adds to them: a seed gives the same first scratches whatever their number,
 //! so an object that becomes more worn keeps its history.
 
 use crate::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
 
-/// What an object has been through.
+/// Wear or finish of an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Wear {
-    /// As it was made: no wear.
+    /// No wear.
     New,
     /// Some fine scratches, as of a few months of care.
     Used,
@@ -93,7 +93,7 @@ impl Kind {
         }
     }
 
-    /// Its pattern, and the lengths over the diagonal `d` of the object, widths and depths.
+    /// Pattern of the layer, and its lengths over the diagonal `d` of the object, widths and depths.
     fn look(self, d: f64) -> (Pattern, [Distribution; 3]) {
         let drawn = |mean, spread| Distribution { mean, spread };
         let random = |spread: f64| Pattern::Random {
@@ -168,7 +168,7 @@ impl Wear {
         Self::Keys,
     ];
 
-    /// What a control calls it.
+    /// Name on a control.
     pub fn name(self) -> &'static str {
         match self {
             Self::New => "New",
@@ -182,7 +182,7 @@ impl Wear {
         }
     }
 
-    /// What it looks like.
+    /// Description for a tooltip.
     pub fn tooltip(self) -> &'static str {
         match self {
             Self::New => "As it was made: the layers of wear are removed, all others stay.",

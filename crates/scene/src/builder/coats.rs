@@ -18,14 +18,15 @@ use crate::scratches;
 struct Coat<'a> {
     table: &'a description::Scratches,
     object: usize,
-    /// How many earlier layers on the same object have the same seed.
+    /// Number of earlier layers on the same object with the same seed.
     number: u64,
     is_shown: bool,
     /// Those that it is read from, as they are.
     files: Vec<Stamp>,
-    /// What it is laid on; of one that is not to be laid, if it was made before.
+    /// The surface that it is laid on. For a layer that is not to be laid it is set only if it was
+    /// made before.
     ground: Option<Arc<PartGround>>,
-    /// From the last build or this one.
+    /// Scratches that the last build or this one laid.
     laid: Option<Arc<KeptLayer>>,
 }
 
@@ -136,7 +137,7 @@ impl<'a> Work<'a> {
         Ok(coats)
     }
 
-    /// Of the files that a layer is read from.
+    /// Stamps of the files that a layer is read from.
     fn stamps(&self, table: &description::Scratches) -> Vec<Stamp> {
         let list = match &table.layer {
             Layer::Listed(listed) => Some(&listed.file),
@@ -148,7 +149,7 @@ impl<'a> Work<'a> {
             .collect()
     }
 
-    /// What the places of a layer are told by; `key` is the way to it.
+    /// Reads what the `where` of a layer names; `key` is the path to it in the scene file.
     fn means(
         &mut self,
         place: &'a Place,

@@ -1,4 +1,4 @@
-//! What a build leaves for the next one, and how that finds it.
+//! Results that a build leaves for the next one, and the keys by which it finds them.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -19,7 +19,7 @@ use crate::scratches::{self, Ground, Laid};
 use crate::text::shown;
 use crate::{Environment, model_notes, shape};
 
-/// What the last build left.
+/// Results of the last build.
 #[derive(Clone, Default)]
 pub(super) struct Kept {
     pub surfaces: Vec<Arc<KeptSurface>>,
@@ -36,13 +36,14 @@ pub(super) struct Kept {
     pub lamps: Vec<(LightKind, u32, Arc<Mesh>)>,
 }
 
-/// What is known of a file without reading it; equal stamps, equal contents. What cannot be told is `None`.
+/// Version of a file, known without reading it: equal stamps mean equal contents. Facts that cannot be
+/// found are `None`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Stamp {
     path: PathBuf,
     changed: Option<SystemTime>,
     length: Option<u64>,
-    /// Of a file that is held in memory.
+    /// Edition of a file that is held in memory.
     edition: Option<u64>,
 }
 
@@ -62,7 +63,7 @@ impl Stamp {
     }
 }
 
-/// Where a map comes from.
+/// Source of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum MapKey {
     File(Stamp),
@@ -78,11 +79,11 @@ impl MapKey {
     }
 }
 
-/// What an object's triangles depend on, but for the numbers of their materials.
+/// Everything that an object's triangles depend on, except the numbers of their materials.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SurfaceKey {
     surface: Surface,
-    /// What of the file is shown.
+    /// Contents of the file that are shown.
     wanted: Wanted,
     world_from_object: DMat4,
     /// The file, if it is one.
@@ -115,7 +116,7 @@ impl SurfaceKey {
     }
 }
 
-/// What layers lie on, by their parts.
+/// Surfaces made ready for layers, each with the part of the object that it covers.
 type Grounds = Vec<(OnPart, Arc<PartGround>)>;
 
 /// An object's surface with what it brings along.
@@ -123,15 +124,15 @@ pub(super) struct KeptSurface {
     key: SurfaceKey,
     /// Files that the mesh's file refers to.
     others: Vec<Stamp>,
-    /// Its triangles' materials count from `first_material`.
+    /// Mesh of the object; the materials of its triangles count from `first_material`.
     pub mesh: Arc<Mesh>,
     first_material: u32,
     /// The file's own; their textures count from 0.
     pub materials: Arc<Vec<Material>>,
     pub textures: Arc<Vec<Texture>>,
-    /// What the author of the scene should know about the file.
+    /// Notes on the file for the scene's author.
     pub notes: Arc<Vec<String>>,
-    /// What its file calls its parts.
+    /// Parts of the object that its file names.
     pub parts: Arc<Vec<Part>>,
     /// Laying does not look at the numbers of materials, so one serves all of them.
     grounds: Arc<Mutex<Grounds>>,
@@ -238,7 +239,8 @@ impl KeptSurface {
         })
     }
 
-    /// What layers on a part of it are laid on; `key` is the way to such a layer in the scene file.
+    /// Returns the surface for layers on a part of the object; `key` is the path to such a layer in the
+    /// scene file.
     pub(super) fn ground(&self, on: &OnPart, key: &str) -> Result<Arc<PartGround>, Error> {
         if let Some(made) = self.ground_if_made(on) {
             return Ok(made);
@@ -276,11 +278,11 @@ impl KeptSurface {
 pub(super) struct KeptPicture {
     pub file: Stamp,
     pub brightest: f64,
-    /// It alone.
+    /// The picture's texture, as the only element.
     pub texture: Arc<Vec<Texture>>,
 }
 
-/// What a picture of a grating says.
+/// Use of a grating's picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum GroovePictureKind {
     /// Shares, in all channels.
@@ -294,7 +296,7 @@ pub(super) enum GroovePictureKind {
 pub(super) struct KeptGroovePicture {
     pub file: Stamp,
     pub kind: GroovePictureKind,
-    /// It alone.
+    /// The picture's texture, as the only element.
     pub texture: Arc<Vec<Texture>>,
 }
 

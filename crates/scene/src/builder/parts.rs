@@ -19,7 +19,7 @@ pub(super) struct OnPart {
     node: Option<String>,
 }
 
-/// What parts are looked for in.
+/// An object's mesh, materials and parts, in which a named part is looked up.
 pub(super) struct Surroundings<'a> {
     pub mesh: &'a Mesh,
     pub first_material: u32,
@@ -119,7 +119,7 @@ fn known<'n>(
     Err(Error::new(format!("{key}.{what}"), found, right))
 }
 
-/// What layers on a part are laid on.
+/// The part of an object's surface that layers are laid on.
 pub(super) struct PartGround {
     pub ground: Arc<Ground>,
     /// The part's triangles in the whole surface; none where it is the whole.
@@ -149,7 +149,7 @@ impl PartGround {
         }
     }
 
-    /// What was laid on the part, on the whole surface.
+    /// Renumbers the triangles of scratches laid on the part as those of the whole surface.
     pub(super) fn on_the_whole(&self, mut laid: Laid) -> Laid {
         if let Some(triangles) = &self.triangles {
             for segment in &mut laid.segments {

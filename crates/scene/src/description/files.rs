@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::{Description, GroovePattern, Layer, Map, Surface};
 
-/// What a scene takes a file for; numbers are those of the tables that name it.
+/// Use of a file in a scene; numbers are those of the tables that name it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileUse {
     /// The map of `[environment]`.
@@ -65,7 +65,7 @@ impl Description {
         walk!(self, iter,)
     }
 
-    /// The same, to be changed.
+    /// [`Self::files`] as mutable paths.
     pub fn files_mut(&mut self) -> Vec<(FileUse, &mut PathBuf)> {
         walk!(self, iter_mut, mut)
     }

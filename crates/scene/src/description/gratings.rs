@@ -27,7 +27,7 @@ pub struct Grating {
     /// `pattern` and the keys that belong to it.
     #[serde(flatten)]
     pub pattern: GroovePattern,
-    /// From one groove to the next. From 0.3 to 50. Required.
+    /// Distance from one groove to the next. From 0.3 to 50. Required.
     pub pitch_um: f64,
     /// Width of a groove, at most the pitch. Default: 0.4 of the pitch.
     pub width_um: f64,
@@ -35,7 +35,7 @@ pub struct Grating {
     pub depth_nm: Distribution,
     /// Standard deviation of how far a groove is off its place. At most the pitch. Default: 0.
     pub jitter_um: f64,
-    /// Which grooves are off their places by how much, where they are seen one by one. Default: 1.
+    /// Seed of the displacements of single grooves from their places. Default: 1.
     pub seed: u64,
     /// The share of the surface that the grooves cover. In [0, 1]. Default: 1.
     pub coverage: f64,
@@ -49,7 +49,7 @@ pub struct Grating {
     /// The least and the greatest distance from the pattern's axis; for patterns without one, from `center_m`. Default: everywhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<[f64; 2]>,
-    /// For patterns without an axis what `radius_m` is counted from, in the object's frame. Default: its origin.
+    /// For patterns without an axis the point from which `radius_m` is measured, in the object's frame. Default: its origin.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center_m: Option<[f64; 3]>,
 }
@@ -83,12 +83,12 @@ pub enum GroovePattern {
         /// The axis along which the spots are pressed into the surface, through the middle of one of them.
         #[serde(flatten)]
         around: Around,
-        /// From spot to spot in a row, and from row to row. Default: 0.004.
+        /// Distance of neighbouring spots in a row, and of neighbouring rows. Default: 0.004.
         spacing_m: f64,
     },
     /// `"uv"`: along the texture coordinates of the surface.
     Uv {
-        /// Which of them. Default: `"u"`.
+        /// Texture coordinate along which the grooves run. Default: `"u"`.
         #[serde(serialize_with = "serialize_named", skip_serializing_if = "is_default")]
         along: UvAxis,
         /// A picture that turns them, as anisotropy textures of glTF do: red and green are the parts along u and up across it, from -1 (black) to
@@ -115,7 +115,7 @@ impl Named for UvAxis {
 }
 
 impl GroovePattern {
-    /// What `pattern` says.
+    /// Value of `pattern` for it.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Parallel { .. } => "parallel",
@@ -172,7 +172,7 @@ const DEFAULT_DEPTH_NM: Distribution = Distribution {
     spread: 0.0,
 };
 
-/// From spot to spot, where a grating does not say it.
+/// Default distance of spots.
 const DEFAULT_SPACING_M: f64 = 0.004;
 
 /// Widths where a grating does not say them, as shares of the pitch.

@@ -1,4 +1,4 @@
-//! What an author probably meant: the nearest known word, the right unit.
+//! Guesses of what an author meant: the nearest known word, the right unit.
 
 /// Units that keys end in, as far as one can be turned into another: suffix, quantity, factor to the quantity's base.
 const UNITS: [(&str, Quantity, f64); 11] = [
@@ -41,7 +41,7 @@ pub(crate) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) 
         .map(|(_, candidate)| candidate)
 }
 
-/// What is right instead of an unknown key: the same quantity in the right unit, else the nearest key, else all keys.
+/// Returns a hint for an unknown key: the same quantity in the right unit, else the nearest key, else all keys.
 pub(super) fn instead_of_key(key: &str, value: Option<f64>, known: &[&str]) -> String {
     if let Some((right, factor)) = same_quantity(key, known) {
         return match value {

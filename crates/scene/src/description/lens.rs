@@ -7,7 +7,7 @@ use super::table::Table;
 use crate::error::Error;
 use crate::scene::Lens;
 
-/// Of a 35 mm camera.
+/// Width of the film of a 35 mm camera.
 const FULL_FRAME_MM: f64 = 36.0;
 /// `fov_y_deg` beside a lens may be rounded by this.
 const ROUNDING_DEG: f64 = 0.05;
@@ -18,7 +18,7 @@ const ROUNDING: f64 = 1e-3;
 /// The keys of a lens.
 pub(super) const KEYS: [&str; 3] = ["focal_length_mm", "sensor_width_mm", "f_stop"];
 
-/// What a `[camera]` sees from top to bottom of a picture, if it says so by its lens. The sensor is as wide as the picture.
+/// Reads the vertical field of view of a `[camera]` that states it by its lens. The sensor is as wide as the picture.
 pub(super) fn fov_y_deg(camera: &Table, [width, height]: [u32; 2]) -> Result<Option<f64>, Error> {
     let Some(focal_length_mm) = camera.optional::<f64>("focal_length_mm")? else {
         return Ok(None);
@@ -82,19 +82,19 @@ pub(super) fn focus_distance_m(camera: &Table) -> Result<Option<f64>, Error> {
     Ok(given)
 }
 
-/// How high a film is that is as wide as the picture.
+/// Height of a film that is `sensor_mm` wide and has the shape of the picture.
 fn film_height_mm(sensor_mm: f64, [width, height]: [u32; 2]) -> f64 {
     sensor_mm * f64::from(height) / f64::from(width.max(1))
 }
 
-/// What a lens before such a film sees from top to bottom.
+/// Vertical field of view of a lens before such a film.
 fn seen_deg(focal_length_mm: f64, sensor_mm: f64, size_px: [u32; 2]) -> f64 {
     let height_mm = film_height_mm(sensor_mm, size_px);
     2.0 * (0.5 * height_mm / focal_length_mm).atan().to_degrees()
 }
 
 impl Camera {
-    /// How wide the film is.
+    /// Width of the film.
     pub fn sensor_mm(&self) -> f64 {
         self.sensor_width_mm.unwrap_or(FULL_FRAME_MM)
     }
@@ -138,7 +138,7 @@ impl Camera {
         self.fov_y_deg = fov_y_deg.clamp(*FOV_Y_DEG.start(), *FOV_Y_DEG.end());
     }
 
-    /// Its lens.
+    /// Thin lens of the camera.
     pub fn lens(&self) -> Lens {
         let [position, target] = [self.position_m, self.target_m].map(glam::DVec3::from);
         Lens {

@@ -41,9 +41,9 @@ pub enum LightKind {
         center_m: [f64; 3],
         /// A point on the axis, before the rectangle. Required.
         target_m: [f64; 3],
-        /// From side to side, across the height. Required.
+        /// Width from side to side, across the height. Required.
         width_m: f64,
-        /// Along the direction in its plane that is nearest to y, or to z where it faces along y. Required.
+        /// Height along the direction in its plane that is nearest to y, or to z where it faces along y. Required.
         height_m: f64,
         /// Turns it about its axis, counter-clockwise as seen from the target. Default: 0.
         #[serde(skip_serializing_if = "is_zero")]
@@ -54,7 +54,7 @@ pub enum LightKind {
     },
     /// `"polygon"`: planar, simple, convex or not; shines to the side that sees its vertices counter-clockwise.
     Polygon {
-        /// At least three. Required.
+        /// Corners, at least three. Required.
         vertices_m: Vec<[f64; 3]>,
         /// Whether the other side shines too. Default: false.
         two_sided: bool,
@@ -72,7 +72,7 @@ pub enum LightKind {
         direction: [f64; 3],
         /// The angle that it spans as seen from the scene, across. Default: that of the sun, 0.53.
         angle_deg: f64,
-        /// What falls on a surface that faces it, W m^-2 in effect; not negative. It takes the place of a radiance. Default: 1.
+        /// Irradiance of a surface that faces it, W m^-2 in effect; not negative. It takes the place of a radiance. Default: 1.
         irradiance: f64,
     },
 }
@@ -130,7 +130,7 @@ impl LightKind {
         }
     }
 
-    /// What scene files call it.
+    /// Value of `kind` for it.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Sphere { .. } => "sphere",
@@ -142,7 +142,7 @@ impl LightKind {
         }
     }
 
-    /// What people call such a light.
+    /// Name of such a light for users.
     pub fn title(&self) -> &'static str {
         match self {
             Self::Sphere { .. } => "sphere light",
@@ -194,7 +194,7 @@ impl LightKind {
         }
     }
 
-    /// Its middle: of a polygon the middle of the box around it, of a sun far off.
+    /// Middle of the light: of a polygon the middle of the box around it; that of a sun is far off.
     pub fn middle_m(&self) -> DVec3 {
         self.in_scene([0.0; 3]).bounding_sphere().0
     }
@@ -328,7 +328,8 @@ impl LightKind {
         }
     }
 
-    /// What it is in a scene. `radiance` is that of its surface; of a sun a factor on what its irradiance makes of it.
+    /// Converts it to a light of a scene. `radiance` is that of its surface; for a sun it is a factor on the radiance from its
+    /// irradiance.
     pub(super) fn in_scene(&self, radiance: [f64; 3]) -> scene::Light {
         match self {
             Self::Sphere { center_m, radius_m } => {
@@ -352,7 +353,7 @@ impl LightKind {
         }
     }
 
-    /// From the keys of a kind.
+    /// Reads the keys of a kind.
     pub(super) fn read(kind: &str, table: &Table) -> Result<Self, Error> {
         Ok(match kind {
             "sphere" => Self::Sphere {

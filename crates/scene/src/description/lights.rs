@@ -44,12 +44,12 @@ pub struct Light {
     /// The directions that light leaves in. Default: all.
     #[serde(flatten)]
     pub cone: Option<Cone>,
-    /// Of a disk or a rectangle: the angles between its axis and flaps that end its light, to the left, to the right, above and below as
-    /// seen from its target. 90 is open. Default: no flaps.
+    /// For a disk or a rectangle: the angles between its axis and flaps that end its light, to the left, to the right, above and below as seen from
+    /// its target. 90 is open. Default: no flaps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub barn_doors_deg: Option<[f64; 4]>,
-    /// Of a rectangle: a picture on it, upright as seen from its target, relative to the scene file. Its linear values are factors on the radiance.
-    /// Default: none.
+    /// For a rectangle: a picture on it, upright as seen from its target, relative to the scene file. Its linear values are factors on the
+    /// radiance. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub picture: Option<PathBuf>,
 }
@@ -57,12 +57,12 @@ pub struct Light {
 /// `cone_deg` of a `[[light]]` and the keys that belong to it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cone {
-    /// From rim to rim. Required.
+    /// Full angle of the cone from rim to rim. Required.
     pub cone_deg: f64,
     /// The part of the way from rim to axis in which light falls off. Default: 0.1.
     #[serde(skip_serializing_if = "is_default_softness")]
     pub cone_softness: f64,
-    /// What the cone of a sphere or a tube points to; required there. Others have their own axis.
+    /// Target of the cone of a sphere or a tube; required there. Others have their own axis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target_m: Option<[f64; 3]>,
 }
@@ -78,7 +78,7 @@ fn is_default_softness(softness: &f64) -> bool {
 }
 
 impl Cone {
-    /// With a soft rim of the default width.
+    /// A cone with a soft rim of the default width.
     pub fn new(cone_deg: f64, target_m: Option<[f64; 3]>) -> Self {
         Self {
             cone_deg,
@@ -241,7 +241,7 @@ impl Light {
         }
     }
 
-    /// What it is in a scene.
+    /// Converts it to a light of a scene.
     pub(crate) fn in_scene(&self) -> scene::Light {
         let tint = self.temperature_k.map_or([1.0; 3], black_body_rgb);
         let radiance = self.radiance * self.exposure_ev.exp2();

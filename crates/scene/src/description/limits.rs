@@ -1,10 +1,10 @@
-//! What `check` lets a number be, as constants, so that an editor's controls stop where scenes do.
+//! Ranges of numbers that `check` accepts, as constants, so that an editor's controls stop where scenes do.
 //!
 //! Where a range starts at 0, [`Description::check`](super::Description::check) may want more than 0; the constant says so.
 
 use std::ops::RangeInclusive;
 
-/// Beyond this single precision leaves less than a coherence width between neighbouring coordinates.
+/// Largest coordinate: beyond it single precision leaves less than a coherence width between neighbouring coordinates.
 pub const LARGEST_M: f64 = 1e3;
 /// Smaller things than this are lost between the coordinates of single precision, and below the model's scale.
 pub const SMALLEST_M: f64 = 1e-5;

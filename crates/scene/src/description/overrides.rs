@@ -24,7 +24,7 @@ pub struct Override {
     /// Factor on its base colour map, or its base colour, linear Rec.709. In [0, 1] each. Default: as in the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub base_color: Option<[f64; 3]>,
-    /// In the place of `base_color`: the colour of a metal by its measured refractive index. Default: none.
+    /// The colour of a metal by its measured refractive index, in the place of `base_color`. Default: none.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "name_of")]
     pub metal: Option<Metal>,
 }
@@ -37,7 +37,7 @@ fn name_of<S: Serializer>(metal: &Option<Metal>, serializer: S) -> Result<S::Ok,
 }
 
 impl Override {
-    /// Of a material, with nothing else yet.
+    /// An override of a material that changes nothing yet.
     pub fn new(material: impl Into<String>) -> Self {
         Self {
             material: material.into(),

@@ -1,4 +1,4 @@
-//! From a scene file's text to a [`Description`] and back.
+//! Parsing of a scene file's text to a [`Description`], and writing it back.
 
 use std::path::Path;
 

@@ -22,16 +22,18 @@ pub struct Place {
     /// coordinates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tile_m: Option<f64>,
-    /// From 0, scratches come alike on edges and on flat parts, to 1, on convex edges alone. Default: 0.
+    /// Preference for edges, from 0, where scratches come alike on edges and on flat parts, to 1, where they come on convex edges
+    /// alone. Default: 0.
     #[serde(skip_serializing_if = "is_default")]
     pub edges: f64,
-    /// With `edges`: how far from an edge there are scratches, in the world's metres. Default: a fiftieth of the object's diagonal.
+    /// With `edges`: the distance from an edge up to which there are scratches, in the world's metres. Default: a fiftieth of the
+    /// object's diagonal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub edge_width_m: Option<f64>,
     /// The least and the greatest distance from `center_m`, in the world's metres: scratches end there. Default: everywhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<[f64; 2]>,
-    /// With `radius_m`: what it is counted from, in the object's own frame. Default: its origin.
+    /// With `radius_m`: the point from which it is measured, in the object's own frame. Default: its origin.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center_m: Option<[f64; 3]>,
 }

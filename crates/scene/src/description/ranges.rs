@@ -1,4 +1,4 @@
-//! What a single number may be.
+//! Checks of single numbers against their ranges.
 
 use std::ops::RangeInclusive;
 

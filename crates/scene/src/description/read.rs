@@ -1,4 +1,4 @@
-//! From parsed TOML to a [`Description`]: keys, types, defaults. Ranges are left to `check`.
+//! Reads parsed TOML to a [`Description`]: keys, types, defaults. Ranges are left to `check`.
 
 use toml::de::{DeTable, DeValue};
 
@@ -346,7 +346,7 @@ pub(super) fn around(table: &Table) -> Result<Around, Error> {
     })
 }
 
-/// What is read of a `[[scratches]]` for its pattern.
+/// Reads the keys of a `[[scratches]]` that belong to its pattern.
 fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
     if pattern == "file" {
         let file = table.required("file")?;

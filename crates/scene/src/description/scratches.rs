@@ -26,13 +26,13 @@ pub struct Scratches {
     /// Laid nowhere. Other layers' scratches stay as they are. Default: false.
     #[serde(skip_serializing_if = "super::values::is_false")]
     pub hidden: bool,
-    /// Where any layer of the scene is solo, only solo ones that are not hidden are laid. Default: false.
+    /// Whether the layer is solo: if any layer of the scene is, only solo ones that are not hidden are laid. Default: false.
     #[serde(skip_serializing_if = "super::values::is_false")]
     pub solo: bool,
-    /// How they are laid.
+    /// Pattern by which they are laid.
     #[serde(flatten)]
     pub layer: Layer,
-    /// What a brush did, in this order; the pattern's own scratches come before all strokes. Default: none.
+    /// Strokes of a brush, in this order; the pattern's own scratches come before all strokes. Default: none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub strokes: Vec<Stroke>,
 }
@@ -54,7 +54,7 @@ impl Scratches {
     }
 }
 
-/// Where the scratches of a layer come from.
+/// Source of a layer's scratches.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Layer {
@@ -76,7 +76,7 @@ impl Layer {
         }
     }
 
-    /// What `pattern` says.
+    /// Value of `pattern` for it.
     pub fn pattern_name(&self) -> &'static str {
         match self {
             Self::Laid(laid) => laid.pattern.name(),
@@ -101,13 +101,13 @@ impl Layer {
 pub struct Brushed {
     /// Standard deviation of a scratch's angle to its stroke. Default: 0.
     pub jitter_deg: f64,
-    /// As in [`Laid::seed`]. Default: 1.
+    /// See [`Laid::seed`]. Default: 1.
     pub seed: u64,
-    /// As in [`Laid::length_m`].
+    /// See [`Laid::length_m`].
     pub length_m: Distribution,
-    /// As in [`Laid::width_um`].
+    /// See [`Laid::width_um`].
     pub width_um: Distribution,
-    /// As in [`Laid::depth_nm`].
+    /// See [`Laid::depth_nm`].
     pub depth_nm: Distribution,
 }
 
@@ -126,7 +126,7 @@ impl Default for Brushed {
 /// One of the `strokes` of a `[[scratches]]`: where a brush went.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
-    /// On or near the surface, in the object's own frame, in the order of the stroke. One point is a dab. Required.
+    /// Points on or near the surface, in the object's own frame, in the order of the stroke. One point is a dab. Required.
     pub points_m: Vec<[f64; 3]>,
     /// Half of the brush's width, in the world's metres, whatever the object's `scale`. Required.
     pub radius_m: f64,
@@ -134,7 +134,7 @@ pub struct Stroke {
     pub brush: Brush,
 }
 
-/// What a stroke does.
+/// Effect of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Brush {
     /// Lays scratches along the stroke; in layers of pattern `"drawn"` only.
@@ -195,9 +195,9 @@ pub struct Laid {
     /// `count` or `density_per_m2`; one of them is required.
     #[serde(flatten)]
     pub amount: Amount,
-    /// The same seed gives the same scratches, and a higher count keeps the first ones. Layers of different seeds do not
-    /// depend on one another, nor on their order. Of layers of one object that have the same seed, hidden ones included,
-    /// the second draws other numbers than the first, and so on. Default: 1.
+    /// Seed of the random numbers: the same one gives the same scratches, and a higher count keeps the first ones. Layers of
+    /// different seeds do not depend on one another, nor on their order. Of layers of one object that have the same seed, hidden
+    /// ones included, the second draws other numbers than the first, and so on. Default: 1.
     pub seed: u64,
     /// Log-normal, measured along the surface; draws are kept from 1e-5 to a hundred times the object's diagonal.
     /// Default: mean 0.02, spread 0.5.
@@ -208,7 +208,7 @@ pub struct Laid {
     pub depth_nm: Distribution,
 }
 
-/// How many scratches.
+/// Number or density of scratches.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Amount {
@@ -259,7 +259,7 @@ pub enum Pattern {
 }
 
 impl Pattern {
-    /// What `pattern` says.
+    /// Value of `pattern` for it.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Random { .. } => "random",
@@ -275,7 +275,7 @@ impl Pattern {
 /// An axis that a pattern turns about.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Around {
-    /// Its direction. Default: `[0, 0, 1]`.
+    /// Direction of the axis. Default: `[0, 0, 1]`.
     pub axis: [f64; 3],
     /// A point on it. Default: `[0, 0, 0]`.
     pub center_m: [f64; 3],
@@ -301,11 +301,11 @@ impl Default for Around {
 pub struct Distribution {
     /// The mean.
     pub mean: f64,
-    /// Not negative.
+    /// Spread of the values, not negative.
     pub spread: f64,
 }
 
-/// What layers that draw random numbers start from, where they do not say it.
+/// Default seed of layers that draw random numbers.
 pub(crate) const DEFAULT_SEED: u64 = 1;
 /// Lengths where a layer does not say them.
 pub(crate) const DEFAULT_LENGTH_M: Distribution = Distribution {
@@ -350,7 +350,7 @@ impl Laid {
         }
     }
 
-    /// Of length, width and depth.
+    /// Distributions of length, width and depth.
     pub(crate) fn sizes(&self) -> [Distribution; 3] {
         [self.length_m, self.width_um, self.depth_nm]
     }
@@ -369,7 +369,7 @@ impl Brushed {
         }
     }
 
-    /// Of length, width and depth.
+    /// Distributions of length, width and depth.
     pub(crate) fn sizes(&self) -> [Distribution; 3] {
         [self.length_m, self.width_um, self.depth_nm]
     }

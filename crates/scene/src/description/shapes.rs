@@ -38,41 +38,41 @@ pub enum Shape {
     Cylinder {
         /// Required.
         radius_m: f64,
-        /// From end to end. Required.
+        /// Height from end to end. Required.
         height_m: f64,
         /// Radius of its rounded rims, at most its radius and half of its height. Default: 0, sharp.
         rounding_m: f64,
     },
     /// A ring of round section about the z axis.
     Torus {
-        /// From the axis to the middle of the tube. Required.
+        /// Radius from the axis to the middle of the tube. Required.
         radius_m: f64,
-        /// Of the tube, below `radius_m`. Required.
+        /// Radius of the tube, below `radius_m`. Required.
         tube_radius_m: f64,
     },
     /// The part of a sphere above a plane: a watch glass. It faces outwards, its rim lies in the xy plane, and it is open below.
     Dome {
-        /// Of its rim. Required.
+        /// Radius of the rim. Required.
         radius_m: f64,
-        /// Of its top over its rim, at most `radius_m`: then it is a half sphere. Required.
+        /// Height of the top over the rim, at most `radius_m`: then it is a half sphere. Required.
         height_m: f64,
     },
     /// A floor that turns up into a wall at its +y end, as in a studio. It faces +z and -y.
     Sweep {
         /// Extent of the floor along x and y, about the origin. Required.
         size_m: [f64; 2],
-        /// Of the wall over the floor. Required.
+        /// Height of the wall over the floor. Required.
         height_m: f64,
         /// Radius of the turn between them, at most `height_m` and the floor's extent along y. Default: half of the smaller of these.
         rounding_m: f64,
     },
     /// A line of letters that stand on the xy plane, read from +z, with its middle over the origin: a logo.
     Text {
-        /// What it says, up to 200 characters of the built-in font, Ubuntu Light: Latin, Greek, Cyrillic. Required.
+        /// Text of up to 200 characters of the built-in font, Ubuntu Light: Latin, Greek, Cyrillic. Required.
         line: String,
-        /// Of capitals, along y. Required.
+        /// Height of capitals, along y. Required.
         height_m: f64,
-        /// Along z. Required.
+        /// Depth along z. Required.
         depth_m: f64,
     },
     /// A profile turned about the z axis.
@@ -89,7 +89,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// What scene files call it.
+    /// Value of `shape` for it.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Plane { .. } => "plane",

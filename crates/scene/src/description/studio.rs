@@ -1,4 +1,4 @@
-//! What a scene asks for by name: a studio around its objects, and a ground under them.
+//! The studio around a scene's objects and the ground under them, which a scene asks for by name.
 
 use serde::Serialize;
 
@@ -54,16 +54,16 @@ impl Studio {
 /// `[ground]`: a wide floor under all objects.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ground {
-    /// As if it were not there. Default: false.
+    /// Whether the ground is left out. Default: false.
     #[serde(skip_serializing_if = "is_false")]
     pub hidden: bool,
     /// Albedo, linear Rec.709, in [0, 1]. Default: a dark grey.
     #[serde(skip_serializing_if = "is_dark_grey")]
     pub color: [f64; 3],
-    /// Of its gloss, as that of a material. Default: 0.55.
+    /// Roughness of its gloss, as that of a material. Default: 0.55.
     #[serde(skip_serializing_if = "is_satin")]
     pub roughness: f64,
-    /// Where it lies along the world's up axis. Default: under the lowest point of all objects.
+    /// Height along the world's up axis. Default: under the lowest point of all objects.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
 }

@@ -136,7 +136,7 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// Which of two keys that exclude each other is there.
+    /// Returns the one of two exclusive keys that is there.
     pub(super) fn either(&self, a: &'static str, b: &'static str) -> Result<&'static str, Error> {
         match (self.get(a), self.get(b)) {
             (Some(_), None) => Ok(a),
@@ -219,7 +219,7 @@ impl Read for PathBuf {
     }
 }
 
-/// What stands for a character in the double quotes of TOML.
+/// Escape of a character in the double quotes of TOML.
 fn typed(c: char) -> String {
     match c {
         '\u{8}' => r"\b".to_owned(),

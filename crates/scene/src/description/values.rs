@@ -1,4 +1,4 @@
-//! How values are written: by name, or left out.
+//! Serialization of values: by name, or left out.
 
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
@@ -36,7 +36,7 @@ impl Named for Metal {
     ];
 }
 
-/// What scene files call the metals.
+/// Names of the metals in scene files.
 pub fn metal_names() -> &'static [(&'static str, Metal)] {
     Metal::NAMES
 }

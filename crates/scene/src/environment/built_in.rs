@@ -82,7 +82,7 @@ impl BuiltInMap {
     }
 }
 
-/// From 0 at `from` smoothly to 1 at `to`, which may be the smaller one.
+/// Smooth step from 0 at `from` to 1 at `to`, which may be the smaller one.
 fn step(from: f64, to: f64, x: f64) -> f64 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

@@ -39,7 +39,7 @@ pub enum Error {
     Corrupt {
         /// The file.
         path: PathBuf,
-        /// What is wrong, in words.
+        /// Reason of the failure, in words.
         reason: String,
     },
     /// The picture is not twice as wide as high, so that it cannot be an equirectangular map.
@@ -47,7 +47,7 @@ pub enum Error {
     NotEquirectangular {
         /// The file.
         path: PathBuf,
-        /// Its width and height.
+        /// Width and height of the map.
         size_px: [u32; 2],
     },
     /// The picture is too large.
@@ -55,7 +55,7 @@ pub enum Error {
     TooLarge {
         /// The file.
         path: PathBuf,
-        /// Its width and height.
+        /// Width and height of the map.
         size_px: [u32; 2],
     },
 }
@@ -81,7 +81,7 @@ pub(crate) fn size_px(path: &Path) -> Result<[u32; 2], Error> {
     Ok(size_px)
 }
 
-/// In lower case.
+/// Extension of the file's name in lower case.
 fn ending(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_ascii_lowercase())
 }
@@ -156,7 +156,7 @@ fn from_exr(path: &Path, error: hairline_image::Error) -> Error {
     }
 }
 
-/// What the author of a scene should know about a map.
+/// Notes on a map's file for the scene's author.
 pub(crate) fn notes(path: &Path) -> Vec<String> {
     let is_exr = ending(path).as_deref() == Some("exr");
     let window = is_exr.then(|| exr_file::window(path).ok()).flatten();
@@ -203,7 +203,8 @@ fn read_radiance(path: &Path, check_size: CheckSize) -> Result<Picture, Error> {
     Ok(Picture { size_px, rgb })
 }
 
-/// What takes the colours of a Radiance picture to Rec.709. One that does not say its primaries is taken for that already, as all write it.
+/// Returns the conversion of a Radiance picture's colours to Rec.709. A picture that does not state its primaries is taken to be in Rec.709
+/// already, as all write it.
 fn primaries(attributes: &[(String, String)]) -> Result<Option<ToRec709>, String> {
     let mut lines = attributes.iter();
     let Some((_, text)) = lines.rfind(|(name, _)| name == "PRIMARIES") else {
@@ -216,7 +217,7 @@ fn primaries(attributes: &[(String, String)]) -> Result<Option<ToRec709>, String
     Primaries::of_numbers(eight).to_rec_709()
 }
 
-/// The same picture begins with `#?RGBE` where other programs wrote it; the decoder knows `#?RADIANCE` alone.
+/// Replaces `#?RGBE`, with which other programs begin such a picture, by `#?RADIANCE`, the only mark that the decoder knows.
 fn as_radiance(mut file: impl BufRead) -> io::Result<impl BufRead> {
     const OTHER: &[u8] = b"#?RGBE";
     let is_other = file.fill_buf()?.starts_with(OTHER);

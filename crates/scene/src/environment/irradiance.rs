@@ -12,7 +12,7 @@ use super::resample::{resample, row_solid_angle};
 /// ends, at the horizon, what a source of 5 degrees sends is within 0.15 % of the most that it sends. Twin: environment.wgsl.
 pub(crate) const IRRADIANCE_SIZE_PX: [u32; 2] = [256, 128];
 
-/// For each normal the mean of radiance over the hemisphere, weighted by the cosine: irradiance over pi.
+/// Computes the mean of radiance over the hemisphere of each normal, weighted by the cosine: irradiance over pi.
 pub(super) fn blur(map: &Picture) -> Picture {
     let source = resample(map, IRRADIANCE_SIZE_PX);
     if source.rgb.iter().all(|texel| *texel == source.rgb[0]) {
@@ -25,7 +25,8 @@ pub(super) fn blur(map: &Picture) -> Picture {
     blurred
 }
 
-/// What a normal at `v` sees of each row of a map: the cosine over the solid angle of each texel, from half a turn to its left on.
+/// Weights of each row of a map in what a normal at `v` sees: the cosine over the solid angle of each texel, from half a turn to its left
+/// on.
 fn row_taps([width, height]: [usize; 2], v: f64) -> Vec<RowTaps> {
     let (sin, cos) = (v * PI).sin_cos();
     let texel_rad = PI / height as f64;

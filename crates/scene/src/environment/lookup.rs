@@ -13,7 +13,7 @@ use hairline_image::Picture;
 
 use super::LEVEL_ROUGHNESS;
 
-/// Where a unit direction lies on the map: u in [0, 1] to the right, v in [0, 1] from the top.
+/// Position of a unit direction on the map: u in [0, 1] to the right, v in [0, 1] from the top.
 pub fn environment_uv(dir: DVec3) -> DVec2 {
     // At the poles atan2(0, 0) is 0 here, but anything in a shader.
     let longitude = if dir.x == 0.0 && dir.z == 0.0 {

@@ -4,7 +4,7 @@ use glam::Vec4;
 use hairline_image::Picture;
 use rayon::prelude::*;
 
-/// What a row of a map adds to all texels of another row.
+/// Weights with which a row of a map adds to all texels of another row.
 pub(super) struct RowTaps {
     pub row: usize,
     /// The first texel that the first one takes from, up to a width to its left.
@@ -48,7 +48,7 @@ impl Mip {
         &self.texels[first..first + self.width]
     }
 
-    /// Over the weights.
+    /// Returns the weighted means: sums over weights.
     pub(super) fn pictures(&self) -> Vec<Picture> {
         let picture = |map: usize| Picture {
             size_px: [self.width as u32, self.height as u32],

@@ -50,7 +50,7 @@ pub(super) fn prefilter(maps: &[&Picture]) -> Vec<Vec<Picture>> {
     levels
 }
 
-/// From level 1 on.
+/// Levels of a uniform map, from level 1 on.
 fn uniform_levels(sharp: &Picture) -> Vec<Picture> {
     let level = |halvings: &usize| {
         let size_px = LEVEL_0_SIZE_PX.map(|n| n >> halvings);

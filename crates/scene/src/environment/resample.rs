@@ -69,8 +69,8 @@ fn mean(taps: &[(i32, f32)], value: impl Fn(i32) -> [f32; 3]) -> [f32; 3] {
     mean.mean
 }
 
-/// Which old samples make up each new one, and with what weight: also the one before the first and the one after the last. `density` weighs
-/// an old sample in a mean.
+/// Returns the old samples that make up each new one, with their weights, among them the one before the first and the one after the last.
+/// `density` weighs an old sample in a mean.
 fn taps(old: u32, new: u32, density: impl Fn(u32) -> f64) -> Vec<Vec<(i32, f32)>> {
     let ratio = f64::from(old) / f64::from(new);
     (0..new)

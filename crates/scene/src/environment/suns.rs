@@ -17,9 +17,9 @@ use super::resample::row_solid_angle;
 pub(crate) struct Sun {
     /// Unit vector to its middle.
     pub direction: DVec3,
-    /// As it is seen, from its middle to its rim.
+    /// Angular radius of the disc.
     pub radius_rad: f64,
-    /// Of every point of it.
+    /// Radiance of the disc, the same at all its points.
     pub radiance: [f64; 3],
 }
 
@@ -29,7 +29,8 @@ const SUNS_MOST: usize = 4;
 const SPOTS_MOST: usize = 32;
 /// A sun's brightest texel over the mean of the map, at least.
 const BRIGHT: f64 = 20.0;
-/// What belongs to it is brighter than this share of its brightest texel: its glare in the camera as well. If it is no sun with that, then
+/// Shares of a sun's brightest texel above which a texel belongs to it. The first one includes its glare in the camera; if it is no sun
+/// with that, then perhaps without: the surroundings of a lamp are a hundredth as bright, or a tenth. If it is no sun with that, then
 /// perhaps without: what is about a lamp is a hundredth as bright, or a tenth.
 const RIMS: [f64; 2] = [0.01, 0.1];
 /// The largest sun: a scratch's band shows larger lamps well enough (docs/model.md, section 8), and a polished surface their outlines.
@@ -39,10 +40,10 @@ const ROUND: f64 = 0.85;
 /// The least share of the whole map's light.
 const SHARE: f64 = 0.01;
 
-/// What was taken out of a map.
+/// Suns taken out of a map.
 #[derive(Default)]
 pub(super) struct Parted {
-    /// In the map's frame and units.
+    /// Suns in the map's frame and units.
     pub suns: Vec<Sun>,
     /// Texels that were changed, and what they were.
     texels: Vec<(usize, [f32; 3])>,
@@ -96,7 +97,7 @@ pub(super) fn part(map: &mut Picture) -> Parted {
     parted
 }
 
-/// What counts as a texel's brightness.
+/// Brightness of a texel.
 pub(super) fn value(texel: [f32; 3]) -> f64 {
     texel.iter().map(|c| f64::from(*c)).sum()
 }
@@ -135,7 +136,7 @@ impl Brightness {
         (value > BRIGHT * self.mean).then_some(i)
     }
 
-    /// Beyond which a texel belongs to the spot with this peak.
+    /// Brightness above which a texel belongs to the spot with this peak.
     fn threshold(&self, rim: f64, peak: f64) -> f64 {
         (rim * peak).max(0.5 * BRIGHT * self.mean)
     }

@@ -30,9 +30,9 @@ const THRESHOLDS: [f64; 8] = [2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
 const SOLID_ANGLE_MOST_SR: f64 = 0.6;
 /// The least share of the whole map's light that a window holds.
 const SHARE: f64 = 0.005;
-/// How much of a region an outline tells, at least, in squares: what is left of a window behind bars would have as many edges.
+/// Least evenness of a region under its outline, see `Patch::evenness`: the gaps of a window behind bars would have as many edges.
 const EVEN: f64 = 0.85;
-/// Of the map's mean, the least radiance.
+/// Least radiance of a window, over the map's mean.
 const BRIGHT: f64 = 2.0;
 
 /// The windows of a map, and what is left of it: the light of both together is the map's. None where there is no window.
@@ -95,7 +95,7 @@ struct Search {
     map: Picture,
     directions: Vec<DVec3>,
     solid_angles: Vec<f64>,
-    /// Of the whole map.
+    /// Light of the whole map.
     light: f64,
     mean: f64,
 }
@@ -107,8 +107,8 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// Of the error that scratches make without it: the square of what it is bright by, over its solid angle; and bands meet wide ones more
-    /// often.
+    /// Reduction of the error that scratches make without the window: its squared radiance above the surroundings times its solid angle to the
+    /// power 1.5, as bands meet wide ones more often.
     fn gain(&self) -> f64 {
         let radiance: f64 = self.window.radiance.iter().sum();
         radiance.powi(2) * self.window.outline.solid_angle_sr().powf(1.5)

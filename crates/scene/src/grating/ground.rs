@@ -11,11 +11,11 @@ use crate::texture_lookup::texture_footprint;
 /// A triangle of an object.
 #[derive(Clone, Copy, Debug)]
 pub struct GrooveGround<'a> {
-    /// Of the scene.
+    /// Textures of the scene.
     pub textures: &'a [Texture],
-    /// Of the object.
+    /// Mesh of the object.
     pub mesh: &'a Mesh,
-    /// In [`Mesh::triangles`].
+    /// Index in [`Mesh::triangles`].
     pub triangle: u32,
 }
 
@@ -28,7 +28,7 @@ impl GrooveGround<'_> {
         self.mesh.corners_m(self.triangle as usize)
     }
 
-    /// How the weights of the second and the third corner change along a step.
+    /// Derivatives of the weights of the second and the third corner along a step.
     fn weights_along(&self, step_m: DVec3) -> [f64; 2] {
         let [a, b, c] = self.corners_m();
         let (e1, e2) = (b - a, c - a);
@@ -86,7 +86,7 @@ impl GrooveGround<'_> {
         }
     }
 
-    /// Where grooves go that run by texture coordinates.
+    /// Course of grooves that run by texture coordinates.
     pub(super) fn course(
         &self,
         field: &UvField,

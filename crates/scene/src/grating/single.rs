@@ -6,7 +6,7 @@ use glam::DVec3;
 use hairline_optics::grating::GroovesAt;
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
-/// Where arcs lie nearer than this to along the circles about their axis, they have no numbers: the cosine of what is between.
+/// Least cosine between arcs and the direction away from their axis: nearer to the circles about it, arcs have no numbers.
 const LEAST_COS: f64 = 0.02;
 
 /// Single grooves are cut by planes or cones at one of eight angles to a half turn, the nearest to across the surface: they go on over slopes, and are
@@ -60,7 +60,7 @@ impl GrooveField {
         }
     }
 
-    /// How many turns grooves are from the first one that come nearer to one another along their way, and how that changes along a direction.
+    /// Position among grooves that come nearer to one another along their way, in turns from the first one, and its derivative along a direction.
     fn turns(
         &self,
         course: &GrooveCourse,

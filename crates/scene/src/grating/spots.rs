@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 /// Radius of a spot, in spacings. Every place is within 0.625 of a spot's middle.
 const RADIUS: f64 = 0.75;
 
-/// In so many directions spots that are smaller than a pixel meet light from all around.
+/// Number of directions in which spots smaller than a pixel meet light from all around.
 pub(super) const WAYS: usize = 8;
 
 /// Standard deviation of angles for which a Gaussian of them has the density of all angles, 1/pi, at its middle.
@@ -22,7 +22,7 @@ pub(super) const MOST_TURN_RAD: f64 = 0.12;
 /// Standard deviations of the pixel's filter, in spacings, at which the pixel begins to see more than one spot, and from which on it sees all ways.
 const MIXED: [f64; 2] = [0.15, 0.4];
 
-/// Which part of a pixel's grooves run in all directions.
+/// Share of a pixel's grooves that run in all directions.
 pub(super) fn mixed(spacing_m: f64, axes_m: [DVec3; 2]) -> f64 {
     let widest_m = axes_m[0].length().max(axes_m[1].length());
     let [from, to] = MIXED;
@@ -30,7 +30,7 @@ pub(super) fn mixed(spacing_m: f64, axes_m: [DVec3; 2]) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// How rows lie.
+/// Directions of the rows of spots.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rows {
     pub(super) axis: DVec3,
@@ -76,7 +76,7 @@ pub(super) fn middle_m(
     center_m + spacing_m * (along_row * middle.x + onwards * middle.y)
 }
 
-/// The same in the plane of the rows, in spacings.
+/// Vector from the middle of the spot at a place of the plane of the rows, in spacings.
 fn middle(at: DVec2) -> DVec2 {
     // Others are a spacing away or further.
     let mut found = DVec2::ZERO;
@@ -97,7 +97,7 @@ fn middle(at: DVec2) -> DVec2 {
 mod tests {
     use super::*;
 
-    /// By looking at all spots around, from the last one to the first.
+    /// The test looks at all spots around, from the last one to the first.
     #[test]
     fn the_last_spot_is_seen() {
         let spots: Vec<DVec2> = (-4..=4)
@@ -116,7 +116,7 @@ mod tests {
         }
     }
 
-    /// By looking at all places of a spacing along the rows and two across.
+    /// The test looks at all places of a spacing along the rows and two across.
     #[test]
     fn spots_show_their_sides() {
         let places =

@@ -22,7 +22,7 @@ pub(super) fn anisotropy(material: &Material) -> Option<Anisotropy> {
     (anisotropy.strength > 0.0).then_some(anisotropy)
 }
 
-/// What the file says of the texture of an anisotropy that is there.
+/// Returns the JSON of the texture of a material's anisotropy, if it has one.
 pub(super) fn texture<'a>(material: &'a Material<'a>) -> Option<&'a Value> {
     anisotropy(material)?;
     material.extension_value(NAME)?.get(TEXTURE)

@@ -10,7 +10,7 @@ use super::draco::Unpacked;
 use super::flaw::Flaw;
 use super::source::Buffers;
 
-/// Where the numbers of a primitive come from.
+/// Source of the numbers of a primitive.
 pub(super) struct Attributes<'a> {
     pub primitive: &'a Primitive<'a>,
     pub buffers: &'a Buffers,

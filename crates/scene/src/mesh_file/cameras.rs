@@ -7,7 +7,7 @@ use super::flaw::Flaw;
 use super::nodes::Placed;
 use crate::text::shown;
 
-/// Where a camera of a file stands, in a frame of its own or in the world's.
+/// Position and directions of a file's camera, in a frame of its own or in the world's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FileCamera {
     pub position: DVec3,

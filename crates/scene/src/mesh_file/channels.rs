@@ -1,17 +1,18 @@
-//! What the channels of a file's animations move, as its text says: nodes, or by KHR_animation_pointer anything.
+//! Targets of the channels of a file's animations, as its text says: nodes, or by KHR_animation_pointer
+//! anything.
 
 use gltf::json::Value;
 
 pub(super) const ANIMATION_POINTER: &str = "KHR_animation_pointer";
 
-/// What a channel moves.
+/// Target of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Moved {
-    /// Its place, or the weights of its morph targets.
+    /// The place of a node, or the weights of its morph targets.
     Node,
-    /// What a path into the file names.
+    /// A property named by a path into the file.
     Pointer,
-    /// Without a node it is to be ignored (glTF 2.0, section 3.11).
+    /// No target: a channel without a node is to be ignored (glTF 2.0, section 3.11).
     Nothing,
 }
 

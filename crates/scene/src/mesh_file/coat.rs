@@ -6,7 +6,7 @@ use gltf::material::Material;
 use crate::scene::Coat;
 
 pub(super) const NAME: &str = "KHR_materials_clearcoat";
-/// As in [`crate::scene::Material::coat_textures`].
+/// Names of the textures, in the order of [`crate::scene::Material::coat_textures`].
 pub(super) const TEXTURES: [&str; 2] = ["clearcoatTexture", "clearcoatRoughnessTexture"];
 pub(super) const NORMALS: &str = "clearcoatNormalTexture";
 
@@ -24,12 +24,12 @@ pub(super) fn coat(material: &Material) -> Option<Coat> {
     (coat.weight > 0.0).then_some(coat)
 }
 
-/// What the file says of each texture on the factors of a layer that is there.
+/// Returns the JSON of each texture on the factors of a layer, if there is a layer.
 pub(super) fn uses<'a>(material: &'a Material<'a>) -> [Option<&'a Value>; 2] {
     TEXTURES.map(|name| of_layer(material)?.get(name))
 }
 
-/// And of its normal map.
+/// Returns the JSON of the layer's normal map.
 pub(super) fn normals<'a>(material: &'a Material<'a>) -> Option<&'a Value> {
     of_layer(material)?.get(NORMALS)
 }

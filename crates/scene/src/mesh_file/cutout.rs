@@ -1,4 +1,4 @@
-//! Where the surfaces of a glTF file are not: `alphaMode`.
+//! Cutouts of the surfaces of a glTF file: `alphaMode`.
 
 use gltf::material::AlphaMode;
 
@@ -7,7 +7,7 @@ use crate::scene::{AlphaRule, Cutout, Material, Mesh, Texture};
 /// An alpha that equals the cutoff is there (glTF 2.0, section 3.9.4), and a code over 255 is no single: far less than a step between codes.
 const ROUNDING: f64 = 1e-6;
 
-/// That of a material whose colour has an alpha.
+/// Returns the cutout of a material whose colour has an alpha.
 pub(super) fn cutout(material: &gltf::Material, alpha: f64) -> Option<Cutout> {
     let rule = match material.alpha_mode() {
         AlphaMode::Opaque => return None,

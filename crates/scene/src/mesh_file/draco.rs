@@ -13,7 +13,7 @@ pub(super) const NAME: &str = "KHR_draco_mesh_compression";
 /// the accessors were counted before the file was read.
 const MOST_SHARE: u64 = 4;
 const FEW_POINTS: u64 = 1 << 16;
-/// What is held for a point or a face while it is unpacked.
+/// Largest memory held for a point or a face while it is unpacked.
 const MOST_POINT_BYTES: u64 = 1 << 10;
 
 /// A primitive unpacked.

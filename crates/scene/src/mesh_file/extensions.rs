@@ -26,7 +26,8 @@ pub(super) fn is_read(name: &str) -> bool {
     READ.contains(&name)
 }
 
-/// The same, and what leaves a picture as the file's own: other looks to choose from, and data about it.
+/// Whether a file may require an extension: those that are read, and those that leave a picture as the
+/// file's own, with other looks to choose from or data about it.
 pub(super) fn may_be_required(name: &str) -> bool {
     is_read(name) || name == "KHR_materials_variants" || IS_DATA.contains(&name)
 }
@@ -42,17 +43,17 @@ const IS_DATA: [&str; 7] = [
     "AGI_stk_metadata",
 ];
 
-/// What of a file an extension belongs to.
+/// Part of a file that an extension belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scope {
     /// All but what follows.
     File,
-    /// What a surface looks like: materials and their images.
+    /// The look of surfaces: materials and their images.
     Look,
 }
 
 impl Scope {
-    /// That of a member of this name.
+    /// Scope of a member of this name.
     pub(super) fn within(self, name: &str) -> Self {
         match name {
             "materials" | "textures" | "images" | "samplers" => Self::Look,
@@ -61,7 +62,8 @@ impl Scope {
     }
 }
 
-/// What the picture is without an extension that is not read, and whether it is another one than with it.
+/// Returns the effect on the picture of not reading an extension, and whether the picture differs from
+/// one with it.
 pub(super) fn meaning(name: &str) -> (&'static str, bool) {
     let matters = |meaning| (meaning, true);
     let harmless = |meaning| (meaning, false);

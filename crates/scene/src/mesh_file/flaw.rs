@@ -1,9 +1,9 @@
-//! What is wrong with a file.
+//! Errors of a model's file.
 
-/// What a file must be.
+/// Description of a valid file.
 pub(super) const RIGHT: &str = "must be a whole glTF 2.0 file, text (.gltf) or binary (.glb)";
 
-/// What is wrong with a file, and what would be right.
+/// An error of a file: what was found, and what would be right.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{found}")]
 pub(crate) struct Flaw {

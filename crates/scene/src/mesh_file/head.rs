@@ -1,4 +1,4 @@
-//! What the text of a glTF file says of its size and its files, before anything of them is read.
+//! Size and files of a glTF file by its text, before anything of them is read.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -18,19 +18,19 @@ use crate::reading::check_regular;
 
 /// A longer text than this is no description of a model.
 const LONGEST_TEXT: u64 = 1 << 30;
-/// What the text takes while it is read, for each byte.
+/// Memory for the text while it is read, over its length.
 const TEXT_BYTES: f64 = 8.0;
 
-/// What a file places, and what it takes to read it.
+/// Numbers of triangles and vertices that a file places, and the memory for reading it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Counts {
     pub triangles: f64,
     pub vertices: f64,
-    /// Of its text and its buffers.
+    /// Memory of its text and its buffers.
     pub bytes: f64,
 }
 
-/// What a glTF file places; `None` where it cannot be read.
+/// Counts the triangles and vertices that a glTF file places; `None` where it cannot be read.
 pub(crate) fn counts(path: &Path) -> Option<Counts> {
     let (root, text_bytes) = head(path)?;
     let mut counts = Counts {
@@ -51,7 +51,7 @@ pub(crate) fn counts(path: &Path) -> Option<Counts> {
     Some(counts)
 }
 
-/// How often EXT_mesh_gpu_instancing places a node's mesh.
+/// Number of times that EXT_mesh_gpu_instancing places a node's mesh.
 fn instances(root: &Root, node: &gltf::json::Node) -> f64 {
     let count = || {
         let others = &node.extensions.as_ref()?.others;
@@ -106,7 +106,7 @@ pub(crate) fn names(path: &Path) -> Vec<(String, PathBuf)> {
     buffers.chain(images).collect()
 }
 
-/// What the perspective cameras of a file are called: their names, else their nodes', else their numbers.
+/// Names of the perspective cameras of a file: their own, else their nodes', else their numbers.
 pub(crate) fn camera_names(path: &Path) -> Vec<String> {
     let Some((root, _)) = head(path) else {
         return Vec::new();
@@ -121,13 +121,13 @@ pub(crate) fn camera_names(path: &Path) -> Vec<String> {
     root.nodes.iter().filter_map(name).collect()
 }
 
-/// What a glTF file has and the picture has not; nothing where it cannot be read.
+/// Lists the contents of a glTF file that the picture does not have; empty where it cannot be read.
 pub(crate) fn left_out(path: &Path, wanted: Wanted) -> Vec<LeftOut> {
     let root = text(path).and_then(|text| from_slice(&text).ok());
     root.map_or_else(Vec::new, |root| left_out::of(&root, wanted))
 }
 
-/// What the text says, and its length.
+/// Reads the text, and returns its length too.
 fn head(path: &Path) -> Option<(Root, f64)> {
     let text = text(path)?;
     Some((root::read(&text, Kept::default()).ok()?, text.len() as f64))

@@ -17,11 +17,11 @@ pub(super) struct Images<'a> {
     pub textures: &'a mut Vec<Texture>,
     /// The files that were read.
     pub files: &'a mut Vec<PathBuf>,
-    /// What textures may still take of the memory.
+    /// Memory that is left for textures.
     pub free_bytes: f64,
     /// Whether textures get their mip chains, which take longer than the rest.
     pub with_mips: bool,
-    /// From the file's images to the scene's textures.
+    /// Index of the scene's texture for each of the file's images and each way of looking it up.
     pub known: HashMap<(usize, Channels, Sampling), usize>,
 }
 
@@ -94,7 +94,7 @@ impl Images<'_> {
     }
 }
 
-/// How a texture is looked up. Filters that would let it flicker, seen small, are not asked for.
+/// Sampling of a texture. Filters that would let it flicker, seen small, are not asked for.
 fn sampling(texture: &gltf::Texture, by_other_uvs: bool) -> Sampling {
     let sampler = texture.sampler();
     let wrap = |mode: WrappingMode| match mode {

@@ -10,7 +10,7 @@ use super::source::Buffers;
 
 pub(super) const NAME: &str = "EXT_mesh_gpu_instancing";
 
-/// From each instance to the node; one, where the node has no such extension.
+/// Transforms from each instance to the node; one, where the node has no such extension.
 pub(super) fn node_from_instances(
     document: &Document,
     node: &gltf::Node,

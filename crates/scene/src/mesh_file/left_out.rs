@@ -1,4 +1,4 @@
-//! What a glTF file has and the picture has not: every extension, attribute and property that is not read, counted.
+//! Contents of a glTF file that the picture does not have: every extension, attribute and property that is not read, counted.
 //!
 //! It is found in the text itself, by the names of the specification (section 5): what a reader does not know it cannot miss. A file
 //! that cannot be read has nothing here, and is refused elsewhere.
@@ -18,17 +18,17 @@ use crate::text::shown;
 /// Something of a file that is not in the picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
-    /// Its name in the file, or what it is.
+    /// Name in the file, or a description.
     pub what: String,
-    /// How often it occurs.
+    /// Number of occurrences.
     pub count: usize,
-    /// What that means for the picture.
+    /// Effect on the picture.
     pub meaning: String,
     /// Whether the picture would be another one with it.
     pub matters: bool,
 }
 
-/// What is found, in the order of its kind and name; by kind, name and meaning.
+/// Counts by kind, name, effect and whether it matters; the key's order is that of the report.
 #[derive(Default)]
 struct Found(BTreeMap<(u8, String, String, bool), usize>);
 
@@ -37,10 +37,10 @@ const EXTENSION: u8 = 0;
 const ATTRIBUTE: u8 = 1;
 const PROPERTY: u8 = 2;
 
-/// How a file is used.
+/// Parts of a file that are used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Wanted {
-    /// Without its own materials what they say is of no account.
+    /// Whether its own materials are used; if not, their contents do not count.
     pub own_materials: bool,
     /// Whether one of its animations is shown, at a time.
     pub animation: bool,
@@ -48,7 +48,7 @@ pub(crate) struct Wanted {
     pub lights: bool,
 }
 
-/// What is left out of a file whose text this is.
+/// Lists the contents that are left out of a file with this text.
 pub(super) fn of(root: &Value, wanted: Wanted) -> Vec<LeftOut> {
     let mut found = Found::default();
     found.extensions(root, Scope::File, wanted);

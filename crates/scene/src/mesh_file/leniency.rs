@@ -1,4 +1,5 @@
-//! What the specification allows and the crate does not, and what files lack that nothing here needs: files with these are read.
+//! Repairs of files that the specification allows and the crate `gltf` does not, or that lack what nothing here needs: they are
+//! read.
 
 use std::num::FpCategory;
 
@@ -17,7 +18,8 @@ pub(super) fn drop_order_mark(text: &mut Vec<u8>) {
     }
 }
 
-/// In the text: versions that are numbers, scenes without nodes, and whole numbers written with a point (glTF 2.0, section 2.7).
+/// Repairs the text: versions that are numbers, scenes without nodes, and whole numbers written with a point (glTF 2.0, section
+/// 2.7).
 pub(super) fn loosen_text(value: &mut Value) {
     for name in ["version", "minVersion"] {
         let version = value.get_mut("asset").and_then(|it| it.get_mut(name));
@@ -56,7 +58,7 @@ fn make_whole(value: &mut Value) {
     }
 }
 
-/// In what was read: accessors without bytes, which are zero (section 3.6.2), and positions whose bounds nobody wrote.
+/// Repairs the parsed file: accessors without bytes, which are zero (section 3.6.2), and positions whose bounds nobody wrote.
 pub(super) fn loosen(root: &mut Root) {
     let without_bytes = |accessor: &gltf::json::Accessor| {
         accessor.buffer_view.is_none() && accessor.sparse.is_none()

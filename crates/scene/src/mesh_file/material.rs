@@ -18,7 +18,7 @@ use crate::description::DEFAULT_COHERENCE_UM;
 use crate::scene::{Base, GLTF_DIELECTRIC_F0, Material, Mesh, Specular};
 use crate::texture::Channels;
 
-/// What the primitives' materials become.
+/// Mapping of the primitives' materials to the scene's.
 pub(super) enum Materials<'a> {
     /// All of them this one.
     One(u32),
@@ -30,7 +30,7 @@ pub(super) struct Own<'a> {
     document: &'a Document,
     images: Images<'a>,
     materials: &'a mut Vec<Material>,
-    /// From the file's materials, `None` for its default one, to the scene's.
+    /// Index in the scene of each of the file's materials; `None` is its default one.
     indices: HashMap<Option<usize>, u32>,
 }
 
@@ -168,7 +168,7 @@ impl Own<'_> {
         })
     }
 
-    /// What the older model says of a material in the place of the newer one.
+    /// Replaces the newer model's properties of a material by those of the older one.
     fn take_spec_gloss(
         &mut self,
         extension: &Value,

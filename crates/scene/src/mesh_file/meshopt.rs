@@ -32,7 +32,7 @@ pub(super) fn is_packed(view: &View) -> bool {
         .any(|name| view.extension_value(name).is_some())
 }
 
-/// How a view is packed.
+/// Packing of a view.
 struct Packing<'v> {
     packed: &'v [u8],
     count: usize,

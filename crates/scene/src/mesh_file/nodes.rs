@@ -1,4 +1,4 @@
-//! Which nodes of a file show, and where they stand.
+//! Finds the visible nodes of a file, with their transforms.
 
 use std::sync::Arc;
 
@@ -13,10 +13,10 @@ const DEEPEST: usize = 256;
 /// A node of the file's scene.
 pub(super) struct Placed<'a> {
     pub node: gltf::Node<'a>,
-    /// Its name and those of the nodes above it.
+    /// Names of the node and of the nodes above it.
     pub names: Arc<[String]>,
     pub file_from_node: DMat4,
-    /// Of its mesh's morph targets.
+    /// Weights of its mesh's morph targets.
     pub weights: Vec<f64>,
 }
 

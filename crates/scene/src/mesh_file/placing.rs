@@ -1,4 +1,4 @@
-//! How a file's own frame becomes the object's: which way is up, and how large it is.
+//! Transform from a file's own frame to the object's: the axis that points up, and the size.
 
 use glam::{DMat3, DMat4, DVec3};
 
@@ -19,17 +19,17 @@ pub(crate) struct Placing {
     pub fit_m: Option<f64>,
     /// The time of an animation of the file; without it the model is at rest.
     pub time_s: Option<f64>,
-    /// Which one, by its name or its number; without it the first.
+    /// Name or number of that animation; without it the first.
     pub animation: Option<String>,
     /// Whether its own place does not count, so that one that stands far off for its size may be moved: where it is as large as `fit_m` says,
     /// or alone.
     pub stands_alone: bool,
 }
 
-/// How many times its extent a model that stands alone may be away: a millionth of a hundredth of its extent is then left of single precision.
+/// Largest distance of a model that stands alone, in its extents: single precision then leaves a millionth of a hundredth of its extent.
 const FAR_EXTENTS: f64 = 1000.0;
 
-/// How an object begins.
+/// Transform of an object before its own placement.
 pub(super) struct Start {
     pub object_from_file: DMat4,
     /// The middle of a file that stood too far off, in its own frame: it was put at the origin.
@@ -37,7 +37,7 @@ pub(super) struct Start {
 }
 
 impl Placing {
-    /// As the file is.
+    /// Placing of a file that is used as it is.
     pub(crate) const NONE: Self = Self {
         up: Up::Z,
         world_up: DVec3::Z,
@@ -47,7 +47,7 @@ impl Placing {
         stands_alone: true,
     };
 
-    /// What an object says of its file.
+    /// Placing by an object's keys.
     pub(crate) fn of(object: &Object, world_up: DVec3) -> Self {
         Self {
             up: object.up,
@@ -59,7 +59,7 @@ impl Placing {
         }
     }
 
-    /// Of the file's animation, unless it is at rest.
+    /// Time of the file's animation, unless the model is at rest.
     pub(super) fn moment(&self) -> Option<Moment<'_>> {
         let animation = self.animation.as_deref();
         self.time_s.map(|time_s| Moment { time_s, animation })

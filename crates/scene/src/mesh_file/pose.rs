@@ -1,4 +1,4 @@
-//! How the nodes of a file stand: at rest, or at a time of one of its animations (glTF 2.0, sections 3.5 and 3.11).
+//! Transforms of a file's nodes: at rest, or at a time of one of its animations (glTF 2.0, sections 3.5 and 3.11).
 
 use glam::{DMat4, DQuat, DVec3};
 use gltf::animation::{Channel, Interpolation, Property};
@@ -12,7 +12,7 @@ use crate::text::shown;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moment<'p> {
     pub time_s: f64,
-    /// Its name or its number; without it the first one.
+    /// Name or number of the animation; without it the first one.
     pub animation: Option<&'p str>,
 }
 
@@ -21,7 +21,7 @@ pub(super) struct Pose(Vec<NodePose>);
 
 struct NodePose {
     parent_from_node: DMat4,
-    /// Of its morph targets, where the animation says them.
+    /// Weights of the node's morph targets, where the animation gives them.
     weights: Option<Vec<f64>>,
 }
 
@@ -31,8 +31,8 @@ impl Pose {
         Self(parts.collect())
     }
 
-    /// With an animation at a time: the one of a name or a number, or the first. Before its first key and after its last one an animation
-    /// stands still.
+    /// The pose at a time of an animation, by its name or number, or of the first one. Before its first key and after its last one an
+    /// animation stands still.
     pub(super) fn at(
         document: &gltf::Document,
         buffers: &Buffers,
@@ -251,7 +251,7 @@ fn mixed(parts: &[(f64, &Vec<f64>)]) -> Vec<f64> {
     (0..parts[0].1.len()).map(sum).collect()
 }
 
-/// From one rotation to another by the shorter way.
+/// Interpolates two rotations by the shorter way.
 fn turned(a: &[f64], b: &[f64], share: f64) -> Vec<f64> {
     let rotation = |value: &[f64]| match value {
         &[x, y, z, w] => unit([x, y, z, w]),

@@ -100,7 +100,7 @@ pub(super) fn read(
 }
 
 impl Rough {
-    /// With normals, and with tangents where normal maps or brushed metal need them. `turned` counts triangles that are wound against
+    /// Adds normals, and tangents where normal maps or brushed metal need them. `turned` counts triangles that are wound against
     /// their normals in the file.
     pub(super) fn finished(self, primitive: &Primitive, turned: &mut usize) -> Surface {
         let mut surface = self.surface;

@@ -61,7 +61,7 @@ fn check_version(version: &str) -> Result<(), Flaw> {
     }
 }
 
-/// What a file says that a reader must know (glTF 2.0, section 3.2).
+/// Checks the glTF version that a reader must know (glTF 2.0, section 3.2).
 fn check_least_version(least: Option<&str>) -> Result<(), Flaw> {
     match least {
         None | Some("2.0") => Ok(()),
@@ -79,7 +79,7 @@ pub(super) fn wrong_version(version: &str) -> Flaw {
     )
 }
 
-/// What of a file is kept where it is wanted: broken, it makes a file unusable.
+/// Parts of a file that are kept because they are wanted: broken, they make a file unusable.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Kept {
     pub animations: bool,

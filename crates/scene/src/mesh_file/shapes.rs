@@ -28,12 +28,12 @@ pub(super) struct Shape<'a> {
     /// The names of its node and of those above it.
     pub nodes: Arc<[String]>,
     pub rough: Rough,
-    /// Where it stands, as often as it does.
+    /// Its transforms, one for each instance.
     pub places: Vec<DMat4>,
 }
 
 impl<'a> Shapes<'a> {
-    /// At a time of an animation of the file, or at rest.
+    /// The primitives at a time of an animation of the file, or at rest.
     pub(super) fn new(
         document: &'a Document,
         buffers: &'a Buffers,

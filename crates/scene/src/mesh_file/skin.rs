@@ -1,4 +1,4 @@
-//! What moves the vertices of a mesh: morph targets and the joints of a skin (glTF 2.0, sections 3.7.2.2 and 3.7.3).
+//! Motion of the vertices of a mesh: morph targets and the joints of a skin (glTF 2.0, sections 3.7.2.2 and 3.7.3).
 
 use glam::{DMat3, DMat4, DVec3};
 use gltf::{Accessor, Primitive, Semantic};
@@ -13,7 +13,7 @@ use crate::surface::{Vertex, cofactor};
 /// The joints of a node's skin, and the weights of its morph targets.
 #[derive(Default)]
 pub(super) struct Motion {
-    /// From where a vertex is at rest to the file's frame, joint by joint; none without a skin.
+    /// Transforms of each joint from a vertex's rest to the file's frame; none without a skin.
     pub file_from_rest: Option<Vec<DMat4>>,
     pub weights: Vec<f64>,
 }
@@ -78,7 +78,7 @@ impl Motion {
     }
 }
 
-/// From rest to the file's frame.
+/// Transforms of the joints from rest to the file's frame.
 fn joints(skin: &gltf::Skin, all: &[Placed], buffers: &Buffers) -> Result<Vec<DMat4>, Flaw> {
     let inverse = match skin.inverse_bind_matrices() {
         Some(accessor) => read_numbers::<16>(&accessor, buffers)?,

@@ -98,7 +98,7 @@ impl Buffers {
     }
 }
 
-/// What a URI of a glTF file stands for: a data URI or a file beside it, which is added to `files`.
+/// Reads a URI of a glTF file: a data URI or a file beside it, which is added to `files`.
 pub(super) fn resource(
     uri: &str,
     base_dir: &Path,

@@ -10,7 +10,7 @@ use crate::texture::{Texels, linear_to_srgb, srgb_to_linear};
 
 pub(super) const NAME: &str = "KHR_materials_pbrSpecularGlossiness";
 pub(super) const TEXTURES: [&str; 2] = ["diffuseTexture", "specularGlossinessTexture"];
-/// Of a dielectric, as glTF has it.
+/// Reflectance of a dielectric at normal incidence in glTF.
 const F0: f32 = 0.04;
 
 /// The extension's factors.
@@ -21,7 +21,7 @@ pub(super) struct SpecGloss {
     pub glossiness: f32,
 }
 
-/// What they are in the newer model.
+/// Factors of the material in the newer model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Metal {
     /// Linear.
@@ -124,7 +124,7 @@ fn nearest(image: &Texels, of: [u32; 2], at: [u32; 2]) -> [u8; 4] {
 mod tests {
     use super::*;
 
-    /// What both models say of the body and of the mirror.
+    /// The reflectances of the body and of the mirror stay the same in both models.
     #[test]
     fn body_and_mirror_stay() {
         for (diffuse, specular) in [

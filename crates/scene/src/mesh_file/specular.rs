@@ -6,10 +6,10 @@ use gltf::material::Material;
 use crate::scene::{GLTF_DIELECTRIC_F0, Specular};
 
 pub(super) const NAME: &str = "KHR_materials_specular";
-/// As in [`crate::scene::Material::specular_textures`].
+/// Names of the textures, in the order of [`crate::scene::Material::specular_textures`].
 pub(super) const TEXTURES: [&str; 2] = ["specularTexture", "specularColorTexture"];
 
-/// What a refractive index says of its reflectance at normal incidence.
+/// Reflectance at normal incidence from the file's refractive index.
 pub(super) fn f0(material: &Material) -> f64 {
     let extension = material.extension_value("KHR_materials_ior");
     let ior = extension.and_then(|it| it.get("ior")?.as_f64());
@@ -31,7 +31,7 @@ pub(super) fn specular(material: &Material) -> Specular {
     }
 }
 
-/// What the file says of each texture on the factors.
+/// Returns the JSON of each texture on the factors.
 pub(super) fn uses<'a>(material: &'a Material<'a>) -> [Option<&'a Value>; 2] {
     let extension = material.extension_value(NAME);
     TEXTURES.map(|name| extension?.get(name))

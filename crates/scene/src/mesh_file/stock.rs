@@ -1,4 +1,4 @@
-//! What a file brings besides its triangles.
+//! Materials, textures and notes that a file brings besides its triangles.
 
 use std::path::PathBuf;
 
@@ -6,10 +6,10 @@ use glam::DVec3;
 
 use crate::scene::{Material, Part, Texture};
 
-/// Of the free memory, what one file may take.
+/// Largest share of the free memory that one file may take.
 pub(super) const FILE_SHARE: f64 = 1.0 / 4.0;
 
-/// Where a file's parts and its own materials go.
+/// Destination of a file's parts and its own materials.
 pub(crate) struct Stock<'a> {
     pub parts: &'a mut Vec<Part>,
     pub materials: &'a mut Vec<Material>,
@@ -18,9 +18,9 @@ pub(crate) struct Stock<'a> {
     pub files: &'a mut Vec<PathBuf>,
     /// The middle of a file that stood too far off, in its own frame: it was put at the origin.
     pub moved_from: &'a mut Option<DVec3>,
-    /// What was found in it that its author should know.
+    /// Notes on the file for its author.
     pub notes: &'a mut Vec<String>,
-    /// What textures may still take of the memory.
+    /// Memory that is left for textures.
     pub free_bytes: f64,
     /// Whether textures get their mip chains, which take longer than the rest.
     pub with_mips: bool,

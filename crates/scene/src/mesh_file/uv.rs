@@ -1,4 +1,4 @@
-//! How the images of a material lie on its surface: by which set of texture coordinates, and by KHR_texture_transform.
+//! Mapping of a material's images onto its surface: the set of texture coordinates, and KHR_texture_transform.
 
 use glam::Vec2;
 use gltf::json::Value;
@@ -8,10 +8,10 @@ use super::{anisotropy, coat, spec_gloss, specular};
 
 const NAME: &str = "KHR_texture_transform";
 
-/// From a vertex's texture coordinates to a place of the image.
+/// Mapping from a vertex's texture coordinates to a place of the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Way {
-    /// Of the sets of texture coordinates.
+    /// Index of the set of texture coordinates.
     pub set: u32,
     offset: [f64; 2],
     rotation_rad: f64,
@@ -35,7 +35,7 @@ impl Way {
         }
     }
 
-    /// Of a use of a texture.
+    /// Mapping of a use of a texture.
     pub(super) fn of(texture: &gltf::texture::Info) -> Self {
         Self::new(texture.tex_coord(), texture.extension_value(NAME))
     }
@@ -83,7 +83,7 @@ impl Ways {
     }
 }
 
-/// Of all images that are read.
+/// Mappings of all images that are read.
 fn all(material: &Material) -> Vec<Way> {
     let pbr = material.pbr_metallic_roughness();
     let normal = material
@@ -116,7 +116,7 @@ fn all(material: &Material) -> Vec<Way> {
         .collect()
 }
 
-/// Of a use of a texture within an extension.
+/// Mapping of a use of a texture within an extension.
 pub(super) fn of_json(texture: &Value) -> Option<Way> {
     texture.get("index")?;
     let set = texture.get("texCoord").and_then(Value::as_u64);

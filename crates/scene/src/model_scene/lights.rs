@@ -12,11 +12,11 @@ const LAMP_RADIUS: f64 = 0.01;
 /// The extension counts in lumens. Exporters take a watt for as many of them.
 const LUMENS_PER_WATT: f64 = 683.0;
 
-/// What stands for a light beside a model of an extent, in metres of the file, that is shown larger by a factor. `turned` and `placed` make
-/// directions and places of the file upright.
+/// Makes the lamp for a light beside a model of an extent, in metres of the file, that is shown larger by a factor. `turned` and `placed`
+/// make directions and places of the file upright.
 ///
 /// # Errors
-/// Why there is none.
+/// The reason why there is no lamp.
 pub(super) fn lamp(
     light: &Punctual,
     extent: f64,

@@ -20,14 +20,14 @@ const LEAF: usize = 4;
 const BINS: usize = 16;
 /// Deeper than this a node is halved: no tree is deeper than that and 32 more levels.
 const MOST_UNEVEN: usize = 32;
-/// So many triangles are worth another thread.
+/// Number of triangles that are worth another thread.
 const ALONE: usize = 1 << 12;
 
 /// A tree over a mesh's triangles.
 #[derive(Debug)]
 pub(super) struct Closest {
     mesh: Arc<Mesh>,
-    /// In the order of the leaves.
+    /// Triangles in the order of the leaves.
     triangles: Vec<u32>,
     nodes: Vec<Node>,
 }
@@ -35,7 +35,7 @@ pub(super) struct Closest {
 #[derive(Clone, Copy, Debug)]
 struct Node {
     bounds: Bounds,
-    /// Of a leaf its first triangle; else the first of two nodes.
+    /// First triangle of a leaf; else the first of two nodes.
     first: u32,
     /// Triangles of a leaf; else 0.
     count: u32,
@@ -78,7 +78,7 @@ impl Bounds {
     }
 }
 
-/// What lies on one side of a cut.
+/// Bounds and number of the items on one side of a cut.
 #[derive(Clone, Copy)]
 struct Side {
     bounds: Bounds,
@@ -144,7 +144,7 @@ impl Closest {
         })
     }
 
-    /// The same within a distance: what is far from the mesh is found to be so in no time.
+    /// Finds the nearest point within a distance; a place far from the mesh costs no time.
     pub(super) fn find_within(&self, point_m: DVec3, most_m: f64) -> Option<(Spot, f64)> {
         // A little more, for what rounds.
         self.nearest(point_m, most_m * most_m * (1.0 + 1e-9))
@@ -236,7 +236,7 @@ fn grown(items: &mut [Item], first: usize, depth: usize) -> Vec<Node> {
     nodes
 }
 
-/// Where to cut `items`, which are put on their sides of it.
+/// Finds the cut of `items` and sorts them to its sides.
 fn split(items: &mut [Item], depth: usize) -> usize {
     let middles = items.iter().map(|item| item.bounds.middle());
     let (least, most) = middles.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(a, b), m| {

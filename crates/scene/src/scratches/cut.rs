@@ -1,4 +1,4 @@
-//! What is left of a scratch from which parts are taken away: by an eraser, by the end of the places that its layer lies on.
+//! Removes parts of a scratch: those under an eraser, and those outside the places that its layer lies on.
 
 use glam::DVec3;
 
@@ -8,7 +8,8 @@ use crate::scene::Segment;
 /// Parts of a segment that are taken away, from 0 to 1.
 pub(super) type Parts = Vec<[f64; 2]>;
 
-/// What is left, in runs of joined segments; `None` where nothing is taken away. `removed` adds what is taken away of a segment.
+/// Returns the remaining parts in runs of joined segments; `None` where nothing is taken away. `removed` adds the parts of a
+/// segment to be taken away.
 pub(super) fn rest(
     walker: &Walker,
     course: Course,
@@ -55,7 +56,7 @@ pub(super) fn rest(
     Some(runs)
 }
 
-/// In order and apart.
+/// Sorts the parts and joins those that overlap.
 fn joined(mut parts: Parts) -> Parts {
     parts.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
     parts.dedup_by(|next, last| {
@@ -90,7 +91,7 @@ fn part(walker: &Walker, segment: &Segment, [from, to]: [f64; 2]) -> Option<Segm
     })
 }
 
-/// Where |offset + t way| is below the radius.
+/// Interval of t in which |offset + t way| is below the radius.
 pub(super) fn ball(offset: DVec3, way: DVec3, radius_m: f64) -> Option<[f64; 2]> {
     let outside = offset.length_squared() - radius_m * radius_m;
     let squared = way.length_squared();

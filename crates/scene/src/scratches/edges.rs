@@ -1,4 +1,4 @@
-//! How far a place of a surface stands out: where things wear first.
+//! Measure of how far a place of a surface stands out, where things wear first.
 //!
 //! The measure is the surface's mean curvature about the place, which for a mesh is each edge's length times the angle by which it bends,
 //! convex ones counted positive (David Cohen-Steiner, Jean-Marie Morvan, "Restricted Delaunay Triangulations and Normal Cycle", SoCG
@@ -23,7 +23,7 @@ const BEHIND_COS: f64 = -0.01;
 #[derive(Debug)]
 pub(super) struct Edges {
     reach_m: f64,
-    /// In cubes as wide as the reach.
+    /// Pieces of edges in cubes as wide as the reach.
     cells: HashMap<[i32; 3], Vec<Piece>>,
 }
 
@@ -31,13 +31,13 @@ pub(super) struct Edges {
 #[derive(Clone, Copy, Debug)]
 struct Piece {
     middle_m: DVec3,
-    /// Between those of the triangles at the edge, unit; or zero.
+    /// Unit vector between the normals of the triangles at the edge; or zero.
     normal: DVec3,
     /// Length times angle.
     bend_m: f64,
 }
 
-/// What pieces are taken together by: a cube, and the signs of their normals.
+/// Key by which pieces are taken together: a cube, and the signs of their normals.
 type Place = ([i32; 3], [bool; 3]);
 
 fn cube(point_m: DVec3, width_m: f64) -> [i32; 3] {
@@ -97,8 +97,8 @@ impl Edges {
         Self { reach_m, cells }
     }
 
-    /// How far a place of a facet of this unit normal stands out, from 0 to 1. At a distance d from a straight edge that bends by an angle
-    /// it is (1 - d² / reach²)^1.5 times the angle's share of a right one; on a ball whose radius is R, 1.5 reach / R.
+    /// Computes how far a place of a facet of this unit normal stands out, from 0 to 1. At a distance d from a straight edge that bends by
+    /// an angle it is (1 - d² / reach²)^1.5 times the angle's share of a right one; on a ball whose radius is R, 1.5 reach / R.
     pub(super) fn at(&self, point_m: DVec3, normal: DVec3) -> f64 {
         let [x, y, z] = cube(point_m, self.reach_m);
         let mut sum_m = 0.0;
@@ -118,7 +118,7 @@ impl Edges {
     }
 }
 
-/// By how much a surface bends at an edge, positive where it is convex. `way` is along the edge with the first triangle to the left.
+/// Angle by which a surface bends at an edge, positive where it is convex. `way` is along the edge with the first triangle to the left.
 fn angle_rad([first, second]: [DVec3; 2], way: DVec3) -> f64 {
     let cos = first.dot(second);
     let sin = first.cross(second).dot(way.normalize_or_zero());

@@ -1,4 +1,4 @@
-//! What the strokes of an eraser leave of a scratch: it is cut exactly at the brush's edge.
+//! Cuts a scratch exactly at the edge of an eraser's strokes.
 //!
 //! Between two of its points a stroke covers a capsule: all that lies within the radius of the line between them. A capsule is
 //! convex, so it covers one interval of a straight segment. A tree of boxes (obvhs) finds the capsules near a segment.
@@ -20,7 +20,7 @@ use crate::error::Error;
 use crate::loader::Loader;
 use crate::scene::Segment;
 
-/// So many points are looked up between two questions whether to give up.
+/// Number of points that are looked up between two questions whether to give up.
 const TOGETHER: usize = 1024;
 
 /// All erasing strokes of a layer.
@@ -130,7 +130,7 @@ impl Capsule {
     }
 }
 
-/// Where height + t rise lies between 0 and `length_m`.
+/// Interval of t in which height + t rise lies between 0 and `length_m`.
 fn slab(height: f64, rise: f64, length_m: f64) -> Option<[f64; 2]> {
     if rise.abs() <= 1e-12 * length_m {
         return (0.0..=length_m)
@@ -156,7 +156,7 @@ impl Boundable for Capsule {
 mod tests {
     use super::*;
 
-    /// Against points along the line, one by one.
+    /// Intervals are compared with points along the line, one by one.
     #[test]
     fn what_is_covered_is_what_lies_within_the_radius() {
         let random = |i: f64| DVec3::new((7.1 * i).sin(), (3.7 * i).cos(), (5.3 * i + 1.0).sin());

@@ -67,8 +67,8 @@ impl Facet {
         direction.dot(self.inward[edge]) > 1e-9
     }
 
-    /// Where an arc leaves: the length until then and the edge. `entry` is the edge on which it starts, if it does and leads
-    /// inwards there. `None` if it stays inside for half a turn.
+    /// Finds the point where an arc leaves the facet: the length until then and the edge. `entry` is the edge on which it
+    /// starts, if it does and leads inwards there. `None` if it stays inside for half a turn.
     ///
     /// With v = tan(curvature s / 2) / curvature, the height above an edge is zero where
     /// (h c + 2 b) c v^2 + 2 a v + h = 0; h the height at the start, a and b the inward parts of direction and left, c the
@@ -136,7 +136,7 @@ impl Facet {
         (next.inward[next_edge] * outward - next.along[next_edge] * along).normalize_or_zero()
     }
 
-    /// How far a point lies outside of the facet: 0 within it.
+    /// Distance of a point from the facet: 0 within it.
     #[cfg(test)]
     pub(super) fn distance_m(&self, point_m: DVec3) -> f64 {
         let offset = point_m - self.corners_m[0];
@@ -204,7 +204,7 @@ mod tests {
         Facet::new(&mesh, 0)
     }
 
-    /// Against stepping along the arc until it is outside.
+    /// Exits are compared with small steps along the arc until it is outside.
     #[test]
     fn exits_agree_with_small_steps() {
         let facet = facet();

@@ -27,7 +27,7 @@ pub(crate) struct Ground {
     pub(super) corner_m: DVec3,
     /// The length of the box's diagonal.
     pub(super) diagonal_m: f64,
-    /// That walks leave behind.
+    /// Shortest piece that walks leave behind.
     shortest_piece_m: f64,
     neighbours: Neighbours,
     /// The area of all triangles up to and including each.

@@ -23,10 +23,10 @@ pub(super) fn chord_length_m(curvature_per_m: f64) -> f64 {
     (HALF_DEGREE_RAD / curvature).max(COHERENT_M.min(10.0 * HALF_DEGREE_RAD / curvature))
 }
 
-/// What one scratch follows.
+/// Direction field that one scratch follows.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Guide {
-    /// Its own direction, straight or bending by a constant curvature in the surface.
+    /// A direction of the scratch's own, straight or bending by a constant curvature in the surface.
     Free {
         /// Unit, in the plane of the seed's facet.
         seed_direction: DVec3,
@@ -46,7 +46,7 @@ pub(super) enum Guide {
     Towards { end_m: DVec3 },
 }
 
-/// Where to go: straight or along an arc, and how far before asking again.
+/// Next step of a scratch: straight or along an arc, and how far before asking again.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Aim {
     /// Unit, in the facet's plane.
@@ -119,7 +119,7 @@ impl Guide {
         }
     }
 
-    /// How long the scratch must be at least to come back to its start.
+    /// Least length of a scratch that can come back to its start.
     pub(super) fn shortest_ring_m(&self, seed_m: DVec3) -> f64 {
         let radius_m = match *self {
             Guide::Free {

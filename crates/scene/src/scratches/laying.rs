@@ -1,4 +1,4 @@
-//! What every kind of layer gives of a scratch.
+//! Interface of all kinds of layers for laying a scratch.
 
 use super::walk::{Course, Spot, Walker};
 use crate::description::Distribution;
@@ -12,13 +12,13 @@ const DEPTHS_NM: (f64, f64) = (0.0, 2000.0);
 
 /// A size of a groove that lists tell of each scratch.
 pub(crate) struct Size {
-    /// Its column in a file, its array in memory.
+    /// Name of its column in a file, of its array in memory.
     pub key: &'static str,
     range: (f64, f64),
     pub of: fn(&mut Profile) -> &mut f32,
 }
 
-/// In the order of the columns.
+/// Sizes in the order of the columns.
 pub(crate) const LISTED_SIZES: [Size; 2] = [
     Size {
         key: "width_um",
@@ -51,7 +51,7 @@ impl Size {
 /// The renderers' trees number the segments by 28 bits.
 pub(super) const MOST_SEGMENTS: usize = 1 << 28;
 
-/// What is known of a scratch besides its segments.
+/// Profile and course of a scratch, besides its segments.
 pub(super) struct Groove {
     pub profile: Profile,
     pub course: Course,
@@ -62,10 +62,10 @@ pub(super) trait Laying: Sync {
     /// Appends the segments of one scratch.
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove;
 
-    /// Where a scratch has its middle, if it has one; as [`Laying::lay`] lays it.
+    /// Middle of a scratch, if it has one, where [`Laying::lay`] lays it.
     fn middle(&self, index: u64) -> Option<Spot>;
 
-    /// How many of the layer's strokes came before a scratch, its own included.
+    /// Number of the layer's strokes before a scratch, its own included.
     fn strokes_before(&self, _index: u64) -> usize {
         0
     }

@@ -20,12 +20,12 @@ use crate::text::shown;
 
 const ENDS: [&str; 6] = ["x0_m", "y0_m", "z0_m", "x1_m", "y1_m", "z1_m"];
 const COUNT: usize = ENDS.len() + LISTED_SIZES.len();
-/// What a list for other programs has besides: the number of the scratch, whose straight pieces follow one another, and the surface's
+/// Further columns of a list for other programs: the number of the scratch, whose straight pieces follow one another, and the surface's
 /// normal in the middle of the piece.
 const MORE_COLUMNS: &str = "scratch,nx,ny,nz";
 /// Ends may lie this far off the surface, relative to the diagonal of the object: a list made for the ideal shape fits its facets.
 const OFF_SURFACE: f64 = 0.01;
-/// On a curved surface the way between two points is longer than the straight line through it.
+/// Longest way on the surface between two points over their distance: on a curved surface it is longer than the straight line.
 const LONGEST_WAY: f64 = 4.0;
 
 /// A row of the file.
@@ -180,7 +180,7 @@ impl<'a> Listed<'a> {
         })
     }
 
-    /// The same of scratches in memory. `key` is the way to the layer's table in the scene.
+    /// Reads scratches from arrays in memory. `key` is the way to the layer's table in the scene.
     pub(super) fn of_arrays(
         loader: &Loader,
         arrays: &ScratchArrays,

@@ -1,4 +1,4 @@
-//! What scratches take of the memory, here and in what renderers make of them; an estimate on the safe side.
+//! Memory of scratches, here and in what renderers make of them; an estimate on the safe side.
 
 use hairline_memory::{costs, in_words};
 
@@ -6,7 +6,7 @@ use super::laying::MOST_SEGMENTS;
 use crate::error::Error;
 use crate::scene::{Scratch, Segment};
 
-/// What a segment takes.
+/// Bytes of a segment.
 pub(super) const SEGMENT_BYTES: u64 = size_of::<Segment>() as u64 + costs::SEGMENT_RENDERED;
 
 /// A layer that is to be laid.
@@ -18,7 +18,7 @@ pub(super) struct Demand {
 }
 
 impl Demand {
-    /// What it takes, in bytes.
+    /// Returns the memory of the scratches, in bytes.
     ///
     /// # Errors
     /// At `key`: more than `free_bytes`, or more segments than renderers can number.

@@ -1,4 +1,4 @@
-//! Which triangle lies beyond an edge.
+//! Finds the triangle beyond each edge.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -14,7 +14,7 @@ const WELD: f32 = 1e-6;
 const CREASE_COS: f64 = 0.5;
 const NONE: u32 = u32::MAX;
 
-/// For each edge of each triangle the triangle beyond it, and which of that one's edges it is.
+/// Triangle beyond each edge of each triangle, and the index of the shared edge in it.
 #[derive(Debug)]
 pub(super) struct Neighbours(Vec<[u32; 3]>);
 
@@ -40,11 +40,11 @@ impl Neighbours {
 
 /// An edge of a triangle with the triangle beyond it.
 pub(super) struct Bend {
-    /// Four times the triangle, and the edge.
+    /// Four times the triangle's index, plus that of the edge.
     half_edge: u32,
-    /// The same of what lies beyond.
+    /// Half edge of the triangle beyond, numbered alike.
     beyond: u32,
-    /// Of the triangle and of the one beyond, unit.
+    /// Unit normals of the triangle and of the one beyond.
     pub normals: [DVec3; 2],
 }
 
@@ -102,7 +102,7 @@ pub(super) fn each_bend(mesh: &Mesh, mut bend: impl FnMut(Bend)) {
     }
 }
 
-/// For each vertex the first one at its place.
+/// Index of the first vertex at the place of each vertex.
 fn welded(mesh: &Mesh) -> Vec<u32> {
     let (least, most) = mesh.bounds_m();
     let tolerance = (most - least).length() * WELD;

@@ -36,7 +36,7 @@ pub(super) struct Painted<'a> {
 
 /// A stroke that lays scratches.
 struct Path {
-    /// Its place among all strokes.
+    /// Index of the stroke among all strokes.
     stroke: usize,
     /// World space; one is a dab.
     points_m: Vec<DVec3>,
@@ -46,18 +46,18 @@ struct Path {
     density_per_m: f64,
     width: f64,
     depth: f64,
-    /// How many scratches the strokes before it have.
+    /// Number of scratches of the strokes before it.
     first: u64,
     count: u64,
 }
 
-/// Where the brush is when it makes a scratch.
+/// Position of the brush when it makes a scratch.
 struct Touch {
     /// Anywhere under the brush, not yet on the surface.
     point_m: DVec3,
     /// The surface under the middle of the brush.
     normal: DVec3,
-    /// Where the brush goes; `None` for a dab.
+    /// Direction of the brush's movement; `None` for a dab.
     along: Option<DVec3>,
 }
 
@@ -97,7 +97,7 @@ impl<'a> Painted<'a> {
         Stream::new(self.layer.seed, self.number, (number as u64) << 32 | nth)
     }
 
-    /// Where a scratch has its middle, and where the brush was for it, by the first two draws of its stream.
+    /// Draws the middle of a scratch, and where the brush was for it, by the first two numbers of its stream.
     fn seed(&self, index: u64, stream: &mut Stream) -> Option<(Spot, Touch)> {
         let path = &self.paths[self.path(index)];
         let [along, across] = std::array::from_fn(|_| stream.uniform());
@@ -190,7 +190,8 @@ impl Path {
         })
     }
 
-    /// Where scratch `nth` of the stroke is made; the last two are uniform draws. `None` where the brush is out of reach.
+    /// Position of the brush for scratch `nth` of the stroke; the last two arguments are uniform draws. `None` where the brush
+    /// is out of reach.
     fn touch(&self, ground: &Ground, nth: u64, along: f64, across: f64) -> Option<Touch> {
         // What the brush touches lies within its radius of its middle.
         let most_m = (REACH + 1.0) * self.radius_m;

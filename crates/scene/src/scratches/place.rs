@@ -1,4 +1,4 @@
-//! Where on its ground a layer lies, and how thickly: what `where` of a `[[scratches]]` says.
+//! Places of its ground on which a layer lies, and its density there: the `where` of a `[[scratches]]`.
 
 use std::sync::Arc;
 
@@ -15,16 +15,16 @@ use crate::grey_map::GreyMap;
 use crate::picture_lie::{PictureLie, three_sides};
 use crate::scene::Segment;
 
-/// What of a `where` was read and made for it.
+/// A `where` with the files and surfaces that were read for it.
 pub(crate) struct Means<'a> {
     pub described: &'a description::Place,
     pub mask: Option<Arc<GreyMap>>,
     pub density: Option<Arc<GreyMap>>,
-    /// With edges: the whole object's surface, since the border of a part is no edge.
+    /// The whole object's surface, for edges: the border of a part is no edge.
     pub whole: Option<Arc<Ground>>,
 }
 
-/// Where edges reach as far as this share of the object's diagonal, unless a layer says it.
+/// Default reach of edges, over the object's diagonal.
 const DEFAULT_EDGE_WIDTH: f64 = 0.02;
 /// Edges reach this share of the diagonal at least: less would be more pieces than there is memory for.
 const LEAST_EDGE_WIDTH: f64 = 1e-3;
@@ -45,7 +45,7 @@ pub(super) struct Place<'a> {
     radii_m: Option<[f64; 2]>,
 }
 
-/// Where a picture is looked up for a place, and how much each counts; only the first by texture coordinates.
+/// Look-ups of a picture for a place, with the weight of each; by texture coordinates only the first.
 #[derive(Clone, Copy)]
 struct LookUp {
     uvs: [DVec2; 3],

@@ -19,7 +19,7 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// Of the centres around a point, brought into its facet's plane, the one whose distance is nearest to `radius_m`.
+    /// Returns the centre around a point, brought into its facet's plane, whose distance is nearest to `radius_m`.
     pub(super) fn center(&self, facet: &Facet, point_m: DVec3, radius_m: f64) -> DVec3 {
         let cell = ((point_m - self.origin_m) / self.cell_m)
             .floor()

@@ -45,11 +45,11 @@ pub(super) fn shortest_piece_m((least, most): (Vec3, Vec3)) -> f64 {
     f64::from(farthest * f32::EPSILON * 16.0).max(0.5e-6)
 }
 
-/// What a walk left behind besides its segments.
+/// Course of a walk, besides its segments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Course {
     Open,
-    /// It came back to its start.
+    /// The walk came back to its start.
     Closed,
 }
 

@@ -24,7 +24,7 @@ pub(super) struct Profile {
 }
 
 impl Profile {
-    /// With a straight line, unless it has no length.
+    /// Adds a straight line, unless it has no length.
     pub(super) fn line(mut self, from_m: DVec2, to_m: DVec2) -> Self {
         if let Some(way) = (to_m - from_m).try_normalize() {
             self.pieces.push([from_m, to_m].map(|point_m| ProfileEnd {
@@ -35,7 +35,7 @@ impl Profile {
         self
     }
 
-    /// With a part of a circle, unless its radius is 0. It starts and ends at angles to z, towards r, in quarter turns; where they
+    /// Adds a part of a circle, unless its radius is 0. It starts and ends at angles to z, towards r, in quarter turns; where they
     /// grow it faces away from the centre, where they fall towards it.
     pub(super) fn arc(
         mut self,
@@ -111,7 +111,7 @@ impl Profile {
     }
 }
 
-/// At an angle to z, towards r, in quarter turns; whole ones exactly.
+/// Direction at an angle to z, towards r, in quarter turns; exact for whole ones.
 fn direction(quarters: f64) -> DVec2 {
     if quarters == quarters.round() {
         return match quarters.rem_euclid(4.0) as u8 {

@@ -76,7 +76,7 @@ pub(super) fn surface(size_m: DVec3, rounding_m: f64) -> Surface {
     surface
 }
 
-/// How many triangles and vertices.
+/// Numbers of triangles and vertices.
 pub(super) fn size(rounding_m: f64) -> [f64; 2] {
     let places = places(1.0, rounding_m).len() as f64;
     [12.0 * (places - 1.0).powi(2), 6.0 * places * places]

@@ -48,7 +48,7 @@ pub(super) fn surface(text: &str, height_m: f64, depth_m: f64) -> Surface {
     surface
 }
 
-/// How many triangles and vertices.
+/// Numbers of triangles and vertices.
 pub(super) fn size(text: &str) -> [f64; 2] {
     let surface = surface(text, 1.0, 1.0);
     [
@@ -222,7 +222,7 @@ fn add_faces(surface: &mut Surface, shape: &[Contour], depth_m: f64, size_m: DVe
     }
 }
 
-/// What stands on a contour, which has the letter to its left.
+/// Adds the wall along a contour, which has the letter to its left.
 fn add_wall(surface: &mut Surface, contour: &[DVec2], depth_m: f64) {
     let count = contour.len();
     let ends = |i: usize| [contour[i], contour[(i + 1) % count]];

@@ -1,4 +1,4 @@
-//! What several tests share: scene files and glTF files made in code.
+//! Scene files and glTF files made in code, shared by several tests.
 #![allow(dead_code, reason = "each test file uses a part")]
 
 use std::io::Write;

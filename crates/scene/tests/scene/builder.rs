@@ -216,7 +216,7 @@ fn what_is_built_after_edits_is_what_is_built_from_nothing() {
     }
 }
 
-/// Which of the objects share their surfaces, and which their scratches.
+/// Tells which of the objects share their surfaces, and which their scratches.
 fn shared(a: &Scene, b: &Scene) -> ([bool; 3], [bool; 3]) {
     let of = |same: fn(&hairline_scene::Object, &hairline_scene::Object) -> bool| {
         [0, 1, 2].map(|i| same(&a.objects[i], &b.objects[i]))
@@ -412,7 +412,8 @@ fn a_large_layer_is_given_up_after_a_few_of_its_scratches() {
     assert!(asked.get() > 10, "asked {} times", asked.get());
 }
 
-/// What a viewer does at the display's rate while a light is dragged. 10,000 clones of a copied scene would take minutes.
+/// A viewer clones scenes at the display's rate while a light is dragged. 10,000 clones of a copied scene would take
+/// minutes.
 #[test]
 fn clones_are_cheap() {
     let dir = temporary_dir();

@@ -15,7 +15,7 @@ struct Attribute {
     components: u8,
     data_type: DataType,
     bytes: Vec<u8>,
-    /// To each number, where it is rounded.
+    /// Bits of each number, where it is rounded.
     bits: Option<i32>,
 }
 

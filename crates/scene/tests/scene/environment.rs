@@ -195,7 +195,7 @@ impl Texels {
         Self(map.rgb.iter().enumerate().map(texel).collect())
     }
 
-    /// What a surface whose normal is `mirror` reflects to who looks along it, over its albedo: by quadrature over all texels.
+    /// Light that a surface whose normal is `mirror` reflects to a viewer along it, over its albedo: by quadrature over all texels.
     fn blurred(&self, mirror: DVec3, roughness: f64) -> DVec3 {
         let alpha = ggx_alpha(roughness);
         let rows = self.0.par_chunks(8192).map(|texels| {
@@ -242,7 +242,7 @@ fn blur_matches_quadrature() {
     }
 }
 
-/// Where a lamp's light is a thousandth of its peak and all there is: relative errors of single directions, poles among them. At a right angle
+/// A lamp's light is a thousandth of its peak here and all there is: relative errors of single directions, poles among them. At a right angle
 /// to the lamp the lobe ends, in less than a coarse texel; no surface's lobe ends there, as viewers do not look along its normal.
 #[test]
 fn far_tails_match_quadrature() {

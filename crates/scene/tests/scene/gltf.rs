@@ -69,7 +69,8 @@ fn check_frames(mesh: &Mesh) {
     }
 }
 
-/// As exports of mirrored parts have them. The scene is the one of the file whose triangles are all wound right, and its author is told.
+/// Exports of mirrored parts have such triangles. The scene is the one of the file whose triangles are all wound right, and its author
+/// is told.
 #[test]
 fn triangles_wound_against_their_normals_face_the_way_of_the_normals() {
     let tetrahedron = [
@@ -698,7 +699,7 @@ fn flaw(bytes: &[u8]) -> String {
     format!("{}; {}", error.found(), error.right())
 }
 
-/// What the specification allows and few files have, and what files lack that nothing needs.
+/// The files have what the specification allows and few have, or lack what nothing needs.
 #[test]
 fn unusual_files_are_read() {
     let (corners, triangles) = common::cube();
@@ -1020,7 +1021,7 @@ fn a_shape_has_no_axes_of_a_file() {
     }
 }
 
-/// What other programs write, said by its name.
+/// Contents that other programs write are named.
 #[test]
 fn what_cannot_be_read_is_named() {
     let asset = r#""asset":{"version":"2.0"}"#;

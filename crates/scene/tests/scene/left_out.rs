@@ -1,4 +1,4 @@
-//! What is told of models whose files have more than the picture.
+//! Notes on models whose files have more than the picture.
 
 use crate::common::{Glb, cube, scene_with, temporary_dir};
 use hairline_scene::{Description, Scene};

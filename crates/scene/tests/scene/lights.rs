@@ -167,7 +167,7 @@ fn a_disk_on_a_body_is_round() {
 
 /// k W / 2 of a scratch of 3 um at 555 nm.
 const HALF_PHASE: f64 = PI * 3.0 / 0.555;
-/// Of the band.
+/// Standard deviation of the band.
 const STD: f64 = 0.0031;
 const STEPS: usize = 8_000;
 
@@ -189,7 +189,7 @@ fn antiderivative(q: f64) -> f64 {
         * step
 }
 
-/// On one line of the band of a scratch along x.
+/// Integral on one line of the band of a scratch along x.
 fn on_line(wo: DVec3, line: BandLine, disk: &Disk) -> f64 {
     let step = PI / STEPS as f64;
     let at = |i: usize| {

@@ -1,4 +1,4 @@
-//! What surfaces of glTF files look like: where images lie, colours of vertices, what extensions make of a material.
+//! Looks of the surfaces of glTF files: mapping of images, colours of vertices, extensions of materials.
 
 use crate::common::{Glb, scene_with, temporary_dir};
 use glam::{Vec2, Vec4, vec2, vec4};
@@ -299,7 +299,7 @@ fn surfaces_are_cut_out_by_their_alpha() {
     assert_eq!(cutout(blend), Some(expected));
 }
 
-/// From a file that requires the extension to the texels that the program unpacks that packed them.
+/// A file that requires the extension gives the texels that the program unpacks that packed them.
 #[test]
 fn images_of_basis_universal_are_textures() {
     let dir = temporary_dir();

@@ -1,5 +1,5 @@
-//! From files to scenes.
-//! In one program, since each that is linked takes seconds.
+//! Tests of loading files to scenes.
+//! They are one program, since each that is linked takes seconds.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,4 +1,4 @@
-//! Where on an object scratches lie, and how thickly: masks, densities, edges, radii.
+//! Places of an object where scratches lie, and their density: masks, densities, edges, radii.
 
 use std::path::Path;
 

@@ -63,7 +63,7 @@ fn corners(object: &Object, triangle: u32) -> [DVec3; 3] {
     mesh.triangles[triangle as usize].map(|v| mesh.positions_m[v as usize].as_dvec3())
 }
 
-/// By how much a point lies out of a triangle, in its plane or off it.
+/// Distance of a point from a triangle, in its plane or off it.
 fn off_triangle_m([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
     let normal = (b - a).cross(c - a).normalize();
     let off_edge =
@@ -74,7 +74,7 @@ fn off_triangle_m([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
         .fold((point - a).dot(normal).abs(), f64::max)
 }
 
-/// What holds for every scratch on every surface.
+/// Checks the properties of every scratch on every surface.
 fn check_invariants(object: &Object, what: &str) {
     let mut next = 0;
     for scratch in object.scratches.iter() {

@@ -7,7 +7,7 @@ pub const LEVEL_ROUGHNESS: [f64; LEVELS] = [
 ];
 pub(super) const LEVELS: usize = 12;
 
-/// How many times a level is half as wide and high as the first one: texels are about as wide as their level's lobe, or narrower.
+/// Number of times that a level's width and height are halved from the first one's: texels are about as wide as their level's lobe, or narrower.
 pub const LEVEL_HALVINGS: [usize; LEVELS] = [0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6];
 
 /// Width and height of level 0; powers of two.
@@ -17,7 +17,7 @@ pub(crate) const LEVEL_0_SIZE_PX: [u32; 2] = [2048, 1024];
 /// halvings: smooth levels have many texels, and tails that are dim. Texels of the finest map are a quarter of the level's, where there are any.
 pub(super) const FINEST: [usize; 7] = [0, 0, 0, 1, 2, 3, 4];
 pub(super) const REACH_TEXELS: [f64; 7] = [0.0, 5.0, 6.0, 12.0, 16.0, 16.0, 16.0];
-/// From there on it fades, and the next map takes over, up to so many times as far.
+/// Factor on the reach of a map over which it fades, and the next map takes over.
 pub(super) const FADE: f64 = 1.5;
 /// The coarsest map.
 pub(super) const COARSEST: usize = 5;

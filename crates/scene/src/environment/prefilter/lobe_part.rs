@@ -14,10 +14,10 @@ use crate::environment::resample::row_solid_angle;
 /// The reflection lobe of GGX for somebody who looks along the normal, as far as one map is to be looked at for it.
 pub(super) struct LobePart {
     alpha: f64,
-    /// Where it begins, from nothing at the first angle, and where it ends, with nothing at the second.
+    /// Angles from the lobe's middle over which the part begins and over which it ends.
     begin_rad: Option<[f64; 2]>,
     end_rad: Option<[f64; 2]>,
-    /// Of the map.
+    /// Angle of a texel of the map.
     texel_rad: f64,
 }
 
@@ -37,13 +37,13 @@ impl LobePart {
         }
     }
 
-    /// How far from its middle it ends.
+    /// Largest angle of the part from the lobe's middle.
     fn reach_rad(&self) -> f64 {
         self.end_rad
             .map_or(FRAC_PI_2, |[_, end]| end.min(FRAC_PI_2))
     }
 
-    /// Its density where the sine of half the angle from its middle has that square; but for a factor.
+    /// Relative density of the part at an angle from the lobe's middle, given the squared sine of half of it.
     fn density(&self, half_sine2: f64) -> f64 {
         let angle_rad = 2.0 * half_sine2.sqrt().min(1.0).asin();
         let fade = |range: Option<[f64; 2]>| {
@@ -87,7 +87,7 @@ impl LobePart {
 /// A row of texels that is made and one that is looked at.
 struct Pair<'a> {
     lobe: &'a LobePart,
-    /// Of the row that is made, from the map's top.
+    /// Polar angle of the row that is made, from the map's top.
     middle_rad: f64,
     rows: Rows,
     /// Both ways: a map is twice as wide as high.
@@ -95,9 +95,9 @@ struct Pair<'a> {
     texel_solid_angle: f64,
 }
 
-/// How two rows lie to each other.
+/// Positions of two rows relative to each other.
 struct Rows {
-    /// Of the one that is looked at, from the map's top.
+    /// Polar angle of the row that is looked at, from the map's top.
     polar_rad: f64,
     /// The square of the sine of half the angle between them.
     apart: f64,
@@ -121,7 +121,8 @@ impl Rows {
 }
 
 impl Pair<'_> {
-    /// How far to either side the lobe may reach into the row. None if it does not.
+    /// Returns the longitude up to which the lobe may reach into the row on either side. None if it does not reach
+    /// it.
     fn turn_rad(&self) -> Option<f64> {
         // By half a texel more.
         let reach_rad = (self.lobe.reach_rad() + self.texel_rad).min(PI);
@@ -134,7 +135,8 @@ impl Pair<'_> {
     }
 }
 
-/// What the texels of a row at `v` take from each row of a map that has `stride` texels for one of theirs.
+/// Weights with which the texels of a row at `v` take from each row of a map that has `stride` texels for one of
+/// theirs.
 pub(super) fn row_taps(
     [width, height]: [usize; 2],
     lobe: &LobePart,

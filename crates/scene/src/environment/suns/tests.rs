@@ -24,12 +24,13 @@ fn with_disc(toward: DVec3, radius_rad: f64, radiance: f64) -> Picture {
     })
 }
 
-/// What it sends in all, red.
+/// Flux of the sun in red.
 fn flux(sun: &Sun) -> f64 {
     sun.radiance[0] * TAU * (1.0 - sun.radius_rad.cos())
 }
 
-/// Its place, size and radiance, also at the poles and across the seam; and what is left of the map is what was around it.
+/// A disc is found with its place, size and radiance, also at the poles and across the seam; the rest of the map is what was
+/// around it.
 #[test]
 fn a_disc_is_found_as_it_is() {
     for toward in [
@@ -68,7 +69,7 @@ fn radiance_of(map: &Picture, i: usize) -> f64 {
     f64::from(map.rgb[i][0])
 }
 
-/// What is large or weak stays in the map, and so does what shines no brighter than the rest.
+/// Large or weak lamps stay in the map, and so do those no brighter than the rest.
 #[test]
 fn lamps_that_are_large_or_weak_are_no_suns() {
     let toward = DVec3::new(0.3, 0.5, -0.8).normalize();
@@ -156,7 +157,7 @@ fn windows_are_no_suns() {
     }
 }
 
-/// The same suns however many threads look for them.
+/// The same suns are found however many threads look for them.
 #[test]
 fn equals_are_told_apart_by_their_place() {
     let toward = [DVec3::X, DVec3::NEG_X, DVec3::Y];

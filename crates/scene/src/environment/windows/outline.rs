@@ -9,13 +9,14 @@ use crate::light::Light;
 /// A part of the sky of even radiance.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Window {
-    /// In the map's frame.
+    /// Outline in the map's frame.
     pub outline: Outline,
-    /// Beyond what is left in the map, in texel units.
+    /// Radiance beyond what is left in the map, in texel units.
     pub radiance: [f64; 3],
-    /// Of the map around it.
+    /// Radiance of the map around it.
     pub around: [f64; 3],
-    /// Over which the map falls where the outline ends: lenses blur it, and some lamps fade out.
+    /// Angle over which the map falls where the outline ends: lenses blur it, and some lamps fade
+    /// out.
     pub edge_rad: f64,
 }
 
@@ -26,7 +27,7 @@ pub(crate) enum Outline {
     Disc {
         /// Unit vector.
         direction: DVec3,
-        /// As it is seen, from its middle to its rim.
+        /// Angular radius of the disc.
         radius_rad: f64,
     },
     /// Convex; within a hemisphere.
@@ -37,7 +38,8 @@ pub(crate) enum Outline {
 }
 
 impl Outline {
-    /// How much of a texel of a width lies within, by the direction of its middle: or of a soft edge.
+    /// Returns the share of a texel of this angle that lies within the outline, by the direction of
+    /// its middle; a wider angle makes a soft edge.
     pub(crate) fn measure(&self, texel_rad: f64) -> impl Fn(DVec3) -> f64 + Sync + use<> {
         let step = move |inside_rad: f64| (0.5 + inside_rad / texel_rad).clamp(0.0, 1.0);
         let rim = self.rim();
@@ -47,7 +49,7 @@ impl Outline {
         }
     }
 
-    /// How far within a direction lies, from the nearest edge; below zero outside.
+    /// Returns the angle of a direction from the nearest edge, positive within the outline.
     pub(crate) fn inside_rad(&self) -> impl Fn(DVec3) -> f64 + Sync + use<> {
         let rim = self.rim();
         move |toward: DVec3| rim.inside_rad(toward)
@@ -76,7 +78,7 @@ impl Outline {
         }
     }
 
-    /// Its middle.
+    /// Direction of the outline's middle.
     pub(crate) fn middle(&self) -> DVec3 {
         match self {
             Self::Disc { direction, .. } => *direction,
@@ -84,7 +86,7 @@ impl Outline {
         }
     }
 
-    /// As a light so far away that it stands in one direction for all of a scene.
+    /// Makes a light so far away that it stands in one direction for all of a scene.
     pub(crate) fn light(&self, distance_m: f64, radiance: [f64; 3]) -> Light {
         match self {
             Self::Disc {
@@ -105,7 +107,7 @@ impl Outline {
         }
     }
 
-    /// The same, turned.
+    /// Turns the outline.
     pub(crate) fn turned(&self, turn: impl Fn(DVec3) -> DVec3) -> Self {
         match self {
             Self::Disc {
@@ -122,7 +124,7 @@ impl Outline {
     }
 }
 
-/// Where an outline ends.
+/// Border of an outline.
 enum Rim {
     Circle {
         direction: DVec3,
@@ -133,7 +135,7 @@ enum Rim {
 }
 
 impl Rim {
-    /// How far within a direction lies, from the nearest edge; below zero outside.
+    /// Returns the angle of a direction from the nearest edge, positive within the outline.
     fn inside_rad(&self, toward: DVec3) -> f64 {
         match self {
             Self::Circle {

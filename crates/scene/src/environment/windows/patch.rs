@@ -14,7 +14,7 @@ use super::outline::{Outline, Window};
 pub(super) struct Patch {
     directions: Vec<DVec3>,
     solid_angles: Vec<f64>,
-    /// Beyond the surroundings.
+    /// Radiances of the texels above the surroundings.
     radiances: Vec<DVec3>,
     flat: Vec<f64>,
     /// Texels of the region: the first ones.
@@ -38,7 +38,7 @@ const EDGE_TEXELS: [f64; 6] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0];
 const QUAD_BETTER: f64 = 1.01;
 
 impl Patch {
-    /// Of `radiances`, the first are the `region`'s, and those of `around` the surroundings'.
+    /// Makes a patch. The first of `radiances` are the `region`'s, and those of `around` the surroundings'.
     pub(super) fn new(
         directions: Vec<DVec3>,
         solid_angles: Vec<f64>,
@@ -68,7 +68,7 @@ impl Patch {
         }
     }
 
-    /// What is left of it without a window.
+    /// Subtracts a window from the patch.
     pub(super) fn take_out(&mut self, window: &Window) {
         let covers = window.outline.measure(window.edge_rad);
         let radiance_of_it = DVec3::from(window.radiance);
@@ -90,7 +90,7 @@ impl Patch {
         (squares, light)
     }
 
-    /// By how much squares fall.
+    /// Decrease of the squared error by an outline.
     fn gain(&self, outline: &Outline) -> f64 {
         self.soft_gain(outline, self.texel_rad)
     }
@@ -100,7 +100,7 @@ impl Patch {
         light.powi(2) / squares.max(1e-12)
     }
 
-    /// How soft an outline is: a texel, or up to some of them.
+    /// Returns the best angle for the soft edge of an outline, one texel to some of them.
     pub(super) fn edge_rad(&self, outline: &Outline) -> f64 {
         let edges = EDGE_TEXELS.map(|texels| texels * self.texel_rad);
         let gain = |edge_rad: &f64| self.soft_gain(outline, *edge_rad);
@@ -108,7 +108,8 @@ impl Patch {
         best.unwrap_or(self.texel_rad)
     }
 
-    /// How much of the squares of the region, and of what it covers beside that, an outline tells: 1 if the region has its shape.
+    /// Returns the share of the squared flatness, over the region and what the outline covers besides, that the outline explains: 1 if the
+    /// region has its shape.
     pub(super) fn evenness(&self, outline: &Outline) -> f64 {
         let covers = outline.measure(self.texel_rad);
         let (squares, light) = self.sums(outline, self.texel_rad);
@@ -124,7 +125,7 @@ impl Patch {
         1.0 - left / all.max(1e-12)
     }
 
-    /// By how much an outline of so wide an edge is brighter than the surroundings where it ends.
+    /// Radiance of an outline with an edge of this angle above the surroundings, where it ends.
     pub(super) fn step(&self, outline: &Outline, edge_rad: f64) -> DVec3 {
         let covers = outline.measure(edge_rad);
         let near = outline.measure(edge_rad + RIM_TEXELS * self.texel_rad);
@@ -160,7 +161,7 @@ impl Mean {
     }
 }
 
-/// What a share of the values is less than; 0 of none.
+/// Value below which a share of the values lies; 0 if there are none.
 fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
     if values.is_empty() {
         return 0.0;
@@ -279,7 +280,7 @@ fn best_quad(
     Some((outline(&best), gain))
 }
 
-/// Which corners may move, and where to: one along an axis, or two across the edge between them.
+/// Returns the moves of corners that are tried: one along an axis, or two across the edge between them.
 fn moves(corners: &[DVec2; 4]) -> impl Iterator<Item = (usize, usize, DVec2)> + use<> {
     let across: [DVec2; 4] = std::array::from_fn(|i| {
         let edge = corners[(i + 1) % 4] - corners[i];

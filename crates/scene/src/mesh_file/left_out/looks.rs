@@ -1,14 +1,14 @@
-//! What of the images of a glTF file's materials lies otherwise on the surface than the file says.
+//! Images of a glTF file's materials that lie on the surface otherwise than the file says.
 
 use gltf::json::Value;
 
 use crate::mesh_file::uv::{self, Way};
 use crate::mesh_file::{anisotropy, coat, spec_gloss, specular};
 
-/// What is left out, how often, and what that means.
+/// Contents that are left out, the number of times, and the effect.
 pub(super) type Told = (&'static str, usize, &'static str);
 
-/// Of a material of a file.
+/// Contents of a material that are left out.
 pub(super) fn of_material(root: &Value, material: &Value) -> Vec<Told> {
     let meaning = "a third way to place images on one surface; they lie as the first one";
     // A vertex has places for two.
@@ -26,7 +26,7 @@ pub(super) fn of_material(root: &Value, material: &Value) -> Vec<Told> {
     told
 }
 
-/// Of the directions of a primitive, which its file does not give: they are those of the texture coordinates of one image.
+/// Directions of a primitive that its file does not give and that follow the texture coordinates of another image.
 pub(super) fn of_primitive(root: &Value, primitive: &Value) -> Vec<Told> {
     let has = |name: &str| {
         let attributes = primitive.get("attributes");
@@ -113,7 +113,7 @@ fn is_positive(number: Option<&Value>) -> bool {
     number.and_then(Value::as_f64).is_some_and(|x| x > 0.0)
 }
 
-/// How a texture repeats, and whether its texels are sharp.
+/// Repetition of a texture, and whether its texels are sharp.
 fn sampler(root: &Value, texture: &Value) -> ([u64; 2], bool) {
     let element = |list: &str, index: Option<&Value>| {
         let index = usize::try_from(index?.as_u64()?).ok()?;

@@ -6,11 +6,11 @@ use crate::mesh_file::extensions::Scope;
 
 /// An element: an object of the file.
 struct Element {
-    /// What messages call it.
+    /// Name of the element in messages.
     name: &'static str,
-    /// Its properties that are values.
+    /// Names of its properties that are values.
     values: &'static [&'static str],
-    /// Its properties that are elements, or lists of them.
+    /// Names of its properties that are elements, or lists of them.
     parts: &'static [(&'static str, &'static Element)],
 }
 
@@ -51,7 +51,7 @@ fn members(value: &Value) -> impl Iterator<Item = (&str, &Value)> {
     members.map(|(name, value)| (name.as_str(), value))
 }
 
-/// What every element may have. `extras` are an application's own, of any form.
+/// Properties that every element may have. `extras` are an application's own, of any form.
 const EVERYWHERE: [&str; 2] = ["name", "extras"];
 
 const FILE: Element = Element {

@@ -2,7 +2,7 @@
 //! KHR_meshopt_compression, whose version 0 is all of EXT_meshopt_compression. The crate meshopt-rs has no version 1, and of
 //! version 0 only elements whose length is a constant.
 
-/// How a stream of either version begins.
+/// First bytes of a stream of either version.
 const VERSIONS: [u8; 2] = [0xa0, 0xa1];
 /// The elements of a group.
 const GROUP: usize = 16;
@@ -71,12 +71,12 @@ pub(super) fn unpacked(packed: &[u8], count: usize, stride: usize) -> Result<Vec
     }
 }
 
-/// How four bytes differ from those of the element before.
+/// Coding of the difference of four bytes to those of the element before.
 #[derive(Clone, Copy)]
 enum Way {
     Bytes,
     Pairs,
-    /// In bits, which are turned by so many.
+    /// Bits, rotated by this count.
     Bits(u32),
 }
 
@@ -114,7 +114,7 @@ impl Way {
     }
 }
 
-/// What of the packed bytes is not read yet.
+/// Packed bytes that are not read yet.
 struct Stream<'p>(&'p [u8]);
 
 impl<'p> Stream<'p> {
