@@ -1,4 +1,5 @@
-//! How laying scratches and building what finds them grows with their number: time, cores at work, and memory.
+//! Growth of the laying of scratches, and of building the trees that find them, with their number: time, cores at work, and
+//! memory.
 //!
 //! `cargo bench -p hairline-index --bench growth` prints a table; numbers behind `--` are other counts than 10,000, 100,000 and
 //! 1,000,000. No statistics crate: each step takes seconds, and what is asked is how it grows.
@@ -51,14 +52,14 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// What a step took.
+/// Cost of a step.
 #[derive(Clone, Copy)]
 struct Step {
     wall: Duration,
     cpu: Duration,
     /// The most that was taken at any time, all that was there before included.
     peak_bytes: usize,
-    /// What is left of it when it is done.
+    /// Memory that is left of the step when it is done.
     kept_bytes: usize,
 }
 
@@ -76,7 +77,7 @@ fn step<T>(work: impl FnOnce() -> T) -> (T, Step) {
     (made, step)
 }
 
-/// Of all threads, where the system tells.
+/// Time of all threads, where the system tells it.
 fn cpu_time() -> Duration {
     // Fields 14 and 15 in hundredths of a second; the second one, a name in brackets, may hold spaces.
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
@@ -93,7 +94,7 @@ const RUNS: usize = 3;
 struct Row {
     count: u64,
     segments: usize,
-    /// As they are in [`STEPS`].
+    /// Costs in the order of [`STEPS`].
     steps: Vec<Step>,
 }
 

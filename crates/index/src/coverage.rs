@@ -1,17 +1,17 @@
-//! Which of the surfaces that cover a part of what lies behind them a ray meets: of many rays, that part. E. Enderton et al., "Stochastic
-//! Transparency", 2010. Twin: gpu/shaders/scene/coverage.wgsl.
+//! Chooses which of the surfaces that cover a part of what lies behind them a ray meets: over many rays, the share is that part. E.
+//! Enderton et al., "Stochastic Transparency", 2010. Twin: gpu/shaders/scene/coverage.wgsl.
 
 use glam::DVec3;
 use hairline_optics::word_hash::word_hash;
 
-/// By what a ray decides whether it meets such a surface or goes on through it.
+/// Rule by which a ray meets such a surface or goes on through it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// It meets each that covers anything at all.
+    /// The ray meets each surface that covers anything at all.
     Any,
-    /// It meets those of one object, and goes through all others.
+    /// The ray meets those of one object, and goes through all others.
     Only(u32),
-    /// It meets each by chance, with the probability of its alpha.
+    /// The ray meets each by chance, with the probability of its alpha.
     Drawn {
         /// Other numbers for each.
         key: u32,
@@ -21,7 +21,7 @@ pub enum Coverage {
 }
 
 impl Coverage {
-    /// Of one of many samples of a pixel: together they meet a surface as often as its alpha says, within one of them.
+    /// Coverage of one of many samples of a pixel: together they meet a surface as often as its alpha says, within one of them.
     pub fn of_sample([x, y]: [u32; 2], sample: u32) -> Self {
         Self::Drawn {
             key: word_hash(x ^ word_hash(y)),
@@ -29,7 +29,7 @@ impl Coverage {
         }
     }
 
-    /// Of a ray that is drawn by chance itself.
+    /// Coverage of a ray that is drawn by chance itself.
     pub(crate) fn of_ray(origin_m: DVec3, direction: DVec3) -> Self {
         let words = [origin_m, direction].map(|v| v.to_array()).concat();
         let mixed = words.iter().fold(0, |key, &word| {

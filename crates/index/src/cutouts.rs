@@ -1,4 +1,4 @@
-//! Where surfaces are not: rays go on through what is cut out of a triangle, or covers only a part of what lies behind.
+//! Cutouts: rays go on through the parts that are cut out of a triangle, or cover only a share of what lies behind.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use hairline_scene::{AlphaRule, Cutout, Material, Mesh, Scene, Texture};
 use crate::coverage::Coverage;
 use crate::hit::Hit;
 
-/// What tells whether a surface is there, for scenes in which something is cut out.
+/// Materials and textures that tell whether a surface is there, for scenes in which something is cut out.
 pub(crate) struct Cutouts {
     meshes: Vec<Arc<Mesh>>,
     /// The first triangle of each object, among those of all.

@@ -1,4 +1,4 @@
-//! How alike the phase steps of an object's scratches are (docs/model.md, section 3), for millions of them.
+//! Coherence of the phase steps of an object's scratches (docs/model.md, section 3), for millions of them.
 
 use hairline_optics::mask::depth_coherence;
 use hairline_scene::{Object, Scratch};
@@ -8,7 +8,7 @@ use rayon::prelude::*;
 /// most and, since deeper and shallower ones even out, what comes of it by some millionths.
 const BINS: usize = 1 << 14;
 
-/// By area: a scratch counts by its width times its length.
+/// Computes the coherence by area: a scratch counts by its width times its length.
 pub(crate) fn object_coherence(object: &Object) -> f32 {
     let deepest = object.scratches.iter().map(|s| s.profile.depth_nm);
     let deepest = deepest.fold(0.0_f32, f32::max);

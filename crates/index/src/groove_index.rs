@@ -14,7 +14,7 @@ pub struct Groove {
     pub end_m: Vec3,
     /// The surface's unit normal.
     pub normal: Vec3,
-    /// What the scratch's groove is.
+    /// Profile of the scratch's groove.
     pub profile: Profile,
     /// Length of the scratch before `start_m`; infinite for a closed ring.
     pub before_um: f32,

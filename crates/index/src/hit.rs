@@ -1,6 +1,6 @@
 //! A point of a surface on a ray.
 
-/// Where a ray meets a surface.
+/// Intersection of a ray with a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Index into [`Scene::objects`](hairline_scene::Scene::objects).

@@ -1,4 +1,4 @@
-//! What the closed form knows of a straight piece of a scratch.
+//! A straight piece of a scratch with the properties that the closed form needs.
 
 use crate::segment_tree::Straight;
 use glam::Vec3;
@@ -13,7 +13,7 @@ pub struct IndexedSegment {
     pub end_m: Vec3,
     /// The surface's unit normal.
     pub normal: Vec3,
-    /// What the scratch's groove is.
+    /// Profile of the scratch's groove.
     pub profile: Profile,
     /// Standard deviation that smooths the ends; one for the whole scratch, so that joined ends cancel.
     pub blur_um: f32,

@@ -90,7 +90,7 @@ impl<'a> LayerRun<'a> {
         }
     }
 
-    /// How many straight pieces it has.
+    /// Number of its straight pieces.
     pub(crate) fn piece_count(&self) -> usize {
         self.scratches.iter().map(|s| s.segments.len()).sum()
     }
@@ -99,7 +99,7 @@ impl<'a> LayerRun<'a> {
         &self.object.segments[scratch.segments.start as usize..scratch.segments.end as usize]
     }
 
-    /// Of the material under the scratch's beginning.
+    /// Coherence length of the material under the scratch's beginning.
     fn coherence_um(&self, scratch: &Scratch) -> Option<f64> {
         let first = self.pieces(scratch).first()?;
         let material = self.object.mesh.triangle_materials[first.triangle as usize];

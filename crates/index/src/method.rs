@@ -1,19 +1,19 @@
-//! By which method scratches are rendered: Hairline's own, or the method of 2018 with its switches ([`hairline_optics::published`]).
+//! The method by which scratches are rendered: Hairline's own, or the method of 2018 with its switches ([`hairline_optics::published`]).
 
 use hairline_optics::mask::Mask;
 use hairline_optics::published::sine_integral::SineIntegral;
 
-/// By which method scratches are rendered.
+/// The method by which scratches are rendered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Method {
     /// The method of 2018 with its switches; `None` is Hairline's own.
     pub published: Option<PublishedMethod>,
-    /// What the base pays.
+    /// Energy that the base loses to the scratches.
     pub mask: Mask,
 }
 
 impl Method {
-    /// As published: BVH, anti-aliasing, the fast sine integral, the density mask.
+    /// The published method: BVH, anti-aliasing, the fast sine integral, the density mask.
     pub const PUBLISHED: Self = Self {
         published: Some(PublishedMethod::DEFAULT),
         mask: Mask::Density,
@@ -25,11 +25,11 @@ impl Method {
 /// middle line of the band, and the pivot transform for spheres on the base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct PublishedMethod {
-    /// How the scratches under a pixel are found.
+    /// Structure that finds the scratches under a pixel.
     pub structure: Structure,
     /// Whether a pixel averages over its footprint; otherwise it is the point in its middle.
     pub anti_aliasing: bool,
-    /// Which sine integral.
+    /// Sine integral that is evaluated.
     pub si: SineIntegral,
 }
 
@@ -47,13 +47,13 @@ impl Default for PublishedMethod {
     }
 }
 
-/// How the published method finds the scratches under a pixel.
+/// Structure by which the published method finds the scratches under a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Structure {
-    /// By a traversal of the bounding volume hierarchy.
+    /// A bounding volume hierarchy.
     #[default]
     Bvh,
-    /// By a list for each triangle, of all scratches within the coherence window's reach of it. A footprint reaches further, so
-    /// this is only for pictures without anti-aliasing.
+    /// A list for each triangle, of all scratches within the coherence window's reach of it. A footprint reaches further, so this is
+    /// only for pictures without anti-aliasing.
     TriangleLists,
 }

@@ -14,11 +14,11 @@ use std::ops::Range;
 /// leaves alone are grown once.
 #[derive(Clone, Debug)]
 pub struct ScratchIndex {
-    /// What lies where.
+    /// Trees of the pieces, with their places.
     pub tree: SegmentTree<IndexedSegment>,
-    /// How alike the phase steps of each object's scratches are (docs/model.md, section 3).
+    /// Coherence of the phase steps of each object's scratches (docs/model.md, section 3).
     pub depth_coherence: Vec<f32>,
-    /// For each object the largest coherence length of its materials.
+    /// Largest coherence length of the materials of each object.
     coherence_max_um: Vec<f32>,
 }
 
@@ -39,7 +39,7 @@ impl ScratchIndex {
             .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
-    /// The same while another watches, and with the trees of an earlier scene for those layers that lie as they lay there. `None` if
+    /// Builds the index while a watch listens, reusing the trees of an earlier scene for those layers that did not change. `None` if
     /// it was cancelled.
     ///
     /// # Panics
@@ -77,12 +77,12 @@ impl ScratchIndex {
         self.tree.segment_range(object)
     }
 
-    /// For each object the largest coherence length of its materials: no point of it sees further along a surface.
+    /// Largest coherence length of the materials of each object: no point of it sees further along a surface.
     pub fn coherence_max_um(&self) -> &[f32] {
         &self.coherence_max_um
     }
 
-    /// How alike the phase steps of each object's scratches are, without the trees.
+    /// Coherence of the phase steps of each object's scratches, without the trees.
     pub fn depth_coherence(scene: &Scene) -> Vec<f32> {
         scene.objects.iter().map(object_coherence).collect()
     }
@@ -105,7 +105,7 @@ impl ScratchIndex {
     }
 }
 
-/// For the layers on each object the trees that they have already, or what to grow them over.
+/// Trees for the layers on each object: those that exist, or the segments to grow them over.
 fn plots<'a>(
     scene: &'a Scene,
     last: Option<(&Scene, &ScratchIndex)>,

@@ -9,8 +9,8 @@ use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::PlocBuilder;
 use obvhs::{Boundable, BvhBuildParams};
 
-/// By how much of its own size a box is moved at most while it looks for a partner: more makes worse trees of even rows, less is
-/// lost in rounding.
+/// Largest movement of a box, over its own size, while it looks for a partner: more makes worse trees of even rows, less is lost in
+/// rounding.
 const LARGEST_MOVE: f32 = 1e-4;
 
 /// The tree over `boxes`, in which each lies as it is.

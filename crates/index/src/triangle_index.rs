@@ -40,7 +40,7 @@ impl TriangleIndex {
         Self::of(scene, |_| true)
     }
 
-    /// Without the shapes of lights: what light meets on its way.
+    /// Builds the index without the shapes of lights, for rays of light.
     pub fn without_lamps(scene: &Scene) -> Self {
         Self::of(scene, |object| !object.is_lamp)
     }
@@ -94,7 +94,7 @@ impl TriangleIndex {
         cutouts.is_some_and(|it| it.is_partial(hit))
     }
 
-    /// That of a ray that is drawn by chance.
+    /// Coverage of a ray that is drawn by chance.
     fn by_ray(&self, origin: DVec3, direction: DVec3) -> Coverage {
         match self.cutouts {
             Some(_) => Coverage::of_ray(origin, direction),
@@ -162,7 +162,7 @@ impl TriangleIndex {
         self.intersect_covered(origin, direction, Coverage::Any)
     }
 
-    /// The same; of surfaces that cover a part of what lies behind them, those that `coverage` says.
+    /// [`Self::intersect`] with a rule for surfaces that cover a part of what lies behind them.
     pub fn intersect_covered(
         &self,
         origin: DVec3,
@@ -174,7 +174,7 @@ impl TriangleIndex {
         })
     }
 
-    /// The same of one of many rays that are drawn by chance: it meets such surfaces as often as their alpha says.
+    /// [`Self::intersect`] for one of many rays that are drawn by chance: it meets such surfaces as often as their alpha says.
     pub fn intersect_drawn(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
         let coverage = self.by_ray(origin, direction);
         self.intersect_covered(origin, direction, coverage)

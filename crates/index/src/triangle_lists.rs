@@ -1,6 +1,8 @@
-//! For each triangle the segments that any of its points can see without a footprint: the per-triangle arrays of Z. Velinov,
-//! S. Werner and M. Hullin, *Real-Time Rendering of Wave-Optical Effects on Scratched Surfaces* (2018), reached from the visibility
-//! buffer without a walk. Scratches of neighbouring triangles within the coherence window are in a list too.
+//! Lists, for each triangle, of the segments that any of its points can see without a footprint: the per-triangle arrays of Z.
+//! Velinov, S. Werner and M. Hullin, *Real-Time Rendering of Wave-Optical Effects on Scratched Surfaces* (2018), reached from the
+//! visibility buffer without a walk. Velinov, S. Werner and M. Hullin, *Real-Time Rendering of Wave-Optical Effects on Scratched
+//! Surfaces* (2018), reached from the visibility buffer without a walk. Scratches of neighbouring triangles within the coherence
+//! window are in a list too.
 //!
 //! A footprint reaches further than the window, so lists serve points without one only.
 
@@ -13,8 +15,8 @@ use rayon::prelude::*;
 /// The segments of each triangle. An entry costs 4 bytes, and a triangle 4 more.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TriangleLists {
-    /// Where each triangle's list starts in `segments`, and where the last one ends. Triangles are counted over the whole
-    /// scene, object by object.
+    /// Start of each triangle's list in `segments`, and the end of the last one. Triangles are counted over the whole scene, object
+    /// by object.
     pub starts: Vec<u32>,
     /// Indices into the segments of [`ScratchIndex::tree`], ascending within a list.
     pub segments: Vec<u32>,
@@ -36,7 +38,7 @@ impl TriangleLists {
         Self::within(REACH_STD as f64, scene, index)
     }
 
-    /// For points that see as far as `reach_std` standard deviations of what blurs a scratch.
+    /// Builds the lists for points that see as far as `reach_std` standard deviations of the blur of a scratch.
     fn within(reach_std: f64, scene: &Scene, index: &ScratchIndex) -> Self {
         let mut lists = Self {
             starts: vec![0],

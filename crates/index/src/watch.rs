@@ -3,9 +3,9 @@
 /// Who is told how far work has come, and may end it. Both are asked from any thread.
 #[derive(Clone, Copy)]
 pub struct Watch<'a> {
-    /// Is told the share that is done, from 0 to 1.
+    /// Callback for the share that is done, from 0 to 1.
     pub progress: &'a (dyn Fn(f64) + Sync),
-    /// Is asked now and then whether to give up.
+    /// Callback that tells whether to give up.
     pub cancelled: &'a (dyn Fn() -> bool + Sync),
 }
 

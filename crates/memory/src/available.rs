@@ -1,9 +1,9 @@
-//! How much memory the process may still have: the least that the machine, the limits of the process and its control groups leave.
+//! Memory that the process may still have: the least that the machine, the limits of the process and its control groups leave.
 
 use std::fs;
 use std::path::Path;
 
-/// What the process may still have, in bytes; `None` where the system does not tell: it does on Linux and in a browser.
+/// Memory that the process may still have, in bytes; `None` where the system does not tell: it does on Linux and in a browser.
 pub fn available_bytes() -> Option<u64> {
     let free = field_bytes("/proc/meminfo", "MemAvailable:");
     let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
@@ -11,7 +11,7 @@ pub fn available_bytes() -> Option<u64> {
     [free, left_of_limits(), group].into_iter().flatten().min()
 }
 
-/// What the limits of the process leave (`ulimit -v` and `-d`).
+/// Memory that the limits of the process leave (`ulimit -v` and `-d`).
 #[cfg(target_os = "linux")]
 fn left_of_limits() -> Option<u64> {
     use rustix::process::{Resource, getrlimit};
@@ -50,7 +50,7 @@ fn field_bytes(table: &str, name: &str) -> Option<u64> {
 struct Version {
     limit: &'static str,
     used: &'static str,
-    /// In memory.stat: copies of files, which the system gives up when memory is wanted.
+    /// Key in memory.stat of copies of files, which the system gives up when memory is wanted.
     cache: &'static str,
 }
 

@@ -1,4 +1,4 @@
-//! How much memory the process may have, and what the whole program keeps of each thing in a scene ([`costs`]).
+//! Memory that the process may have, and the costs of each thing in a scene over the whole program ([`costs`]).
 //!
 //! ```
 //! use hairline_memory::{budget_bytes, costs, in_words};

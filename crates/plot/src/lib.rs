@@ -7,7 +7,7 @@ use plotters::prelude::*;
 
 /// Contrast of about four on white and of five on black.
 const GREY: RGBColor = RGBColor(128, 128, 128);
-/// The same for each: bright enough for black, dark enough for white.
+/// Colours of the lines: bright enough for black, dark enough for white.
 const COLORS: [RGBColor; 4] = [
     RGBColor(38, 132, 226),
     RGBColor(222, 108, 36),
@@ -20,7 +20,7 @@ const DECADES_MAX: f64 = 5.0;
 
 /// One axis.
 pub struct Axis<'a> {
-    /// What it shows, with its unit.
+    /// Name of the quantity, with its unit.
     pub name: &'a str,
     /// Whether places are logarithms.
     pub log: bool,
@@ -28,7 +28,7 @@ pub struct Axis<'a> {
 
 /// One line.
 pub struct Series {
-    /// In the legend.
+    /// Name in the legend.
     pub name: String,
     /// x, y and y's standard error.
     pub points: Vec<[f64; 3]>,
@@ -52,7 +52,7 @@ impl Series {
         }
     }
 
-    /// The same, dashed.
+    /// Makes the line dashed.
     pub fn dashed(self) -> Self {
         Self {
             dashed: true,
@@ -60,7 +60,7 @@ impl Series {
         }
     }
 
-    /// The same, without marks.
+    /// Leaves out the marks.
     pub fn plain(self) -> Self {
         Self {
             plain: true,
@@ -162,7 +162,7 @@ fn draw(svg: &mut String, [x, y]: &[Axis; 2], series: &[Series]) -> Drawn {
     Ok(())
 }
 
-/// Where values lie on an axis: themselves, or their logarithms to base ten.
+/// Scale of an axis: the values themselves, or their logarithms to base ten.
 struct Scale {
     log: bool,
     /// The axis's ends, as places.
@@ -195,7 +195,7 @@ impl ValueFormatter<f64> for Scale {
 }
 
 impl Scale {
-    /// With `room` for a legend and for marks at the ends.
+    /// Scale for these values, with `room` for a legend and for marks at the ends.
     fn new(log: bool, room: bool, values: impl Iterator<Item = f64> + Clone) -> Self {
         let usable = values.filter(|v| v.is_finite() && (!log || *v > 0.0));
         let (low, high) = usable

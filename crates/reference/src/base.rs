@@ -15,18 +15,18 @@ use hairline_cpu::surface::SurfacePoint;
 /// The base at a point for its viewer. Directions are unit vectors in the point's local frame.
 #[derive(Clone, Copy)]
 pub(crate) struct BaseLobes<'a> {
-    /// In the frame of what is under the coat.
+    /// Viewer's direction in the frame of the base under the coat.
     wo: DVec3,
-    /// To that frame from the coat's, where it is another one.
+    /// Rotation from the coat's frame to that of the base, where they differ.
     under_coat: Option<DMat3>,
     facets: Facets,
     reflectance: &'a Reflectance,
     ends: Ends,
-    /// What multiple scattering adds to a white surface's light: the bracket of (27) less one, over F0.
+    /// Relative light that multiple scattering adds to a white surface: the bracket of (27) less one, over F0.
     gain: f64,
-    /// What reaches the body, times its albedo.
+    /// Share of the light that reaches the body, times the body's albedo.
     body: DVec3,
-    /// How often the specular lobe is sampled.
+    /// Probability of sampling the specular lobe.
     specular_share: f64,
     coat: Option<CoatLobe<'a>>,
 }
@@ -36,14 +36,14 @@ pub(crate) struct BaseLobes<'a> {
 struct CoatLobe<'a> {
     /// The share of the surface that it covers.
     weight: f64,
-    /// In the coat's own frame.
+    /// Viewer's direction in the coat's own frame.
     wo: DVec3,
     facets: Facets,
     reflectance: &'a Reflectance,
     gain: f64,
-    /// What goes through it.
+    /// Share of the light that passes through the coat.
     passed: DVec3,
-    /// How often its lobe is sampled.
+    /// Probability of sampling the coat's lobe.
     share: f64,
 }
 

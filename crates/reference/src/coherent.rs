@@ -59,7 +59,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// What grooves take from the energy of the base's reflection: 1 - |r|^2.
+    /// Share of the energy of the base's reflection that the grooves take: 1 - |r|^2.
     pub(crate) fn taken(&self) -> DVec3 {
         let shape = self.fresnel.shape(self.wavelengths);
         (0..WAVELENGTHS)
@@ -72,7 +72,7 @@ impl<'a> Field<'a> {
         !self.smooth && self.grooves.is_empty()
     }
 
-    /// For a direction of the surface's frame.
+    /// Evaluates the response in a direction of the surface's frame.
     pub(crate) fn eval(&self, wi: DVec3) -> FieldResponse {
         let wo = self.point.wo;
         let xi = wi.truncate() + wo.truncate();
@@ -234,7 +234,7 @@ impl Band {
     }
 }
 
-/// What [`FieldDirections::sample`] drew.
+/// Result of [`FieldDirections::sample`].
 pub(super) enum Drawn {
     /// A direction of the surface's frame; None if it lies below the horizon.
     Direction(Option<DVec3>),

@@ -12,7 +12,7 @@ use hairline_optics::scratch::oblique_depth_nm;
 use hairline_scene::{GrooveGround, Scene, ScratchTables};
 use spec_math::cephes64::ndtri;
 
-/// Where grooves end, which the window does not see: its amplitude has fallen to 2e-8.
+/// Distance of the grooves' ends in sigma. The window does not see them: its amplitude has fallen to 2e-8.
 const END_SIGMA: f64 = 6.0;
 
 /// A row of grooves from a point.
@@ -23,12 +23,12 @@ pub(super) struct RowView {
     /// `wo` in the frame of its grooves.
     pub wo: DVec3,
     table: usize,
-    /// Where the grooves lie: in [0, 1) of a pitch.
+    /// Random position of the grooves in [0, 1) of a pitch.
     phase: f64,
-    /// Where they lie indeed, if they could be told from one another.
+    /// Actual position of the grooves, if single ones could be told from one another.
     single: Option<GroovesAt>,
     seed: u32,
-    /// Of single grooves at the point, over their mean.
+    /// Density of single grooves at the point, over their mean.
     pub density: f64,
 }
 
@@ -91,7 +91,7 @@ impl RowView {
         None
     }
 
-    /// Its grooves in the window, each off its place by chance or by its number.
+    /// The row's grooves in the window, each displaced by chance or by its number.
     pub(super) fn grooves(
         &self,
         random: Random,
@@ -134,7 +134,8 @@ impl RowView {
         })
     }
 
-    /// What the base's mirror direction loses to it: what it sends of light from all around, as in the closed form.
+    /// Light that the base's mirror direction loses to the row: the energy that the row sends of light from all around, as
+    /// in the closed form.
     pub(super) fn taken(&self, tables: &ScratchTables) -> DVec3 {
         let table = &tables.tables[self.table];
         let cells = row_cells(BandLine::new(self.wo, 0.0));

@@ -10,7 +10,8 @@ use hairline_optics::footprint::ScratchShare;
 use spec_math::cephes64::erf;
 use std::f64::consts::{PI, SQRT_2};
 
-/// How far grooves matter, in units of sigma. The window's energy falls as exp(-p^2/sigma^2): 7e-7 of it lies beyond 3.5.
+/// Distance within which grooves matter, in sigma. The window's energy falls as exp(-p^2/sigma^2): 7e-7 of it lies beyond
+/// 3.5.
 pub(super) const REACH_OF_ENERGY: f64 = 3.5;
 /// The window's amplitude, by which interference goes, has fallen to 4e-6 here.
 pub(super) const REACH_OF_AMPLITUDE: f64 = 5.0;

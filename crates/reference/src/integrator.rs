@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What waves do at a scratch.
+/// Model of the waves at a scratch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Model {
     /// Equations (4) to (9) of docs/model.md at a point: the model of the closed forms, integrated by chance.
@@ -20,14 +20,14 @@ pub enum Model {
     Full,
 }
 
-/// How to integrate.
+/// Settings of the integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Settings {
-    /// What waves do at a scratch.
+    /// Model of the waves at a scratch.
     pub model: Model,
-    /// How the base pays for what scratches scatter; [`Model::Full`] knows by itself.
+    /// Energy that the base loses to the scratches; [`Model::Full`] has it from the field.
     pub mask: Mask,
-    /// How many more surfaces a path may meet after the first. 0: direct light, as the closed form.
+    /// Largest number of surfaces on a path after the first. 0: direct light, as the closed form.
     pub bounces: u32,
     /// Whether objects hide the lights and the environment from one another. The closed form has no shadows.
     pub shadows: bool,
@@ -35,14 +35,14 @@ pub struct Settings {
     pub seed: u64,
 }
 
-/// What is looked up of a scene's surfaces, scratches and materials. A clone is the same one.
+/// Look-up structures for a scene's surfaces, scratches and materials. A clone shares them.
 #[derive(Clone)]
 pub struct Parts {
     /// Triangles along a ray.
     pub triangles: Arc<TriangleIndex>,
     /// The scratches as they lie.
     pub grooves: Arc<SegmentTree<Groove>>,
-    /// What the materials mean to the physics.
+    /// Optical properties of the materials.
     pub tables: Arc<ScratchTables>,
     /// One for each material.
     reflectances: Arc<Vec<Reflectance>>,
@@ -104,7 +104,7 @@ impl Parts {
 pub struct Integrator<'a> {
     pub(super) scene: &'a Scene,
     pub(super) settings: Settings,
-    /// Of the picture.
+    /// Rows of the picture.
     pub(super) rows: Range<u32>,
     pub(super) triangles: Arc<TriangleIndex>,
     pub(super) grooves: Arc<SegmentTree<Groove>>,
@@ -117,7 +117,7 @@ pub struct Integrator<'a> {
     pub(super) lights: AreaLights,
     pub(super) environment: Option<EnvironmentSampler>,
     pub(super) camera: CameraFrame,
-    /// How far the scene reaches from the origin: what rounding goes by.
+    /// Largest distance of the scene from the origin; rounding errors grow with it.
     pub(super) extent_m: f64,
 }
 

@@ -12,7 +12,7 @@ pub(super) struct CutNormal {
     /// The uncut distribution's share below the interval and in it, of the mirrored interval if `mirrored`.
     below: f64,
     share: f64,
-    /// In the upper tail shares are next to 1 and lose their digits.
+    /// Whether the interval is mirrored: in the upper tail shares are next to 1 and lose their digits.
     mirrored: bool,
 }
 
@@ -33,7 +33,7 @@ impl CutNormal {
         })
     }
 
-    /// Of the uncut distribution.
+    /// Share of the uncut distribution in the interval.
     pub(crate) fn share(&self) -> f64 {
         self.share
     }

@@ -1,10 +1,10 @@
-//! Where a grating sends the wavelengths of a sample: a distribution of q to draw directions by.
+//! Distribution of q over the orders to which a grating sends the wavelengths of a sample.
 
 use super::interval::{CutCauchy, CutNormal};
 use super::wavelengths::Spectrum;
 use hairline_optics::grating::Grating as Row;
 
-/// How often q is drawn for what grooves send each for itself, and for all that orders leave out.
+/// Probability with which q is drawn for the light of single grooves, and for all that the orders leave out.
 const REST_SHARE: f64 = 0.2;
 
 /// Half width of the rest's distribution over u = W q: wider than a slit's, as displaced grooves send light further out.

@@ -16,14 +16,14 @@ use hairline_optics::ggx::{GGX_MIN_ALPHA, ggx_alpha};
 use hairline_optics::mask::ScratchSums;
 use std::f64::consts::PI;
 
-/// What a sample adds to the film.
+/// Light that a sample adds to the film.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Light {
     /// Light whose last reflection is by the base, or that the surface emits, or that passed it.
     pub base: DVec3,
     /// Light whose last reflection is by scratches.
     pub scratches: DVec3,
-    /// What scratches take from the base at the first surface.
+    /// Light that scratches take from the base at the first surface.
     pub density: DVec3,
 }
 
@@ -43,20 +43,20 @@ const ENVIRONMENT_DRAWS: u32 = 4;
 struct Vertex<'a> {
     point: &'a SurfacePoint<'a>,
     lobes: BaseLobes<'a>,
-    /// What is left of the base's specular reflection; 0 where the field stands in for it.
+    /// Share of the base's specular reflection that is left; 0 where the field replaces it.
     specular_kept: DVec3,
     response: Response<'a>,
-    /// How many surfaces the path met before.
+    /// Number of surfaces that the path met before.
     depth: u32,
     random: Random,
 }
 
-/// What scratches do, by the model.
+/// Response of the scratches, by the model.
 enum Response<'a> {
     Separable {
         lobes: Vec<Lobe>,
         kept: f64,
-        /// That of a grating under them, and what they leave of its light.
+        /// Lobe of a grating under the scratches, and the share of its light that they leave.
         row: Option<Box<(Lobe, DVec3)>>,
     },
     Full(Box<Field<'a>>),
@@ -195,7 +195,7 @@ impl Integrator<'_> {
         light
     }
 
-    /// What scratches keep of their light beside one another, and what they take from the base.
+    /// Share of their light that scratches keep beside one another, and the share that they take from the base.
     fn mask(&self, object: usize, point: &SurfacePoint, views: &[GrooveView]) -> (f64, DVec3) {
         let table = &self.tables.tables[point.table];
         let mut sums = ScratchSums::default();
@@ -516,12 +516,13 @@ impl Integrator<'_> {
         self.triangles.is_hidden(origin_m, to_end, way_m.length())
     }
 
-    /// Where a ray starts that must not meet the surface that it leaves.
+    /// Start of a ray that must not meet the surface that it leaves.
     fn off_the_surface(&self, point: &SurfacePoint, direction: DVec3) -> DVec3 {
         point.raised_m + self.step_m(point.position_m) * (direction + point.normal)
     }
 
-    /// What rounding may move a point on a surface by: vertices are singles, and this is some ten steps of theirs.
+    /// Distance by which rounding may move a point on a surface: vertices are in single precision, and this is some ten of
+    /// its steps.
     fn step_m(&self, at_m: DVec3) -> f64 {
         1e-6 * (self.extent_m + at_m.length())
     }

@@ -4,7 +4,7 @@
 /// Samples in a batch.
 pub const BATCH_SAMPLES: u32 = 64;
 
-/// What a set of four numbers is for. Sets of different purposes are independent; those of one purpose are even over a batch.
+/// Use of a set of four numbers. Sets of different uses are independent; those of one use are even over a batch.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Purpose {
     /// The place in the pixel's filter (2) and the wavelength (1).
@@ -21,13 +21,13 @@ pub(super) enum Purpose {
     GrooveEnvironment { groove: u32, draw: u32 },
     /// A direction of the coherent field to a light: which component (1), where (2); several draws.
     FieldLight { light: u32, draw: u32 },
-    /// The same to the environment.
+    /// A direction of the field to the environment.
     FieldEnvironment { draw: u32 },
-    /// How a path goes on by way of scratches: which of them, or of the field's draws (1), whither (2).
+    /// The continuation of a path by way of scratches: one of them, or of the field's draws (1), and the direction (2).
     Bounce,
-    /// Which grating is at a point (1), its grooves' angle (1) and place (1).
+    /// The grating at a point (1), its grooves' angle (1) and place (1).
     Row,
-    /// How far a groove of a grating is off its place (1) and its depth (1).
+    /// The displacement of a groove of a grating (1) and its depth (1).
     RowGroove(u32),
     /// A point of the lens (2).
     Lens,

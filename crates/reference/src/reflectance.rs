@@ -1,4 +1,4 @@
-//! What facets reflect, and what lobes made of them do: by the equations and by quadrature. The curves and tables of the closed form take no part.
+//! Reflectances of facets and of lobes made of them, by the equations and by quadrature. The curves and tables of the closed form take no part.
 
 use glam::DVec3;
 use hairline_cpu::surface::SurfacePoint;
@@ -12,7 +12,7 @@ use hairline_scene::{COAT_F0, Material, Reflector};
 /// The reflectance of a material.
 pub(crate) struct Reflectance {
     reflector: Reflector,
-    /// Of a metal, in equal steps of the square root of the cosine.
+    /// Reflectance of a metal, in equal steps of the square root of the cosine.
     metal: Vec<[DVec3; 2]>,
     /// One for each roughness, rising.
     albedos: Vec<Albedos>,
@@ -38,7 +38,7 @@ struct FacetParts {
     s: f64,
 }
 
-/// What a surface reflects at normal incidence, and what Schlick's curve rises to: 1 of all others.
+/// Reflectance of a surface at normal incidence, and that to which Schlick's curve rises: 1 for all other curves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ends {
     pub f0: DVec3,
@@ -58,7 +58,7 @@ const METAL_NODES: usize = 2049;
 /// Nodes of albedos, and points along each axis of their quadrature.
 const ALBEDO_NODES: usize = 97;
 const ALBEDO_STEPS: usize = 64;
-/// The same of a lobe that is seen at one point.
+/// Steps of the albedo of a lobe that is seen at one point.
 const ALBEDO_STEPS_AT_A_POINT: usize = 24;
 /// Steps of roughness where a texture gives it.
 const ROUGHNESS_STEPS: usize = 32;
@@ -83,14 +83,14 @@ impl Reflectance {
         Self::mapped(Reflector::new(material), material.roughness, map)
     }
 
-    /// That of a material's coat.
+    /// Reflectance of a material's coat.
     pub(crate) fn of_coat(material: &Material) -> Option<Self> {
         let coat = material.coat?;
         let [_, map] = material.coat_textures;
         Some(Self::mapped(Reflector::COAT, coat.roughness, map))
     }
 
-    /// For one roughness, or for all where a texture gives it.
+    /// Reflectance for one roughness, or for all where a texture gives it.
     fn mapped(reflector: Reflector, roughness: f64, map: Option<usize>) -> Self {
         if map.is_none() {
             return Self::at(reflector, &[roughness]);
@@ -100,7 +100,7 @@ impl Reflectance {
         Self::at(reflector, &all)
     }
 
-    /// For these roughnesses, which rise.
+    /// Reflectance for these roughnesses, in ascending order.
     pub(crate) fn at(reflector: Reflector, roughness: &[f64]) -> Self {
         let metal = match reflector {
             Reflector::Metal(metal) => curve(metal),
@@ -149,7 +149,7 @@ impl Reflectance {
         }
     }
 
-    /// Of a facet.
+    /// Reflectance of a facet.
     pub(crate) fn eval(&self, cos_theta: f64, Ends { f0, f90 }: Ends) -> FacetReflectance {
         if self.metal.is_empty() {
             let FacetParts { t, s } = self.parts(cos_theta);
@@ -166,7 +166,7 @@ impl Reflectance {
         FacetReflectance { once, twice }
     }
 
-    /// Of the lobe of facets for a viewer, where they are not round: too many for a table.
+    /// Albedo of the lobe for a viewer, of facets that are not round: too many for a table.
     pub(crate) fn albedo_of(&self, facets: &Facets, wo: DVec3) -> Albedo {
         let [e0, t, s] = facets.mean(wo, ALBEDO_STEPS_AT_A_POINT, |cos_h| {
             let FacetParts { t, s } = self.parts(cos_h);
@@ -178,7 +178,7 @@ impl Reflectance {
         }
     }
 
-    /// Of the lobe for a viewer.
+    /// Albedo of the lobe for a viewer.
     pub(crate) fn albedo(&self, roughness: f64, cos_o: f64) -> Albedo {
         let above = self.albedos.partition_point(|a| a.roughness < roughness);
         let high = &self.albedos[above.min(self.albedos.len() - 1)];
@@ -224,12 +224,12 @@ impl Albedo {
         }
     }
 
-    /// What multiple scattering adds to single scattering where F = 1.
+    /// Light that multiple scattering adds to single scattering where F = 1, relative to it.
     pub(crate) fn gain(self) -> f64 {
         1.0 / self.e0.clamp(1e-3, 1.0) - 1.0
     }
 
-    /// Of a surface with a body: what it reflects without the body, multiple scattering inside.
+    /// Reflectance of a surface's facets without its body, multiple scattering included.
     pub(crate) fn reflected(self, Ends { f0, f90 }: Ends) -> DVec3 {
         (f0 * self.parts.s + self.parts.t * f90) * (DVec3::ONE + f0 * self.gain())
     }

@@ -150,7 +150,7 @@ impl Integrator<'_> {
             });
     }
 
-    /// How many pixels of the picture lie before the image.
+    /// Number of pixels of the picture before the image.
     fn first_pixel(&self) -> usize {
         self.rows.start as usize * self.scene.render.size_px[0] as usize
     }
@@ -188,7 +188,7 @@ impl Integrator<'_> {
     }
 }
 
-/// How far a run has come, and by how much it goes on.
+/// Progress of a run, and the number of batches in the next step.
 struct Round {
     up_to: u32,
     batches: u32,
@@ -200,7 +200,7 @@ const CHUNK_PX: usize = 16;
 /// Rounds shorter than this are made longer.
 const ROUND_LEAST: Duration = Duration::from_secs(1);
 
-/// Of a pixel of a picture of this width.
+/// Middle of a pixel of a picture of this width.
 fn middle(pixel: usize, width: usize) -> DVec2 {
     DVec2::new((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5)
 }

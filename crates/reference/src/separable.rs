@@ -21,7 +21,7 @@ pub(super) struct Lobe {
     pub frame: BandFrame,
     /// `wo` in its frame.
     wo: DVec3,
-    /// Of the window: rho; for a grating its density over the mean.
+    /// Share of the window, rho; for a grating its density over the mean.
     pub share: f64,
     /// The share times the weight of each wavelength.
     strength: Spectrum<DVec3>,
@@ -31,7 +31,7 @@ pub(super) struct Lobe {
     of: Of,
 }
 
-/// What a lobe is of.
+/// Source of a lobe.
 enum Of {
     Groove { width_um: f64, depth_nm: f64 },
     Row(Row),
@@ -55,7 +55,7 @@ impl Lobe {
         )
     }
 
-    /// The same of a grating.
+    /// The response of a grating.
     pub(crate) fn of_row(
         view: &RowView,
         wavelengths: &Wavelengths,
@@ -128,7 +128,7 @@ impl Lobe {
     }
 }
 
-/// How q is drawn.
+/// Distribution from which q is drawn.
 enum Across {
     /// About the mirror's direction.
     Slit(CutCauchy),

@@ -46,7 +46,7 @@ pub(super) struct SpectralFresnel<'a> {
     reflectance: &'a Reflectance,
     ends: Ends,
     cos_o: f64,
-    /// That of a coat, and its share of the surface.
+    /// Reflectance of a coat, and its share of the surface.
     coat: Option<(f64, &'a Reflectance)>,
 }
 

@@ -1,4 +1,4 @@
-//! What renders: a graphics adapter or the CPU renderer.
+//! The renderer of a task: a graphics adapter or the CPU renderer.
 
 mod fine;
 mod on_gpu;
@@ -20,7 +20,7 @@ use crate::listener::Listener;
 pub use fine::FINE_SAMPLES;
 use on_gpu::OnGpu;
 
-/// What is asked to render.
+/// Renderer that the user asks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Backend {
     /// A GPU if there is one, else the CPU renderer.
@@ -32,14 +32,14 @@ pub enum Backend {
     Cpu,
 }
 
-/// What is to be rendered, and how.
+/// Settings of a rendering.
 #[derive(Clone, Copy, Debug)]
 pub struct Task {
-    /// By which method.
+    /// Method by which scratches are rendered.
     pub method: Method,
-    /// What the user wants to render.
+    /// Renderer that the user asks for.
     pub backend: Backend,
-    /// For each pixel on an edge.
+    /// Samples of each pixel on an edge.
     pub samples: u32,
     /// The ways of light.
     pub transport: Transport,
@@ -53,7 +53,7 @@ pub struct Task {
 pub struct Rendered {
     /// The picture.
     pub image: Image,
-    /// That each pixel has, of shadows, or where it has an edge.
+    /// Samples of each pixel with shadows, or of each pixel on an edge.
     pub samples: u32,
     /// Fewer of them are there if it was stopped.
     pub wanted: u32,
@@ -62,7 +62,7 @@ pub struct Rendered {
 /// Why a [`Task`] cannot be done as it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// Without shadows the light that an object hides would be counted beside its own.
+    /// Bounces without shadows: the light that an object hides would be counted beside its own.
     BouncesWithoutShadows,
     /// The published method has none.
     ShadowsOfPublished,
@@ -105,7 +105,7 @@ impl Task {
         }
     }
 
-    /// What of how the picture is made is not the pure closed form; the method is left to who can name it.
+    /// Notes on the settings in which the picture differs from the pure closed form. The method is left to the caller, who can name it.
     pub fn notes(&self) -> Notes {
         let Transport { shadows, bounces } = self.transport;
         let mut notes = Notes::new();
@@ -125,7 +125,7 @@ pub struct Painter<'a> {
     task: Task,
     listener: &'a dyn Listener,
     on: On<'a>,
-    /// For alpha where a GPU renders; built when first needed.
+    /// Triangles for the alpha channel where a GPU renders; built when first needed.
     triangles: OnceCell<TriangleIndex>,
 }
 
@@ -280,7 +280,7 @@ impl<'a> Painter<'a> {
         })
     }
 
-    /// The same with [`FINE_SAMPLES`] in every pixel: what the closed forms' averages over a pixel must come near to.
+    /// Renders with [`FINE_SAMPLES`] in every pixel: the closed forms' averages over a pixel must come near to this picture.
     ///
     /// # Errors
     /// As [`Self::render`].
@@ -385,7 +385,7 @@ fn prepared<'a>(scene: &'a Scene, method: &Method, listener: &dyn Listener) -> B
     Box::new(prepared)
 }
 
-/// What `sort` builds. Nobody ends it but by ending the process.
+/// Runs `sort` and returns its result. Nobody cancels it except by ending the process.
 fn sorted<T>(listener: &dyn Listener, sort: impl FnOnce(&Watch) -> Option<T>) -> T {
     listener.begin("sorting scratches");
     let watch = Watch {

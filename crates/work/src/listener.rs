@@ -11,7 +11,7 @@ pub trait Listener: Sync {
     /// A part of the work begins, at nothing done. A verb: "sorting scratches".
     fn begin(&self, what: &'static str);
 
-    /// What is done meanwhile; the share stays.
+    /// Names the current step; the share stays.
     fn say(&self, what: &'static str);
 
     /// The share of the part that is done, from 0 to 1. Threads may report out of order.

@@ -41,7 +41,7 @@ fn with_width(mut description: Description, layer: usize, width_um: f64) -> Desc
     description
 }
 
-/// How many trees are grown anew.
+/// Number of trees that are grown anew.
 fn grown(scene: &Scene, last: (&Scene, &ScratchIndex)) -> usize {
     let plots = plots(scene, Some(last));
     let plots = plots.iter().flatten();
@@ -203,8 +203,8 @@ fn the_range_of_an_object_holds_its_segments() {
     assert_eq!(index.coherence_max_um(), [coherence_um; 2]);
 }
 
-/// What is cut at the edges of triangles that lie in one plane is whole again, up to the length of a piece; where the surface bends
-/// nothing is put together across an edge.
+/// Scratches that are cut at the edges of triangles in one plane are whole again, up to the length of a piece; where the surface
+/// bends nothing is joined across an edge.
 #[test]
 fn straight_pieces_are_one_and_bent_ones_are_not() {
     let of = |shape: &str| {
@@ -243,7 +243,7 @@ fn straight_pieces_are_one_and_bent_ones_are_not() {
     assert_length(&pieces, &bent.objects[0]);
 }
 
-/// As long as all segments of 500 scratches are together: ends move inwards by 20 um over the root of pi each.
+/// The pieces are as long as all segments of 500 scratches together: ends move inwards by 20 um over the root of pi each.
 fn assert_length(pieces: &[IndexedSegment], object: &Object) {
     let length = |ends: [glam::Vec3; 2]| ends[0].as_dvec3().distance(ends[1].as_dvec3());
     let all: f64 = pieces.iter().map(|s| length([s.start_m, s.end_m])).sum();

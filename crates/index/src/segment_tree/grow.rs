@@ -85,7 +85,7 @@ impl Part {
         }
     }
 
-    /// With a node over two trees.
+    /// Adds a node over two trees.
     fn over(left: Self, right: Self) -> Self {
         let node_count = 1 + left.node_count + right.node_count;
         let above = ScratchNode {

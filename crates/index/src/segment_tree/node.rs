@@ -1,4 +1,4 @@
-//! What trees are made of.
+//! Nodes and segments of trees.
 
 use glam::Vec3;
 use std::borrow::Cow;
@@ -27,7 +27,8 @@ impl ScratchNode {
         first..first + (self.leaf >> LEAF_FIRST_BITS) as usize
     }
 
-    /// The same node with others and their segments before it: so many more, or, wrapped around, less.
+    /// The node with its numbers increased by the numbers of nodes and segments that are put before it; decreased if
+    /// these wrap around.
     pub(super) fn moved(self, nodes: u32, segments: u32) -> Self {
         Self {
             skip: self.skip.wrapping_add(nodes),
@@ -41,7 +42,7 @@ impl ScratchNode {
     }
 }
 
-/// What a tree can hold.
+/// A straight piece that a tree can hold.
 pub trait Straight: Copy + Send + Sync {
     /// Both ends, world space, metres.
     fn ends_m(&self) -> [Vec3; 2];
@@ -60,7 +61,7 @@ pub struct SegmentTree<S> {
     pub(crate) trees: Vec<Vec<Tree>>,
 }
 
-/// Where a tree lies among all.
+/// Position of a tree among all.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
     pub nodes: Range<u32>,
@@ -72,6 +73,6 @@ pub(super) struct Piece<'a> {
     pub nodes: Cow<'a, [ScratchNode]>,
     /// The number of its first node.
     pub first_node: u32,
-    /// How far its segments move, wrapped around.
+    /// Distance by which its segments move, wrapped around.
     pub segments_by: u32,
 }

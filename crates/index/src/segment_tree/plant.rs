@@ -13,18 +13,18 @@ use crate::watch::Watch;
 /// Appends segments.
 type Fill<'a, S> = Box<dyn FnOnce(&mut Vec<S>) + Send + 'a>;
 
-/// Where a tree comes from.
+/// Source of a tree.
 pub(crate) enum Plot<'a, S> {
-    /// It is grown over the segments that are appended, so many at most.
+    /// A tree to be grown over the segments that `fill` appends, `most` at most.
     New { most: usize, fill: Fill<'a, S> },
-    /// It was grown before.
+    /// A tree that was grown before.
     Kept(Tree),
 }
 
-/// Of all the work, what filling in the segments takes.
+/// Share of the filling in of segments in all work.
 const FILL_SHARE: f64 = 0.1;
 
-/// So many segments or nodes are worth another thread to copy them.
+/// Number of segments or nodes that are worth another thread to copy them.
 const COPY: usize = 1 << 14;
 
 /// Grows the trees, several for each object, all cores at work. Those that were grown before lie in `last`. `None` if it was

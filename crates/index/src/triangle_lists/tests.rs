@@ -43,7 +43,7 @@ fn scene(shapes: &[(&str, u32, f64)]) -> Scene {
     file.scene()
 }
 
-/// What a point sees of a segment, as renderers do it without a footprint: its share over that of an endless scratch
+/// Share of a segment that a point sees without a footprint, as renderers compute it, over that of an endless scratch
 /// through the point. None beyond the reach across.
 fn seen(
     position_m: DVec3,
@@ -87,8 +87,8 @@ fn seen(
     Some(share(offset_um, tangent.dot(start), tangent.dot(end)) / endless)
 }
 
-/// Over random points of random triangles, what the walk finds and the list misses: the greatest share of any segment,
-/// and how many have more than the tail that counts as none.
+/// Segments that the walk finds at random points of random triangles and the list misses: the greatest share of any, and
+/// the number of those above the tail that counts as nothing.
 fn missed(scene: &Scene, index: &ScratchIndex, lists: &TriangleLists) -> (f64, usize) {
     let mut random = Pcg64Mcg::seed_from_u64(7);
     let (mut greatest, mut count): (f64, usize) = (0.0, 0);
@@ -145,7 +145,7 @@ fn missed(scene: &Scene, index: &ScratchIndex, lists: &TriangleLists) -> (f64, u
     (greatest, count)
 }
 
-/// What a normal distribution has left beyond [`REACH_STD`]: more of a segment along its line cannot be out of a list.
+/// Tail of a normal distribution beyond [`REACH_STD`]: the largest share of a segment along its line that a list may miss.
 const TAIL: f64 = 2.4e-4;
 
 #[test]

@@ -78,7 +78,7 @@ impl Rings {
         FRAC_PI_2 * (growth * t).exp_m1() / growth.exp_m1()
     }
 
-    /// Which ring and sector a direction is in.
+    /// Index of the ring and the sector that hold a direction.
     fn cell(&self, wi: DVec3) -> usize {
         let h = wi + self.wo;
         let growth = (FRAC_PI_2 / self.first_rad).ln();
@@ -157,7 +157,7 @@ fn the_mean_of_brdf_over_density_is_the_albedo() {
     }
 }
 
-/// What the body receives is what the lobe does not reflect.
+/// The body receives the light that the lobe does not reflect.
 #[test]
 fn the_albedo_of_the_model_is_that_of_its_lobes() {
     for alpha in ALPHAS {

@@ -8,7 +8,7 @@ use hairline_scene::Scene;
 
 /// Samples along each side of a pixel.
 const SIDE: u32 = 8;
-/// In each pixel.
+/// Number of samples in each pixel.
 pub const FINE_SAMPLES: u32 = SIDE * SIDE;
 /// Rows of the picture that are rendered together: enough for all threads, and little memory.
 const BAND_ROWS: u32 = 8;

@@ -138,7 +138,7 @@ picture = "lamp.png"
     const CUP: &str = r#"{"asset": {"version": "2.0"},
         "buffers": [{"byteLength": 3, "uri": "its%20data.bin"}], "images": [{"uri": "rust.png"}]}"#;
 
-    /// What `fingerprint` reads of the files: their bytes, and of glTF the names within.
+    /// Makes the files that `fingerprint` reads: their bytes, and of glTF the names within.
     fn folder() -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         for name in NAMED {

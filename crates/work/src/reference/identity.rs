@@ -1,4 +1,4 @@
-//! What a reference remembers of its making, and whether samples may be added to it.
+//! Record of a reference's making, and the check whether samples may be added to it.
 
 use std::path::Path;
 

@@ -12,14 +12,14 @@ use crate::listener::Listener;
 /// Work for each unit of time spent on saving, so that huge pictures are not mostly saved.
 const WORK_PER_SAVING: u32 = 20;
 
-/// How far to go.
+/// Limits of the sampling.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// Samples that each pixel should have.
     pub samples: u32,
     /// Time to sample for. The batches that are in progress then are finished.
     pub time: Option<Duration>,
-    /// What a crash or a power cut may cost.
+    /// Largest time whose samples a crash or a power cut may lose.
     pub save_every: Duration,
 }
 
@@ -111,17 +111,17 @@ pub fn sample(
     }
 }
 
-/// How many samples the pixels of a picture have.
+/// Samples of a picture's pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Count {
     /// The poorest pixel's.
     pub least: u32,
-    /// Over all pixels.
+    /// Mean over all pixels.
     pub mean: f64,
 }
 
 impl Count {
-    /// Of an image that says nothing of its samples: none.
+    /// Counts the samples of an image; none if it does not state them.
     pub fn of(image: &Image) -> Self {
         let samples = image.noise.as_ref().map_or(&[][..], |n| &n.samples);
         let sum: u64 = samples.iter().map(|&n| u64::from(n)).sum();
@@ -131,7 +131,7 @@ impl Count {
         }
     }
 
-    /// Of `samples` for each pixel, the share that is done.
+    /// Share of `samples` for each pixel that is done.
     pub fn share_of(self, samples: u32) -> f64 {
         self.mean / f64::from(samples.max(1))
     }
