@@ -39,7 +39,7 @@ pub struct Accuracy {
     only: Vec<Part>,
 }
 
-/// What can be measured for itself.
+/// Parts that can be measured on their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Part {
     /// The scenes of scenes/ and the built-in one.
@@ -52,7 +52,7 @@ enum Part {
     Interference,
     /// Time and noise of the Monte Carlo.
     Cost,
-    /// Nothing: the document is written anew.
+    /// No measurement: the document is written anew.
     Text,
 }
 

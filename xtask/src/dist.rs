@@ -11,12 +11,12 @@ use serde_json::Value;
 
 #[derive(Args)]
 pub struct Dist {
-    /// Where the archive goes.
+    /// Path of the archive.
     #[arg(short, long, default_value = "target/dist")]
     output: PathBuf,
 }
 
-/// Of the repository, beside the program.
+/// Files of the repository that are copied beside the program.
 const COPIED: [&str; 8] = [
     "README.md",
     "ARCHITECTURE.md",

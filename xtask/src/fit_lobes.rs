@@ -200,7 +200,7 @@ fn fit_sptd(target: &Target) -> (SptdShape, f64) {
     (shape(&p), e)
 }
 
-/// What a peak beyond the normal costs: the lean may not exceed the angle of the viewer.
+/// Penalty of a peak beyond the normal: the lean may not exceed the angle of the viewer.
 fn lean_outside(lean: f64, target: &Target) -> f64 {
     let sine = target.wo.x;
     (target.alpha * lean * sine - target.wo.x.atan2(target.wo.z)).max(0.0)

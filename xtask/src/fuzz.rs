@@ -22,7 +22,7 @@ use rayon::prelude::*;
 /// Looks for inputs that make `hairline` panic, hang, take too much memory or leave parts of files.
 #[derive(Args)]
 pub struct Fuzz {
-    /// How many mutated inputs, besides those of earlier findings.
+    /// Number of mutated inputs, besides those of earlier findings.
     cases: u64,
     /// Other mutations.
     #[arg(long, default_value_t = 1)]
@@ -42,7 +42,7 @@ pub struct Fuzz {
     /// The program. Without it the one beside this one: `cargo build --release -p hairline` makes it.
     #[arg(long)]
     program: Option<PathBuf>,
-    /// Where failing inputs are kept.
+    /// Folder where failing inputs are kept.
     #[arg(long, default_value = "target/fuzz")]
     keep: PathBuf,
 }

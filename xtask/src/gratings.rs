@@ -31,9 +31,9 @@ const COHERENCE_UM: f64 = 20.0;
 /// Pitch and width of the grooves, in um.
 const ROWS_UM: [[f64; 2]; 4] = [[0.74, 0.35], [1.6, 0.6], [10.0, 3.0], [30.0, 5.0]];
 const DEPTH_NM: f64 = 110.0;
-/// From one groove at an independent place to the next, in the mean.
+/// Mean distances from one groove at an independent place to the next.
 const SPACINGS_UM: [f64; 3] = [3.0, 10.0, 30.0];
-/// How far grooves are off their places, in pitches.
+/// Standard deviations of the grooves' displacements, in pitches.
 const JITTERS: [f64; 4] = [0.0, 0.05, 0.1, 0.2];
 /// Angular radii of the lights.
 const LIGHTS: [f64; 4] = [0.002, 0.01, 0.05, 0.3];
@@ -49,7 +49,7 @@ const REACH_SIGMA: f64 = 4.5;
 
 type Rgb = [f64; 3];
 
-/// What is sent to each step of q, times the step.
+/// Light that is sent to each step of q, times the step.
 type Sent = Vec<Rgb>;
 
 impl Gratings {
@@ -126,7 +126,7 @@ fn at(table: &ScratchTable, u_um: f64, depth_nm: f64) -> Rgb {
     table.scratch_table(u_um, depth_nm)
 }
 
-/// By an antiderivative over q.
+/// Light that is sent, by an antiderivative over q.
 fn sent(rise: impl Fn(f64) -> Rgb) -> Sent {
     let edge = |i: usize| rise(Q_START + i as f64 * Q_STEP);
     (0..Q_COUNT)
@@ -137,7 +137,7 @@ fn sent(rise: impl Fn(f64) -> Rgb) -> Sent {
         .collect()
 }
 
-/// Where the grooves of a row lie under the window: `phase` is how far the row is moved, in pitches.
+/// Function that places the grooves of a row under the window: `phase` is the shift of the row, in pitches.
 type Places = fn(row: &Grating, phase: f64, random: &mut Pcg64) -> Vec<f64>;
 
 fn row_places_um(row: &Grating, phase: f64, random: &mut Pcg64) -> Vec<f64> {
@@ -278,7 +278,7 @@ const IN_PICTURES: &str = "\n## In pictures\n\n\
 mod tests {
     use super::*;
 
-    /// Of a few rows, the grating is near and single scratches are far.
+    /// For a few rows, the grating is near and single scratches are far.
     #[test]
     fn a_row_is_its_table_and_not_its_scratches() {
         let row = Grating {

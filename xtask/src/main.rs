@@ -1,4 +1,4 @@
-//! What is not cargo's own. `cargo xtask COMMAND`; each command is one file.
+//! Tasks that cargo does not do itself. `cargo xtask COMMAND`; each command is one file.
 
 mod accuracy;
 mod dist;

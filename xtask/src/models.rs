@@ -24,7 +24,7 @@ pub struct Models {
     #[arg(required = true)]
     sources: Vec<PathBuf>,
 
-    /// Where the pictures go, if they are to be looked at.
+    /// Folder for the pictures, if they are to be looked at.
     #[arg(long)]
     pictures: Option<PathBuf>,
 

@@ -33,7 +33,7 @@ pub struct Package {
     serve: Option<u16>,
 }
 
-/// What is written by hand, beside the folder `src`.
+/// Files that are written by hand, beside the folder `src`.
 const FILES: [&str; 2] = ["package.json", "README.md"];
 
 impl Package {
@@ -104,7 +104,7 @@ impl Package {
     }
 }
 
-/// What a page loads, in bytes and compressed.
+/// Prints the sizes of the files that a page loads, in bytes and compressed.
 fn print_sizes(package: &Path) -> anyhow::Result<()> {
     let (mut scripts, mut for_three) = (Vec::new(), Vec::new());
     for entry in std::fs::read_dir(package.join("src"))? {
@@ -139,7 +139,7 @@ fn print_sizes(package: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// As a server sends it.
+/// Size as a server sends it, compressed.
 fn compressed(bytes: &[u8]) -> anyhow::Result<usize> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(bytes)?;

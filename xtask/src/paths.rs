@@ -12,7 +12,7 @@ const DOCUMENTS: [&str; 4] = [
     "docs/model.md",
 ];
 
-/// What a path to a file of ours ends with.
+/// Endings of paths to files of ours.
 const ENDINGS: [&str; 4] = [".rs", ".wgsl", ".toml", ".md"];
 
 /// Prints the paths that name no file.

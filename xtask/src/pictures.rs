@@ -23,7 +23,7 @@ const EXCEPTIONS: [(&str, &[&str]); 3] = [
 /// Options of `pictures`.
 #[derive(clap::Args)]
 pub struct Pictures {
-    /// What renders. The CPU renderer is the default: its pictures are the same everywhere.
+    /// Renderer. The CPU renderer is the default: its pictures are the same everywhere.
     #[arg(long, default_value = "cpu")]
     backend: String,
 

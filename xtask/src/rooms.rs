@@ -22,12 +22,12 @@ pub struct Rooms {
 /// `["canvas", "area"]` is `crate::canvas::area`.
 type Name = Vec<String>;
 
-/// What the code of a module says of names.
+/// Names in the code of a module.
 #[derive(Default)]
 struct Module {
     /// Whole paths that it names.
     named: BTreeSet<Name>,
-    /// What its `use` lines call a name, and the whole path that it stands for.
+    /// Names from its `use` lines, with the whole path that each stands for.
     aliases: BTreeMap<String, Name>,
 }
 
@@ -131,7 +131,7 @@ pub(crate) fn tokens(text: &str) -> Vec<String> {
     tokens
 }
 
-/// Of a string literal with its quotes.
+/// Length of a string literal with its quotes.
 fn string_length(text: &str) -> usize {
     let mut escaped = false;
     let end = text[1..].find(|c| {

@@ -11,7 +11,7 @@ use serde::Serialize;
 /// The command's arguments.
 #[derive(clap::Args)]
 pub struct Shaders {
-    /// Where the JSON goes.
+    /// Path of the JSON.
     file: PathBuf,
 }
 

@@ -17,7 +17,7 @@ use hairline_scene::{Scene, Transport};
 use hairline_work::backend::Backend;
 use serde::{Deserialize, Serialize};
 
-/// By how much light is wrong that must be noticed.
+/// Relative error of the light in a wrong picture, which the verdict must notice.
 const BRIGHTER: f64 = 0.03;
 
 /// Options of `unbiased`.
@@ -43,19 +43,19 @@ pub struct Unbiased {
     names: Vec<String>,
 }
 
-/// What was found of a scene with a number of bounces.
+/// Figures of a scene with a number of bounces.
 #[derive(Serialize, Deserialize)]
 struct Figures {
     scene: String,
     bounces: u32,
     is_on_gpu: bool,
-    /// Of the path tracer.
+    /// Samples of the path tracer.
     reference: u32,
     layers: Vec<LayerFigures>,
 }
 
 impl Figures {
-    /// By which rows are told apart and ordered.
+    /// Key by which rows are told apart and ordered.
     fn row(&self) -> (bool, Option<usize>, u32) {
         let place = SCENES.iter().position(|(name, _)| *name == self.scene);
         (self.is_on_gpu, place, self.bounces)
@@ -65,9 +65,9 @@ impl Figures {
 #[derive(Serialize, Deserialize)]
 struct LayerFigures {
     name: String,
-    /// Of the light without shadows and bounces, the part that is missing; below 0 where bounces add more.
+    /// Share of the light without shadows and bounces that is missing; below 0 where bounces add more.
     missing: f64,
-    /// By number of samples.
+    /// Figures for each number of samples.
     found: Vec<SampleFigures>,
     /// Verdicts on wrong pictures of the last number of samples but one: too bright, and without an object that hides light.
     brighter: String,
@@ -85,7 +85,7 @@ struct SampleFigures {
 }
 
 impl LayerFigures {
-    /// By what the error is multiplied for four times the samples, in the mean over all numbers of samples.
+    /// Factor on the error for four times the samples, in the mean over all numbers of samples.
     fn fall(&self) -> Option<f64> {
         let told: Vec<_> = self.found.iter().filter(|f| f.rms > 0.0).collect();
         let [few, .., many] = &told[..] else {
@@ -198,7 +198,7 @@ impl Unbiased {
     }
 }
 
-/// What was measured before.
+/// Reads the figures of earlier runs.
 fn read(path: &Path) -> Result<Vec<Figures>> {
     let bytes = match fs::read(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),

@@ -24,7 +24,7 @@ pub struct WearShown {
     #[arg(long, num_args = 2, default_values_t = [320, 180])]
     size_px: Vec<u32>,
 
-    /// Not beside the light of a `[studio]`.
+    /// Leave out the light of a `[studio]`.
     #[arg(long)]
     alone: bool,
 

@@ -23,13 +23,13 @@ const TARGET: &str = "wasm32-unknown-unknown";
 
 #[derive(Args)]
 pub struct Web {
-    /// Where the files go.
+    /// Folder for the files.
     #[arg(short, long, default_value = "target/web")]
     output: PathBuf,
     /// Drive it in headless Chromium afterwards, and compare its picture with that of the command line.
     #[arg(long)]
     test: bool,
-    /// Of the drive only what takes less than two minutes.
+    /// Run only the steps of the drive that take less than two minutes.
     #[arg(long, requires = "test")]
     short: bool,
     /// The command line to compare with; without this one it is built.
@@ -87,7 +87,7 @@ impl Web {
         Ok(())
     }
 
-    /// By `tests/web/drive.mjs`.
+    /// Drives the page by `tests/web/drive.mjs`.
     fn drive(&self, root: &Path, output: &Path) -> anyhow::Result<()> {
         let tests = root.join("tests/web");
         run(Command::new("npm")
@@ -112,7 +112,7 @@ fn gzip_bytes(bytes: &[u8]) -> anyhow::Result<usize> {
     Ok(packed.finish()?.len())
 }
 
-/// As `.ci/run` builds it.
+/// Builds the command line as `.ci/run` does.
 fn command_line(root: &Path) -> anyhow::Result<PathBuf> {
     run(Command::new("cargo").current_dir(root).args([
         "build",

@@ -8,7 +8,7 @@ use clap::Args;
 
 #[derive(Args)]
 pub struct Wheel {
-    /// Where the wheel goes.
+    /// Folder for the wheel.
     #[arg(short, long, default_value = "target/wheel")]
     output: PathBuf,
     /// The interpreter that it is tested with.
@@ -19,7 +19,7 @@ pub struct Wheel {
     all_scenes: bool,
 }
 
-/// What builds it and what tests it.
+/// Packages that build and test it.
 const TOOLS: [&str; 8] = [
     "maturin>=1.9,<2",
     "numpy",
@@ -142,7 +142,7 @@ fn wheels(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     Ok(paths.into_iter().filter(is_wheel).collect())
 }
 
-/// What it says is shown once it is done: others may be at work.
+/// Runs a command and shows its output once it is done: others may be at work.
 fn run(command: &mut Command) -> anyhow::Result<()> {
     let done = command.output().with_context(|| format!("{command:?}"))?;
     let said = [done.stdout, done.stderr].concat();

@@ -19,7 +19,7 @@ use crate::switch::Switch;
 #[derive(Debug, Parser)]
 #[command(version, after_help = EXIT_CODES)]
 pub struct Cli {
-    /// What to do.
+    /// Command.
     #[command(subcommand)]
     pub command: Option<Command>,
 }
@@ -88,10 +88,10 @@ pub struct Completions {
 pub struct View {
     /// The scene file (TOML), or a model (.glb, .gltf), which is shown in a lit scene. Without it: the built-in scene.
     pub scene: Option<PathBuf>,
-    /// What renders. auto: the window's GPU, or the CPU renderer where the window is drawn by a software driver.
+    /// Renderer. auto: the window's GPU, or the CPU renderer where the window is drawn by a software driver.
     #[arg(long, value_enum, default_value_t = Backend::Auto)]
     pub backend: Backend,
-    /// Where autosaves and the list of recent files are kept, in place of the user's folders.
+    /// Folder for autosaves and the list of recent files, in place of the user's folders.
     #[arg(long, value_name = "FOLDER")]
     pub state_dir: Option<PathBuf>,
     /// Ask for files by a line in the window, not by the system's dialogs.
@@ -115,7 +115,7 @@ pub struct Render {
     /// or hairline.png, in the current folder.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// What renders.
+    /// Renderer.
     #[arg(long, value_enum, default_value_t = Backend::Auto)]
     pub backend: Backend,
     /// Width and height in pixels, in place of the scene's.
@@ -136,8 +136,8 @@ pub struct Render {
     /// stay as sharp as they are, and more samples leave less to filter.
     #[arg(long, value_enum, default_value_t = Switch::On)]
     pub filter: Switch,
-    /// Before a transparent background: the picture's alpha is the share of each pixel that surfaces cover. The environment lights them
-    /// and is not seen.
+    /// Render before a transparent background: the picture's alpha is the share of each pixel that surfaces cover. The environment lights them and
+    /// is not seen.
     #[arg(long)]
     pub transparent: bool,
     /// Other scratches of the same kinds: added to the seed of each layer.
@@ -175,7 +175,7 @@ pub struct Render {
     /// Many pictures in place of one.
     #[command(flatten)]
     pub sequence: SequenceFlags,
-    /// By which method.
+    /// Method by which scratches are rendered.
     #[command(flatten)]
     pub method: MethodFlags,
 }
@@ -184,8 +184,8 @@ pub struct Render {
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Sequences")]
 pub struct SequenceFlags {
-    /// So many pictures, NAME-0001.png and on for -o NAME.png (or .exr), on the way that --turntable and --zoom say, or through
-    /// the times of --time A:B. For -o NAME.apng one animation.
+    /// Number of pictures, NAME-0001.png and on for -o NAME.png (or .exr), on the path that --turntable and --zoom give, or through the times of
+    /// --time A:B. For -o NAME.apng one animation.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: Option<u32>,
     /// Turn the camera about its target, around its `up`, by so many degrees in all, counter-clockwise seen from above.
@@ -254,7 +254,7 @@ pub struct Reference {
     /// name with -reference.exr, in the current folder.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// What waves do at a scratch.
+    /// Model of the waves at a scratch.
     #[arg(long, value_enum, default_value_t = Model::Separable)]
     pub model: Model,
     /// Samples for each pixel, rounded up to whole batches. Without it 1024, or with --time as many as fit.
@@ -272,7 +272,7 @@ pub struct Reference {
     /// Whether objects hide lights from one another.
     #[arg(long, value_enum, default_value_t = Switch::Off)]
     pub shadows: Switch,
-    /// What scratches take from the base, for the separable model. [default: energy]
+    /// Energy that the base loses to scratches, for the separable model. [default: energy]
     #[arg(long, value_enum)]
     pub mask: Option<Mask>,
     /// Width and height in pixels, in place of the scene's.
@@ -313,7 +313,7 @@ pub struct Bench {
     /// Write what is printed, Markdown tables, to a file.
     #[arg(short, long, value_name = "REPORT.md")]
     pub output: Option<PathBuf>,
-    /// What renders. auto: a graphics adapter, be it a software driver, if there is one.
+    /// Renderer. auto: a graphics adapter, be it a software driver, if there is one.
     #[arg(long, value_enum, default_value_t = Backend::Auto)]
     pub backend: Backend,
     /// Width and height in pixels, in place of the scene's. [default: 1280x720, the talk's]
@@ -342,17 +342,17 @@ pub struct Bench {
 pub enum Part {
     /// The talk's table: intersection only, sphere, triangle; three zooms; with anti-aliasing and without.
     Table,
-    /// From a thousand scratches to a million.
+    /// Curve from a thousand scratches to a million.
     Scratches,
     /// A million scratches from a tenth of the zoom to eight times it.
     Zoom,
-    /// From one light to 64.
+    /// Curve from one light to 64.
     Lights,
-    /// From half the size to twice it.
+    /// Curve from half the size to twice it.
     Pixels,
 }
 
-/// What waves do at a scratch.
+/// Model of the waves at a scratch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Model {
     /// The model of the closed forms: each scratch on its own, its dependence on angles separated.
@@ -361,7 +361,7 @@ pub enum Model {
     Full,
 }
 
-/// What renders.
+/// Renderer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Backend {
     #[default]
@@ -416,7 +416,7 @@ fn by_name<T: Copy + Send + Sync + 'static, const N: usize>(
     })
 }
 
-/// What a zoom's factors may be. How near a scene lets a camera come is known when it is read.
+/// Range of a zoom's factors. The nearest place for a camera in a scene is known when the scene is read.
 const ZOOMS: std::ops::RangeInclusive<f64> = 1e-3..=1e5;
 
 fn parse_zoom(text: &str) -> Result<[f64; 2], String> {

@@ -1,4 +1,4 @@
-//! What the commands say: to stdout what they found out, to stderr how they do. Nobody there to listen is no failure.
+//! Output of the commands: results to stdout, progress to stderr. Nobody there to listen is no failure.
 
 use std::fmt;
 use std::io::{self, Write};
@@ -27,7 +27,8 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// From now on a panic, which is a mistake of this program, is told of in one line, without the folders that it was built in.
+/// Installs a hook by which a panic, which is a mistake of this program, is told of in one line, without the folders that it was
+/// built in.
 pub fn tell_of_panics() {
     std::panic::set_hook(Box::new(|panic| tell(sentence(panic))));
 }

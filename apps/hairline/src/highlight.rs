@@ -11,7 +11,7 @@ use hairline_scene::text::shown;
 use crate::size_limit::SIDE_MAX_PX;
 use hairline_work::failure::Failure;
 
-/// Where a highlight is wanted.
+/// Pixel of a wanted highlight, and its light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Highlight {
     /// The pixel, from the upper left corner.
@@ -20,7 +20,7 @@ pub struct Highlight {
     pub light: Option<String>,
 }
 
-/// From `X,Y` or `X,Y,LIGHT`.
+/// Parses `X,Y` or `X,Y,LIGHT`.
 pub fn parse(text: &str) -> Result<Highlight, String> {
     let mut parts = text.splitn(3, ',');
     let mut pixel = || {

@@ -21,8 +21,8 @@ pub struct Interrupt {
 }
 
 impl Interrupt {
-    /// From now on a first signal sets the wish, and a second one ends the process at once, with the exit code of one that was
-    /// killed by it. A terminal that hangs up counts where the system would end the process for it, and not below `nohup`.
+    /// Installs handlers: a first signal sets the wish, and a second one ends the process at once, with the exit code of one that
+    /// was killed by it. A terminal that hangs up counts where the system would end the process for it, and not below `nohup`.
     ///
     /// # Errors
     /// Where the system refuses.

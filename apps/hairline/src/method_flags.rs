@@ -9,17 +9,17 @@ use hairline_optics::published::sine_integral::SineIntegral;
 use crate::switch::Switch;
 use hairline_work::failure::Failure;
 
-/// By which method scratches are computed.
+/// Flags of the method by which scratches are computed.
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Method")]
 pub struct MethodFlags {
     /// The whole method.
     #[arg(long, value_enum, default_value_t = Whole::Default)]
     pub method: Whole,
-    /// What scratches take from the base. [default: energy; density for the published method]
+    /// Energy that the base loses to scratches. [default: energy; density for the published method]
     #[arg(long, value_enum)]
     pub mask: Option<Mask>,
-    /// How the published method finds the scratches under a pixel. [default: bvh]
+    /// Structure by which the published method finds the scratches under a pixel. [default: bvh]
     #[arg(long, value_enum)]
     pub index: Option<Index>,
     /// Whether the published method averages over a pixel. [default: on]
@@ -36,16 +36,16 @@ pub enum Whole {
     /// Hairline's own.
     #[default]
     Default,
-    /// That of Velinov, Werner and Hullin (2018).
+    /// Method of Velinov, Werner and Hullin (2018).
     Published,
 }
 
 /// `--mask`
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Mask {
-    /// What they scatter, in colour, scratches weakening one another.
+    /// Scattered energy, in colour, scratches weakening one another.
     Energy,
-    /// The same without the weakening.
+    /// Scattered energy without the weakening.
     Linear,
     /// The colourless density of Velinov et al. (2018).
     Density,

@@ -1,4 +1,4 @@
-//! How far long work has come: a bar on a terminal, nothing in a pipe.
+//! Progress of long work: a bar on a terminal, nothing in a pipe.
 
 use std::sync::Mutex;
 use std::time::Duration;
@@ -82,7 +82,7 @@ pub struct Terminal {
 }
 
 impl Terminal {
-    /// With a bar that has begun.
+    /// A terminal with a bar that has begun.
     pub fn showing(bar: Progress) -> Self {
         Self {
             bar: Mutex::new(Some(bar)),

@@ -17,7 +17,7 @@ use crate::scene_file::{self, Overrides};
 use crate::switch::Switch;
 use hairline_work::failure::Failure;
 
-/// What a crash or a power cut may cost.
+/// Largest time whose samples a crash or a power cut may lose.
 const SAVE_EVERY: Duration = Duration::from_secs(60);
 
 /// Loads, samples and writes.

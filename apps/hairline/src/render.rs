@@ -107,7 +107,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     }
 }
 
-/// Where pictures go.
+/// Destination of pictures.
 enum Target<'a> {
     One(Output),
     Many(&'a Motion, Goals),
@@ -161,7 +161,7 @@ fn refused(bounces: Option<u32>, refusal: Refusal) -> Failure {
     })
 }
 
-/// What of how a picture was made is not the default.
+/// Notes on the settings of a picture that are not the default.
 fn notes(task: &Task) -> Notes {
     let mut notes = task.notes();
     if task.method != Method::default() {

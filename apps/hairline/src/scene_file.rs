@@ -1,4 +1,4 @@
-//! From the command line to a scene: the file, what flags change in it, and how far the reading has come.
+//! Loads a scene for the command line: the file, the flags' changes to it, and the progress of reading.
 
 use std::path::{Path, PathBuf};
 
@@ -18,12 +18,12 @@ use hairline_work::failure::Failure;
 /// The scene that is there without a file.
 pub const BUILT_IN: &str = include_str!("built_in_scene.toml");
 
-/// What flags put in the place of what the scene file says.
+/// Values of flags that replace those of the scene file.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Overrides<'a> {
     /// Width and height.
     pub size_px: Option<[u32; 2]>,
-    /// In stops.
+    /// Exposure in stops.
     pub exposure_ev: Option<f64>,
     /// Added to the seed of each layer of scratches.
     pub scratch_seed: u64,
@@ -33,7 +33,7 @@ pub struct Overrides<'a> {
     pub camera: Option<&'a str>,
     /// The curve to the display.
     pub tone_map: Option<ToneMap>,
-    /// Where a light's mirror image is to lie.
+    /// Place for a light's mirror image.
     pub highlight: Option<&'a Highlight>,
     /// Whether other lights than its own show its scratches.
     pub is_lit_for_scratches: bool,
@@ -43,11 +43,11 @@ pub struct Overrides<'a> {
 pub struct Loaded {
     /// The scene itself.
     pub scene: Scene,
-    /// What was built: the file's, with the flags' changes in it.
+    /// Description that was built: the file's, with the flags' changes in it.
     pub description: Description,
-    /// What the files that it names are relative to.
+    /// Folder to which the paths in it are relative.
     pub folder: PathBuf,
-    /// With what it was built.
+    /// Builder of the scene, which keeps its parts.
     builder: SceneBuilder,
 }
 

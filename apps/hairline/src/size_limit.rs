@@ -1,4 +1,4 @@
-//! How large a picture may be.
+//! Limit on the size of a picture.
 
-/// As scene files allow.
+/// Largest width and height, the same as in scene files.
 pub const SIDE_MAX_PX: u32 = 16384;

@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-/// On or off.
+/// Value of the flag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Switch {
     /// Yes.

@@ -52,7 +52,7 @@ pub fn run(arguments: &cli::View) -> Result<(), Failure> {
     })
 }
 
-/// What is wrong with a scene, or with a model to be shown in one.
+/// Checks a scene, or a model to be shown in one.
 fn check(path: &Path) -> Result<(), hairline_scene::Error> {
     match Description::is_model(path) {
         true => probe::mesh(path).map(drop),

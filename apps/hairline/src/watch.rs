@@ -12,7 +12,7 @@ use crate::interrupt::{Interrupt, cannot_listen};
 use crate::render;
 use hairline_work::failure::Failure;
 
-/// How often the files are looked at. An editor that saves in several steps is done in this time.
+/// Interval of looking at the files. An editor that saves in several steps is done in this time.
 const EVERY: Duration = Duration::from_millis(200);
 
 /// Renders, and again on every change, until Ctrl-C. What is wrong with a scene is told, and its next change waited for.
@@ -52,7 +52,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is known of the scene's files without reading them all.
+/// Versions of the scene's files, known without reading them all.
 #[derive(Clone, PartialEq)]
 struct Stamps(Vec<(PathBuf, Option<(SystemTime, u64)>)>);
 

@@ -77,12 +77,12 @@ impl Page {
         self.0.open_link(fragment);
     }
 
-    /// What a mistake of the program said, once there was one.
+    /// Message of a mistake of the program, once there was one.
     pub fn failure(&self) -> Option<String> {
         self.0.failure()
     }
 
-    /// What a page may want to know, as an object: `backend`, what paints; `pictures`, how many there were; `finished`, whether nothing finer
+    /// State for the page's script, as an object: `backend`, what paints; `pictures`, how many there were; `finished`, whether nothing finer
     /// comes; `building`; `camera` and `target` of the window, metres; `objects`, how many; `environment`, `shadows`; `selection`;
     /// `messages`. Nothing while the viewer itself works.
     pub fn state(&self) -> Option<Object> {

@@ -20,11 +20,11 @@ const SILHOUETTE_DEPTH: f32 = 0.2;
 /// An image against a reference.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Compared {
-    /// That counted: away from silhouettes.
+    /// Number of pixels that counted, away from silhouettes.
     pub pixels: usize,
-    /// Of the reference, a pixel.
+    /// Samples of the reference, a pixel.
     pub samples: u32,
-    /// By name; layers that are black in the reference are left out.
+    /// Figures by layer name; layers that are black in the reference are left out.
     pub layers: BTreeMap<String, LayerFigures>,
 }
 
@@ -35,11 +35,11 @@ pub struct LayerFigures {
     pub mean_ratio: Figure,
     /// Root of the mean squared difference less the noise, over the reference's root mean square.
     pub rms: Figure,
-    /// The same of the noise alone.
+    /// Relative rms of the noise alone.
     pub noise: f64,
     /// Mean FLIP, where the layer is shown in colour. The noise is in it.
     pub flip: Option<f64>,
-    /// Of the z-test, in words.
+    /// Verdict of the z-test, in words.
     pub verdict: String,
 }
 

@@ -1,4 +1,4 @@
-//! What the Monte Carlo costs: samples in a second, what more cores give, and what more samples give.
+//! Cost of the Monte Carlo: samples in a second, the gain from more cores, and the gain from more samples.
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -19,7 +19,7 @@ const FULL_QUICK_PX: u32 = 12;
 /// Runs of one thread and of all take turns, so that what else the machine does meets both.
 const ROUNDS: u32 = 3;
 
-/// What was found.
+/// Results of the measurement.
 #[derive(Serialize, Deserialize)]
 pub struct Cost {
     /// Threads of the larger pool: all that the machine has.
@@ -31,14 +31,14 @@ pub struct Cost {
 #[derive(Serialize, Deserialize)]
 pub struct ModelCost {
     pub model: String,
-    /// With one thread.
+    /// Samples in a second with one thread.
     samples_per_s: f64,
     /// Time of one thread over time of all, median of the rounds.
     pub speed_up: f64,
     /// The variance of the beauty by samples a pixel, mean over pixels and channels: by the scatter of batches, and by half
     /// the squared difference of two runs.
     pub variance: Vec<[f64; 3]>,
-    /// Of the logarithms: -1 if twice the samples have half the variance.
+    /// Slope of the logarithms: -1 if twice the samples have half the variance.
     slope: f64,
     slope_of_difference: f64,
 }
@@ -69,14 +69,14 @@ pub fn measure(quick: bool) -> Result<Cost> {
     Ok(Cost { cores, models })
 }
 
-/// How much of a model is run.
+/// Settings of the run of a model.
 struct Run {
     name: &'static str,
     model: Model,
     size_px: u32,
-    /// For the time.
+    /// Samples for the measurement of time.
     samples: u32,
-    /// For the variance: of two batches.
+    /// Doublings of the samples for the measurement of variance, by two batches.
     doublings: u32,
 }
 
@@ -165,7 +165,7 @@ fn mean_squared_difference(a: &Image, b: &Image) -> f64 {
     sum / (3 * a.len()).max(1) as f64
 }
 
-/// Of the line through the logarithms, by least squares.
+/// Slope of the line through the logarithms, by least squares.
 fn slope(points: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
     let logs = points.map(|(x, y)| (x.ln(), y.ln()));
     let count = logs.clone().count() as f64;

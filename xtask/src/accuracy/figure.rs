@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What was measured, and how far off it may be: one standard error.
+/// A measured number and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Figure {
     pub value: f64,
@@ -21,7 +21,8 @@ impl Figure {
         }
     }
 
-    /// As text, with as many digits as its error leaves it: two of the error, and at most `most` decimals.
+    /// Formats the number with as many digits as its error leaves it: two of the error, and at most `most`
+    /// decimals.
     pub fn text(self, scale: f64, most: f64) -> String {
         let (value, error) = (scale * self.value, scale * self.error);
         let decimals = if error > 0.0 {

@@ -1,4 +1,4 @@
-//! What all parts measured.
+//! Figures that all parts measured.
 
 use serde::Serialize;
 

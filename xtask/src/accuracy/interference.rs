@@ -1,4 +1,4 @@
-//! What the incoherent sum leaves out: parallel grooves, as a row and at random, with their phases and without.
+//! Error of the incoherent sum: parallel grooves, as a row and at random, with their phases and without.
 //!
 //! No Monte Carlo: the field of endless parallel grooves depends on one place and one direction, which are integrated over.
 
@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 const COHERENCE_UM: f64 = 20.0;
 const WIDTH_UM: f64 = 1.0;
 const DEPTH_NM: f64 = 150.0;
-/// Beyond this the window has fallen to 1e-3 in amplitude.
+/// Radius of the window, where its amplitude has fallen to 1e-3.
 const REACH_UM: f64 = 3.7 * COHERENCE_UM;
 /// Directions across the grooves, in direction cosines from the mirror direction: beside the specular peak, within the main
 /// lobe of a groove.
@@ -39,7 +39,7 @@ const WAY_GROOVES: f64 = 60.0;
 const STEP_UM: f64 = 5.0;
 const SEED: u64 = 1;
 
-/// What was found.
+/// Results of the measurement.
 #[derive(Serialize, Deserialize)]
 pub struct Interference {
     width_um: f64,
@@ -48,7 +48,7 @@ pub struct Interference {
     pub shown_um: f64,
     /// One row and one stretch of random grooves under a small light: response over direction, in green.
     pub profiles: Vec<Profile>,
-    /// By spacing, for grooves in a row and at random.
+    /// Errors by spacing, for grooves in a row and at random.
     pub by_spacing: Vec<Errors>,
     /// Random grooves, by the pixel's side.
     pub by_pixel: Vec<Errors>,
@@ -155,12 +155,12 @@ impl Row {
 
 /// Responses by place and direction.
 struct Seen {
-    /// As in [`Row`].
+    /// See [`Row`].
     periodic: bool,
     places: Vec<Vec<Response>>,
 }
 
-/// In linear Rec.709.
+/// Responses in linear Rec.709.
 #[derive(Clone, Copy, Default)]
 struct Response {
     full: [f64; 3],
@@ -189,7 +189,8 @@ impl Seen {
         }
     }
 
-    /// What pixels of this size see: one for all places of a period, else one at each place far enough from the ends.
+    /// Responses that pixels of this size see: one for all places of a period, else one at each place far enough from the
+    /// ends.
     fn pixels(&self, pixel_um: f64) -> Vec<Vec<Response>> {
         let average = |weights: &dyn Fn(usize) -> f64| {
             let mut sum = vec![Response::default(); Q_COUNT];
@@ -243,7 +244,7 @@ impl Seen {
         }
     }
 
-    /// Of one pixel, in green, over the response's mean.
+    /// Profile of one pixel, in green, over the response's mean.
     fn profile(&self, random: bool) -> Profile {
         let pixels = self.pixels(PIXEL_UM);
         let responses = lit(&pixels[pixels.len() / 2], LIGHTS[0]);
@@ -275,7 +276,7 @@ fn lit(responses: &[Response], light_rad: f64) -> Vec<Response> {
         .collect()
 }
 
-/// Over directions, at one place.
+/// Responses over directions, at one place.
 fn from_place(grooves_um: &[f64], place_um: f64, nm_step: usize) -> Vec<Response> {
     let pieces: Vec<GroovePiece> = grooves_um
         .iter()

@@ -41,7 +41,7 @@ fn mirror() -> Stage {
 /// Errors of the reflected light, in parts of what the bare mirror sends.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 pub struct MaskErrors {
-    /// What the full model finds, mean of the three channels.
+    /// Light that the full model reflects, mean of the three channels.
     pub reflected: Figure,
     pub energy: f64,
     pub linear: f64,
@@ -60,20 +60,20 @@ struct GrooveErrors {
 /// Root mean squares over some grooves.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct Rms {
-    /// Of [`DEPTHS_NM`]; None for all grooves.
+    /// Depth, of [`DEPTHS_NM`]; None for all grooves.
     pub depth_nm: Option<f64>,
     pub peak: MaskErrors,
     pub furnace: MaskErrors,
 }
 
-/// What was found.
+/// Results of the measurement.
 #[derive(Serialize, Deserialize)]
 pub struct MaskFigures {
     /// The share of the mirror that is covered.
     covered: f64,
-    /// Over widths, by depth.
+    /// Rms over widths, by depth.
     pub by_depth: Vec<Rms>,
-    /// Over both.
+    /// Rms over widths and depths.
     pub all: Rms,
 }
 
@@ -167,7 +167,7 @@ fn rms<'a>(depth_nm: Option<f64>, grooves: impl Iterator<Item = &'a GrooveErrors
     }
 }
 
-/// Of the beauty, by channel.
+/// Mean of the beauty, by channel.
 fn mean(image: &Image) -> [f64; 3] {
     let beauty = image.beauty().rgb;
     let sum = beauty.iter().fold([0.0; 3], |sum: [f64; 3], rgb| {

@@ -1,4 +1,4 @@
-//! Which figures are drawn, and how.
+//! Plots of the figures.
 
 use std::path::Path;
 

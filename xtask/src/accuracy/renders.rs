@@ -17,7 +17,7 @@ use hairline_scene::Scene;
 
 use super::compared::uncertainty;
 
-/// What a reference depends on beside the scene and the settings.
+/// Paths whose contents a reference depends on besides the scene and the settings.
 const SOURCES: [&str; 7] = [
     "crates/optics/data",
     "crates/optics/src",
@@ -28,18 +28,18 @@ const SOURCES: [&str; 7] = [
     "crates/cpu/src/surface.rs",
 ];
 
-/// How many samples a reference gets: twice as many each time, until the goal or the end is reached.
+/// Number of samples of a reference: twice as many each time, until the goal or the end is reached.
 #[derive(Clone, Copy, Debug)]
 pub struct Budget {
-    /// To begin with.
+    /// Number at the beginning.
     pub least: u32,
-    /// At the end.
+    /// Number at the end.
     pub most: u32,
     /// Enough, when the relative rms between closed form and reference is known in this layer to this standard error.
     pub goal: (Layer, f64),
 }
 
-/// Where renders are made and kept.
+/// Renderer of the pictures, and the folder where they are kept.
 pub struct Renders {
     folder: PathBuf,
     sources: blake3::Hash,

@@ -15,7 +15,7 @@ use super::renders::{Budget, Renders, closed_form};
 
 /// A crop's size: few pixels, of which many samples can be had.
 const CROP_PX: [u32; 2] = [32, 18];
-/// That of a crop for the full model, which takes a hundred times as long. And for a look alone.
+/// Size of the crop for the full model, which takes a hundred times as long, and that of a quick run.
 const FULL_PX: [u32; 2] = [16, 9];
 const FULL_QUICK_PX: [u32; 2] = [8, 5];
 /// A whole picture's size.
@@ -97,7 +97,7 @@ const VIEWS: [View; 7] = [
     },
 ];
 
-/// What was found of a scene.
+/// Figures of a scene.
 #[derive(Serialize, Deserialize)]
 pub struct SceneFigures {
     name: String,
@@ -106,7 +106,7 @@ pub struct SceneFigures {
     pixel_um: f64,
     /// Closed form against separable, each with the energy mask.
     pub energy: Compared,
-    /// The same with the linear mask.
+    /// Comparison with the linear mask in both.
     pub linear: Compared,
     /// Separable against full.
     full: Compared,

@@ -9,7 +9,7 @@ use hairline_scene::{Environment, Light, Profile, Scene, Scratch, Segment};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// From the camera and from the light to the middle of the plate.
+/// Distances of the camera and of the light from the middle of the plate.
 const CAMERA_M: f64 = 0.2;
 const LIGHT_M: f64 = 1.0;
 
@@ -30,12 +30,12 @@ pub struct Stage {
     pub size_px: u32,
     /// Across the view, at the middle of the plate.
     pub pixel_um: f64,
-    /// From the plate's normal.
+    /// Angle of the view from the plate's normal.
     pub view_rad: f64,
     /// Radius as seen from the plate.
     pub light_rad: f64,
     pub lamp: Lamp,
-    /// How far the light's middle lies from the mirror direction, across the plane of incidence, in direction cosines.
+    /// Distance of the light's middle from the mirror direction, across the plane of incidence, in direction cosines.
     pub beside: f64,
     pub roughness: f64,
     /// Area of the grooves over area of the plate; crossings count twice.
@@ -98,7 +98,7 @@ impl Stage {
         Ok(scene)
     }
 
-    /// Of radiance one.
+    /// The light of the stage, of radiance one.
     fn light(&self) -> Option<Light> {
         let direction = DVec3::new(self.beside, self.view_rad.sin(), 0.0);
         let direction = direction.with_z((1.0 - direction.length_squared()).max(0.0).sqrt());

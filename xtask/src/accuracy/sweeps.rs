@@ -124,25 +124,26 @@ fn rough(stage: Stage, roughness: f64, lamp: Lamp) -> Stage {
     }
 }
 
-/// What was found at one place of a knob.
+/// Figures at one value of a knob.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct SweepPoint {
     /// The knob's value, in the unit of its name.
     pub x: f64,
     /// Closed form against separable.
     pub closed: Compared,
-    /// The same with the linear mask in both, but for the base's sweeps: without what (9) makes of a pixel's mean shares.
+    /// Comparison with the linear mask in both, except for the base's sweeps: without the effect of (9) on a pixel's mean
+    /// shares.
     pub linear: Option<Compared>,
     /// Separable against full, but for the base's sweeps.
     pub full: Option<Compared>,
 }
 
-/// What was found of one knob.
+/// Figures of one knob.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct SweepFigures {
-    /// Its name.
+    /// Name of the knob.
     pub key: String,
-    /// In the order of x.
+    /// Points in the order of x.
     pub points: Vec<SweepPoint>,
 }
 

@@ -13,10 +13,10 @@ use super::interference::Errors;
 use super::sweeps::{SweepFigures, SweepPoint};
 
 const TEMPLATE: &str = include_str!("accuracy.md.jinja");
-/// What `tests/peers/peer.py` wrote: it needs Python and Mitsuba, and is not run here.
+/// Results that `tests/peers/peer.py` wrote: it needs Python and Mitsuba, and is not run here.
 const PEERS: &str = include_str!("../../../tests/peers/results.md");
 
-/// What the text says in words, and so must be decided by the figures.
+/// Figures by which the words of the text are decided.
 #[derive(Serialize)]
 struct Facts {
     scenes: Option<SceneFacts>,
@@ -27,7 +27,7 @@ struct Facts {
 #[derive(Serialize)]
 struct SceneFacts {
     count: usize,
-    /// Of the scratches of a crop, closed form against separable.
+    /// Largest rms of the scratches of a crop, closed form against separable.
     worst_linear: Figure,
     worst_energy: Figure,
     /// Crops whose scratches the z-test finds to differ by noise alone.
@@ -42,7 +42,7 @@ struct SweepFacts {
     /// The largest rms of the scratches for lights of 0.05 rad and more, and for smaller ones.
     large_lights: Figure,
     small_lights: Figure,
-    /// The same as the first with the linear mask.
+    /// [`Self::large_lights`] with the linear mask.
     large_lights_linear: Figure,
     /// The largest rms of each sweep, closed form against separable.
     worst: Vec<(String, f64, Figure)>,
@@ -54,7 +54,7 @@ struct InterferenceFacts {
     lights: [f64; 2],
     row: [f64; 2],
     random: [f64; 2],
-    /// Of random grooves, in the smallest and the largest pixel, for the smallest light.
+    /// Smallest and largest pixel; the errors below are those of random grooves for the smallest light.
     pixels: [f64; 2],
     random_by_pixel: [f64; 2],
 }

@@ -14,12 +14,12 @@ use super::search::{grid, nelder_mead, uniform_direction};
 const N: usize = ENVIRONMENT_TAPS;
 /// Slopes from the mirror direction over alpha, then logarithms of alphas over that of the surface.
 type Places = [f64; 2 * N];
-/// What the shares are drawn to where the lobes leave them open, and how strongly, relative to the lobe.
+/// Shares to which those are drawn that the lobes leave open, and the strength of this, relative to the lobe.
 const USUAL_SHARES: [f64; N] = [0.2661, 0.2399, 0.2399, 0.1271, 0.1271];
 const SHARES_HELD: f64 = 1e-4;
 /// The least share of the first, from which the mean is taken on.
 const FIRST_SHARE: f64 = 0.004;
-/// How strongly places are held to those of the nodes before.
+/// Strength with which places are held to those of the nodes before.
 const PLACES_HELD: f64 = 2e-5;
 /// Bounds of the logarithms. Narrower look-ups would fit narrow lobes better, as a row of dots.
 const NARROWEST: f64 = -1.5;
@@ -123,7 +123,7 @@ struct Target {
     /// Integrals of the squares of GGX and of GGX times (1 - cos)^5, both over their integrals.
     plain2: f64,
     grazing2: f64,
-    /// How much the second counts.
+    /// Weight of the second.
     grazing_part: f64,
 }
 

@@ -36,7 +36,7 @@ pub enum Kind {
 
 /// One input: files in a folder, of which `scene.toml` is rendered.
 pub struct Case {
-    /// What failures call it.
+    /// Name of the case in failures.
     pub name: String,
     /// Names and contents.
     pub files: Vec<(String, Vec<u8>)>,

@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 
 use super::case::Case;
 
-/// On a machine with much else to do, a case may take so many times its processor time.
+/// Largest factor of a case's time over its processor time, on a machine with much else to do.
 const PATIENCE: u64 = 10;
 /// A message of one line is no longer than this.
 const LONGEST_MESSAGE: usize = 4096;
@@ -17,7 +17,7 @@ const LONGEST_MESSAGE: usize = 4096;
 /// The program itself, and what its estimate of a scene may leave out, in MiB.
 const UNCOUNTED_MEBIBYTES: u64 = 192;
 
-/// What a case may take.
+/// Limits of time and memory of a case.
 pub struct Limits {
     pub seconds: u64,
     pub mebibytes: u64,
@@ -78,7 +78,7 @@ fn resident_mebibytes(process: u32) -> u64 {
     kibibytes.unwrap_or(0_u64) / 1024
 }
 
-/// What `hairline info` says that the scene takes.
+/// Memory of the scene by `hairline info`.
 fn estimated_mebibytes(program: &Path, folder: &Path, limits: &Limits) -> Result<u64> {
     let output = limited(program, limits)
         .args(["info", "--json", "scene.toml"])

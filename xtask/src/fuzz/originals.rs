@@ -90,7 +90,7 @@ macro_rules! image {
 
 /// Packed as ETC1S, and as UASTC.
 const KTX2: [&[u8]; 2] = [image!("etc1s.ktx2"), image!("uastc_zstd.ktx2")];
-/// With losses and an alpha beside it, and without.
+/// WebP images: one with losses and an alpha beside it, one without.
 const WEBP: [&[u8]; 2] = [image!("lossy.webp"), image!("lossless.webp")];
 /// Row by row, with colours of half the size and marks to begin again at; and in passes.
 const JPEG: [&[u8]; 2] = [image!("baseline.jpg"), image!("progressive.jpg")];

@@ -17,7 +17,7 @@ use meshopt_rs::vertex::buffer::encode_vertex_buffer;
 pub struct Packed {
     /// One behind the other in the chunk.
     pub pieces: Vec<Vec<u8>>,
-    /// With the words `OFFSET(i)`, `LENGTH(i)` and `TOTAL` in the place of numbers.
+    /// Text with the words `OFFSET(i)`, `LENGTH(i)` and `TOTAL` in the place of numbers.
     text: String,
 }
 
@@ -81,7 +81,7 @@ fn bytes_of<const N: usize>(values: &[[f32; N]]) -> Vec<u8> {
     bytes.collect()
 }
 
-/// By all predictions, by the usual ones, and by none.
+/// Models packed with all predictions, with the usual ones, and with none.
 pub fn draco() -> Result<Vec<Packed>> {
     [0, 5, 10].map(draco_at).into_iter().collect()
 }
@@ -219,7 +219,7 @@ pub fn meshopt() -> Result<Packed> {
     })
 }
 
-/// By version 0 of the coding.
+/// Packs attributes by version 0 of the coding.
 fn attributes<const N: usize>(elements: &[[u8; N]]) -> Result<Vec<u8>> {
     let mut packed = vec![0; 1 << 14];
     let used = encode_vertex_buffer(&mut packed, elements, VertexEncodingVersion::V0);
@@ -227,7 +227,7 @@ fn attributes<const N: usize>(elements: &[[u8; N]]) -> Result<Vec<u8>> {
     Ok(packed)
 }
 
-/// By version 1, which the crate does not write: all differences of bytes as they are. One block holds the elements.
+/// Packs attributes by version 1, which the crate does not write: all differences of bytes as they are. One block holds the elements.
 fn literally<const N: usize>(elements: &[[u8; N]]) -> Vec<u8> {
     let mut packed = vec![0xa1];
     packed.extend([0xff; N].iter().take(N / 4));

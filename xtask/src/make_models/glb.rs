@@ -24,9 +24,9 @@ pub struct Glb {
     images: Vec<Value>,
 }
 
-/// What of a part goes into the file.
+/// Optional contents of a part in the file.
 pub struct Uses {
-    /// Its tangents.
+    /// Whether its tangents are written.
     pub tangents: bool,
 }
 

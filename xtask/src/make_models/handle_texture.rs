@@ -1,4 +1,4 @@
-//! What is engraved in the spoon's handle: a line along the edge, flutes, a flower, and three marks on the back, with the
+//! Engraving of the spoon's handle: a line along the edge, flutes, a flower, and three marks on the back, with the
 //! tarnish that stays in their ground.
 
 use glam::{DVec2, DVec3};
@@ -7,7 +7,7 @@ use image::{Rgb, RgbImage};
 use super::spline::smooth_step;
 use super::spoon::{JOINT_MM, LENGTH_MM, Spoon, TEXTURE_HALF_WIDTH_MM};
 
-/// Of all three pictures.
+/// Width of all three pictures.
 const WIDTH_PX: u32 = 512;
 const HEIGHT_PX: u32 = 256;
 
@@ -64,7 +64,7 @@ fn eight_bits(value: f64) -> u8 {
     (value * 255.0).round().clamp(0.0, 255.0) as u8
 }
 
-/// How deep the graver went at a point of a face.
+/// Depth of the engraving at a point of a face.
 fn depth_mm(spoon: &Spoon, at: DVec2, is_upper: bool) -> f64 {
     let half_width = spoon.half_width_mm(at.x);
     // A line that keeps its distance from the edge, except where the handle is too narrow for it.

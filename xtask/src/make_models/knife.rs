@@ -8,13 +8,13 @@ use glam::{DVec2, DVec3};
 use super::spline::smooth_step;
 use super::spoon::Part;
 
-/// Of the blade, from its heel.
+/// Length of the blade, from its heel.
 const BLADE_MM: f64 = 196.0;
-/// Where the handle ends and the bolster begins.
+/// Place where the handle ends and the bolster begins.
 const BOLSTER_MM: f64 = -16.0;
-/// Where the handle begins.
+/// Place where the handle begins.
 const END_MM: f64 = -132.0;
-/// How wide the bevel is, where the blade is wide enough.
+/// Width of the bevel, where the blade is wide enough.
 const BEVEL_MM: f64 = 2.4;
 /// Half of the blade where the bevel begins.
 const BEVEL_HALF_MM: f64 = 0.3;
@@ -55,7 +55,7 @@ pub fn edge_bevel() -> Part {
     part
 }
 
-/// From the handle to the heel of the blade.
+/// The bolster, from the handle to the heel of the blade.
 pub fn bolster() -> Part {
     let mut part = Part::default();
     add_face(&mut part, [24, 64], true, |u, v| {
@@ -105,7 +105,7 @@ pub fn rivets() -> Part {
     part
 }
 
-/// Of the blade, from heel to tip, which is left a hundredth of a millimetre blunt.
+/// Place along the blade, from heel to tip, which is left a hundredth of a millimetre blunt.
 fn along(u: f64) -> f64 {
     BLADE_MM * (1.0 - libm::pow(1.0 - u, 1.5)) * (1.0 - 1e-4)
 }

@@ -10,7 +10,7 @@ pub struct Spline {
 }
 
 impl Spline {
-    /// Through `points`, in rising order of x.
+    /// A spline through `points`, in rising order of x.
     pub fn new(points: &[[f64; 2]]) -> Self {
         let x: Vec<f64> = points.iter().map(|p| p[0]).collect();
         let y: Vec<f64> = points.iter().map(|p| p[1]).collect();

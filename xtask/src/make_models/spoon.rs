@@ -7,12 +7,12 @@ use glam::{DVec2, DVec3};
 
 use super::spline::{Spline, smooth_step};
 
-/// From the tip of the bowl to the end of the handle.
+/// Length from the tip of the bowl to the end of the handle.
 pub const LENGTH_MM: f64 = 179.0;
-/// Where the bowl's mesh ends and the handle's begins.
+/// Place where the bowl's mesh ends and the handle's begins.
 pub const JOINT_MM: f64 = 72.0;
-/// On its back the spoon rests on the bowl and the end of the handle: how far the tip's frame is lifted for that, and turned
-/// about y.
+/// Height by which the tip's frame is lifted so that the spoon rests on its back, on the bowl and the end of the handle, and
+/// its turn about y.
 pub const ON_BACK_MM: f64 = 11.04;
 /// See [`ON_BACK_MM`].
 pub const ON_BACK_RAD: f64 = 0.0106;
@@ -33,7 +33,7 @@ const DIFFERENCE: f64 = 1e-5;
 /// Vertices and triangles of one primitive.
 #[derive(Default)]
 pub struct Part {
-    /// In the part's own frame, mm.
+    /// Positions in the part's own frame, mm.
     pub positions_mm: Vec<DVec3>,
     /// Unit.
     pub normals: Vec<DVec3>,

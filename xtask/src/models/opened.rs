@@ -15,18 +15,18 @@ use serde_json::Value;
 
 const SIZE_PX: [u32; 2] = [96, 54];
 
-/// What became of the files of a source.
+/// Outcomes of the files of a source.
 pub struct Source {
     pub name: String,
     pub files: Vec<Opened>,
 }
 
-/// What became of a file.
+/// Outcome of a file.
 pub struct Opened {
     /// Below its source.
     pub name: String,
     pub outcome: Outcome,
-    /// What it was said to lack, with the meaning, and whether that changes the picture.
+    /// Contents that are left out, with their meaning, and whether that changes the picture.
     pub left_out: Vec<(String, String, bool)>,
     /// The extensions that its own text lists as used, found without Hairline's reader.
     pub used: BTreeSet<String>,
@@ -35,11 +35,11 @@ pub struct Opened {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Outcome {
     Rendered,
-    /// With what is wrong with it.
+    /// Refused, with the reason.
     Refused(String),
-    /// With its message.
+    /// Panicked, with the message.
     Panicked(String),
-    /// It has pixels that are no numbers: how many.
+    /// Rendered with this number of pixels that are no numbers.
     NotFinite(usize),
 }
 

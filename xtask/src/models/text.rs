@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::opened::{Opened, Outcome, Source};
 
-/// So many files of one outcome are named; of more the first ones.
+/// Largest number of files of one outcome that are named, the first ones.
 const NAMED: usize = 12;
 
 /// All tables.
@@ -80,7 +80,7 @@ fn summary(out: &mut String, sources: &[Source]) {
     row("all", &all(sources).collect::<Vec<_>>());
 }
 
-/// What files were said to lack.
+/// Lists the contents that are left out of the files.
 fn lacking(out: &mut String, sources: &[Source]) {
     let mut counts: BTreeMap<(bool, &str, &str), usize> = BTreeMap::new();
     for file in all(sources).filter(|file| file.outcome == Outcome::Rendered) {

@@ -19,7 +19,7 @@ const PROGRAMS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 /// SwiftShader compiles for seconds.
 const PATIENCE: Duration = Duration::from_secs(150);
 
-/// What a page sent: the rest of the address after `/result/`, and the bytes.
+/// Answer of a page: the rest of the address after `/result/`, and the bytes.
 pub(super) type Answer = (String, Vec<u8>);
 
 /// Opens a page and waits until it has sent `/done`. What it sends to `/failure` is an error.

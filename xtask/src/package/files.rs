@@ -18,7 +18,7 @@ pub(super) fn node(folder: &Path, script: &[&str], output: &Path) -> anyhow::Res
     Ok(())
 }
 
-/// What the tests need from npm, at the versions of the lock file.
+/// Installs the packages that the tests need from npm, at the versions of the lock file.
 pub(super) fn install(folder: &Path) -> anyhow::Result<()> {
     let changed =
         |file: &str| std::fs::metadata(folder.join(file)).and_then(|data| data.modified());

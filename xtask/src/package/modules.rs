@@ -67,7 +67,7 @@ pub(super) fn single_file(modules: &[&Module]) -> String {
     text
 }
 
-/// By naga.
+/// Validates the module by naga.
 pub(super) fn validate(text: &str) -> anyhow::Result<()> {
     let parsed = naga::front::wgsl::parse_str(text)
         .map_err(|error| anyhow::anyhow!("{}", error.emit_to_string(text)))?;

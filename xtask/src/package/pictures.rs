@@ -101,7 +101,7 @@ fn render(scene: &Scene) -> Image {
     Prepared::new(scene).render(&RenderOptions::default(), &|_| {})
 }
 
-/// What the page draws: the scene as JSON, its first object's mesh and scratches.
+/// Writes the page's contents: the scene as JSON, its first object's mesh and scratches.
 fn write_page(folder: &Path, scene: &Scene) -> anyhow::Result<()> {
     let object = &scene.objects[0];
     let mesh = &object.mesh;

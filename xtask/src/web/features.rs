@@ -1,11 +1,11 @@
-//! What of WebAssembly a program needs beyond its first version: browsers that lack one of its features refuse it as a whole.
+//! Features of WebAssembly that a program needs beyond its first version: browsers that lack one of them refuse it as a whole.
 
 use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, bail, ensure};
 
-/// What all browsers with WebGPU have, by the names of the compiler.
+/// Features of all browsers with WebGPU, by the names of the compiler.
 const OF_BROWSERS: [&str; 9] = [
     "bulk-memory",
     "bulk-memory-opt",

@@ -15,7 +15,7 @@ const FIRST: &str = "README.md";
 const STYLE: &str = "docs.css";
 /// Pixels: pictures are no wider.
 const WIDTH_MAX: u32 = 1280;
-/// In the line above each page.
+/// Links in the line above each page.
 const ABOVE: [(&str, &str); 5] = [
     ("index.html", "Try it"),
     ("README.html", "Hairline"),
@@ -126,7 +126,7 @@ impl Site<'_> {
         )?)
     }
 
-    /// Where a link leads in the folder, if it does.
+    /// Target of a link in the folder, if it has one.
     fn link(&mut self, folder: &Path, url: &str) -> Option<String> {
         if url.starts_with('#') || url.contains("://") {
             return Some(url.into());
@@ -211,7 +211,7 @@ fn name_headings(events: &mut [Event]) {
     }
 }
 
-/// Without `..`, if it stays inside.
+/// Path without `..`, if it stays inside.
 fn plain(path: &Path) -> Option<PathBuf> {
     let mut plain = PathBuf::new();
     for part in path.components() {

@@ -1,9 +1,9 @@
-//! How much work a picture is.
+//! Counts of the work for a picture.
 
 use hairline_cpu::closed_form;
 use serde::Serialize;
 
-/// What the stages of a picture did, as the CPU renderer counts it.
+/// Counts of the stages of a picture, by the CPU renderer.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Counts {
     /// Segments that were projected to the picture.
@@ -12,11 +12,11 @@ pub struct Counts {
     pub entries: u64,
     /// (pixel, segment) tests.
     pub tests: u64,
-    /// Of those, with a share of the pixel.
+    /// Those pairs with a share of the pixel.
     pub pairs: u64,
     /// (pair, light) that were asked for.
     pub asked: u64,
-    /// Of those, lit.
+    /// Those that are lit.
     pub lit: u64,
 }
 

@@ -12,10 +12,10 @@ use super::worker::{Ready, Worker, counted};
 use crate::progress::Progress;
 use hairline_work::failure::Failure;
 
-/// Of a curve: its name, its methods, and the scene at each place. One of the functions below.
+/// Function that makes a curve: its name, its methods, and the scene at each place. One of the functions below.
 pub type Stages = fn(Stage, bool) -> Plan;
 
-/// What is measured along a curve.
+/// Measurements along a curve.
 pub struct Plan {
     along: &'static str,
     ways: &'static [Way],
@@ -28,7 +28,7 @@ const SHORT_M: f64 = 0.00236;
 
 const BOTH: &[Way] = &[Way::Filtered, Way::Ours];
 
-/// From a thousand scratches to a million, under a sphere.
+/// Curve from a thousand scratches to a million, under a sphere.
 pub fn scratches(base: Stage, quick: bool) -> Plan {
     let counts: &[u32] = if quick {
         &[1_000, 10_000, 100_000]
@@ -79,7 +79,7 @@ pub fn zoom(base: Stage, quick: bool) -> Plan {
     }
 }
 
-/// From one light to 64, half of them spheres and half triangles.
+/// Curve from one light to 64, half of them spheres and half triangles.
 pub fn lights(base: Stage, quick: bool) -> Plan {
     let counts: &[u32] = if quick {
         &[2, 16]
@@ -100,7 +100,7 @@ pub fn lights(base: Stage, quick: bool) -> Plan {
     }
 }
 
-/// From half the size to twice it, at the same field of view, under a sphere.
+/// Curve from half the size to twice it, at the same field of view, under a sphere.
 pub fn pixels(base: Stage, quick: bool) -> Plan {
     // Halves of the size: 640 x 360 to 2560 x 1440 about the talk's.
     let halves: &[u32] = if quick { &[1, 2] } else { &[1, 2, 3, 4] };

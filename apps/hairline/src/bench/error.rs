@@ -1,4 +1,4 @@
-//! How far each cell's picture is from the truth, so that nobody buys speed with error.
+//! Error of each cell's picture, so that nobody buys speed with error.
 //!
 //! The truth is the separable Monte Carlo with the energy mask, for every method: what scratches do to light does not depend on how
 //! it is computed. It is sampled on a crop of the picture with pixels of the same size; without anti-aliasing it is that of points,
@@ -18,11 +18,11 @@ use hairline_scene::{LightShape, Scene};
 use super::figures::CellError;
 use super::worker::{Ready, Worker};
 
-/// What a reference may cost.
+/// Cost of a reference.
 #[derive(Clone, Copy, Debug)]
 pub struct Accuracy {
     pub crop_px: [u32; 2],
-    /// Of sampling one reference.
+    /// Time for sampling one reference.
     pub time: Duration,
 }
 
@@ -141,8 +141,8 @@ fn sum(estimate: &Estimate, mask: &[bool]) -> f64 {
         .sum()
 }
 
-/// Where the rim of the first lamp is mirrored on the right of the picture's middle, in parts of its width and height: light and
-/// dark, strong scratches and weak ones side by side. For surfaces in the plane z = 0.
+/// Finds the place where the rim of the first lamp is mirrored on the right of the picture's middle, in parts of its width and height: light
+/// and dark, strong scratches and weak ones side by side. For surfaces in the plane z = 0.
 pub fn rim_of_reflection(scene: &Scene) -> DVec2 {
     const MIDDLE: DVec2 = DVec2::splat(0.5);
     let Some(lamp) = scene.lights.first() else {
@@ -174,7 +174,7 @@ pub fn rim_of_reflection(scene: &Scene) -> DVec2 {
     MIDDLE.with_x(low.min(0.9))
 }
 
-/// Where scratches shine most, in parts of the picture's width and height.
+/// Finds the place where scratches shine most, in parts of the picture's width and height.
 pub fn brightest(scene: &Scene, crop_px: [u32; 2]) -> DVec2 {
     // A look at a small picture is enough: pixels four times as large.
     const COARSE: u32 = 4;

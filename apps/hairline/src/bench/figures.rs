@@ -1,4 +1,4 @@
-//! What was measured, as it goes into the JSON file. The document is made of this alone.
+//! Figures of a benchmark, as they go into the JSON file. The document is made of this alone.
 
 use serde::Serialize;
 
@@ -11,12 +11,12 @@ use super::way::Way;
 pub struct Figures {
     pub hairline: &'static str,
     pub machine: Machine,
-    /// What was measured: the scene file's name, or "bench scene".
+    /// Name of the scene: that of its file, or "bench scene".
     pub scene: String,
     pub size_px: [u32; 2],
     pub scratches: u32,
     pub quick: bool,
-    /// Where `talk_ms` is from.
+    /// Source of `talk_ms`.
     pub talk: &'static str,
     pub table: Vec<Cell>,
     pub curves: Vec<Curve>,
@@ -64,9 +64,9 @@ pub struct Cell {
     pub outcome: Outcome,
     /// None where nothing is lit.
     pub error: Option<CellError>,
-    /// What the talk gives for the published method.
+    /// Figure of the talk for the published method.
     pub talk_ms: Option<f64>,
-    /// What was done for the picture; of our method alone.
+    /// Counts of the work for the picture; of our method alone.
     pub counts: Option<Counts>,
 }
 
@@ -93,12 +93,12 @@ impl Outcome {
     }
 }
 
-/// How long a picture takes, in milliseconds.
+/// Time of a picture, in milliseconds.
 #[derive(Clone, Debug, Serialize)]
 pub struct Timing {
-    /// From the call to the end of the wait.
+    /// Time from the call to the end of the wait.
     pub wall_ms: Spread,
-    /// By the device's own clock, all passes; None where it has none.
+    /// Time of all passes by the device's own clock; None where it has none.
     pub device_ms: Option<Spread>,
     /// The median of each pass.
     pub passes_ms: Vec<(&'static str, f64)>,
@@ -117,7 +117,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of at least one value.
+    /// Spread of at least one value.
     pub fn of(values: &[f64]) -> Self {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -134,12 +134,12 @@ impl Spread {
     }
 }
 
-/// How far the scratches of a crop are from the separable Monte Carlo reference.
+/// Error of the scratches of a crop against the separable Monte Carlo reference.
 #[derive(Clone, Debug, Serialize)]
 pub struct CellError {
     /// Root of the mean squared difference beyond the noise, over the reference's root mean square.
     pub relative_rms: f64,
-    /// What the reference's noise leaves open of it.
+    /// Standard error from the reference's noise.
     pub standard_error: f64,
     /// Mean of the picture over mean of the reference.
     pub mean_ratio: f64,
@@ -164,7 +164,7 @@ pub struct Point {
     pub way: Way,
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// What was done for the picture; of our method alone.
+    /// Counts of the work for the picture; of our method alone.
     pub counts: Option<Counts>,
 }
 

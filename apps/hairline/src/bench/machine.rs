@@ -1,4 +1,4 @@
-//! On what it was measured.
+//! The machine on which a benchmark ran.
 
 use serde::Serialize;
 use sysinfo::{CpuRefreshKind, RefreshKind, System};
@@ -22,7 +22,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// That `worker` works on.
+    /// The machine that `worker` works on.
     pub fn of(worker: &Worker) -> Self {
         let system =
             System::new_with_specifics(RefreshKind::nothing().with_cpu(CpuRefreshKind::nothing()));
@@ -40,7 +40,7 @@ impl Machine {
         }
     }
 
-    /// In one line.
+    /// Describes the machine in one line.
     pub fn in_words(&self) -> String {
         let cpu = format!("{}, {} threads", self.cpu, self.threads);
         match (&self.adapter, &self.driver) {

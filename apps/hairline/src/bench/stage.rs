@@ -13,10 +13,10 @@ use hairline_scene::Scene;
 
 use hairline_work::failure::Failure;
 
-/// What lights the disk.
+/// Lights of the disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lamps {
-    /// Nothing: scratches are found and weighed, and none is lit.
+    /// No light: scratches are found and weighed, and none is lit.
     None,
     /// A sphere.
     Sphere,
@@ -39,20 +39,21 @@ pub struct Stage {
     pub size_px: [u32; 2],
 }
 
-/// What the talk's table was measured with.
+/// Picture size of the talk's table.
 pub const TALK_SIZE_PX: [u32; 2] = [1280, 720];
 pub const TALK_SCRATCHES: u32 = 10_000;
 
-/// With 10,000 of them on the disk 30 m of scratch lie on each square centimetre's hundredth: three within the window's reach.
+/// Length of a scratch: with 10,000 of them on the disk 30 m of scratch lie on each square centimetre's hundredth, three within
+/// the window's reach.
 const LENGTH_M: f64 = 0.0236;
 const DISK_RADIUS_M: f64 = 0.05;
-/// Of the mesh: 4,032 triangles of about 2 mm, as a model of a few thousand has.
+/// Rings of the mesh: 4,032 triangles of about 2 mm, as a model of a few thousand has.
 const RINGS: u32 = 32;
 const FACETS: u32 = 64;
-/// Of the view and of the lamp's mirror direction, from the normal.
+/// Angle of the view and of the lamp's mirror direction from the normal.
 const TILT_RAD: f64 = std::f64::consts::FRAC_PI_6;
 const FOV_Y_DEG: f64 = 20.0;
-/// At 1x: the disk fills nine tenths of the picture's height.
+/// Distance of the camera at 1x: the disk fills nine tenths of the picture's height.
 const CAMERA_M: f64 = 0.273;
 const LAMP_M: f64 = 0.4;
 const LAMP_RAD: f64 = 0.1;

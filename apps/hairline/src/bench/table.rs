@@ -53,7 +53,7 @@ pub fn of_the_talk(
     Ok(cells)
 }
 
-/// The same columns for a scene that somebody else made, at its own size and zoom.
+/// Measures the same columns for a scene that somebody else made, at its own size and zoom.
 pub fn of_scene(
     worker: &mut Worker,
     scene: &Scene,
@@ -77,7 +77,7 @@ struct Group<'a> {
     row: Row,
     zoom: f64,
     scene: &'a Scene,
-    /// Of the crop that errors are judged on; none where nothing is lit.
+    /// Middle of the crop that errors are judged on; none where nothing is lit.
     middle: Option<glam::DVec2>,
 }
 

@@ -4,13 +4,13 @@
 use super::figures::Row;
 use super::way::Way;
 
-/// Whose figures they are.
+/// Source of the figures.
 pub const SOURCE: &str = "Velinov, Werner, Hullin, Eurographics 2018, slide \"Data Structure (Benchmark)\", NVIDIA GTX 970M";
 
 /// The zooms of the columns.
 pub const ZOOMS: [f64; 3] = [0.5, 1.0, 2.0];
 
-/// What the talk measured, in milliseconds; none where it gives nothing.
+/// Figure of the talk, in milliseconds; none where it gives nothing.
 pub fn talk_ms(row: Row, zoom: f64, way: Way) -> Option<f64> {
     let at = ZOOMS.iter().position(|z| *z == zoom)?;
     let [bvh, lists, filtered] = match row {

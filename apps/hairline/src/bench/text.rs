@@ -7,9 +7,9 @@ use super::figures::{Cell, Curve, Figures, Outcome, Row};
 use super::stage::TALK_SCRATCHES;
 use super::way::Way;
 
-/// What stands where nothing was measured.
+/// Text of a cell where nothing was measured.
 const NOTHING: &str = "–";
-/// Behind times that were scaled.
+/// Mark of times that were scaled.
 const SCALED: &str = "*";
 
 /// All of it.
@@ -125,7 +125,7 @@ fn table(text: &mut String, figures: &Figures) -> std::fmt::Result {
     Ok(())
 }
 
-/// What our method did in each cell.
+/// Table of the work of our method in each cell.
 fn counts(text: &mut String, figures: &Figures) -> std::fmt::Result {
     let lines: Vec<Vec<String>> = figures
         .table

@@ -1,4 +1,4 @@
-//! How long measurements go on.
+//! Effort of measurements.
 
 use std::time::Duration;
 
@@ -6,7 +6,7 @@ use super::error::Accuracy;
 use super::timing::Effort;
 use crate::cli;
 
-/// How thoroughly to measure.
+/// Effort of measurements, and the accuracy of references.
 pub struct Thoroughness {
     pub effort: Effort,
     pub accuracy: Accuracy,

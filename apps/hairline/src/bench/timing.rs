@@ -1,4 +1,4 @@
-//! From runs to a time: warm-up, as many rows as fit the effort, repetitions by turns, median and quartiles.
+//! Measures the time of a picture: warm-up, as many rows as fit the effort, repetitions in turn, median and quartiles.
 //!
 //! Methods take turns (A B A B), so that a machine that grows warm or busy does so for all of them alike. All of a group render the
 //! same rows.
@@ -16,11 +16,10 @@ use super::figures::{Outcome, Spread, Timing};
 use super::worker::{Elapsed, Ready, Rows, Worker};
 use hairline_work::failure::Failure;
 
-/// How much time a measurement may take.
+/// Time that a measurement may take.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// What the runs of one method in one cell may take together; half of it for one run, though the least number of them
-    /// then takes longer.
+    /// Time of all runs of one method in one cell; half of it for one run, though the least number of them then takes longer.
     pub cell: Duration,
     /// Repetitions at least, whatever they take.
     pub least: usize,
@@ -42,9 +41,10 @@ const STRIP_ROWS_MAX: u32 = 64;
 const STRIPS_LEAST: u32 = 5;
 /// A cell is refused whose strips would take so many times the effort, and longer than [`LONG`].
 const TOO_LONG: f64 = 20.0;
-/// Nothing is refused that takes no longer.
+/// Time up to which nothing is refused.
 const LONG: Duration = Duration::from_secs(30);
-/// How often a strip is timed before its cell is refused: a machine that is busy with something else may stand still for seconds.
+/// Number of times that a strip is timed before its cell is refused: a machine that is busy with something else may stand still for
+/// seconds.
 const TRIES: usize = 4;
 
 /// Rows of a strip: a row of tiles for each thread. Software drivers deal workgroups out in runs, so that in a lower strip the
@@ -122,8 +122,8 @@ fn refusal(error: &Error) -> Result<String, Failure> {
     }
 }
 
-/// Has the driver compile, and finds out what a strip in the middle takes. Some drivers compile a pass once it has something to do, which
-/// may be at the picture's edge: all of it is rendered where half the effort suffices.
+/// Has the driver compile, and measures a strip in the middle. Some drivers compile a pass once it has something to do, which may be at
+/// the picture's edge: all of it is rendered where half the effort suffices.
 fn warm_up(
     wall: &mut impl FnMut(&Rows) -> Result<Duration, Error>,
     height: u32,
@@ -152,7 +152,7 @@ fn fewer(rows: &Rows, height: u32, count: u32) -> Rows {
     }
 }
 
-/// So many strips, spread evenly; the whole picture where they would cover it.
+/// Strips of this number, spread evenly; the whole picture where they would cover it.
 fn strips(height: u32, count: u32) -> Rows {
     strips_of(strip_rows(), height, count)
 }

@@ -1,4 +1,4 @@
-//! What is measured against what.
+//! Methods that are compared.
 
 use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::published::sine_integral::SineIntegral;
@@ -14,7 +14,7 @@ pub enum Way {
     PointLists,
     /// Published, with anti-aliasing, by the hierarchy.
     Filtered,
-    /// The same with the exact sine integral.
+    /// `Filtered` with the exact sine integral.
     FilteredExact,
     Ours,
 }

@@ -1,5 +1,5 @@
-//! What does the rendering that is measured: a graphics adapter or the CPU renderer, both made ready for a method and told which
-//! rows of a picture to render.
+//! Renderer under measurement: a graphics adapter or the CPU renderer, both made ready for a method and told which rows of a
+//! picture to render.
 
 use std::ops::Range;
 use std::time::{Duration, Instant};
@@ -23,11 +23,11 @@ pub enum Worker {
     Cpu,
 }
 
-/// On a graphics adapter.
+/// Worker on a graphics adapter.
 pub struct GpuWorker {
     gpu: Gpu,
     renderer: Renderer,
-    /// For whole pictures of one size.
+    /// Canvas for whole pictures of one size.
     canvas: Option<Canvas>,
     clock: bool,
 }
@@ -38,7 +38,7 @@ pub struct Ready {
     uploaded: Option<GpuScene>,
 }
 
-/// What `way` does for a picture, on the CPU; none for the published method.
+/// Counts of the work that `way` does for a picture, on the CPU; none for the published method.
 pub fn counted(scene: &Scene, prepared: &Prepared, way: Way) -> Option<Counts> {
     let options = closed_form::RenderOptions {
         samples: 1,
@@ -51,17 +51,17 @@ pub fn counted(scene: &Scene, prepared: &Prepared, way: Way) -> Option<Counts> {
     })
 }
 
-/// Which rows of a picture.
+/// Rows of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Rows {
     Whole,
     Strips(Vec<Range<u32>>),
 }
 
-/// What rendering took.
+/// Time of a rendering.
 pub struct Elapsed {
     pub wall: Duration,
-    /// By the device's own clock.
+    /// Times of passes by the device's own clock.
     pub passes: Option<Vec<PassTime>>,
 }
 

@@ -13,11 +13,11 @@ pub struct Limit {
     value: f64,
 }
 
-/// What a limit says of a comparison.
+/// Result of a limit on a comparison.
 pub enum Finding {
     /// The figure keeps the limit.
     Kept,
-    /// It does not: which, and by how much.
+    /// The limit is broken: its name, and by how much.
     Broken(String),
     /// There is no such figure, and why.
     Absent(String),
@@ -58,7 +58,7 @@ pub fn parse_above(text: &str) -> Result<Limit, String> {
     parse(text, "--fail-above", "--fail-below", false)
 }
 
-/// The same of a figure that is better when larger.
+/// Parses a limit on a figure that is better when larger.
 pub fn parse_below(text: &str) -> Result<Limit, String> {
     parse(text, "--fail-below", "--fail-above", true)
 }

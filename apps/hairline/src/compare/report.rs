@@ -22,11 +22,11 @@ use hairline_work::failure::Failure;
 const STYLE: &str = include_str!("report/report.css");
 const SCRIPT: &str = include_str!("report/report.js");
 
-/// Nothing may be loaded: a report that is mailed around should not call anyone.
+/// Policy of the page: nothing may be loaded, since a report that is mailed around should not call anyone.
 const POLICY: &str =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
-/// What a layer looks like.
+/// Pictures of a layer.
 struct View {
     layer: Layer,
     /// PNG URIs.
@@ -424,7 +424,7 @@ fn verdict(layer: &LayerComparison) -> Markup {
     html! { span .verdict.(class) title=(table::verdict(test)) { (words) } }
 }
 
-/// What the files say of their making, and what the report holds.
+/// Notes in the files on their making, and the contents of the report.
 fn about(a: &Side, b: &Side, views: &[View]) -> Markup {
     let embedded = views.iter().any(|view| view.linear.is_some());
     html! {
@@ -450,7 +450,7 @@ fn about(a: &Side, b: &Side, views: &[View]) -> Markup {
     }
 }
 
-/// What the script needs beyond the pictures.
+/// Data that the script needs beyond the pictures.
 fn data(a: &Side, views: &[View], display: &Display) -> anyhow::Result<Markup> {
     let exposable = views
         .iter()

@@ -14,9 +14,9 @@ use super::side::Side;
 pub struct Column {
     /// Short enough for a heading.
     pub heading: &'static str,
-    /// What is shown.
+    /// Metric of the figure.
     pub metric: Metric,
-    /// For a hover.
+    /// Explanation for a hover.
     pub meaning: &'static str,
 }
 
@@ -86,7 +86,7 @@ pub fn columns(comparison: &Comparison) -> impl Iterator<Item = &'static Column>
         .filter(|column| layers.iter().any(|layer| column.metric.of(layer).is_some()))
 }
 
-/// What the problems are that belong to a layer, in a few words for its row.
+/// Problems of each layer, in a few words for its row.
 pub fn remarks(comparison: &Comparison) -> Vec<(Layer, String)> {
     let mut remarks: Vec<(Layer, String)> = Vec::new();
     let mut add = |layer: Layer, text: String| match remarks.iter_mut().find(|r| r.0 == layer) {
@@ -114,7 +114,7 @@ pub fn remarks(comparison: &Comparison) -> Vec<(Layer, String)> {
     remarks
 }
 
-/// What the z-test says, in words, and the figures that it rests on.
+/// Verdict of the z-test, in words, and the figures that it rests on.
 pub fn verdict(test: &ZTest) -> String {
     let z2 = format!("mean z\u{b2} = {}", figure(test.mean_z2));
     match test.verdict {
@@ -133,7 +133,8 @@ pub fn verdict(test: &ZTest) -> String {
     }
 }
 
-/// What gave it away, since single pixels often do not: blocks of pixels, the whole picture, places without noise.
+/// Figures that gave the difference away, since single pixels often do not: blocks of pixels, the whole picture,
+/// places without noise.
 fn beyond_noise(test: &ZTest) -> String {
     let mut text = format!(
         ", {} of 8 x 8 blocks, largest |z| of a block {} ({} is allowed), z of the picture {}",

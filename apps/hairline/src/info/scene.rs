@@ -25,7 +25,7 @@ struct Contents {
     lights: Vec<Lamp>,
     environment: Option<Environment>,
     textures: usize,
-    /// What models have and the picture has not.
+    /// Contents of models that the picture does not have.
     left_out: Vec<LeftOut>,
     memory: Memory,
 }
@@ -68,7 +68,7 @@ struct Lamp {
     hidden: bool,
 }
 
-/// Where a lamp is, and how bright.
+/// Position and brightness of a lamp.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Strength {
@@ -136,13 +136,13 @@ struct Environment {
 
 #[derive(Serialize)]
 struct Window {
-    /// Of its middle: unit, in the world.
+    /// Direction of its middle: unit, in the world.
     direction: [f64; 3],
     /// Above the horizon.
     elevation_deg: f64,
-    /// From side to side, as they are seen.
+    /// Angular sizes from side to side.
     size_deg: [f64; 2],
-    /// Beyond what is around it.
+    /// Radiance beyond that of its surroundings.
     radiance: [f64; 3],
 }
 
@@ -168,7 +168,7 @@ struct LeftOut {
 
 #[derive(Serialize)]
 struct Memory {
-    /// For scene and picture, scratches included.
+    /// Memory for scene and picture, scratches included.
     estimate_bytes: f64,
     available_bytes: Option<u64>,
 }
@@ -461,7 +461,7 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
     writeln!(out, "memory: about {needed} to render it; {free} available")
 }
 
-/// Of layers and lights; JSON has all.
+/// Largest number of lines of layers and lights; JSON has all.
 const MOST_LINES: usize = 200;
 
 fn named(name: &Option<String>) -> String {
@@ -473,7 +473,7 @@ fn point(point_m: [f64; 3]) -> String {
     format!("({}) m", point_m.map(|it| format!("{it:.4}")).join(", "))
 }
 
-/// In the unit that reads best.
+/// Formats a length in the unit that reads best.
 fn length(length_m: f64) -> String {
     match length_m {
         1.0.. => format!("{length_m:.3} m"),

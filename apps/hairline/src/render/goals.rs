@@ -1,4 +1,4 @@
-//! Where the pictures of a sequence go: numbered files, an animation, or both.
+//! Destination of the pictures of a sequence: numbered files, an animation, or both.
 
 use std::path::{Path, PathBuf};
 
@@ -12,13 +12,13 @@ use hairline_work::failure::Failure;
 /// Frames in a second if nothing else is asked for.
 const DEFAULT_FPS: u16 = 30;
 
-/// Where the pictures go.
+/// Destination of the pictures.
 pub struct Goals {
-    /// In the order of the frames; none where there is only an animation.
+    /// Files in the order of the frames; none where there is only an animation.
     pub pictures: Vec<Output>,
-    /// Where all of them go together.
+    /// File of the animation.
     pub animation: Option<PathBuf>,
-    /// How many in a second.
+    /// Frames in a second.
     pub fps: u16,
 }
 
@@ -83,7 +83,7 @@ impl Goals {
         })
     }
 
-    /// What is there after `whole` frames, and what is not.
+    /// Describes the files that are there after `whole` frames, and those that are not.
     pub fn kept(&self, whole: usize) -> String {
         let mut parts = Vec::new();
         let name = |i: usize| self.pictures[i].path().display();

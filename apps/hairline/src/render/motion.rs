@@ -8,21 +8,21 @@ use hairline_scene::description::{self, limits};
 use crate::cli::SequenceFlags;
 use hairline_work::failure::Failure;
 
-/// Where the camera stands in each frame, and when.
+/// Positions of the camera and times of the frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
-    /// How many pictures.
+    /// Number of pictures.
     pub frames: u32,
     /// Turned about the target over the whole sequence.
     turn_deg: f64,
-    /// What the distance to the target is divided by, in the first frame and in the last.
+    /// Divisor of the distance to the target, in the first frame and in the last.
     zoom: [f64; 2],
     /// Seconds of the models' animations, in the first frame and in the last; none where all frames have one time.
     times_s: Option<[f64; 2]>,
 }
 
 impl Motion {
-    /// What the flags ask for; none for a single picture.
+    /// Motion that the flags ask for; none for a single picture.
     ///
     /// # Errors
     /// [`Failure::Input`] where they contradict one another.
@@ -86,7 +86,7 @@ impl Motion {
         Ok(())
     }
 
-    /// Where the camera stands in a frame, counted from 0. The step after the last frame would complete the turn; the last
+    /// Position of the camera in a frame, counted from 0. The step after the last frame would complete the turn; the last
     /// frame is the end of the zoom.
     pub fn position_m(&self, camera: &description::Camera, frame: u32) -> DVec3 {
         let mut camera = camera.clone();
@@ -107,7 +107,7 @@ impl Motion {
         Some(from_s + self.come(frame) * (to_s - from_s))
     }
 
-    /// From 0 in the first frame to 1 in the last.
+    /// Progress from 0 in the first frame to 1 in the last.
     fn come(&self, frame: u32) -> f64 {
         f64::from(frame) / f64::from(self.frames.max(2) - 1)
     }

@@ -69,7 +69,7 @@ pub fn run(
     frames.finish()
 }
 
-/// What becomes of frames.
+/// Writer of the frames.
 struct Frames<'a> {
     motion: &'a Motion,
     goals: &'a Goals,
@@ -78,7 +78,7 @@ struct Frames<'a> {
     interrupt: Interrupt,
     animation: Option<Animation>,
     steadiness: Option<Steadiness>,
-    /// From the first frame on: what is told before it has a line of its own.
+    /// Progress from the first frame on: messages before it have a line of their own.
     progress: Option<Progress>,
 }
 

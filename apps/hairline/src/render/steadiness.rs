@@ -12,7 +12,7 @@ pub struct Steadiness {
 }
 
 impl Steadiness {
-    /// Of nothing yet.
+    /// Figures of no frame yet.
     pub fn new(display: Display) -> Self {
         Self {
             display,
@@ -32,7 +32,7 @@ impl Steadiness {
         self.last = Some((camera, images));
     }
 
-    /// In one line.
+    /// Describes the figures in one line.
     pub fn in_words(&self, samples: u32) -> String {
         let [Some(own), Some(reference)] = self.figures.each_ref().map(Stability::mean) else {
             return "stability: no pixel could be followed from one frame to the next".to_owned();
@@ -48,7 +48,7 @@ impl Steadiness {
     }
 }
 
-/// Where what `now` sees at a pixel and a depth lies for `before`.
+/// Position for `before` of the point that `now` sees at a pixel and a depth.
 fn moved(
     now: &CameraFrame,
     before: &CameraFrame,

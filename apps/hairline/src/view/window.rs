@@ -23,7 +23,7 @@ pub fn in_one_sentence<T>(open: impl FnOnce() -> T) -> Result<T, Failure> {
     })
 }
 
-/// What an error of the window's libraries means to who wants a window.
+/// Translates an error of the window's libraries for the user.
 pub fn failure(reason: &str) -> Failure {
     let else_render = "`hairline render` needs no window";
     let mentions = |words: &[&str]| {
@@ -68,7 +68,7 @@ pub fn failure(reason: &str) -> Failure {
     Failure::Work(anyhow!(sentence))
 }
 
-/// What follows `os error at /a/folder/of/another/machine.rs:12: `.
+/// Returns the text after `os error at /a/folder/of/another/machine.rs:12: `.
 fn without_place(reason: &str) -> &str {
     let place = reason.find(".rs:").map(|at| &reason[at + 4..]);
     let after = place.and_then(|place| Some(place.split_once(": ")?.1));
@@ -102,7 +102,7 @@ fn missing_library(text: &str) -> Option<&str> {
     })
 }
 
-/// Where Debian and Ubuntu keep it.
+/// Package of a library in Debian and Ubuntu.
 fn package_of(library: &str) -> &'static str {
     let library = library.to_lowercase();
     let packages = [

@@ -178,7 +178,7 @@ fn flags_change_the_picture() {
     );
 }
 
-/// What a machine without graphics drivers has in its environment, in effect.
+/// Environment in which a machine has, in effect, no graphics drivers.
 const NO_DRIVERS: [(&str, &str); 3] = [
     ("VK_ICD_FILENAMES", "/nonexistent"),
     ("VK_DRIVER_FILES", "/nonexistent"),
@@ -262,7 +262,7 @@ fn no_driver_still_renders() {
     assert!(picture.exists());
 }
 
-/// As the documentation prints it, with its files beside it.
+/// Renders the scene that the documentation prints, with its files beside it.
 #[test]
 fn the_documented_scene_renders() {
     let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets");

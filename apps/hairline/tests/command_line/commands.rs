@@ -1,5 +1,5 @@
-//! What a day at the command line asks of it: inputs stay, closed streams are no failure, bad inputs take no time and no memory, models
-//! open, and what the flags say is done.
+//! Requirements of a day at the command line: inputs stay, closed streams are no failure, bad inputs take no time and no memory, models
+//! open, and flags have their effect.
 
 use std::fs;
 use std::path::Path;

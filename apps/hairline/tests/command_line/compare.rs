@@ -388,7 +388,7 @@ fn elements(page: &str) -> Result<Vec<Element>, String> {
     }
 }
 
-/// What the page's script does with packed values.
+/// Unpacks values as the page's script does.
 fn unpacked(text: &str, channels: usize) -> Vec<f32> {
     let mut bytes = Vec::new();
     let packed = BASE64.decode(text).unwrap();
@@ -537,7 +537,7 @@ fn large_pictures_are_reported_without_their_values() {
     );
 }
 
-/// As any other output: the old file or the new one.
+/// A report is an output as others are: the old file or the new one.
 #[test]
 fn a_refused_comparison_leaves_the_old_report() {
     let folder = folder_with_pair();

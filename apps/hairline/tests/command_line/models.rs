@@ -72,7 +72,7 @@ const REST: [f32; 2] = [0.0, 0.3];
 const SWAPPED: [f32; 2] = [0.3, 0.0];
 const PLAIN: [&str; 2] = ["", ""];
 
-/// What `render` makes of a model, and what it says.
+/// Renders a model; returns the picture and the messages.
 fn rendered(folder: &Path, arguments: &str) -> (Image, String) {
     let arguments = format!(
         "render {arguments} --backend cpu --size 32x18 --samples 1 --shadows off -o it.exr"
@@ -98,7 +98,7 @@ fn a_model_is_shown_at_a_time_of_its_animation() {
     assert_ne!(moved, rest);
 }
 
-/// By its name, else by its number; and a line for each thing of the file that the picture has not.
+/// The camera is chosen by its name, else by its number; each content of the file that the picture does not have is told of in a line.
 #[test]
 fn a_model_is_seen_by_a_camera_of_its_file_and_told_of() {
     let folder = tempfile::tempdir().unwrap();

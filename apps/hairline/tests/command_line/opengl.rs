@@ -7,14 +7,14 @@ use assert_cmd::Command;
 use hairline_image::metrics::layer_difference;
 use hairline_image::{Layer, exr_file};
 
-/// Is told of no other interface.
+/// A command that knows no other interface than OpenGL.
 fn by_opengl(folder: &Path, arguments: &str) -> Command {
     let mut command = command(folder, arguments);
     command.env("WGPU_BACKEND", "gl");
     command
 }
 
-/// Of a scene with one metal and no texture: arrays of one layer are the special case there.
+/// The scene has one metal and no texture: arrays of one layer are the special case there.
 #[test]
 fn a_picture_is_that_of_the_cpu() {
     // Under the lamp alone, whose shaders are compiled in half the time.

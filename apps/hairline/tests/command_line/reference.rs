@@ -306,7 +306,7 @@ mod interrupted {
         assert!(status.unwrap().success());
     }
 
-    /// Under `nohup` the tests, and so the program, pass it over.
+    /// Whether hang-ups are ignored: under `nohup` the tests, and so the program, pass them over.
     fn hang_ups_are_ignored() -> bool {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -1,4 +1,5 @@
-//! What the tests of the command line share: a folder, a run in it, what it said and what it left behind.
+//! Helpers of the tests of the command line: a folder, a run in it, its output and the files that it leaves
+//! behind.
 
 #![allow(dead_code, reason = "each test file takes what it needs of it")]
 
@@ -20,7 +21,7 @@ pub fn folder_with(name: &str, scene: &str) -> tempfile::TempDir {
     folder
 }
 
-/// To be run in `folder`; the arguments are separated by spaces.
+/// Makes a command to be run in `folder`; the arguments are separated by spaces.
 pub fn command(folder: &Path, arguments: &str) -> Command {
     let mut command = Command::cargo_bin("hairline").unwrap();
     command
@@ -34,17 +35,17 @@ pub fn hairline(folder: &Path, arguments: &str) -> Assert {
     command(folder, arguments).assert()
 }
 
-/// What it printed as its result.
+/// Standard output: the result.
 pub fn stdout_of(assert: &Assert) -> String {
     String::from_utf8(assert.get_output().stdout.clone()).unwrap()
 }
 
-/// What it said meanwhile.
+/// Standard error: the messages.
 pub fn stderr_of(assert: &Assert) -> String {
     String::from_utf8(assert.get_output().stderr.clone()).unwrap()
 }
 
-/// What lies in a folder, sorted.
+/// Names in a folder, sorted.
 pub fn names_in(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = fs::read_dir(folder)
         .unwrap()

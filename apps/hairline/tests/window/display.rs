@@ -129,16 +129,16 @@ impl Display {
         self.rest();
     }
 
-    /// Until the program has taken in all that was sent to it and has drawn what it makes of that: time alone would be too short on
-    /// some machine. It answers a ping once it has taken in what came before, then draws; so that the next but one is answered after
-    /// a frame.
+    /// Waits until the program has taken in all that was sent to it and has drawn its effect: time alone would be too short on some
+    /// machine. It answers a ping once it has taken in what came before, then draws; so that the next but one is answered after a
+    /// frame.
     fn rest(&self) {
         for _ in 0..3 {
             self.ping();
         }
     }
 
-    /// As a window manager asks whether a program is alive. A program that has quit need not answer.
+    /// Asks the program whether it is alive, as a window manager does. A program that has quit need not answer.
     fn ping(&self) {
         let Some(window) = self.window() else { return };
         let (protocols, ping) = (self.atom("WM_PROTOCOLS"), self.atom("_NET_WM_PING"));
@@ -216,7 +216,7 @@ impl Display {
         self.send(xproto::BUTTON_RELEASE_EVENT, 1);
     }
 
-    /// With the left button held, some steps between each two places.
+    /// Drags with the left button held, with some steps between each two places.
     pub fn drag(&self, way: &[Pos2]) {
         self.move_to(way[0]);
         self.send(xproto::BUTTON_PRESS_EVENT, 1);
@@ -298,7 +298,7 @@ impl Drop for Display {
     }
 }
 
-/// What is on a part of the screen.
+/// Picture of a part of the screen.
 pub struct Picture {
     size_px: [u32; 2],
     rgb: Vec<[u8; 3]>,

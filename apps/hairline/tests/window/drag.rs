@@ -1,5 +1,5 @@
-//! How many pictures come while a hand drags, and how soon the first: counted on the screen, with an event every 50 ms that waits for
-//! nothing.
+//! Number of pictures that come while a hand drags, and the delay of the first: counted on the screen, with an event every 50 ms that waits
+//! for nothing.
 //!
 //! `HAIRLINE_SCREENSHOTS=FOLDER cargo test --release --workspace --test window drag -- --nocapture` prints the figures of both scenes; without
 //! the folder, those of the plate.
@@ -17,20 +17,20 @@ use crate::{Window, keep};
 const BUILT_IN: &str = include_str!("../../src/built_in_scene.toml");
 const PLATE: &str = include_str!("../../../../scenes/plate.toml");
 
-/// Where its handles lie in the picture, but not in the middle, where changes are looked for.
+/// Lamps whose handles lie in the picture, but not in the middle, where changes are looked for.
 const LAMP_IN_PLATE_M: [f64; 3] = [-0.07, 0.07, 0.04];
 const LAMP_IN_BUILT_IN_M: [f64; 3] = [-0.1, 0.1, 0.055];
 
-/// Between two events of the mouse.
+/// Interval between two events of the mouse.
 const EVENT: Duration = Duration::from_millis(50);
-/// Of the drag.
+/// Duration of the drag.
 const DURATION: Duration = Duration::from_secs(3);
 /// A picture from elsewhere changes more of the area than handles that move over it do.
 const TURNED: f64 = 0.02;
 /// Other scratches, seen from the same place.
 const EDITED: f64 = 0.001;
 
-/// What was seen.
+/// Counts of pictures on the screen.
 #[derive(Debug)]
 struct Seen {
     pictures: usize,
@@ -71,7 +71,7 @@ impl<'d> Watch<'d> {
         }
     }
 
-    /// Once there is a picture.
+    /// Starts to watch once there is a picture.
     fn first(display: &'d Display, layout: &Layout, window: &Window) -> Self {
         let mut watch = Self::new(display, layout);
         window.wait_for("a picture", || watch.is_lit());
@@ -93,7 +93,7 @@ impl<'d> Watch<'d> {
         has
     }
 
-    /// As a hand does between two clicks. The picture becomes finer meanwhile, for minutes.
+    /// Waits as a hand does between two clicks. The picture becomes finer meanwhile, for minutes.
     fn rest(&mut self) {
         std::thread::sleep(Duration::from_secs(1));
         self.has_changed(0.0);

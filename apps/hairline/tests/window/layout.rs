@@ -1,4 +1,4 @@
-//! Where things are in the window: the same interface, run without one, tells.
+//! Positions of widgets in the window, as the same interface tells when it runs without one.
 
 use std::path::Path;
 use std::time::Instant;
@@ -22,14 +22,14 @@ pub struct Layout {
 /// A light of that name.
 #[derive(Clone, Copy, Debug)]
 pub struct Lamp {
-    /// Its line in the outliner.
+    /// Position of its line in the outliner.
     pub line: Pos2,
-    /// What moves it across the view, once it is selected.
+    /// Position of the handle that moves it across the view, once it is selected.
     pub handle: Pos2,
 }
 
 impl Layout {
-    /// Of the viewer on this scene, in a window as large as the display.
+    /// Layout of the viewer on this scene, in a window as large as the display.
     pub fn of(scene: &Path) -> Self {
         let scene = scene.to_owned();
         let mut harness = Harness::builder()

@@ -173,7 +173,7 @@ impl Drop for Window<'_> {
     }
 }
 
-/// Where a person would look afterwards.
+/// Writes the picture where a person would look for it afterwards.
 fn keep(picture: &Picture, name: &str) {
     if let Some(folder) = std::env::var_os("HAIRLINE_SCREENSHOTS") {
         picture.write(&Path::new(&folder).join(format!("{name}.png")));

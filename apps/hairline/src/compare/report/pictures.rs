@@ -26,8 +26,8 @@ pub fn is_light(layer: Layer) -> bool {
     matches!(layer, Layer::Beauty | Layer::Base | Layer::Scratches)
 }
 
-/// What a display shows of two versions of a layer, both in the same way: light by the tone curve, shares as they are,
-/// depths from near (white) to far, normals as colours.
+/// Returns two versions of a layer as a display shows them, both in the same way: light by the tone curve, shares as
+/// they are, depths from near (white) to far, normals as colours.
 pub fn shown(
     size_px: [u32; 2],
     layer: Layer,
@@ -77,11 +77,11 @@ pub fn shown(
 /// A kind of error map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// What a viewer sees.
+    /// Difference that a viewer sees.
     Flip,
-    /// By the reference.
+    /// Difference over the reference.
     Relative,
-    /// By the noise.
+    /// Difference over the noise.
     Z,
 }
 
@@ -89,7 +89,7 @@ impl Kind {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Flip, Self::Relative, Self::Z];
 
-    /// For the script.
+    /// Name for the script.
     pub fn name(self) -> &'static str {
         match self {
             Self::Flip => "flip",
@@ -98,7 +98,7 @@ impl Kind {
         }
     }
 
-    /// For a reader.
+    /// Title for a reader.
     pub fn title(self) -> &'static str {
         match self {
             Self::Flip => "FLIP",
@@ -107,7 +107,7 @@ impl Kind {
         }
     }
 
-    /// What the colours mean.
+    /// Meaning of the colours.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Flip => "the difference that a viewer sees when the pictures alternate",
@@ -128,7 +128,7 @@ impl Kind {
         }
     }
 
-    /// Its 256 colours as sRGB codes.
+    /// Palette of 256 colours as sRGB codes.
     pub fn palette(self) -> Vec<u8> {
         match self {
             Self::Flip | Self::Relative => {
@@ -144,10 +144,10 @@ impl Kind {
     }
 }
 
-/// Where the colours of z end.
+/// Largest z of the colours.
 pub const Z_MAX: f64 = 6.0;
 
-/// From blue by way of black to orange, even steps of the sRGB codes.
+/// Colour from blue by way of black to orange, in even steps of the sRGB codes.
 fn z_color(index: u8) -> [u8; 3] {
     let z = (f64::from(index) - 127.5) / 127.5;
     let end: [f64; 3] = if z < 0.0 {
@@ -158,7 +158,7 @@ fn z_color(index: u8) -> [u8; 3] {
     end.map(|c| (c * z.abs()).round() as u8)
 }
 
-/// Not a colour of any map.
+/// Colour of values that are not finite; no map has it.
 const NOT_FINITE: [u8; 3] = [0, 255, 0];
 const UNKNOWN: [u8; 3] = [72, 72, 72];
 

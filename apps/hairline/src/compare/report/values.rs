@@ -58,12 +58,12 @@ pub struct ToneTable {
 impl ToneTable {
     /// Nodes on each axis.
     pub const NODES: usize = 48;
-    /// Where the steps turn from even steps to even ratios: at one over this.
+    /// Reciprocal of the value where the steps turn from even steps to even ratios.
     pub const GAIN: f32 = 200.0;
     /// The largest value. All curves are close to white there.
     pub const MAX: f32 = 256.0;
 
-    /// Of one curve.
+    /// Table of one curve.
     pub fn new(tone_map: ToneMap) -> Self {
         let display = Display {
             exposure_ev: 0.0,
@@ -86,7 +86,7 @@ impl ToneTable {
         (node as f32 * end / (Self::NODES - 1) as f32).exp_m1() / Self::GAIN
     }
 
-    /// As the page takes it.
+    /// The table as the page reads it.
     pub fn packed(&self) -> std::io::Result<String> {
         compressed(&self.codes)
     }
@@ -96,7 +96,7 @@ impl ToneTable {
 mod tests {
     use super::*;
 
-    /// What the page's script does with a colour whose components are in the table's range.
+    /// Looks up a colour whose components are in the table's range, as the page's script does.
     fn look_up(table: &ToneTable, rgb: [f32; 3]) -> [f32; 3] {
         let end = (ToneTable::GAIN * ToneTable::MAX).ln_1p();
         let last = ToneTable::NODES - 1;
