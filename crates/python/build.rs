@@ -1,4 +1,4 @@
-//! How the module is linked, whoever builds it.
+//! Sets how the module is linked, whoever builds it.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");

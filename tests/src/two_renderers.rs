@@ -28,7 +28,7 @@ pub fn on_the_gpu(scene: &Scene, samples: u32) -> Option<Image> {
     Some(image.unwrap_or_else(|error| panic!("{error}")))
 }
 
-/// The same by a method, with shadows and so many bounces or without.
+/// Renders on the GPU by a method, with shadows and `bounces`, or without shadows.
 pub fn on_the_gpu_by(
     scene: &Scene,
     method: &Method,
@@ -62,7 +62,7 @@ pub fn on_the_cpu(scene: &Scene, samples: u32) -> Image {
     closed_form::render(scene, &options, &|_| {})
 }
 
-/// Where a pixel's centre lies clear of the edges of its triangle. Within rounding of an edge the rasteriser and the ray may
+/// Pixels whose centre lies clear of the edges of its triangle. Within rounding of an edge the rasteriser and the ray may
 /// take one neighbour each, whose normals turn differently.
 fn on_one_triangle(scene: &Scene) -> Vec<bool> {
     let triangles = TriangleIndex::build(scene);
@@ -101,7 +101,7 @@ pub fn compare(name: &str, scene: &Scene, gpu: &Image, cpu: &Image) -> Result<()
     compare_pixels(name, gpu, cpu, Some(&interior))
 }
 
-/// The same for the pixels of a mask, or all of them.
+/// Compares the pixels of a mask, or all of them.
 pub fn compare_pixels(
     name: &str,
     gpu: &Image,

@@ -39,10 +39,10 @@ pub fn scene(name: &str) -> Scene {
     read(name, |text| text)
 }
 
-/// The same with lights and sky brighter by a part.
+/// Loads the scene with lights and sky brighter by a part.
 ///
 /// # Panics
-/// Where it cannot be loaded.
+/// Panics where it cannot be loaded.
 pub fn brighter(name: &str, part: f64) -> Scene {
     let factor = 1.0 + part;
     read(name, |text| {
@@ -70,10 +70,10 @@ fn read(name: &str, changed: impl Fn(String) -> String) -> Scene {
     Scene::from_toml(&changed(text), name, &folder).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// As `hairline render` makes it, but for fireflies, which stay.
+/// Renders as `hairline render` does, except that fireflies stay.
 ///
 /// # Errors
-/// As [`Painter::open`] and [`Painter::render`].
+/// Those of [`Painter::open`] and [`Painter::render`].
 pub fn rendered(
     scene: &Scene,
     backend: Backend,
@@ -95,9 +95,9 @@ pub fn rendered(
     Ok(painter.render(scene, &|| false, &|_| {})?.image)
 }
 
-/// What a picture with shadows and bounces should be: that of the path tracer, and as much of the closed form's own error as is seen of the
-/// light. With F the closed form and f the path tracer's light where nothing hides anything, s with shadows and b with bounces, that is
-/// b + s/f (F - f): (41) of docs/model.md has this mean. All three take the same samples, so that where nothing is hidden no noise is left.
+/// Expected picture with shadows and bounces: that of the path tracer, and as much of the closed form's own error as is seen of the light. With
+/// F the closed form and f the path tracer's light where nothing hides anything, s with shadows and b with bounces, that is b + s/f (F - f):
+/// (41) of docs/model.md has this mean. All three take the same samples, so that where nothing is hidden no noise is left.
 ///
 /// `open` is F.
 pub fn expected(scene: &Scene, open: &Image, bounces: u32, samples: u32) -> Image {
@@ -161,7 +161,7 @@ pub fn expected(scene: &Scene, open: &Image, bounces: u32, samples: u32) -> Imag
     image
 }
 
-/// Over the batches of a value: f and b, their squares and their product, and s.
+/// Sums over the batches of a value: f and b, their squares and their product, and s.
 #[derive(Clone, Copy, Default)]
 struct Sums {
     open: f64,
@@ -196,7 +196,7 @@ impl Sums {
     }
 }
 
-/// How far a layer is from what it should be.
+/// Error of a layer.
 #[derive(Clone, Copy, Debug)]
 pub struct Found {
     /// The error of the picture's mean, over the mean without shadows.
@@ -205,7 +205,7 @@ pub struct Found {
     pub off_std: f64,
     /// Rms error of a pixel over the same, without the noise of what it should be.
     pub rms: f64,
-    /// Of the values by the noise that both pictures tell of themselves.
+    /// Z-test of the values by the noise that both pictures state.
     pub z: ZTest,
 }
 

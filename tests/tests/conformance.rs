@@ -1,5 +1,5 @@
-//! What only a crate that sees both renderers can test.
-//! In one program, since each that is linked takes seconds.
+//! Tests that need a crate which sees both renderers.
+//! They are one program, since each that is linked takes seconds.
 
 mod references;
 mod renderers;

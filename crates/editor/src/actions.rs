@@ -1,4 +1,4 @@
-//! What menus and buttons do to a description, as plain functions that return what is selected afterwards.
+//! Actions of menus and buttons on a description, as plain functions that return what is selected afterwards.
 //!
 //! Each takes the place of a part in the description; those that move or remove parts also take the selection, and keep it
 //! on the same part. Hand them to [`Document::apply`](crate::Document::apply), which makes one step of each.

@@ -1,4 +1,4 @@
-//! What a crash leaves: the unsaved state of each open scene, as a scene file in a folder of its own.
+//! Autosaves: the unsaved state of each open scene, as a scene file in a folder of its own, for recovery after a crash.
 //!
 //! Every run holds a locked file beside its autosave. Locks end with their process, however it ends, so an autosave whose lock
 //! is free was left by a run that did not end cleanly.
@@ -33,10 +33,10 @@ pub struct Autosave {
     taken_over: Vec<Pending>,
 }
 
-/// What a tick did.
+/// Effect of a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tick {
-    /// Nothing was due.
+    /// No effect: nothing was due.
     Nothing,
     /// The document was written.
     Written,
@@ -123,7 +123,7 @@ impl Autosave {
         Ok(Tick::Written)
     }
 
-    /// What an earlier run left goes as soon as this window has written its own autosave or saved: the document that
+    /// Marks an earlier run's autosave for removal as soon as this window has written its own or saved: the document that
     /// [`Pending::recover`] made of it must be the one of the next [`Self::tick`].
     pub fn take_over(&mut self, pending: Pending) {
         self.taken_over.push(pending);
@@ -150,12 +150,12 @@ pub struct Pending {
     file: PathBuf,
     /// The scene file that it is a later state of; none for one that was never saved.
     pub path: Option<PathBuf>,
-    /// When it was written.
+    /// Time at which it was written.
     pub written: Option<SystemTime>,
 }
 
 impl Pending {
-    /// What a list calls it.
+    /// Title in a list.
     pub fn title(&self) -> String {
         match self.path.as_deref().and_then(Path::file_name) {
             Some(name) => name.to_string_lossy().into_owned(),
@@ -189,8 +189,8 @@ impl Pending {
     }
 }
 
-/// What runs that did not end cleanly left in a folder, the latest first. Those of runs that are still alive are not among
-/// them.
+/// Finds the autosaves in a folder of runs that did not end cleanly, the latest first. Those of runs that are still alive are
+/// not among them.
 pub fn pending(folder: &Path) -> Vec<Pending> {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return Vec::new();
@@ -226,7 +226,7 @@ pub fn pending(folder: &Path) -> Vec<Pending> {
     pending
 }
 
-/// What stands in the place of a path that is not there. No absolute path reads like this.
+/// Text in the place of a path that is not there. No absolute path reads like this.
 const UNTITLED: &str = "an untitled scene";
 
 /// The autosave of a document.

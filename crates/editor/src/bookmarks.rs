@@ -8,15 +8,15 @@ use hairline_image::output::write_atomically;
 use hairline_scene::description::Camera;
 use toml::{Table, Value};
 
-/// So many scenes are remembered, the latest first.
+/// Largest number of scenes that are remembered, the latest first.
 const MOST_SCENES: usize = 64;
 
 /// A view with a name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bookmark {
-    /// What the list calls it.
+    /// Name in the list.
     pub name: String,
-    /// Where it is seen from; its exposure is not used.
+    /// Camera of the view; its exposure is not used.
     pub camera: Camera,
 }
 
@@ -104,7 +104,7 @@ impl Bookmarks {
         let _ = write_atomically(store, table.to_string().as_bytes());
     }
 
-    /// What the store holds now: another window may have written to it.
+    /// Reads the store anew: another window may have written to it.
     fn stored(&self) -> Vec<(PathBuf, Vec<Bookmark>)> {
         let table: Option<Table> = self
             .store

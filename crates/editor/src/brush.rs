@@ -25,7 +25,7 @@ const SHARE_OF_VIEW: f64 = 0.025;
 /// and at most this part of the object's diagonal.
 const MOST_OF_OBJECT: f64 = 0.06;
 
-/// What the brush does.
+/// Settings of the brush.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BrushSettings {
     /// Half of the brush's width, in the world.
@@ -41,8 +41,8 @@ pub struct BrushSettings {
 }
 
 impl BrushSettings {
-    /// For an object whose bounding box has this diagonal, at a depth where the view is so high: large enough to be seen in the
-    /// view, and small on the object. Enough scratches for a stroke that is seen at once.
+    /// Settings for an object whose bounding box has this diagonal, at a depth where the view is `view_height_m` high: large enough to be seen
+    /// in the view, and small on the object. Enough scratches for a stroke that is seen at once.
     pub fn for_view(view_height_m: f64, diagonal_m: f64) -> Self {
         let on_screen_m = SHARE_OF_VIEW * view_height_m;
         let radius_m = on_screen_m

@@ -20,7 +20,7 @@ pub struct Document {
     state: State,
     history: History,
     drag: Option<Drag>,
-    /// What the file holds; none if no file holds what this document began with.
+    /// Contents of the file; none if no file holds what this document began with.
     saved: Option<Arc<Description>>,
     is_modified: bool,
     path: Option<PathBuf>,
@@ -94,7 +94,7 @@ impl Document {
         &self.base_dir
     }
 
-    /// What a window calls it: the file's name, without a mark for unsaved changes.
+    /// Title of the window: the file's name, without a mark for unsaved changes.
     pub fn title(&self) -> String {
         match self.path.as_deref().and_then(Path::file_name) {
             Some(name) => name.to_string_lossy().into_owned(),
@@ -113,7 +113,7 @@ impl Document {
         self.is_modified
     }
 
-    /// What the panel shows; always in the description.
+    /// Part that the panel shows; always in the description.
     pub fn selection(&self) -> Selection {
         self.state.selection
     }
@@ -233,12 +233,12 @@ impl Document {
         Some(label)
     }
 
-    /// What [`Self::undo`] would take back.
+    /// Label of the step that [`Self::undo`] would take back.
     pub fn undo_label(&self) -> Option<&str> {
         self.history.undo_label()
     }
 
-    /// What [`Self::redo`] would do again.
+    /// Label of the step that [`Self::redo`] would do again.
     pub fn redo_label(&self) -> Option<&str> {
         self.history.redo_label()
     }

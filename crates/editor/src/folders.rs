@@ -1,8 +1,8 @@
-//! Where a user's own files go, on systems that have such places.
+//! Folders for a user's own files, on systems that have such places.
 
 use std::path::PathBuf;
 
-/// Where settings and lists are kept; none where the system does not say, or has no files.
+/// Folder for settings and lists; none where the system does not say, or has no files.
 pub fn config_dir() -> Option<PathBuf> {
     strategy::config_dir()
 }

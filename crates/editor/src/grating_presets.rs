@@ -7,7 +7,7 @@ use hairline_scene::description::{Around, Distribution, Grating, GroovePattern};
 pub enum GratingPreset {
     /// The track of a compact disc.
     CompactDisc,
-    /// That of a DVD.
+    /// Grating of a DVD.
     Dvd,
     /// The lands between the grooves of a record, as its stamper leaves them.
     Vinyl,
@@ -33,7 +33,7 @@ impl GratingPreset {
         Self::EngineTurned,
     ];
 
-    /// What a menu calls it.
+    /// Name in a menu.
     pub fn name(self) -> &'static str {
         match self {
             Self::CompactDisc => "Compact disc",
@@ -46,7 +46,7 @@ impl GratingPreset {
         }
     }
 
-    /// What it looks like.
+    /// Description of its look, for a tooltip.
     pub fn tooltip(self) -> &'static str {
         match self {
             Self::CompactDisc => {

@@ -36,12 +36,12 @@ struct Step {
     label: String,
     /// The state on the other side.
     other: State,
-    /// What was selected on this side when the step was made or last taken.
+    /// Selection on this side when the step was made or last taken.
     selection_here: Selection,
     bytes: usize,
 }
 
-/// What is kept of the past.
+/// Limits of the history.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Bounds {
     pub bytes: usize,
@@ -91,14 +91,14 @@ impl History {
         self.undo.pop_back();
     }
 
-    /// What the newest step leaves selected.
+    /// Sets the selection after the newest step.
     pub(crate) fn set_newest_selection(&mut self, selection: Selection) {
         if let Some(step) = self.undo.back_mut() {
             step.selection_here = selection;
         }
     }
 
-    /// From `now` one step back: the state there and the step's label.
+    /// Goes one step back from `now`; returns the state there and the step's label.
     pub(crate) fn undo(&mut self, now: State) -> Option<(State, String)> {
         let step = self.undo.pop_back()?;
         let (label, state, back) = turn(step, now);
@@ -106,7 +106,7 @@ impl History {
         Some((state, label))
     }
 
-    /// From `now` one step forward again.
+    /// Goes one step forward again from `now`.
     pub(crate) fn redo(&mut self, now: State) -> Option<(State, String)> {
         let step = self.redo.pop()?;
         let (label, state, back) = turn(step, now);

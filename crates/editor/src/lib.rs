@@ -1,5 +1,5 @@
-//! What an artist does to a scene, without any user interface: a document with undo, the actions on it, what the controls
-//! of a panel need to know, and the tools that move cameras and lights or draw scratches.
+//! Editing of a scene without any user interface: a document with undo, the actions on it, the ranges and names of
+//! panels' controls, and the tools that move cameras and lights or draw scratches.
 //!
 //! ```
 //! use hairline_editor::Document;

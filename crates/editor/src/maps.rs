@@ -1,8 +1,8 @@
-//! What menus say of the maps in the box.
+//! Names of the built-in maps in menus, and their tooltips.
 
 use hairline_scene::environment::BuiltInMap;
 
-/// What a menu calls it.
+/// Name in a menu.
 pub fn name(map: BuiltInMap) -> &'static str {
     match map {
         BuiltInMap::Studio => "Studio map",
@@ -11,7 +11,7 @@ pub fn name(map: BuiltInMap) -> &'static str {
     }
 }
 
-/// What it does to the look.
+/// Description of its effect on the look, for a tooltip.
 pub fn tooltip(map: BuiltInMap) -> &'static str {
     match map {
         BuiltInMap::Studio => {

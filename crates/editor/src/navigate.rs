@@ -12,11 +12,11 @@ use hairline_scene::description::limits;
 const POLE_RAD: f64 = 1e-3;
 /// A drag over the whole height turns by this.
 const TURN_PER_HEIGHT_RAD: f64 = std::f64::consts::PI;
-/// What one step of a wheel leaves of the distance.
+/// Factor of one step of a wheel on the distance.
 const STEP_FACTOR: f64 = 0.88;
 /// The target is never nearer than this, nor farther than that.
 const DISTANCES_M: std::ops::RangeInclusive<f64> = 10.0 * limits::SMALLEST_M..=limits::LARGEST_M;
-/// How much of the view, on its tighter side, what is framed fills: a margin of 6 % stays on each side.
+/// Share of the view, on its tighter side, that framed points fill: a margin of 6 % stays on each side.
 const FRAMED_SHARE: f64 = 0.88;
 
 /// Turns the camera about its target by a drag: the surface follows the pointer. Goes no further than above and below the
@@ -67,8 +67,8 @@ pub fn zoom_to(camera: &mut Camera, point_m: DVec3, steps: f64) {
     }
 }
 
-/// The same for a point of the ground behind or beside what the view is about: the target keeps its depth in place of coming to the point,
-/// as long as it stays before the camera.
+/// Zooms to a point of the ground behind or beside the subject of the view: the target keeps its depth in place of coming to the point, as
+/// long as it stays before the camera.
 pub fn zoom_past(camera: &mut Camera, point_m: DVec3, steps: f64) {
     let target_m = DVec3::from(camera.target_m);
     zoom_to(camera, point_m, steps);
@@ -78,7 +78,7 @@ pub fn zoom_past(camera: &mut Camera, point_m: DVec3, steps: f64) {
     }
 }
 
-/// How far a point lies before a camera, along its view; none where it can be neither target nor in focus.
+/// Depth of a point before a camera, along its view; none where it can be neither target nor in focus.
 pub fn depth_m(camera: &Camera, point_m: DVec3) -> Option<f64> {
     let from_eye = point_m - DVec3::from(camera.position_m);
     let depth_m = from_eye.dot(Axes::of(camera).forward);
@@ -142,22 +142,22 @@ pub fn corners(low_m: DVec3, high_m: DVec3) -> [DVec3; 8] {
     })
 }
 
-/// Where to look from.
+/// Direction to look from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Viewpoint {
-    /// Where glTF models look to: +z if y is up; -y if z is up.
+    /// The direction in which glTF models look: +z if y is up; -y if z is up.
     Front,
     /// Opposite to the front.
     Back,
-    /// From the left side of the front view.
+    /// The left side of the front view.
     Left,
-    /// From the right side of the front view.
+    /// The right side of the front view.
     Right,
-    /// From where `up` points; the front is at the bottom of the picture.
+    /// The direction of `up`; the front is at the bottom of the picture.
     Top,
-    /// From below.
+    /// The direction opposite to `up`.
     Bottom,
-    /// From the front, the right and above at once.
+    /// The front, the right and above at once.
     ThreeQuarter,
 }
 
@@ -173,7 +173,7 @@ impl Viewpoint {
         Self::ThreeQuarter,
     ];
 
-    /// What a menu calls it.
+    /// Name in a menu.
     pub fn name(self) -> &'static str {
         match self {
             Self::Front => "Front",
@@ -224,7 +224,7 @@ pub fn view(camera: &Camera, size_px: [u32; 2]) -> CameraFrame {
     .frame(size_px)
 }
 
-/// Where a point is seen, in pixels from the upper left corner; none behind the camera.
+/// Position of a point in the view, in pixels from the upper left corner; none behind the camera.
 pub fn project(camera: &Camera, point_m: DVec3, size_px: DVec2) -> Option<DVec2> {
     let axes = Axes::of(camera);
     let from_eye = point_m - DVec3::from(camera.position_m);
@@ -237,14 +237,14 @@ pub fn project(camera: &Camera, point_m: DVec3, size_px: DVec2) -> Option<DVec2>
     Some(0.5 * size_px + flat * px)
 }
 
-/// Where the camera stands on the turntable.
+/// Position of the camera on the turntable.
 #[derive(Clone, Copy)]
 struct Place {
     /// Unit.
     up: DVec3,
     /// Unit, level: from the axis to the camera.
     outwards: DVec3,
-    /// From `up` to the direction from the target to the camera.
+    /// Angle from `up` to the direction from the target to the camera.
     polar_rad: f64,
     distance_m: f64,
 }

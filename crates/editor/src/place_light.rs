@@ -40,7 +40,7 @@ pub fn rotate(light: &mut Light, axis: DVec3, angle_rad: f64) {
     turn(light, DQuat::from_axis_angle(axis, angle_rad));
 }
 
-/// How far a light reaches from its middle; of a sun nothing.
+/// Largest distance of a light's points from its middle; 0 for a sun.
 pub fn extent_m(light: &Light) -> f64 {
     let middle = center(light);
     match &light.kind {

@@ -44,7 +44,7 @@ impl LayerPreset {
         Self::FingernailSwirls,
     ];
 
-    /// What a menu calls it.
+    /// Name in a menu.
     pub fn name(self) -> &'static str {
         match self {
             Self::RandomWear => "Random wear",
@@ -57,7 +57,7 @@ impl LayerPreset {
         }
     }
 
-    /// What it looks like.
+    /// Description of its look, for a tooltip.
     pub fn tooltip(self) -> &'static str {
         match self {
             Self::RandomWear => {
@@ -204,7 +204,7 @@ impl MaterialPreset {
         METALS.into_iter().map(Self::Metal).chain(others)
     }
 
-    /// What a menu calls it.
+    /// Name in a menu.
     pub fn name(self) -> &'static str {
         match self {
             Self::Metal(metal) => metal_name(metal),
@@ -215,7 +215,7 @@ impl MaterialPreset {
         }
     }
 
-    /// What it looks like.
+    /// Description of its look, for a tooltip.
     pub fn tooltip(self) -> &'static str {
         match self {
             Self::Metal(Metal::Gold | Metal::Copper | Metal::Brass) => {
@@ -326,7 +326,7 @@ impl LightPreset {
         Self::Sun,
     ];
 
-    /// What a menu calls it.
+    /// Name in a menu.
     pub fn name(self) -> &'static str {
         match self {
             Self::SmallLamp => "Small lamp",
@@ -337,7 +337,7 @@ impl LightPreset {
         }
     }
 
-    /// What it does to the look.
+    /// Description of its effect on the look, for a tooltip.
     pub fn tooltip(self) -> &'static str {
         match self {
             Self::SmallLamp => {
@@ -451,7 +451,7 @@ impl ShapePreset {
         Self::Text,
     ];
 
-    /// What a menu calls it.
+    /// Name in a menu.
     pub fn name(self) -> &'static str {
         match self {
             Self::Plane => "Plane",

@@ -10,10 +10,10 @@ use std::fmt;
 
 use dimension::Dimension;
 
-/// What a number of the scene counts in.
+/// Unit of a number of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
-    /// Nothing: a factor, a share, a number of things.
+    /// No unit: a factor, a share, a number of things.
     None,
     /// Metres, shown in whatever of nm, µm, mm and m reads best.
     Metre,
@@ -81,7 +81,7 @@ impl Unit {
         }
     }
 
-    /// How numbers of this unit are shown where the largest of them has this magnitude.
+    /// Display of numbers of this unit, of which the largest has this magnitude.
     pub fn shown(self, magnitude: f64) -> Shown {
         let (factor, symbol) = match self {
             Self::None => (1.0, ""),
@@ -111,7 +111,7 @@ impl Unit {
         }
     }
 
-    /// How numbers side by side are shown: in one unit, to three digits of the largest, for which there is room.
+    /// Display of numbers side by side: in one unit, to three digits of the largest, for which there is room.
     pub fn shown_together(self, values: &[f64]) -> Shown {
         let largest = values.iter().fold(0.0, |m: f64, value| m.max(value.abs()));
         let shown = self.shown(largest);
@@ -129,7 +129,7 @@ impl Unit {
 pub struct Shown {
     /// One of it, in the parameter's own unit.
     factor: f64,
-    /// With the space that belongs before it.
+    /// Symbol with the space that belongs before it.
     symbol: &'static str,
     /// Digits behind the point; none: to four digits in all.
     decimals: Option<usize>,
@@ -147,7 +147,7 @@ impl Shown {
     }
 }
 
-/// To four significant digits, all that stand before the point, and no zeros at the end.
+/// Formats a number to four significant digits, all that stand before the point, and no zeros at the end.
 fn digits(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -160,7 +160,7 @@ fn digits(value: f64) -> String {
     trimmed(format!("{value:.decimals$}"))
 }
 
-/// Without zeros at the end, and without the sign of a zero.
+/// Removes zeros at the end, and the sign of a zero.
 fn trimmed(text: String) -> String {
     let text = match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.'),

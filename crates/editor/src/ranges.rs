@@ -1,5 +1,5 @@
-//! What the controls of a panel need to know of each number of the scene file: where a slider ends, where the scene does,
-//! how it counts, and what it does to the look.
+//! Ranges of the panels' controls, for each number of the scene file: the ends of a slider, the limits of the scene, the scale, and the
+//! effect on the look.
 //!
 //! Hard limits are the scene's own, from [`limits`]; sliders end where looks do, and typing goes on to the hard ones. Where the scene has no
 //! limit, typing ends far beyond any use, so that a slip of the hand is refused.
@@ -15,22 +15,22 @@ use crate::quantity::Unit;
 
 pub use parameter::Parameter;
 
-/// What a control needs to know.
+/// Range and texts of a control.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Range {
-    /// What a panel calls it.
+    /// Label in a panel.
     pub label: &'static str,
-    /// From one end of the slider to the other: what looks good lies within.
+    /// Ends of the slider: good looks lie within.
     pub slider: RangeInclusive<f64>,
-    /// What may be typed.
+    /// Values that may be typed.
     pub hard: RangeInclusive<f64>,
     /// Whether equal ways of the slider are equal factors.
     pub logarithmic: bool,
-    /// What the number counts in.
+    /// Unit of the number.
     pub unit: Unit,
     /// Whether it has no digits behind the point.
     pub is_whole: bool,
-    /// What it does to the look.
+    /// Description of its effect on the look.
     pub tooltip: &'static str,
 }
 
@@ -137,8 +137,7 @@ impl Parameter {
         Self::LightColor,
     ];
 
-    /// What its control needs to know. Sliders of lengths and curvatures fit the object or the scene whose bounding box has
-    /// this diagonal.
+    /// Range and texts of its control. Sliders of lengths and curvatures fit the object or the scene whose bounding box has this diagonal.
     pub fn range(self, diagonal_m: f64) -> Range {
         use Parameter as P;
         let d = match diagonal_m.is_finite() && diagonal_m > 0.0 {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use hairline_image::output::write_atomically;
 
-/// So many are kept.
+/// Largest number of files that are kept.
 const MOST: usize = 12;
 
 /// A list of recent files. What cannot be read or stored is forgotten in silence: it is never worth a message.

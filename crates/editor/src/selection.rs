@@ -1,11 +1,11 @@
-//! What the panel shows.
+//! The part of a scene that the panel shows.
 
 use hairline_scene::Description;
 
 /// One part of a scene, or none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Selection {
-    /// Nothing.
+    /// No part.
     #[default]
     None,
     /// `[camera]`
@@ -72,14 +72,14 @@ impl Selection {
     }
 }
 
-/// Where index `i` is after item `removed` was taken out of `left` remaining ones: the one that took the place of a removed
+/// Index of item `i` after item `removed` was taken out of `left` remaining ones: the one that took the place of a removed
 /// one, or the last.
 pub(crate) fn after_removal(i: usize, removed: usize, left: usize) -> Option<usize> {
     let i = if i > removed { i - 1 } else { i };
     left.checked_sub(1).map(|last| i.min(last))
 }
 
-/// Where index `i` is after items `a` and `b` changed places.
+/// Index of item `i` after items `a` and `b` changed places.
 pub(crate) fn after_swap(i: usize, a: usize, b: usize) -> usize {
     match i {
         i if i == a => b,

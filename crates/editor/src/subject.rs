@@ -1,4 +1,4 @@
-//! What a scene is about: what a view of all of it shows.
+//! The subject of a scene, which a view of all of it shows.
 
 use glam::DVec3;
 use hairline_scene::Description;

@@ -1,4 +1,4 @@
-//! What an object has been through, as one choice that lays and removes several layers of scratches.
+//! Wear of an object, as one choice that lays and removes several layers of scratches.
 
 use hairline_scene::Description;
 use hairline_scene::description::{Distribution, Layer, Object, Pattern, Scratches};
@@ -9,7 +9,7 @@ pub use hairline_scene::wear::Wear;
 use crate::actions::ActionError;
 use crate::selection::Selection;
 
-/// What an object has been through: none if layers of wear were changed by hand. The size that they were laid for is read from them: the
+/// Returns the wear of an object; none if layers of wear were changed by hand. The size that they were laid for is read from them: the
 /// object may be another size by now, and its box is measured in more than one way.
 pub fn wear_of(description: &Description, object: &str) -> Option<Wear> {
     let layers = description.scratches.iter();

@@ -32,7 +32,7 @@ fn contiguous<'a, T: numpy::Element>(
     slice.map_err(|_| errors::of_argument(key, "found an array with gaps", "must be contiguous"))
 }
 
-/// What pickles call with the parts of either.
+/// Function that pickles call with the parts of either.
 fn restore(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
     py.import("hairline._arrays")?.getattr("restored")
 }

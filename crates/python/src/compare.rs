@@ -1,4 +1,4 @@
-//! How far one picture is from another.
+//! Comparison of two pictures.
 
 use std::path::PathBuf;
 

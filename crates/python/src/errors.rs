@@ -21,7 +21,7 @@ fn made(py: Python<'_>, made: PyResult<Bound<'_, PyAny>>) -> PyErr {
     }
 }
 
-/// What is wrong with a scene, as `SceneError`.
+/// Converts an error of a scene to `SceneError`.
 pub(crate) fn of_scene(py: Python<'_>, error: &hairline_scene::Error) -> PyErr {
     let file = error.file().map(|file| file.display().to_string());
     let arguments = (
@@ -38,7 +38,7 @@ pub(crate) fn of_scene(py: Python<'_>, error: &hairline_scene::Error) -> PyErr {
     )
 }
 
-/// What is wrong with an argument, as `SceneError` without a file.
+/// Makes a `SceneError` without a file for an argument.
 pub(crate) fn of_argument(key: &str, found: impl Into<String>, right: impl Into<String>) -> PyErr {
     let error = hairline_scene::Error::new(key, found, right);
     Python::attach(|py| of_scene(py, &error))

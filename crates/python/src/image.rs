@@ -56,12 +56,12 @@ impl Image {
         &self.image
     }
 
-    /// What it remembers of its making.
+    /// Notes on the picture's making.
     pub(crate) fn notes(&self) -> &Notes {
         &self.notes
     }
 
-    /// How it is displayed.
+    /// Display settings of the picture.
     pub(crate) fn shown(&self) -> &Display {
         &self.display
     }
@@ -71,7 +71,7 @@ impl Image {
         self.is_complete
     }
 
-    /// As a comparison takes it.
+    /// Layers as a comparison takes them.
     pub(crate) fn layers(&self) -> Layers {
         Layers::from(&self.image)
     }
@@ -152,7 +152,7 @@ impl Image {
         (width, height)
     }
 
-    /// What the picture remembers of its making.
+    /// Notes on the picture's making.
     #[getter(notes)]
     fn notes_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         notes_dict(py, &self.notes)
@@ -273,7 +273,7 @@ impl Image {
         Ok(PyBytes::new(py, &bytes))
     }
 
-    /// What notebooks show.
+    /// PNG that notebooks show.
     fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         self.png(py, None, None)
     }

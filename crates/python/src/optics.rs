@@ -103,7 +103,7 @@ fn metal_rgb<'py>(py: Python<'py>, name: &str, cos_theta: Numbers<'py>) -> Made<
     each(py, [&cos_theta], |[cos]| metal.reflectance_rgb(cos))
 }
 
-/// How alike the phase steps of grooves of these depths are.
+/// Coherence of the phase steps of grooves of these depths.
 #[pyfunction]
 fn depth_coherence(depths_nm: Numbers<'_>, weights: Numbers<'_>) -> PyResult<f64> {
     let depths_nm = depths_nm.as_slice().map_err(|_| errors::internal())?;
@@ -185,7 +185,7 @@ fn coherent_response<'py>(
     )
 }
 
-/// What scene files call the metals.
+/// Names of the metals in scene files.
 #[pyfunction]
 fn metal_names() -> Vec<&'static str> {
     let names = description::metal_names().iter();

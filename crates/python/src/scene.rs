@@ -25,7 +25,7 @@ use crate::names::named;
 use crate::values::Stock;
 use crate::watched::{self, Told};
 
-/// What errors call text that was made of a table, and nobody has seen.
+/// File name in errors for text that was made of a table, and nobody has seen.
 const NO_FILE: &str = "\u{0}";
 
 /// Reads a scene file or a model: its table, its text and the notes about it.
@@ -119,7 +119,7 @@ fn table(py: Python<'_>, description: &Description) -> PyResult<toml::Table> {
 #[derive(Default)]
 pub(crate) struct Builder {
     builder: Mutex<SceneBuilder>,
-    /// What references of the last scene looked up.
+    /// Look-up structures of the last scene's references.
     last: Mutex<Option<(Scene, Arc<OnceLock<Parts>>)>>,
 }
 
@@ -215,7 +215,7 @@ pub(crate) struct Built {
 
 #[pymethods]
 impl Built {
-    /// How many scratches each object has.
+    /// Number of scratches of each object.
     fn scratch_counts(&self) -> Vec<usize> {
         let objects = self.scene.objects.iter();
         objects.map(|object| object.scratches.len()).collect()
@@ -347,7 +347,7 @@ impl Built {
         }
     }
 
-    /// Also whether each pixel has its samples. Of `rows` alone, where they are given.
+    /// Returns the picture, and whether each pixel has its samples. Samples `rows` alone, where they are given.
     fn sample(
         &self,
         settings: Settings,

@@ -123,7 +123,7 @@ fn take<T: bytemuck::AnyBitPattern>(bytes: &mut &[u8], count: usize) -> PyResult
         .collect())
 }
 
-/// What [`picture_state`] told.
+/// Makes a picture of the values from [`picture_state`].
 #[pyfunction]
 pub(crate) fn picture_from_state(
     size_px: [u32; 2],

@@ -15,7 +15,7 @@ use crate::errors;
 /// Tables in tables, beyond which they are taken for endless.
 const DEEPEST: usize = 32;
 
-/// What lies in memory of the values that were read, by name.
+/// Arrays in memory of the values that were read, by name.
 #[derive(Default)]
 pub(crate) struct Stock {
     pub(crate) arrays: Arrays,

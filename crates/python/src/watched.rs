@@ -10,10 +10,10 @@ use pyo3::prelude::*;
 
 use crate::errors;
 
-/// How often signals are looked for.
+/// Interval at which signals are looked for.
 const EVERY: Duration = Duration::from_millis(50);
 
-/// What work says of itself, kept until the thread of Python comes by.
+/// Progress of work, kept until the thread of Python asks for it.
 #[derive(Default)]
 pub(crate) struct Told {
     cancelled: AtomicBool,
@@ -103,7 +103,7 @@ impl Listener for Told {
     fn end(&self) {}
 }
 
-/// What work has made, and the KeyboardInterrupt that ended it.
+/// Result of work, and the KeyboardInterrupt that ended it.
 pub(crate) struct Ended<T> {
     pub(crate) made: T,
     pub(crate) interrupt: Option<PyErr>,

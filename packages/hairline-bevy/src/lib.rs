@@ -69,9 +69,9 @@ impl Plugin for ScratchedPlugin {
     }
 }
 
-/// What is bound besides the standard material. [`ScratchedTextures::scratched`] makes one.
+/// Material with the bindings for scratches besides the standard material's. [`ScratchedTextures::scratched`] makes one.
 ///
-/// Of the standard material count base colour, metallic, perceptual roughness, reflectance, normal map, emission, occlusion and alpha.
+/// It uses the standard material's base colour, metallic, perceptual roughness, reflectance, normal map, emission, occlusion and alpha.
 #[derive(Asset, AsBindGroup, Clone, Debug, TypePath)]
 pub struct Scratched {
     #[texture(100, sample_type = "u_int", visibility(fragment))]
@@ -97,7 +97,7 @@ impl Scratched {
     /// Metres: of point and spot lights whose radius is 0. Scratches need lights that have a size.
     pub const LIGHT_RADIUS_M: f32 = 0.005;
 
-    /// The same with another radius of lights without one, in metres.
+    /// Sets another radius for lights without one, in metres.
     pub fn with_light_radius_m(mut self, light_radius_m: f32) -> Self {
         self.settings.light_radius_m = light_radius_m;
         self

@@ -10,9 +10,9 @@ use hairline_gpu::scratch_tree;
 use hairline_index::ScratchIndex;
 use hairline_scene::{Arrays, Description, Loader, MeshArrays, Scene, SceneBuilder};
 
-/// What the mesh is called where a scene has a file.
+/// Name of the mesh where a scene has a file.
 const NAME: &str = "mesh";
-/// What a scene needs besides; no picture is rendered of it, so nothing lights it.
+/// Rest of the scene; no picture is rendered of it, so nothing lights it.
 const REST: &str = "
 studio = { hidden = true }
 camera = { position_m = [0.0, 0.0, 1.0], target_m = [0.0, 0.0, 0.0], up = [0.0, 1.0, 0.0] }

@@ -24,7 +24,7 @@ use hairline_scene::{Base, LightShape, Scene};
 
 /// The most that a picture may be off, as rms over that of the picture.
 const LIMIT: f64 = 0.005;
-/// What scratches change is compared where it is this much of the picture without them.
+/// Least effect of scratches that is compared, as a share of the picture without them.
 const SHARE_MIN: f32 = 0.05;
 /// Pipelines and textures are there after a few frames.
 const FRAMES_MAX: usize = 200;

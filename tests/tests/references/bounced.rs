@@ -37,7 +37,8 @@ fn in_a_mirror() -> Scene {
     seen_in_a_mirror(scene)
 }
 
-/// The same with all scratches along an axis, whose boxes have no width: which of them a point sees depends on how far around it looks.
+/// `in_a_mirror` with all scratches along an axis, so that their boxes have no width: the distance to which a point looks decides which
+/// of them it sees.
 pub(super) fn along_an_axis_in_a_mirror() -> Scene {
     let mut scene = in_a_mirror();
     scene.lights = vec![sphere(VIEW, 0.0, -0.3, 0.08)];
@@ -127,7 +128,8 @@ fn light_by_way_of_objects_is_that_of_the_path_tracer() {
     }
 }
 
-/// What a ray meets may see the bright half of a sky and not its dark one, or the other way round: both are found with one ray a place.
+/// A place that a ray meets may see the bright half of a sky and not its dark one, or the other way round: both are found with one ray
+/// a place.
 #[test]
 fn light_of_a_sky_by_way_of_a_wall() {
     let mut scene = before_a_wall(WHITE, WHITE);
@@ -168,7 +170,7 @@ fn few_rays_find_the_light_of_objects_in_the_mean() {
     }
 }
 
-/// What a mirror shows has scratches.
+/// Scratches show in a mirror.
 #[test]
 fn scratches_are_seen_in_a_mirror() {
     let mut scene = in_a_mirror();
@@ -185,7 +187,7 @@ fn scratches_are_seen_in_a_mirror() {
     assert!(share > seen.len() / 4, "{share} of {}", seen.len());
 }
 
-/// Where there is nothing to go by, a bounce changes no bit.
+/// A bounce changes no bit where light has no object to go by.
 #[test]
 fn without_objects_bounces_change_nothing() {
     let mut scene = before_a_wall(WHITE, WHITE);

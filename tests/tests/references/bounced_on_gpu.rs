@@ -11,8 +11,8 @@ fn sum(values: &[f64]) -> f64 {
     values.iter().sum()
 }
 
-/// What bounces add to the luminance of a layer of each pixel. Where light goes by several objects, the CPU takes the colour of all gratings for that
-/// of one ray.
+/// Luminance that bounces add to a layer of each pixel. Where light goes by several objects, the CPU takes the colour of all gratings for that of one
+/// ray.
 fn added(with: &Image, without: &Image, layer: Layer) -> Vec<f64> {
     let luminance = |image: &Image| -> Vec<f64> {
         let pixels = match layer {
@@ -34,8 +34,8 @@ fn pair(picture: impl Fn(u32) -> Option<Image>, bounces: u32) -> Option<[Image; 
     Some([picture(bounces)?, picture(0)?])
 }
 
-/// What other objects add is what they add on the CPU, in the mean over the picture. Bound: four standard deviations of the mean, which the
-/// differences of the pixels tell and which are one to two percent, and 0.2 % for single precision and for what the GPU keeps in fewer bits.
+/// Other objects add the same light as on the CPU, in the mean over the picture. Bound: four standard deviations of the mean, which the differences
+/// of the pixels tell and which are one to two percent, and 0.2 % for single precision and for what the GPU keeps in fewer bits.
 #[test]
 fn the_gpus_bounces_are_the_cpus_in_the_mean() {
     let more = [
@@ -79,7 +79,7 @@ fn the_gpus_bounces_are_the_cpus_in_the_mean() {
     }
 }
 
-/// Where there is nothing to go by, a bounce changes no bit.
+/// A bounce changes no bit where light has no object to go by.
 #[test]
 fn without_objects_the_gpus_bounces_change_nothing() {
     for (name, mut scene) in scenes() {

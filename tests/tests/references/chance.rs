@@ -1,4 +1,4 @@
-//! What the picture says of its own noise: variances that hold, and fall as they should.
+//! Noise that the picture states: variances that hold, and fall as they should.
 
 use super::pictures::{LINEAR, sampled};
 use super::scenes::{View, plate, scratch, sphere};

@@ -17,8 +17,8 @@ fn agrees(found: &Compared, limit: f64) -> bool {
     at_least < limit && (found.mean_ratio - 1.0).abs() < 5e-3 + 3.0 * found.mean_ratio_error
 }
 
-/// What the area lights of 0.05 rad and more promise: Gauss points across the band (0.1 to 0.4 %), one phase for each chord and
-/// one direction to the lights for a whole pixel.
+/// Bound of the error under area lights of 0.05 rad and more: Gauss points across the band (0.1 to 0.4 %), one phase for each chord
+/// and one direction to the lights for a whole pixel.
 const SCRATCHES: f64 = 0.01;
 
 /// The fitted lobes are off by 0.2 % of the brightest highlight in the mean, which is more of what their tails send.
@@ -367,7 +367,7 @@ fn crop(mut scene: Scene, place: [f64; 2], size_px: u32) -> Scene {
     scene
 }
 
-/// Where scratches are bright, away from silhouettes and from the dark tables: `docs/accuracy.md` has the whole pictures.
+/// The crops are bright with scratches, away from silhouettes and from the dark tables: `docs/accuracy.md` has the whole pictures.
 #[test]
 fn crops_of_the_scenes() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();

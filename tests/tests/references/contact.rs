@@ -72,7 +72,7 @@ fn a_lamp_in_the_plane_of_a_ceiling_lights_the_floor() {
     }
 }
 
-/// Without shadows and with them, by each renderer that there is.
+/// Pictures without shadows and with them, by each renderer that there is.
 fn by_each(scene: &Scene, samples: u32) -> Vec<(&'static str, Image, Image)> {
     let cpu = (closed(scene, samples, false), closed(scene, samples, true));
     let gpu = on_gpu(scene, samples, None).zip(on_gpu(scene, samples, Some(0)));
@@ -101,7 +101,7 @@ fn under_a_can(target_m: [f64; 3], fov_y_deg: f64) -> Scene {
         .scene()
 }
 
-/// Not on the plate, not on the can, nor where they meet; the sky is white.
+/// No light comes on the plate, on the can, or where they meet; the sky is white.
 #[test]
 fn no_light_comes_through_a_sheet() {
     let mut scene = under_a_can([-0.004, 0.006, 0.004], 40.0);
@@ -112,7 +112,7 @@ fn no_light_comes_through_a_sheet() {
     assert!(image.iter().all(|p| *p == [0.0; 3]));
 }
 
-/// On the plate, away from the foot of the can, but for rounding.
+/// No light comes on the plate, away from the foot of the can, except by rounding.
 #[test]
 fn no_light_comes_through_a_sheet_on_the_gpu() {
     let scene = under_a_can([0.0; 3], 15.0);
@@ -249,7 +249,7 @@ fn balls_do_not_shade_themselves() {
     }
 }
 
-/// Where a scratched ball faces the lamp, shadows change no bit of its scratches or its base.
+/// Shadows change no bit of a scratched ball's scratches or base where it faces the lamp.
 #[test]
 fn a_scratched_ball_hides_nothing_from_itself() {
     let scene = scratched_ball(0.04)
@@ -263,7 +263,7 @@ fn a_scratched_ball_hides_nothing_from_itself() {
     }
 }
 
-/// Of each pixel's middle: the cosine between the facet that is seen and a direction; 1 where nothing is.
+/// Cosine, for each pixel's middle, between the facet that is seen and a direction; 1 where nothing is seen.
 fn facets_facing(scene: &Scene, towards: DVec3) -> Vec<f64> {
     let index = TriangleIndex::build(scene);
     let camera = scene.camera.frame(scene.render.size_px);

@@ -35,7 +35,7 @@ fn added_up(scene: &Scene, samples: u32) -> Image {
     batches.into_image().unwrap()
 }
 
-/// How far light lies from the picture's middle: the mean, and the standard deviation along x and y.
+/// Mean distance of the light from the picture's middle, and its standard deviation, along x and y.
 fn spread_px(image: &Image) -> [DVec2; 2] {
     let [width, height] = image.size_px;
     let (mut all, mut sum, mut squares) = (0.0, DVec2::ZERO, DVec2::ZERO);

@@ -23,7 +23,7 @@ pub fn sky([width, height]: [u32; 2]) -> Picture {
     map
 }
 
-/// Of a texel, in the map's frame.
+/// Direction of a texel in the map's frame.
 fn direction([width, height]: [u32; 2], i: u32) -> DVec3 {
     environment_dir(DVec2::new(
         (f64::from(i % width) + 0.5) / f64::from(width),
@@ -43,7 +43,7 @@ fn mean_over_texel(size_px: [u32; 2], i: u32, value: impl Fn(DVec3) -> f64) -> f
     places.sum::<f64>() / f64::from(EACH_WAY * EACH_WAY)
 }
 
-/// As it stands over the plate.
+/// The environment as it stands over the plate.
 pub fn over(environment: Environment) -> Environment {
     environment.with_up(DVec3::Z, 0.7)
 }

@@ -1,4 +1,4 @@
-//! What the filter of found light leaves as it is: the mean of each layer, and the contrast of scratches in half shadow.
+//! Properties that the filter of found light preserves: the mean of each layer, and the contrast of scratches in half shadow.
 
 use super::shadowed::{bounced, luminance, scenes};
 use conformance::two_renderers::at_width;

@@ -39,7 +39,7 @@ fn grated(row: Row, angle_std_rad: f64, light_rad: f64) -> Scene {
     scene
 }
 
-/// Of the gratings' light, all channels together: what of it is off, and the standard error of that.
+/// Relative error of the gratings' light, all channels together, and its standard error.
 fn compared(name: &str, exact: &Image, reference: &Image) -> (f64, f64) {
     let [a, b] = [exact, reference].map(|image| mean(&image.scratches));
     let rms = |v: [f64; 3]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -81,7 +81,7 @@ fn single_grooves(field: GrooveField, coherence_um: f64, jitter: f64) -> Scene {
     scene
 }
 
-/// In windows that show single grooves: where they lie, the light is.
+/// Light comes from the places of single grooves, in windows that show them.
 #[test]
 fn single_grooves_lie_where_they_are() {
     let field = grated(row(40.0, 4.0, 0.0, 0.0), 0.0, 0.1).objects[0].gratings[0].field;

@@ -53,7 +53,7 @@ fn star(x: f64, y: f64) -> Light {
     outline(VIEW, x, y, (0..10).map(corner))
 }
 
-/// As wide as ours.
+/// A sun as wide as ours.
 fn sun(x: f64, y: f64) -> Light {
     let radius_rad = 0.265_f64.to_radians();
     Light::sun(

@@ -1,4 +1,4 @@
-//! Which mask is nearer to what the whole field leaves of a highlight.
+//! Comparison of the masks with the highlight that the whole field leaves.
 
 use super::pictures::{mean, sampled};
 use super::scenes::{View, plate, scratch_alike, sphere};

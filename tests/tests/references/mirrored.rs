@@ -28,7 +28,7 @@ fn add_wall(scene: &mut Scene, base: Base, roughness: f64) {
     );
 }
 
-/// Before the mirror stands up. The light shines from the viewer's side: on what the mirror shows.
+/// The plate, before the mirror stands up. The light shines from the viewer's side: on what the mirror shows.
 fn scene(view: View, scratches: u32) -> Scene {
     let mut scene = plate(Base::Metal(Metal::Aluminium), view);
     let lamp = sphere(view, -0.12, 0.12, 0.1);
@@ -131,8 +131,8 @@ fn without_bounces_the_mirror_is_dark() {
     assert!(mean(&upper.beauty().rgb)[1] < 1e-4);
 }
 
-/// Where all is white, all is white, however often light goes to and fro: a path that ends sees the sky through what stands
-/// in its way.
+/// A white corner under a white sky stays white, however often light goes to and fro: a path that ends sees the sky through
+/// what stands in its way.
 #[test]
 fn a_white_corner_under_a_white_sky() {
     let view = View {

@@ -15,7 +15,7 @@ const SIZE_PX: [u32; 2] = [24, 4];
 struct Lamp {
     keys: &'static str,
     meets: fn(DVec3, DVec3) -> bool,
-    /// Of the board above the plate.
+    /// Place of the edge of the board above the plate.
     edge_m: f64,
     /// The lamp is seen within this slope from its middle.
     reach: f64,
@@ -64,7 +64,7 @@ const LAMPS: [Lamp; 4] = [
     },
 ];
 
-/// From the lamp's middle to where a line meets its plane.
+/// Vector from the lamp's middle to the point where a line meets its plane.
 fn on_plane(from: DVec3, along: DVec3, facing: DVec3) -> DVec3 {
     let way = MIDDLE_M - from;
     along * (way.dot(facing) / along.dot(facing)) - way
@@ -103,7 +103,8 @@ fn scene_file(lamp: &Lamp) -> SceneFile {
         .part(&format!("[[light]]\n{}", lamp.keys))
 }
 
-/// By each renderer that there is, with a bound on the error: without the board and with it.
+/// Pictures without the board and with it, by each renderer that there is, with a bound on the
+/// error.
 fn pictures(open: &Scene, scene: &Scene) -> Vec<(&'static str, f64, [Image; 2])> {
     let by_cpu = [closed(open, 1, false), closed(scene, 1024, true)];
     let by_gpu = [on_gpu(open, 1, None), on_gpu(scene, 384, Some(0))];

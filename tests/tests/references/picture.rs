@@ -44,8 +44,8 @@ fn lit(base: Base, view: View, picture: Option<usize>) -> Scene {
     scene
 }
 
-/// What of a scene under the soft box is wrong: both renderers, and the CPU's layers against every direction by chance, with limits of the relative
-/// rms on scratches and base. `even` is the scene without the picture: another light, as one of its layers must show.
+/// Lists the errors of a scene under the soft box: both renderers, and the CPU's layers against every direction by chance, with limits of the
+/// relative rms on scratches and base. `even` is the scene without the picture: another light, as one of its layers must show.
 fn wrong(name: &str, scene: &Scene, even: &Scene, limits: [f64; 2]) -> Vec<Compared> {
     if let Some(gpu) = on_the_gpu(scene, 1) {
         compare(name, scene, &gpu, &on_the_cpu(scene, 1)).unwrap();

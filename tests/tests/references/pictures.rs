@@ -18,7 +18,7 @@ pub const LINEAR: Settings = Settings {
     seed: 1,
 };
 
-/// By Monte Carlo, `batches` of 64 samples a pixel.
+/// Samples a picture by Monte Carlo, `batches` of 64 samples a pixel.
 pub fn sampled(scene: &Scene, settings: Settings, batches: u32) -> Image {
     let integrator = Integrator::new(scene, settings);
     let mut image = integrator.start();
@@ -27,7 +27,7 @@ pub fn sampled(scene: &Scene, settings: Settings, batches: u32) -> Image {
     image
 }
 
-/// By the closed form, one ray a pixel, with the linear mask.
+/// Renders by the closed form, one ray a pixel, with the linear mask.
 pub fn closed(scene: &Scene) -> Image {
     let options = RenderOptions {
         samples: 1,
@@ -45,7 +45,7 @@ pub fn closed(scene: &Scene) -> Image {
 pub struct Compared {
     pub beyond: BeyondNoise,
     pub z: ZTest,
-    /// Of the image's mean over the reference's, all channels together, and its standard error by the noise.
+    /// Ratio of the image's mean to the reference's, all channels together, and its standard error by the noise.
     pub mean_ratio: f64,
     pub mean_ratio_error: f64,
 }

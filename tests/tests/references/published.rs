@@ -31,8 +31,8 @@ const EXACT: Method = Method {
     mask: Mask::Linear,
 };
 
-/// Where the middle line may stand for the band and no phase is oblique: from near the normal, under lights of 0.2 rad about
-/// the mirror's direction, pixels that see one point.
+/// A scene in which the middle line may stand for the band and no phase is oblique: seen from near the normal, under lights of
+/// 0.2 rad about the mirror's direction, by pixels that see one point.
 fn exact_scene(light: impl Fn(View) -> Light) -> Scene {
     let view = View {
         angle_rad: 0.05,
@@ -46,9 +46,9 @@ fn exact_scene(light: impl Fn(View) -> Light) -> Scene {
     scene
 }
 
-/// Of a middle line and eight wavelengths: 1.1 % here.
+/// Bound of the error of a middle line and eight wavelengths: 1.1 % here.
 const WHERE_EXACT: f64 = 0.015;
-/// Of the base.
+/// Bound of the error of the base.
 const BASE: f64 = 0.01;
 
 fn at_least(found: &Compared) -> f64 {
@@ -130,7 +130,8 @@ fn aslant() -> Scene {
     scene
 }
 
-/// How far each switch takes the scratches: at most where pixels see one point from near the normal, at least and at most aslant.
+/// The error of the scratches by each switch is bounded from above where pixels see one point from near the normal, and from both
+/// sides aslant.
 #[test]
 fn each_switch_alone() {
     let usual = PublishedMethod::default();

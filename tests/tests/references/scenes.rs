@@ -10,12 +10,12 @@ pub const HALF_SIDE_M: f32 = 5e-3;
 const CAMERA_M: f64 = 0.4;
 const LIGHT_M: f64 = 1.0;
 
-/// How a plate is looked at.
+/// View of a plate.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// From the normal, towards -y.
+    /// Angle from the normal, towards -y.
     pub angle_rad: f64,
-    /// What a pixel covers across the view.
+    /// Size of a pixel on the plate, across the view.
     pub pixel_um: f64,
     pub size_px: u32,
 }
@@ -109,7 +109,7 @@ pub fn tube(view: View, x: f64, y: f64, half_rad: f64, radius_rad: f64) -> Light
     )
 }
 
-/// The same with one width and one depth for all.
+/// Adds scratches with one width and one depth for all.
 pub fn scratch_alike(scene: &mut Scene, view: View, count: u32, width_um: f32, depth_nm: f32) {
     scratch(scene, view, count);
     for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {

@@ -29,12 +29,12 @@ const SHADOWS: Settings = Settings {
     ..LINEAR
 };
 
-/// By the closed form, with rays for shadows or without.
+/// Renders by the closed form, with rays for shadows or without.
 pub(super) fn closed(scene: &Scene, samples: u32, shadows: bool) -> Image {
     bounced(scene, samples, shadows, 0)
 }
 
-/// The same with bounces.
+/// Renders by the closed form with bounces.
 pub(super) fn bounced(scene: &Scene, samples: u32, shadows: bool, bounces: u32) -> Image {
     let options = RenderOptions {
         samples,
@@ -305,7 +305,7 @@ fn few_rays_are_right_in_the_mean() {
     }
 }
 
-/// Where nothing is in the way, rays change no bit.
+/// Rays change no bit where nothing is in the way.
 #[test]
 fn nothing_in_the_way_changes_nothing() {
     for (name, mut scene) in scenes() {

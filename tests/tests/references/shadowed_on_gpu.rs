@@ -9,7 +9,7 @@ use hairline_index::method::Method;
 use hairline_scene::Scene;
 use std::path::Path;
 
-/// With shadows and so many bounces, or without. None, and a line on stderr, where there is no driver.
+/// Renders with shadows and `bounces`, or without shadows. None, and a line on stderr, where there is no driver.
 pub(super) fn on_gpu(scene: &Scene, samples: u32, bounces: Option<u32>) -> Option<Image> {
     let method = Method {
         mask: LINEAR.mask,
@@ -67,7 +67,7 @@ fn rays_come_to_the_cpus_shadows() {
     }
 }
 
-/// Where nothing is in the way, rays change nothing. Without them the device adds up the layers, with them the host does: the last bits may differ.
+/// Rays change nothing where nothing is in the way. Without them the device adds up the layers, with them the host does: the last bits may differ.
 #[test]
 fn nothing_in_the_way_changes_nothing_on_the_gpu() {
     for (name, mut scene) in scenes() {
@@ -85,7 +85,7 @@ fn nothing_in_the_way_changes_nothing_on_the_gpu() {
     }
 }
 
-/// What rays find of each layer is what the CPU's find, in the mean over the picture.
+/// Rays find the same light in each layer as the CPU's, in the mean over the picture.
 #[test]
 fn what_rays_find_is_what_the_cpus_find() {
     for (name, scene) in &scenes()[7..] {
@@ -97,7 +97,7 @@ fn what_rays_find_is_what_the_cpus_find() {
     }
 }
 
-/// The same on edges, whose samples share scratches, and rays by way of these.
+/// Rays find the same on edges, whose samples share scratches, and rays by way of these.
 #[test]
 fn on_edges_rays_find_what_the_cpus_find() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/lid.toml");

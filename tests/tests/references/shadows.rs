@@ -81,7 +81,8 @@ fn umbra_penumbra_and_light() {
     }
 }
 
-/// On the line under the screen's edge half the light is left: plate, light and viewer are symmetric about it.
+/// Half of the light is left on the line under the screen's edge: plate, light and viewer are symmetric about
+/// it.
 #[test]
 fn half_the_light_at_the_edge() {
     let open = scene(WHITE, VIEW);

@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 use hairline_gpu::{Error, RenderOptions, headless};
 use hairline_scene::{Base, Light, Scene};
 
-/// On edges.
+/// Number of samples on edges.
 const SAMPLES: u32 = 4;
 
 /// A disk of steel under a sphere, seen from so far away.

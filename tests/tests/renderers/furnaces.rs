@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 const WHITE: [f64; 3] = [1.0; 3];
 
-/// What reflects everything, and what does not.
+/// Materials, each with whether it reflects everything.
 fn bases() -> [(Base, bool); 6] {
     let gltf = |metallic| Base::MetallicRoughness {
         base_color: WHITE,
@@ -88,7 +88,7 @@ fn check(name: &str, mut scene: Scene) {
     );
 }
 
-/// What a coat does not send back goes through it, and comes back from a white base.
+/// Light that a coat does not send back goes through it, and comes back from a white base.
 #[test]
 fn a_coated_white_base_returns_all() {
     let mut scene = square(Base::ColoredMetal { base_color: WHITE }, 0.01, 8);

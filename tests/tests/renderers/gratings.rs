@@ -19,7 +19,7 @@ fn one_sample(scene: &Scene) -> Image {
     render(scene, &options, &|_| {})
 }
 
-/// What the base loses, gratings send: whatever the pitch, the view and the scratches on top.
+/// Gratings send the light that the base loses: whatever the pitch, the view and the scratches on top.
 #[test]
 fn a_white_furnace_stays_white() {
     let file = |gratings: &str| {
@@ -100,7 +100,7 @@ fn orders_lie_where_the_grating_equation_says() {
     }
 }
 
-/// What light of a strip lamp above falls on, and how large all of it is.
+/// An object under a strip lamp, and the size of all of it.
 struct Grooved {
     size_m: f64,
     object: &'static str,
@@ -328,8 +328,8 @@ fn zoom(disc: &Scene, pixel_um: f64, aside_px: f64) -> Scene {
     scene
 }
 
-/// From the whole disc to 10 um a pixel, in steps of a half: the mean of the picture goes on as it went before, and it hardly changes where the camera
-/// moves by a third of a pixel.
+/// The mean of the picture changes steadily from the whole disc to 10 um a pixel, in steps of a half, and it hardly changes where the camera moves by a third
+/// of a pixel.
 #[test]
 fn a_zoom_neither_steps_nor_flickers() {
     let seen = |disc: &Scene, pixel_um: f64, aside_px: f64| {
@@ -422,7 +422,7 @@ fn flicker(pitch_um: f64, first_um: f64, filter_std_px: f64) -> f64 {
     most
 }
 
-/// Also where single grooves begin to show, a few pixels apart. Pixels that look at points see other grooves in each frame there.
+/// Frames do not flicker where single grooves begin to show either, a few pixels apart. Pixels that look at points see other grooves in each frame there.
 #[test]
 fn frames_of_a_zoom_do_not_flicker() {
     for (pitch_um, limit) in [(1.6, 0.02), (30.0, 0.05)] {

@@ -12,7 +12,7 @@ use super::gratings::grooves_one_by_one;
 
 const SIDE_PX: u32 = 64;
 
-/// Of numbers from 0 to 1, with its means.
+/// A texture of numbers from 0 to 1, with its means.
 fn texture(texel: impl Fn(DVec2) -> [f64; 3]) -> Texture {
     let mut size = SIDE_PX;
     let place = |i: u32| DVec2::new(f64::from(i % SIDE_PX), f64::from(i / SIDE_PX)) + 0.5;
@@ -113,7 +113,7 @@ fn mask(lie: PictureLie) -> Option<GroovePicture> {
     Some(GroovePicture { texture: 0, lie })
 }
 
-/// From the sides of an object that is turned, in tiles of 3 cm.
+/// Projection from the sides of an object that is turned, in tiles of 3 cm.
 fn from_three_sides() -> PictureLie {
     let turn = DMat4::from_rotation_x(0.7) * DMat4::from_scale(DVec3::new(1.0, 1.3, 0.8));
     PictureLie::FromThreeSides {

@@ -118,7 +118,7 @@ fn what_they_light_stays_as_it_is() {
     }
 }
 
-/// By Monte Carlo a lamp is seen as bright, and what it lights shows it once, with bounces too.
+/// Monte Carlo shows a lamp as bright, and what it lights shows it once, with bounces too.
 #[test]
 fn both_references_see_them() {
     for model in [Model::Separable, Model::Full] {

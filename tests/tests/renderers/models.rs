@@ -1,5 +1,4 @@
-//! What models bring: images beyond their borders and by other coordinates, colours of vertices, surfaces without light, and surfaces
-//! that are not everywhere on their triangles.
+//! Contents of models: images beyond their borders and by other coordinates, colours of vertices, surfaces without light, and cutouts.
 
 use std::sync::Arc;
 
@@ -184,7 +183,7 @@ fn rays_go_through_what_is_cut_out() {
     }
 }
 
-/// With shadows.
+/// Pictures with shadows.
 fn shadowed(scene: &Scene, samples: u32) -> Option<[Image; 2]> {
     let options = closed_form::RenderOptions {
         samples,
@@ -225,7 +224,7 @@ fn what_is_cut_out_is_seen_through_and_lets_light_by() {
     assert!(seen.iter().all(|count| *count > 400), "{seen:?}");
 }
 
-/// Of an environment that is the same all around a surface gets what its map of occlusion lets by: exactly that share of the open one's light.
+/// A map of occlusion lets by exactly its share of the light of an environment that is the same all around.
 #[test]
 fn occlusion_takes_its_share_of_the_environment() {
     let mut open = white();

@@ -49,9 +49,10 @@ fn white_furnace() {
     }
 }
 
-/// The same from above to a grazing view. What a groove sends to each direction it sends with the phase of that direction; what
-/// it takes goes by the mirror's alone. The two agree for a narrow lobe, and the wider it is and the lower the viewer, the less:
-/// of |B - S|^2 with all its phases the same is true.
+/// White furnace from above to a grazing view. A groove sends light to each direction with the phase of that direction; the
+/// light that it takes depends on the mirror's alone. What a groove sends to each direction it sends with the phase of that
+/// direction; what it takes goes by the mirror's alone. The two agree for a narrow lobe, and the wider it is and the lower the
+/// viewer, the less: of |B - S|^2 with all its phases the same is true.
 #[test]
 fn white_furnace_from_all_sides() {
     let half_side = 2e-3;

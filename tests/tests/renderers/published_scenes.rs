@@ -15,7 +15,7 @@ use hairline_scene::{Environment, Scene};
 /// A difference between methods that two renderers of one method, 0.12 % apart at most, could not be taken for.
 const SEEN: f64 = 7e-3;
 
-/// Without anti-aliasing.
+/// The method without anti-aliasing.
 const POINT: PublishedMethod = PublishedMethod {
     structure: Structure::Bvh,
     anti_aliasing: false,

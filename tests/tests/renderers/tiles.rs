@@ -1,4 +1,4 @@
-//! What tiles of pixels must tell apart: objects, materials, planes, and rows that begin within a tile.
+//! Distinctions that tiles of pixels must make: objects, materials, planes, and rows that begin within a tile.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
 use hairline_scene::{Base, Light, Scene, ScratchTables};
 
-/// On edges.
+/// Number of samples on edges.
 const SAMPLES: u32 = 4;
 /// Half the side of the square below, metres.
 const HALF_M: f32 = 0.01;

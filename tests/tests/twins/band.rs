@@ -234,7 +234,7 @@ fn moving_bands() {
     .check(&rows, 0);
 }
 
-/// What a pixel moves of every band at once is, along each tangent, what it moves of that band.
+/// The movement of every band at once, along each tangent, is the movement of that band.
 #[test]
 fn bands_of_all_scratches_move_at_once() {
     let mut random = Sequence(13);

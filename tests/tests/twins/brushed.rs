@@ -141,7 +141,7 @@ fn rows(seed: u64) -> Vec<[f32; 11]> {
         .collect()
 }
 
-/// Of the brightest that a light of this size may be: its solid angle times the peak, and no more than all.
+/// Greatest light of this size: its solid angle times the peak, and no more than all.
 const BRIGHTEST: &str = "let peak = 1.0 / (3.14159 * axes.alphas.x * axes.alphas.y * wo.z);
     let brightest = 1.0 / min(peak * x[7] * x[7], 1.0);";
 

@@ -1,4 +1,4 @@
-//! What random directions are drawn by.
+//! Numbers by which random directions are drawn.
 
 use super::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec2, DVec3};
@@ -43,7 +43,7 @@ fn visible_normals() {
     .check(&rows, 0);
 }
 
-/// Of 16 rounds each falls into another cell, however the square is cut into 16; and pairs know nothing of one another.
+/// Each of 16 rounds falls into another cell, however the square is cut into 16; and pairs know nothing of one another.
 #[test]
 fn pairs_are_even() {
     let Some(gpu) = headless::test_gpu() else {

@@ -24,7 +24,7 @@ static TABLE: LazyLock<ScratchTable> = LazyLock::new(|| ROW.table(20.0, |_| 1.0)
 
 static NO_MESH: LazyLock<Mesh> = LazyLock::new(Mesh::default);
 
-/// What fields do not look at that are not by texture coordinates.
+/// A ground for fields that do not use texture coordinates.
 static NOWHERE: LazyLock<GrooveGround> = LazyLock::new(|| GrooveGround {
     textures: &[],
     mesh: &NO_MESH,
@@ -35,7 +35,7 @@ fn v(x: &[f64]) -> DVec3 {
     DVec3::new(x[0], x[1], x[2])
 }
 
-/// From spot to spot.
+/// Distance of neighbouring spots.
 const SPACING_M: f64 = 0.01;
 
 /// The kinds as gratings.wgsl counts them; then spots, in rows across the normal.
@@ -220,7 +220,7 @@ fn single_grooves() {
     .check(&rows, rows.len() / 2000);
 }
 
-/// So shallow that its grooves may be as dense as they are.
+/// A grating so shallow that its grooves may be as dense as they are.
 fn single(x: &[f64; 16]) -> Grating {
     Grating {
         row: Row {

@@ -52,7 +52,7 @@ fn tables() -> [Table<'static>; 4] {
 static CURVES: LazyLock<[FresnelCurve; 2]> =
     LazyLock::new(|| [FresnelCurve::schlick().clone(), Metal::Gold.fresnel_curve()]);
 
-/// As dielectrics, half metals and perfect mirrors.
+/// Reflectances of dielectrics, half metals and perfect mirrors.
 fn schlick() -> FresnelRgb<'static> {
     fresnel_of([0.04, 0.5, 1.0], 0)
 }

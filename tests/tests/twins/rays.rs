@@ -36,7 +36,7 @@ fn scene() -> Scene {
     scene
 }
 
-/// What the GPU meets is what the CPU meets: the nearest triangle, and whether any lies before a limit.
+/// Rays meet the same on the GPU as on the CPU: the nearest triangle, and whether any lies before a limit.
 #[test]
 fn rays_meet_the_same_triangles() {
     let scene = scene();

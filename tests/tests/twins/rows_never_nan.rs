@@ -13,7 +13,7 @@ use std::sync::LazyLock;
 
 const CONFIGURATIONS: usize = 1_000_000;
 
-/// In a range that scene files allow, often at one of its ends.
+/// A number in a range that scene files allow, often at one of its ends.
 fn within(random: &mut Sequence, low: f64, high: f64) -> f64 {
     match random.next() {
         r if r < 0.1 => low,

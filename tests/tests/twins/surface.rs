@@ -257,8 +257,7 @@ fn frames_under_coats() {
     .check(&rows, 0);
 }
 
-/// What is packed beside one another in the last words of a sample: emission with 12 digits, and the coat's share, roughness and spread of slopes in
-/// steps of 1 / 4095.
+/// The last words of a sample hold emission with 12 digits, and the coat's share, roughness and spread of slopes in steps of 1 / 4095.
 #[test]
 fn packed_coats_and_emission() {
     let mut random = Sequence(6);

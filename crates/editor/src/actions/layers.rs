@@ -152,7 +152,7 @@ pub fn is_shown(description: &Description, index: usize) -> bool {
     layer.is_some_and(|layer| !layer.hidden && (layer.solo || !any_solo))
 }
 
-/// What a list calls a layer: its name, else its pattern.
+/// Title of a layer in a list: its name, else its pattern.
 pub fn title(layer: &Scratches) -> &str {
     match (&layer.name, &layer.layer) {
         (Some(name), _) => name,

@@ -45,7 +45,7 @@ pub fn toggle_hidden(
     Ok(Selection::Light(index))
 }
 
-/// What a list calls a light: its name, else its kind.
+/// Title of a light in a list: its name, else its kind.
 pub fn title(light: &Light) -> &str {
     let kind = light.kind.title();
     light.name.as_deref().unwrap_or(kind)

@@ -1,4 +1,4 @@
-//! What the lists of a description have in common: parts with a place, most with a name, that are copied, moved and removed.
+//! Common interface of the parts in the lists of a description: most have a name, and they are copied, moved and removed.
 
 use hairline_scene::Description;
 use hairline_scene::description::{Light, Material, Object, Scratches};
@@ -9,20 +9,20 @@ use crate::selection::{after_removal, after_swap};
 
 /// A part of a description that stands in a list.
 pub(super) trait Part: Clone + 'static {
-    /// What errors call it.
+    /// Name of the kind in errors.
     const WHAT: &'static str;
-    /// The same with its article.
+    /// [`Self::WHAT`] with its article.
     const A_WHAT: &'static str;
 
-    /// Its list.
+    /// Its list in a description.
     fn list(description: &Description) -> &Vec<Self>;
-    /// Its list, to change.
+    /// Its list in a description, to change.
     fn list_mut(description: &mut Description) -> &mut Vec<Self>;
     /// The selection of the one at a place.
     fn at(place: usize) -> Selection;
     /// The place, if one of these is selected.
     fn place(selection: Selection) -> Option<usize>;
-    /// Its name, if it has one.
+    /// Name of the part, if it has one.
     fn name(&self) -> Option<&str>;
     /// Gives it a name, which is not empty, or takes away one that may be missing.
     fn set_name(&mut self, name: Option<String>);

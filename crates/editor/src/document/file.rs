@@ -14,13 +14,13 @@ use crate::paths;
 /// Why a document was not saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
-    /// It has no file yet; ask for one.
+    /// The document has no file yet; ask for one.
     #[error("the scene has no file yet; choose a name for it")]
     NoPath,
-    /// Its file is not what it was when it was opened or saved here; see [`Document::save_over`].
+    /// The file has changed since it was opened or saved here; see [`Document::save_over`].
     #[error("{} has changed on disk since it was opened or saved here", .0.display())]
     ChangedOnDisk(PathBuf),
-    /// It holds what a scene file cannot, such as a path that is not Unicode.
+    /// The document holds a value that a scene file cannot, such as a path that is not Unicode.
     #[error("the scene cannot be written as a scene file: {0}")]
     Form(String),
     /// The file cannot be written.
@@ -28,12 +28,12 @@ pub enum SaveError {
     File(#[from] hairline_image::Error),
 }
 
-/// What became of a document's file since it was opened or saved here.
+/// State of a document's file since it was opened or saved here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnDisk {
-    /// Its text is the same.
+    /// The file's text is the same.
     Same,
-    /// Its text is another.
+    /// The file's text is another.
     Changed,
     /// There is no such file, or it cannot be read; or the document has none.
     Gone,
@@ -74,7 +74,7 @@ impl Document {
         Ok(description)
     }
 
-    /// What became of its file. Reads the file: what a clock says of it may be wrong.
+    /// Compares its file with the text that was opened or saved here. Reads the file: what a clock says of it may be wrong.
     pub fn on_disk(&self) -> OnDisk {
         let text = self.path.as_ref().map(std::fs::read_to_string);
         match text {
@@ -125,7 +125,8 @@ impl Document {
         named.map(|(_, path)| self.base_dir.join(path)).collect()
     }
 
-    /// Of these those that are not there, as the scene names them, each once; with what the first of its places takes it for.
+    /// Returns the files that are not there, as the scene names them, each once, with the use of the first place that names
+    /// it.
     pub fn missing_files(&self) -> Vec<(FileUse, PathBuf)> {
         let mut missing: Vec<(FileUse, PathBuf)> = Vec::new();
         for (of, path) in self.state.description.files() {
@@ -159,7 +160,7 @@ impl Document {
         }
     }
 
-    /// The same, whatever the file holds by now.
+    /// Saves the document, whatever the file holds by now.
     ///
     /// # Errors
     /// [`SaveError`] but [`SaveError::ChangedOnDisk`]; then the file is as it was.

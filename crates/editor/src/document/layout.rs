@@ -63,7 +63,7 @@ fn merge(text: &mut Table, before: &Table, after: &Table) {
     }
 }
 
-/// The same for a list of objects, layers, lights or materials, some of which may be new, gone or in another order.
+/// Merges a list of objects, layers, lights or materials, some of which may be new, gone or in another order.
 fn merge_parts(text: &mut ArrayOfTables, before: &ArrayOfTables, after: &ArrayOfTables) {
     let matches = matches(before, after);
     let first = text.get(0).and_then(Table::position);
@@ -97,7 +97,7 @@ fn merge_parts(text: &mut ArrayOfTables, before: &ArrayOfTables, after: &ArrayOf
     }
 }
 
-/// For each part after the edit, which one it was before: the same one, else that of its name, else, renamed, that of its place.
+/// Index before the edit of each part after it: the same one, else that of its name, else, renamed, that of its place.
 fn matches(before: &ArrayOfTables, after: &ArrayOfTables) -> Vec<Option<usize>> {
     let mut found: Vec<Option<usize>> = vec![None; after.len()];
     let mut taken = vec![false; before.len()];
@@ -150,7 +150,7 @@ fn unplaced(item: &Item) -> Item {
     item
 }
 
-/// Where a table stands in the file; none: behind the one before it.
+/// Sets the position of a table in the file; none: behind the one before it.
 fn place(table: &mut Table, position: Option<isize>) {
     table.set_position(position);
     for (_, item) in table.iter_mut() {
@@ -214,7 +214,7 @@ radiance = 1.0
         Description::from_toml(SCENE, Path::new("test")).unwrap()
     }
 
-    /// What is saved after an edit; it must mean the edited scene, and not be the plain form.
+    /// Text that is saved after an edit; it must mean the edited scene, and not be the plain form.
     fn saved(edit: impl FnOnce(&mut Description)) -> String {
         let mut edited = scene();
         edit(&mut edited);

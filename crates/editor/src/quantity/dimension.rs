@@ -1,6 +1,6 @@
-//! What a product of units measures.
+//! Dimension of a product of units.
 
-/// How often each kind of unit is a factor.
+/// Exponent of each kind of unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Dimension {
     pub length: i8,
@@ -19,7 +19,7 @@ impl Dimension {
         temperature: 0,
     };
 
-    /// Of a product, or with -1 of a quotient.
+    /// Dimension of a product, or with a `sign` of -1 of a quotient.
     pub(super) fn times(self, other: Self, sign: i8) -> Self {
         let sum = |a: i8, b: i8| a.saturating_add(b.saturating_mul(sign));
         Self {
@@ -35,7 +35,7 @@ impl Dimension {
         Self::NONE.times(self, n)
     }
 
-    /// What a message calls it.
+    /// Name in a message.
     pub(super) fn name(self) -> &'static str {
         let Self {
             length,

@@ -1,4 +1,4 @@
-//! What panels edit.
+//! Parameters that panels edit.
 
 /// A number, or the numbers of a vector or a colour, that a panel edits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

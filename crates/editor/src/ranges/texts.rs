@@ -1,4 +1,4 @@
-//! What each parameter is called and what it does to the look. Written for those who judge pictures; true to docs/model.md.
+//! Name of each parameter, and its effect on the look. Written for those who judge pictures; true to docs/model.md.
 
 use super::parameter::Parameter;
 

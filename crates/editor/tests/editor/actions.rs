@@ -29,7 +29,7 @@ fn scene() -> Description {
     file.description()
 }
 
-/// What is selected, by something that survives its moving.
+/// Names the selected part by something that survives its moving.
 fn what(description: &Description, selection: Selection) -> String {
     match selection {
         Selection::Object(i) => description.objects[i].name.clone(),

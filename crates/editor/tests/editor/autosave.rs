@@ -24,7 +24,7 @@ fn untitled() -> Document {
     Document::untitled(description, "")
 }
 
-/// What the file system sees after a crash: the lock is free, the files are there.
+/// Leaves files as after a crash: the lock is free, the files are there.
 fn crash(autosave: Autosave) {
     drop(autosave);
 }

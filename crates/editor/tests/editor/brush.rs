@@ -38,7 +38,7 @@ fn object() -> Object {
     scene().objects.remove(0)
 }
 
-/// How far a point is from a way of straight pieces.
+/// Distance of a point from a path of straight pieces.
 fn distance_to_way(point: DVec3, way: &[DVec3]) -> f64 {
     let to_piece = |a: DVec3, b: DVec3| {
         let t = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);

@@ -1,5 +1,5 @@
-//! What an artist does to a scene.
-//! In one program, since each that is linked takes seconds.
+//! Tests of an artist's actions on a scene.
+//! They are one program, since each that is linked takes seconds.
 
 mod actions;
 mod autosave;
@@ -15,7 +15,7 @@ mod undo;
 use proptest::prelude::ProptestConfig;
 use proptest::test_runner::RngSeed;
 
-/// The same cases on every run.
+/// Settings that give the same cases on every run.
 fn seeded(cases: u32) -> ProptestConfig {
     ProptestConfig {
         cases,

@@ -197,7 +197,8 @@ proptest! {
     }
 }
 
-/// It shines from the side of the mirror image, turns about the scene, and has no place and no size by hand.
+/// A sun shines from the side of the mirror image, turns about the scene, and has no place and no size by
+/// hand.
 #[test]
 fn a_sun_is_placed_and_turned_by_its_direction_alone() {
     let mut light = Light::new(LightKind::sun([0.0, 0.0, -1.0]));

@@ -1,4 +1,4 @@
-//! What is typed into a box for a number.
+//! Texts that are typed into a box for a number.
 
 use hairline_editor::quantity::{Unit, parse};
 

@@ -1,4 +1,4 @@
-//! What a view of all shows.
+//! The contents of a view of all.
 
 use glam::DVec3;
 use hairline_editor::subject::objects;

@@ -145,7 +145,7 @@ fn perform(document: &mut Document, (deed, i, by): Deed) {
     }
 }
 
-/// What must hold in every state.
+/// Checks the properties of every state.
 fn holds_together(document: &Document) -> Result<(), String> {
     let description = document.description();
     if !document.selection().is_in(description) {
