@@ -1,4 +1,4 @@
-//! Which share of each pixel surfaces cover, for pictures before a transparent background.
+//! Share of each pixel that surfaces cover, for pictures before a transparent background.
 
 use crate::camera_beam::CameraBeam;
 use crate::silhouettes::is_smooth;
@@ -34,7 +34,7 @@ pub fn alpha(scene: &Scene, triangles: &TriangleIndex, done: u32, samples: u32) 
     sums
 }
 
-/// Of the samples of one batch, which all see the scene by one camera.
+/// Shares of the samples of one batch, which all see the scene by one camera.
 fn shares(triangles: &TriangleIndex, camera: &CameraFrame, batch: Batch, samples: u32) -> Vec<f32> {
     let [width, height] = [camera.size_px.x as usize, camera.size_px.y as usize];
     let rows = 0..height as u32;

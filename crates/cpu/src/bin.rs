@@ -12,11 +12,11 @@ pub const TILE_PX: u32 = 8;
 
 /// The lists of the tiles in some rows.
 pub(crate) struct TileLists {
-    /// What lists refer to.
+    /// Segments that the lists refer to.
     segments: Vec<Projected>,
     /// Indices into them, list after list. Atomic only so that threads may write them; each is written once.
     entries: Vec<AtomicU32>,
-    /// Where each tile's list begins, and where the last one ends.
+    /// Start of each tile's list, and the end of the last one.
     starts: Vec<usize>,
     /// Tiles in a row, and the first row of tiles.
     columns: usize,

@@ -1,4 +1,4 @@
-//! What the camera sees along the rays of neighbouring pixels.
+//! Hits of the camera's rays through neighbouring pixels.
 
 use glam::{DVec2, DVec3};
 use hairline_index::{Coverage, Hit, TriangleBeam, TriangleIndex};
@@ -9,7 +9,7 @@ use hairline_scene::CameraFrame;
 #[derive(Default)]
 pub(crate) struct CameraBeam {
     beam: TriangleBeam,
-    /// Which pixels it is aimed at.
+    /// Block of pixels at which it is aimed.
     block: Option<[i64; 2]>,
 }
 

@@ -35,7 +35,7 @@ impl Prepared<'_> {
         self.render_counted(options, rows, progress).0
     }
 
-    /// The same, and how much work its scratches were.
+    /// Renders the rows, and counts the work of their scratches.
     pub fn render_counted(
         &self,
         options: &RenderOptions,
@@ -46,8 +46,8 @@ impl Prepared<'_> {
             .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
-    /// The same, unless `cancelled` says so, which is asked from any thread, before each tile and, where there are shadows, before each sample:
-    /// then there is nothing.
+    /// Renders the rows unless `cancelled` says so, which is asked from any thread, before each tile and, where there are shadows, before each
+    /// sample: then there is no picture.
     pub fn render_unless(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),

@@ -1,6 +1,6 @@
-//! How much work a picture is.
+//! Counts of the work for a picture.
 
-/// How much work the scratches of a picture are, counted where it is done.
+/// Work for the scratches of a picture, counted where it is done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Segments that were projected.
@@ -13,7 +13,7 @@ pub struct Counts {
     pub pairs: u64,
     /// Lights of a pair that were asked whether they reach it.
     pub asked: u64,
-    /// Of these, the lights that do: integrals over a light.
+    /// Those lights that reach the scratch: integrals over a light.
     pub lit: u64,
 }
 

@@ -11,10 +11,10 @@ use std::ops::Range;
 /// A layer keeps at least so many scratches: those of a hand are few, and each of them is looked for.
 const FEWEST: usize = 48;
 
-/// What a draft needs to know of a layer.
+/// Properties of a layer that a draft depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DraftLayer {
-    /// How many scratches each of those in the scene stands for already.
+    /// Number of scratches that each of those in the scene stands for already.
     pub weight: f64,
     /// Whether any of its scratches are as good as others: then the first ones are taken, which an editor has first. Else they are
     /// taken evenly from all of it.
@@ -26,7 +26,7 @@ pub struct DraftLayer {
 pub struct Draft {
     /// Object by object.
     pub(crate) segments: Vec<IndexedSegment>,
-    /// How many pieces each of them stands for.
+    /// Number of pieces that each of them stands for.
     pub(crate) weights: Vec<f32>,
     /// The segments of each object.
     pub(crate) objects: Vec<Range<usize>>,
@@ -58,7 +58,7 @@ impl Draft {
         draft
     }
 
-    /// How many pieces it has.
+    /// Number of its pieces.
     pub fn len(&self) -> usize {
         self.segments.len()
     }

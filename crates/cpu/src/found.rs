@@ -1,4 +1,4 @@
-//! What the rays of a sample find of one layer of its light: which share of the closed form is seen, and what comes by way of other objects
+//! Light that the rays of a sample find in one layer: the share of the closed form that is seen, and the light from other objects
 //! (docs/model.md, section 11). In the picture: [`hairline_image::FoundLight`].
 
 use crate::sampling::luminance;
@@ -11,22 +11,22 @@ use std::ops::AddAssign;
 pub(crate) struct LayerLight {
     /// The closed form: what is sent where nothing hides a source.
     pub open: DVec3,
-    /// What would be sent of light of radiance 1 from all around.
+    /// Light that would be sent if radiance 1 came from all around.
     pub around: DVec3,
     /// The mean weight of the rays: `open`, but for noise.
     pub weight: DVec3,
-    /// Of the rays that see their source.
+    /// Mean weight of the rays that see their source.
     pub seen: DVec3,
     /// Light of other objects.
     pub bounced: DVec3,
     /// The sums over rounds of what a round tells of the share that is seen, and of its square.
     share_moments: DVec2,
-    /// The same of the luminance of `bounced` over that of `around`.
+    /// Sums over rounds of the luminance of `bounced` over that of `around`, and of its square.
     bounced_moments: DVec2,
 }
 
 impl LayerLight {
-    /// Where no ray is cast.
+    /// Light of a layer without rays.
     pub fn open(open: DVec3) -> Self {
         Self {
             open,
@@ -34,7 +34,7 @@ impl LayerLight {
         }
     }
 
-    /// What passes through a filter of each channel.
+    /// Multiplies the light by a factor for each channel.
     pub fn times(self, factor: DVec3) -> Self {
         Self {
             open: self.open * factor,
@@ -60,7 +60,7 @@ impl LayerLight {
         }
     }
 
-    /// As the picture keeps it.
+    /// Converts the light to the picture's form.
     pub fn in_picture(&self) -> FoundLight {
         let [open, around, weight, seen, bounced] =
             [self.open, self.around, self.weight, self.seen, self.bounced]
@@ -94,7 +94,7 @@ impl AddAssign for LayerLight {
 pub(crate) struct BaseLight {
     /// Reflected at the surface; scratches take from it.
     pub specular: LayerLight,
-    /// From the body under it.
+    /// Light of the body under it.
     pub diffuse: LayerLight,
 }
 
@@ -102,7 +102,7 @@ pub(crate) struct BaseLight {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LayerRays {
     sum: LayerLight,
-    /// Of the round in hand.
+    /// Weight of the current round.
     weight: DVec3,
     seen: DVec3,
     bounced: DVec3,
@@ -129,7 +129,7 @@ impl LayerRays {
         }
     }
 
-    /// What a ray brings from another object.
+    /// Adds the light that a ray brings from another object.
     pub fn bounce(&mut self, light: DVec3) {
         self.bounced += light;
     }

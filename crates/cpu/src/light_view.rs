@@ -86,24 +86,25 @@ impl LightView {
 pub(crate) struct LightViews<'a> {
     lights: Vec<&'a Light>,
     textures: &'a [Texture],
-    /// Of `lights`, how many shine on the base too.
+    /// Number of `lights` that shine on the base too.
     on_base: usize,
     pub views: Vec<LightView>,
-    /// For each light of the scene its place in `views`; `u32::MAX` if it is left out.
+    /// Index in `views` of each light of the scene; `u32::MAX` if it is left out.
     places: Vec<u32>,
-    /// For each of `views` its index into the scene's lights.
+    /// Index among the scene's lights of each of `views`.
     in_scene: Vec<usize>,
-    /// From the point to the middle of each, held at its radius or above.
+    /// Distance from the point to the middle of each light, held at its radius or above.
     pub distances_m: Vec<f64>,
-    /// For scratches, see [`LightViews::ready_for_scratches`]: how xi moves towards each over one standard deviation of the pixel's filter, to the right and down: `band_moves`.
+    /// Movement of xi towards each light over one standard deviation of the pixel's filter, to the right and down: `band_moves`. For scratches, see
+    /// [`LightViews::ready_for_scratches`].
     pub moves: Vec<[DVec2; 2]>,
     /// Polygon vertices relative to the point, metres.
     pub vertices: Vec<DVec3>,
     /// Unit directions to them.
     pub directions: Vec<DVec3>,
-    /// For scratches: edges from one to the next.
+    /// Edges from one direction to the next, for scratches.
     pub edges: Vec<OutlineEdge>,
-    /// In the frame of what is under the coat: made with the first point that has one, and of account where the last one has.
+    /// Views in the frame of the surface under the coat: made with the first point that has one, and valid where the last point has one.
     under_coat: Option<Box<Self>>,
     has_own_under_coat: bool,
 }
@@ -275,7 +276,7 @@ impl<'a> LightViews<'a> {
         }
     }
 
-    /// As what is under the coat sees them.
+    /// Views in the frame of the surface under the coat.
     pub fn under_coat(&self) -> &Self {
         let own = self.under_coat.as_deref();
         own.filter(|_| self.has_own_under_coat).unwrap_or(self)
@@ -291,7 +292,7 @@ impl<'a> LightViews<'a> {
         })
     }
 
-    /// How a light of the scene is seen; none if it is left out.
+    /// View of a light of the scene; none if it is left out.
     pub fn light(&self, light: u32) -> Option<&LightView> {
         self.view_of(light).map(|place| &self.views[place])
     }

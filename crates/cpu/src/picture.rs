@@ -13,7 +13,8 @@ use hairline_scene::Texture;
 pub(crate) struct PictureView<'a> {
     texture: &'a Texture,
     plane: PicturePlane,
-    /// Of the band about a chord, in direction cosines, at q = 0 and for each q²: what a line in the band's middle sees is blurred by it.
+    /// Variance of the band about a chord, in direction cosines, at q = 0 and for each q²: it blurs what a line in the band's middle
+    /// sees.
     across_variance: [f64; 2],
 }
 
@@ -27,7 +28,7 @@ impl<'a> PictureView<'a> {
         }
     }
 
-    /// As chords see it that stand for a band, by its variance at q = 0 and for each q².
+    /// The picture for chords that stand for a band, by the band's variance at q = 0 and for each q².
     pub fn across(self, across_variance: [f64; 2]) -> Self {
         Self {
             across_variance,
@@ -45,7 +46,7 @@ impl<'a> PictureView<'a> {
         )
     }
 
-    /// What a lobe reflects of it in the mean.
+    /// Mean of the picture in the reflection of a lobe.
     pub fn on_lobe(&self, lobe: &LtcLobe, of: &LobeFresnel) -> DVec3 {
         self.mean(|part| {
             let vector = ltc_vector(lobe, &part.corners());
@@ -54,7 +55,7 @@ impl<'a> PictureView<'a> {
         })
     }
 
-    /// What a diffuse body sees of it in the mean.
+    /// Mean of the picture in the irradiance of a diffuse body.
     pub fn on_body(&self) -> DVec3 {
         self.mean(|part| {
             let vector = irradiance_polygon(&part.corners());
@@ -62,7 +63,7 @@ impl<'a> PictureView<'a> {
         })
     }
 
-    /// Over the parts of the picture, by a weight and a look-up of each.
+    /// Mean over the parts of the picture, by a weight and a look-up of each.
     fn mean(&self, seen: impl Fn(&PicturePlane) -> (DVec3, PictureLook)) -> DVec3 {
         let size_px = DVec2::from(self.texture.size_px.map(f64::from));
         let share = 1.0 / PICTURE_PARTS as f64;
@@ -82,7 +83,7 @@ impl<'a> PictureView<'a> {
         mean
     }
 
-    /// What comes from a part of a chord with its middle at q, by the directions of its ends and its middle.
+    /// Value of the picture for a part of a chord with its middle at q, by the directions of its ends and its middle.
     pub fn on_chord(&self, directions: [DVec3; 3], q: f64) -> DVec3 {
         let [middle, per_q2] = self.across_variance;
         let across_std = (middle + per_q2 * q * q).max(0.0).sqrt();

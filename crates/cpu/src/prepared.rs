@@ -14,11 +14,11 @@ pub struct Prepared<'a> {
     pub(crate) tables: Arc<ScratchTables>,
     /// Stands for the scratches in a picture that need not be exact.
     pub(crate) draft: Option<Arc<Draft>>,
-    /// For methods that look scratches up by triangle.
+    /// Lists for methods that look scratches up by triangle.
     lists: OnceLock<TriangleLists>,
-    /// For rays to the environment.
+    /// Sampler of rays to the environment.
     sampler: OnceLock<EnvironmentSampler>,
-    /// Of each object, counted over the whole scene.
+    /// Index of the first triangle of each object, counted over the whole scene.
     first_triangles: Vec<usize>,
 }
 
@@ -28,7 +28,8 @@ impl<'a> Prepared<'a> {
         Self::watched(scene, &Watch::default()).unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
-    /// The same while another watches the tree over the scratches grow, which takes the most time. `None` if it was cancelled.
+    /// Prepares the scene while a watch listens to the building of the tree over the scratches, which takes the most time. `None` if it was
+    /// cancelled.
     pub fn watched(scene: &'a Scene, watch: &Watch) -> Option<Self> {
         let (triangles, (scratches, tables)) = rayon::join(
             || TriangleIndex::build(scene),
@@ -70,7 +71,7 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// The same for a scene that differs in what none of this looks at: camera, lights, environment, settings.
+    /// Shares the structures with a scene that differs only in camera, lights, environment or settings.
     pub fn with_scene<'b>(&self, scene: &'b Scene) -> Prepared<'b> {
         Prepared {
             scene,
@@ -84,8 +85,8 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// The same with a few of the scratches, each of which stands for many. For Hairline's own method; that of 2018 takes all. There is no tree
-    /// over them: where light comes from other objects, these have no scratches.
+    /// Replaces the scratches by a few of them, each of which stands for many. For Hairline's own method; that of 2018 takes all. There is no
+    /// tree over them: where light comes from other objects, these have no scratches.
     pub fn with_draft(mut self, draft: Arc<Draft>) -> Self {
         self.draft = Some(draft);
         self
@@ -107,7 +108,7 @@ impl<'a> Prepared<'a> {
             .get_or_init(|| TriangleLists::build(self.scene, &self.scratches))
     }
 
-    /// What directions to the environment are drawn by, if there is one; built when first asked for, not for each part of a picture.
+    /// Sampler of directions to the environment, if there is one; built when first asked for, not for each part of a picture.
     pub(crate) fn environment_sampler(&self) -> Option<&EnvironmentSampler> {
         let environment = self.scene.environment.as_ref()?;
         let sampler = || EnvironmentSampler::new(environment);
@@ -133,12 +134,12 @@ impl<'a> Prepared<'a> {
         !self.scene.objects[hit.object as usize].gratings.is_empty()
     }
 
-    /// How alike the phase steps of an object's scratches are.
+    /// Coherence of the phase steps of an object's scratches.
     pub(crate) fn depth_coherence(&self, object: u32) -> f64 {
         self.scratches.depth_coherence[object as usize].into()
     }
 
-    /// By what a display multiplies radiance.
+    /// Factor by which a display multiplies radiance.
     pub(crate) fn display_gain(&self) -> f32 {
         self.scene.camera.exposure_ev.exp2() as f32
     }

@@ -52,7 +52,7 @@ pub(crate) struct Projection {
     pub looked_at: u64,
 }
 
-/// Where segments are projected to.
+/// The rows of a picture, to which segments are projected.
 pub(crate) struct Rows {
     camera: CameraFrame,
     /// The planes that bound the picture's rows from the camera, pointing inwards.
@@ -126,7 +126,7 @@ pub(crate) fn project(
     projection
 }
 
-/// As far as any segment reaches beyond the pixel's filter on a surface of a coherence length.
+/// Largest distance by which a segment reaches beyond the pixel's filter on a surface of this coherence length.
 fn margin_m(coherence_m: f64) -> f64 {
     REACH_MARGIN * f64::from(REACH_STD) * WINDOW_STD * coherence_m
 }

@@ -28,7 +28,7 @@ pub(crate) struct Published<'a> {
     mask: Mask,
     /// One for each scratch table.
     spectra: Vec<PublishedSpectrum>,
-    /// Of each light of the scene, as corners into its vertices; none for spheres.
+    /// Triangles of each light of the scene, as corners into its vertices; none for spheres.
     triangles: Vec<Vec<[usize; 3]>>,
 }
 
@@ -94,7 +94,7 @@ impl<'a> Published<'a> {
         }
     }
 
-    /// What the lobe reflects of a sphere, by the pivot transform, for [`crate::shade_base::Base::radiance`].
+    /// Light that the lobe reflects of a sphere, by the pivot transform, for [`crate::shade_base::Base::radiance`].
     pub fn base_sphere(lobe: &LtcLobe, of: &LobeFresnel, sphere: &SphereOnLobe) -> [f64; 3] {
         // The pivot transform knows round lobes alone.
         let roughness = (lobe.alphas.x * lobe.alphas.y).powf(0.25).min(1.0);

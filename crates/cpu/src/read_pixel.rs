@@ -11,9 +11,9 @@ use hairline_index::Hit;
 /// A pixel of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelReading {
-    /// Its layers: an image of one pixel, equal to that pixel of the whole picture.
+    /// Layers of the pixel: an image of one pixel, equal to that pixel of the whole picture.
     pub image: Image,
-    /// What the ray through its centre meets.
+    /// Hit of the ray through the pixel's centre.
     pub hit: Option<Hit>,
     /// Segments of scratches with a share in it; the mean over its samples where it has an edge.
     pub segments: f64,

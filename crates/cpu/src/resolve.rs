@@ -9,7 +9,7 @@ use glam::DVec3;
 use hairline_image::{FoundPixel, Tone};
 use hairline_optics::mask::{Mask, Masked, ScratchSums};
 
-/// What one sample adds to the film, or the sum of several.
+/// Light and guides that one sample adds to the film, or the sum of several.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sample {
     /// The background, and what surfaces emit.
@@ -18,14 +18,14 @@ pub(crate) struct Sample {
     pub specular: LayerLight,
     pub scratches: LayerLight,
     pub density: DVec3,
-    /// Not of unit length.
+    /// Normal, not of unit length.
     pub normal: DVec3,
     /// 0 for the background.
     pub depth_m: f64,
-    /// And 1; 0 for the background.
+    /// Number of the object, from 1; 0 for the background.
     pub object: u32,
     pub roughness: f64,
-    /// Of the pixel, once it is resolved.
+    /// Tone of the pixel, once it is resolved.
     pub tone: Tone,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct PointLight {
 }
 
 impl PointLight {
-    /// Where no ray is cast.
+    /// Light without rays.
     pub fn open(base: BaseRadiance, sums: &ScratchSums, gratings: Option<ShadedGratings>) -> Self {
         Self {
             base: BaseLight {
@@ -51,7 +51,7 @@ impl PointLight {
     }
 }
 
-/// What is left of scratches of radiance 1 where they weaken one another, and what they take of the base.
+/// Share that is left of scratches of radiance 1 where they weaken one another, and the energy that they take of the base.
 pub(crate) fn kept(sums: &ScratchSums, mask: Mask, depth_coherence: f64) -> Masked {
     let even = ScratchSums {
         radiance: [1.0; 3],
@@ -103,7 +103,7 @@ impl Sample {
         }
     }
 
-    /// What rays found of it.
+    /// Light that rays found in the sample.
     pub fn found(&self) -> FoundPixel {
         FoundPixel {
             rest: self.rest.as_vec3().to_array(),
@@ -123,7 +123,7 @@ pub(crate) struct Pixel {
     samples: u32,
     /// Samples that see a surface.
     covered: u32,
-    /// Of each sample.
+    /// Parts of each sample.
     parts: Vec<Parts>,
 }
 
@@ -131,7 +131,7 @@ pub(crate) struct Pixel {
 #[derive(Clone, Copy, Debug)]
 struct Parts {
     rest: f64,
-    /// Of diffuse, specular and scratches.
+    /// Luminances of diffuse, specular and scratches.
     layers: [f64; 3],
 }
 
@@ -170,7 +170,7 @@ impl Pixel {
         self.covered += u32::from(sample.depth_m > 0.0);
     }
 
-    /// What a display averages of it. Each sample has the share of its closed forms that the whole pixel sees: single rays, and what they bring of
+    /// Tone of the pixel for a display. Each sample has the share of its closed forms that the whole pixel sees: single rays, and what they bring of
     /// other objects, are noise, which a curve would darken.
     fn tone(&self, gain: f32) -> Tone {
         let layers = [&self.sum.diffuse, &self.sum.specular, &self.sum.scratches];

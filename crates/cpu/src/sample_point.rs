@@ -9,10 +9,10 @@ use hairline_scene::CameraFrame;
 
 /// One sample of a pixel.
 pub(crate) struct SamplePoint<'a> {
-    /// Of the tile.
+    /// Index of the pixel in the tile.
     pub pixel: usize,
     pub at_px: DVec2,
-    /// Of its filter.
+    /// Standard deviation of the sample's filter.
     pub std_px: f64,
     /// Whether its pixel has no edge.
     pub is_smooth: bool,
@@ -20,7 +20,7 @@ pub(crate) struct SamplePoint<'a> {
     pub rounds: Rounds,
     pub seen: Seen<'a>,
     pub scratches: Shared,
-    /// As its scratches are seen, where that is by another filter.
+    /// Surface for the sample's scratches, where they are seen through another filter.
     pub wide: Option<Wide<'a>>,
 }
 
@@ -30,17 +30,17 @@ pub(crate) struct Wide<'a> {
     pub std_px: f64,
 }
 
-/// For which samples of a pixel a sample has the scratches.
+/// Samples of a pixel that share one sample's scratches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Shared {
-    /// For so many, itself among them.
+    /// The sample has the scratches of this number of samples, itself among them.
     Among(u32),
     /// Another one of the batch has them.
     With(usize),
 }
 
 impl<'a> SamplePoint<'a> {
-    /// Where its rays start, if it sees a surface.
+    /// Origin of the sample's rays, if it sees a surface.
     pub fn shadow_point<'p>(
         &'p self,
         camera: &'p CameraFrame,
@@ -65,12 +65,12 @@ impl<'a> SamplePoint<'a> {
         })
     }
 
-    /// Where its scratches are seen, given where it is itself.
+    /// Surface point for the sample's scratches, given its own.
     pub fn scratched<'p>(&'p self, own: &'p SurfacePoint<'a>) -> &'p SurfacePoint<'a> {
         self.wide.as_ref().map_or(own, |wide| &wide.point)
     }
 
-    /// The same for its scratches; none if another sample has them.
+    /// Origin of the rays by way of the sample's scratches; none if another sample has them.
     pub fn scratched_point<'p>(
         &'p self,
         camera: &'p CameraFrame,
@@ -94,7 +94,7 @@ impl<'a> SamplePoint<'a> {
         Some(at)
     }
 
-    /// For random numbers: another one for each sample of each pixel.
+    /// Seed of random numbers, another one for each sample of each pixel.
     fn seed(&self) -> u32 {
         let mixed = |a: u32, b: f64| {
             let a = (a ^ (b as f32).to_bits()).wrapping_mul(0x85eb_ca6b);
@@ -104,18 +104,18 @@ impl<'a> SamplePoint<'a> {
     }
 }
 
-/// What the ray of a sample meets.
+/// Result of the ray of a sample.
 #[expect(
     clippy::large_enum_variant,
     reason = "there are few at a time, and most are surfaces"
 )]
 pub(crate) enum Seen<'a> {
-    /// Nothing: radiance of the environment.
+    /// No surface: radiance of the environment.
     Background(DVec3),
     Surface {
         hit: Hit,
         point: SurfacePoint<'a>,
-        /// Along the view axis.
+        /// Depth along the view axis.
         depth_m: f64,
     },
 }

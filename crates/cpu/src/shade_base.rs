@@ -24,12 +24,12 @@ use std::ops::Add;
 pub(crate) struct BaseRadiance {
     /// Reflected at the surface; scratches take from it.
     pub specular: DVec3,
-    /// From the body under it.
+    /// Radiance of the body under it.
     pub diffuse: DVec3,
 }
 
 impl BaseRadiance {
-    /// By channel.
+    /// Multiplies both by a factor for each channel.
     pub fn times(self, factor: DVec3) -> Self {
         Self {
             specular: self.specular * factor,
@@ -51,23 +51,24 @@ impl Add for BaseRadiance {
 
 /// A GGX lobe of a pixel, ready for any light.
 pub(crate) struct Layer<'a> {
-    /// To the viewer, in the local frame.
+    /// Direction to the viewer, in the local frame.
     wo: DVec3,
     shape: Shape,
     of: LobeFresnel<'a>,
-    /// What the lobe reflects with F = 1.
+    /// Albedo of the lobe with F = 1.
     lobe_albedo: f64,
-    /// What it reflects of light from all around.
+    /// Albedo of the layer: light that it reflects of radiance 1 from all around.
     pub albedo: DVec3,
 }
 
-/// How a lobe is integrated over a light.
+/// Representation of a lobe for the integral over a light.
 // Most materials have parts, which no point of a surface should allocate for.
 #[expect(clippy::large_enum_variant)]
 enum Shape {
-    /// By the lobes whose weighted sum it is.
+    /// Lobes whose weighted sum it is.
     Parts([LobePart; 3]),
-    /// Of facets that lean further one way: slice by slice. The transformed cosine stands for it where parts of a light are weighed.
+    /// Facets that lean further one way than across it, integrated slice by slice. The transformed cosine stands for the lobe where
+    /// parts of a light are weighed.
     Brushed(Box<(BrushedLobe, LtcLobe)>),
 }
 
@@ -101,7 +102,7 @@ impl<'a> Layer<'a> {
         }
     }
 
-    /// What it reflects of a light, over its radiance. `sphere` is what a lobe reflects of a sphere.
+    /// Light that the layer reflects of a light, over the light's radiance. `sphere` is what a lobe reflects of a sphere.
     fn lit_by(
         &self,
         light: &LightView,
@@ -139,7 +140,7 @@ impl<'a> Layer<'a> {
         self.of_single(DVec3::max(single, DVec3::ZERO))
     }
 
-    /// What it reflects of the environment without its suns.
+    /// Light that the layer reflects of the environment without its suns.
     fn surrounded_by(&self, environment: &Environment, point: &SurfacePoint) -> DVec3 {
         let single = match &self.shape {
             Shape::Parts(parts) => {
@@ -157,7 +158,7 @@ impl<'a> Layer<'a> {
         self.of_single(DVec3::max(single, DVec3::ZERO))
     }
 
-    /// What it reflects of light of which single scattering returns so much.
+    /// Adds multiple scattering to `single`, the light of single scattering.
     pub fn of_single(&self, single: DVec3) -> DVec3 {
         let f0 = self.of.fresnel.f0;
         ggx_area_reflectance(single.to_array(), f0, self.lobe_albedo).into()
@@ -167,13 +168,13 @@ impl<'a> Layer<'a> {
 /// The base at a point, ready for any light.
 pub(crate) struct Base<'p, 'a> {
     point: &'p SurfacePoint<'a>,
-    /// In its own frame, where that is not the coat's.
+    /// Surface under the coat in its own frame, where that is not the coat's.
     under_coat: Option<SurfacePoint<'a>>,
     /// The lobe over the body.
     pub lobe: Layer<'a>,
     /// The layer over both, with its share of the surface.
     pub coat: Option<(f64, Layer<'a>)>,
-    /// What leaves the body of the light that falls on it.
+    /// Share of the light on the body that leaves it.
     pub body: DVec3,
 }
 
@@ -220,7 +221,7 @@ impl<'p, 'a> Base<'p, 'a> {
         }
     }
 
-    /// What is sent of light of radiance 1 from all around.
+    /// Light that the base sends of radiance 1 from all around.
     pub fn albedo(&self) -> BaseRadiance {
         let bare = BaseRadiance {
             specular: self.lobe.albedo,
@@ -279,7 +280,7 @@ impl<'p, 'a> Base<'p, 'a> {
             .times(DVec3::splat(self.point.open))
     }
 
-    /// What the body sends under an irradiance over pi.
+    /// Light that the body sends under an irradiance over pi.
     fn diffuse(&self, irradiance: impl Fn() -> DVec3) -> DVec3 {
         // Metals have no body to light.
         if self.body == DVec3::ZERO {
@@ -295,13 +296,13 @@ pub(crate) struct SphereOnLobe {
     pub axis: DVec3,
     /// The squared sine of its angular radius.
     pub sin2: f64,
-    /// To the viewer, in the local frame.
+    /// Direction to the viewer, in the local frame.
     pub wo: DVec3,
     /// [`ltc_sphere_vector`].
     vector: DVec3,
 }
 
-/// What a lobe reflects of a sphere, single scattering, over its radiance.
+/// Light that a lobe reflects of a sphere, single scattering, over the sphere's radiance.
 pub(crate) fn transformed_sphere(
     lobe: &LtcLobe,
     of: &LobeFresnel,
@@ -310,7 +311,7 @@ pub(crate) fn transformed_sphere(
     ltc_reflected(lobe, of, sphere.vector)
 }
 
-/// What a part of a lobe reflects of a light, times its weight; single scattering, over the light's radiance.
+/// Light that a part of a lobe reflects of a light, times the part's weight; single scattering, over the light's radiance.
 fn reflected_light(
     light: &LightView,
     views: &LightViews,
@@ -365,9 +366,9 @@ fn form_factor(light: &LightView, views: &LightViews) -> f64 {
     }
 }
 
-/// What a lobe reflects of an environment, single scattering.
+/// Light that a lobe reflects of an environment, single scattering.
 ///
-/// What facets reflect at normal incidence is the whole lobe's; what they reflect beyond that comes more from where the lobe grazes.
+/// Facets reflect at normal incidence from the whole lobe; what they reflect beyond that comes more from where the lobe grazes.
 fn reflected(
     environment: &Environment,
     point: &SurfacePoint,

@@ -14,7 +14,7 @@ use hairline_scene::{GrooveGround, GroovePlace};
 pub(crate) struct ShadedGratings {
     /// Radiance, Fresnel left out.
     pub radiance: DVec3,
-    /// What the base's mirror direction loses to it: that of light from all around.
+    /// Energy that the base's mirror direction loses to the gratings: that of light from all around.
     pub taken: DVec3,
 }
 
@@ -115,7 +115,7 @@ impl ShadedGratings {
 struct RowAt {
     tangent: DVec2,
     row: RowSpread,
-    /// Of the pixel.
+    /// Share of the pixel that they cover.
     share: f64,
 }
 
@@ -138,7 +138,7 @@ impl RowAt {
         ScratchLight::of_row(point.wo, self.tangent, table, self.row)
     }
 
-    /// Its rays start anywhere under the pixel.
+    /// Pick of these grooves, whose rays start anywhere under the pixel.
     fn pick(&self, scale: f64) -> Pick {
         Pick {
             tangent: self.tangent,

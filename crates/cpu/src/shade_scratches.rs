@@ -37,10 +37,11 @@ pub(crate) use scratch_light::ScratchLight;
 /// Points that are shaded together.
 pub(crate) const BATCH: usize = GROUPS * LANES;
 
-/// From so many segments in a tile's list on, one line stands for the band of each. Footprints are wide there, and wide bands take five lines.
+/// Number of segments in a tile's list from which on one line stands for the band of each. Footprints are wide there, and wide bands take five
+/// lines.
 const LONG_LIST: usize = 1 << 14;
 
-/// Where the line of a segment lies: evenly over the segments, the same in each pixel. Twin: `one_line_node`.
+/// Place of the one line of a segment in its band: even over the segments, and the same in each pixel. Twin: `one_line_node`.
 fn one_line_node(segment: u32) -> f64 {
     f64::from(segment.wrapping_mul(0x9E37_79B9)) / 2f64.powi(32)
 }

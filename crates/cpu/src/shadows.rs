@@ -26,18 +26,18 @@ mod base;
 mod lobes;
 mod scratches;
 
-/// What rays to the lights of a scene need.
+/// Rays to the lights of a scene.
 pub(crate) struct Shadows<'a> {
     pub(crate) prepared: &'a Prepared<'a>,
-    /// In the order of [`hairline_scene::Scene::scratch_lights`].
+    /// Lights in the order of [`hairline_scene::Scene::scratch_lights`].
     lights: AreaLights,
     environment: Option<&'a EnvironmentSampler>,
-    /// How far the scene reaches from the origin: what rounding goes by.
+    /// Largest distance of the scene from the origin; rounding errors grow with it.
     extent_m: f64,
     pub(crate) options: RenderOptions,
 }
 
-/// What a thread needs for what rays meet, filled anew for each: one for each object that light may go by.
+/// Buffers of a thread for the surfaces that rays meet, filled anew for each: one for each bounce.
 pub(crate) struct HitRoom<'a> {
     pub views: LightViews<'a>,
     pub picks: Picks,
@@ -49,16 +49,16 @@ pub(crate) struct MetObject {
     /// Unit vector.
     pub direction: DVec3,
     pub hit: Hit,
-    /// That the ray stands for.
+    /// Solid angle that the ray stands for.
     pub solid_angle_sr: f64,
-    /// Of the rays of a point; another one for each of a batch.
+    /// Number among the rays of a point; another one for each of a batch.
     pub number: u32,
 }
 
-/// What a ray goes to.
+/// End of a ray.
 #[derive(Clone, Copy)]
 struct RayEnd {
-    /// Without one the environment.
+    /// Index of the light; none for the environment.
     light: Option<u32>,
     distance_m: f64,
 }
@@ -74,7 +74,7 @@ pub(crate) struct ShadowPoint<'p, 'a> {
     /// Rays for each source.
     pub rounds: Rounds,
     pub seed: u32,
-    /// How many other objects its light goes by on its way to the camera.
+    /// Number of other objects on the path from the point to the camera.
     pub depth: u32,
 }
 
@@ -83,7 +83,7 @@ pub(crate) struct ShadowPoint<'p, 'a> {
 pub(crate) struct Rounds {
     /// Those that are cast now.
     pub now: Batch,
-    /// How many there will be.
+    /// Number of all rounds.
     pub all: u32,
 }
 
@@ -97,7 +97,7 @@ impl Rounds {
     }
 }
 
-/// What of the surface a pixel averages.
+/// Filter of a pixel, over which it averages the surface.
 #[derive(Clone, Copy)]
 pub(crate) struct PixelFilter<'p> {
     pub camera: &'p CameraFrame,
@@ -107,10 +107,10 @@ pub(crate) struct PixelFilter<'p> {
     pub is_smooth: bool,
 }
 
-/// What the random numbers of a ray are for. Each has four.
+/// Use of a ray's random numbers. Each use has four.
 #[derive(Clone, Copy)]
 enum Purpose {
-    /// Where under the pixel rays of the base start (2).
+    /// The origin under the pixel of rays of the base (2).
     Origin,
     /// A direction by the lobes of the base (2) and the choice between them (1).
     Lobe,
@@ -121,7 +121,7 @@ enum Purpose {
     /// A direction by way of a scratch to a light (3), and where on the scratch it starts (4).
     Scratch,
     ScratchOrigin,
-    /// The same to another object (2, 4).
+    /// A direction by way of a scratch to another object, and where on the scratch it starts (2, 4).
     Around,
     AroundOrigin,
     /// A direction to a light (2), and whether to go there (the last one).
@@ -208,7 +208,7 @@ impl<'a> Shadows<'a> {
         !triangles.is_hidden(origin_m, direction, distance_m)
     }
 
-    /// How far a ray looks for what hides its source.
+    /// Length of a ray over which an object would hide its source.
     fn clear_m(&self, end: RayEnd, from_m: DVec3, direction: DVec3) -> f64 {
         let Some(light) = end.light else {
             return end.distance_m;
@@ -218,7 +218,7 @@ impl<'a> Shadows<'a> {
             .clear_m(light as usize, direction, end.distance_m, step_m)
     }
 
-    /// What rounding may move a point on a surface by: vertices are singles, and this is some ten steps of theirs.
+    /// Distance by which rounding may move a point on a surface: vertices are in single precision, and this is some ten of its steps.
     fn step_m(&self, at_m: DVec3) -> f64 {
         1e-6 * (self.extent_m + at_m.length())
     }
@@ -254,7 +254,7 @@ impl<'a> Shadows<'a> {
         }
     }
 
-    /// Where a ray of the camera beside that of a point meets the point's triangle, as most do.
+    /// Intersects a ray of the camera beside that of a point with the point's triangle, which most of them meet.
     fn on_triangle(&self, at: &ShadowPoint, from_m: DVec3, direction: DVec3) -> Option<Hit> {
         let (object, triangle) = (at.object, at.point.triangle);
         let mesh = &self.prepared.scene.objects[object as usize].mesh;
@@ -269,7 +269,7 @@ impl<'a> Shadows<'a> {
         })
     }
 
-    /// Where a ray starts that must not meet the surface that it leaves.
+    /// Start of a ray that must not meet the surface that it leaves.
     fn off_the_surface(
         &self,
         point: &SurfacePoint,
@@ -288,13 +288,13 @@ impl ShadowPoint<'_, '_> {
         numbers.map(|u| f64::from(u) + 0.5 / f64::from(1 << 24))
     }
 
-    /// For the picks of its scratches: other ones for other rounds.
+    /// Seed of the picks of its scratches: another one for other rounds.
     pub fn picks_seed(&self) -> u64 {
         u64::from(self.rounds.now.first) << 32 | u64::from(self.seed)
     }
 }
 
-/// Beyond this a Gaussian is cut off: rays from farther would start beyond what the pixel shows.
+/// Standard deviations at which a Gaussian is cut off: rays from farther would start beyond what the pixel shows.
 const REACH_STD: f64 = 3.0;
 
 /// Two independent standard normal numbers from two even ones.

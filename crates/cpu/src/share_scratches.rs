@@ -1,4 +1,4 @@
-//! Which samples of a pixel on an edge share their scratches. Twin: share_scratches.wgsl.
+//! Sharing of scratches among the samples of a pixel on an edge. Twin: share_scratches.wgsl.
 
 use crate::prepared::Prepared;
 use crate::sample_point::{SamplePoint, Seen, Shared, Wide};
@@ -7,8 +7,8 @@ use glam::DVec2;
 /// The least cosine between normals that are those of one surface.
 const ALIKE_COS: f64 = 0.9994;
 
-/// Has one sample stand for the scratches of all that see the same surface, of those of a pixel from `first` of the batch on: the one nearest to the
-/// pixel's middle, with the pixel's whole filter. Scratches are most of the work, and a pixel without an edge has them once, too.
+/// Makes one sample stand for the scratches of all that see the same surface, of those of a pixel from `first` of the batch on: the one nearest to
+/// the pixel's middle, with the pixel's whole filter. Scratches are most of the work, and a pixel without an edge has them once, too.
 pub(crate) fn share_scratches(
     prepared: &Prepared,
     batch: &mut [SamplePoint],

@@ -1,4 +1,4 @@
-//! Which pixels need more than one sample.
+//! Finds the pixels that need more than one sample.
 //!
 //! Shading integrates the pixel's filter in closed form, so samples are for what it does not know: edges of objects,
 //! creases, and surfaces that cover a part of what lies behind them. A pixel whose centre and eight neighbours lie on one smooth surface is done with one sample and the whole

@@ -15,8 +15,8 @@ use hairline_scene::{COAT_F0, Mesh, Scene, ScratchTables, Texture};
 pub struct SurfacePoint<'a> {
     /// World space.
     pub position_m: DVec3,
-    /// Where rays to lights start: on the smooth surface that the normals describe, at the point or above it. From the flat triangle
-    /// its neighbours would hide lights that the shading normal shows (J. Hanika, "Hacking the shadow terminator", 2021).
+    /// Origin of rays to lights: on the smooth surface that the normals describe, at the point or above it. From the flat triangle its neighbours
+    /// would hide lights that the shading normal shows (J. Hanika, "Hacking the shadow terminator", 2021).
     pub raised_m: DVec3,
     /// Axes of the local frame in world space; `normal` is on the viewer's side.
     pub axis_x: DVec3,
@@ -24,7 +24,7 @@ pub struct SurfacePoint<'a> {
     pub axis_y: DVec3,
     /// Shading normal.
     pub normal: DVec3,
-    /// That of what is under the coat, where it is another one.
+    /// Shading normal under the coat, where it is another one.
     pub normal_under_coat: Option<DVec3>,
     /// Unit normal of the triangle, on the viewer's side.
     pub facet: DVec3,
@@ -32,33 +32,33 @@ pub struct SurfacePoint<'a> {
     pub wo: DVec3,
     /// Distance to the viewer.
     pub distance_m: f64,
-    /// How the point moves by one standard deviation of the pixel's filter to the right and down, world space.
+    /// Movements of the point by one standard deviation of the pixel's filter to the right and down, world space.
     pub footprint_axes_m: [DVec3; 2],
-    /// How the smooth normal, on the viewer's side, turns over each of them, in the local frame.
+    /// Turns of the smooth normal, on the viewer's side, over each of them, in the local frame.
     pub normal_turns: [DVec3; 2],
     /// Specular reflectance.
     pub fresnel: FresnelRgb<'a>,
     /// Albedo of the diffuse body.
     pub diffuse: DVec3,
-    /// Of the surface between the scratches, or of what is under the coat.
+    /// Roughness of the surface between the scratches, or of the surface under the coat.
     pub roughness: f64,
-    /// How its facets lean where they lean further one way than across it; in the frame of what is under the coat.
+    /// Axes of the facets' spread, where they lean further one way than across it; in the frame of the surface under the coat.
     pub facets: Option<FacetAxes>,
     /// A clear layer over all of this.
     pub coat: Option<PointCoat<'a>>,
-    /// How far the slopes of its normal map spread about the one that is looked up, in each direction.
+    /// Standard deviation of the slopes of its normal map about the one that is looked up, in each direction.
     pub slope_std: f64,
-    /// What of the environment's light reaches the base.
+    /// Share of the environment's light that reaches the base.
     pub open: f64,
     /// Emitted radiance.
     pub emission: DVec3,
     /// Index into the scene's materials.
     pub material: usize,
-    /// That it lies on, of its object.
+    /// Index of the triangle in its object.
     pub triangle: u32,
     /// Standard deviation of the coherence window.
     pub coherence_um: f64,
-    /// Which scratch table.
+    /// Index of the scratch table.
     pub table: usize,
 }
 
@@ -71,22 +71,22 @@ pub struct PointCoat<'a> {
     pub roughness: f64,
     /// Reflectance where it is.
     pub fresnel: FresnelRgb<'a>,
-    /// As [`SurfacePoint::slope_std`], of its own normal map.
+    /// See [`SurfacePoint::slope_std`]; of the coat's own normal map.
     pub slope_std: f64,
 }
 
-/// How far a surface may be off the plane of a footprint for each length along it.
+/// Largest distance of a surface from the plane of a footprint, over the length along it.
 const SURFACE_BENDS: f64 = 0.125;
 
 impl SurfacePoint<'_> {
-    /// How far the surface under a footprint may be off the plane of shading, for each length along it. Scratches lie on triangles:
-    /// that of the point leaves the plane by as much as its normal is another one, its neighbours by about as much again; and where
-    /// a surface bends elsewhere under a footprint, by an eighth of its size.
+    /// Largest distance of the surface under a footprint from the plane of shading, over the length along it. Scratches lie on triangles: that of
+    /// the point leaves the plane by as much as its normal is another one, its neighbours by about as much again; and where a surface bends
+    /// elsewhere under a footprint, by an eighth of its size.
     pub fn leaves(&self) -> f64 {
         SURFACE_BENDS + 2.0 * self.normal.distance(self.facet)
     }
 
-    /// What the surface in which scratches lie reflects at a cosine: the coat, where it is.
+    /// Reflectance at a cosine of the surface in which scratches lie: the coat, where it is.
     pub fn reflectance(&self, cos_theta: f64) -> DVec3 {
         let base = DVec3::from(self.fresnel.eval(cos_theta));
         self.coat.map_or(base, |coat| {
@@ -104,7 +104,7 @@ impl SurfacePoint<'_> {
         self.axis_x * v.x + self.axis_y * v.y + self.normal * v.z
     }
 
-    /// How the slopes spread that a pixel sees. `slope_std` is the spread of the normal map's slopes.
+    /// Spread of the slopes that a pixel sees. `slope_std` is the spread of the normal map's slopes.
     pub fn slope_spread(&self, slope_std: f64) -> SlopeSpread {
         let [x, y] = self.normal_turns.map(|turn| turn.truncate());
         SlopeSpread {
@@ -113,7 +113,7 @@ impl SurfacePoint<'_> {
         }
     }
 
-    /// What is under the coat, where it has a normal of its own, in its own frame.
+    /// The surface under the coat in its own frame, where it has a normal of its own.
     pub fn under_coat(&self) -> Option<Self> {
         let normal = self.normal_under_coat?;
         let to_viewer = self.world_from_surface(self.wo);
@@ -141,7 +141,7 @@ impl SurfacePoint<'_> {
         DMat3::from_cols(x, y, z).transpose()
     }
 
-    /// The same under a filter that is so many times as wide.
+    /// The point under a filter that is `times` as wide.
     pub fn with_footprint_of(self, times: f64) -> Self {
         Self {
             footprint_axes_m: self.footprint_axes_m.map(|axis| axis * times),
@@ -372,8 +372,8 @@ fn raised(position_m: DVec3, hit: &Hit, mesh: &Mesh, side: f64) -> DVec3 {
     position_m + rises.sum::<DVec3>()
 }
 
-/// How the interpolated normal of a triangle turns along a step on its plane. `geometric` is the cross product of the first
-/// two edges, `interpolated` the normal before it was made a unit vector.
+/// Turn of the interpolated normal of a triangle along a step on its plane. `geometric` is the cross product of the first two edges,
+/// `interpolated` the normal before it was made a unit vector.
 fn normal_turn(
     corners: &[DVec3; 3],
     normals: &[DVec3; 3],
@@ -419,7 +419,7 @@ fn interpolate(weights: [f64; 3], corners: [DVec3; 3]) -> DVec3 {
     corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2]
 }
 
-/// Of a normal map, where w is how far slopes spread: beyond the texels' own also over what the pixel sees of the map.
+/// Looks up a normal map; w is the standard deviation of the slopes, over the texels and over the part of the map that the pixel sees.
 fn sample_normals(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -> glam::DVec4 {
     let (texels, t) = texture.four_texels(level, uv, texels_std);
     let mut mean = blend(texels, t);

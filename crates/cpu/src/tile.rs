@@ -43,15 +43,15 @@ pub(crate) struct Picture<'a> {
     pub only_edges: bool,
     pub visibility: Visibility,
     pub by: By<'a>,
-    /// Where there are shadows.
+    /// Rays for shadows, if there are any.
     pub shadows: Option<Shadows<'a>>,
 }
 
-/// By which method.
+/// Method of the picture.
 pub(crate) enum By<'a> {
     /// Hairline's own.
     Tiles(TileLists),
-    /// That of 2018, a pixel for itself.
+    /// The method of 2018, pixel by pixel.
     Published(Published<'a>),
 }
 
@@ -66,7 +66,7 @@ pub(crate) struct Tile<'a> {
     /// The lights from each point of the batch.
     views: Vec<LightViews<'a>>,
     sums: Vec<ScratchSums>,
-    /// Where there are shadows.
+    /// Picks of each point, if there are shadows.
     picks: Option<Vec<Picks>>,
     grating_picks: Picks,
     rooms: Vec<HitRoom<'a>>,

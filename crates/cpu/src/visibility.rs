@@ -7,7 +7,7 @@ use hairline_scene::CameraFrame;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// What the pixels of some rows see, and those of the row beyond at either end, which tell edges.
+/// Hits of the pixels of some rows, and of the row beyond at either end, which tell edges.
 pub(crate) struct Visibility {
     /// Row by row; [`NOTHING`] for the background.
     hits: Vec<Hit>,
@@ -28,7 +28,7 @@ const NOTHING: Hit = Hit {
     barycentric: [0.0; 2],
 };
 
-/// By what a sample of a pixel meets surfaces that cover a part of what lies behind them.
+/// Coverage rule of a sample of a pixel for surfaces that cover a part of what lies behind them.
 pub(crate) fn coverage(x: usize, y: usize, sample: u32) -> Coverage {
     Coverage::of_sample([x as u32, y as u32], sample)
 }
@@ -39,7 +39,8 @@ pub(crate) fn center(x: usize, y: usize) -> DVec2 {
 }
 
 impl Visibility {
-    /// Where pixels have several samples, their centres see any surface that covers something: such pixels count as edges.
+    /// Traces the pixels' centres. Where pixels have several samples, the centres see any surface that covers something:
+    /// such pixels count as edges.
     pub fn new(
         triangles: &TriangleIndex,
         camera: &CameraFrame,
@@ -83,13 +84,13 @@ impl Visibility {
         }
     }
 
-    /// Beyond the picture's border, that of the nearest pixel.
+    /// Index of a pixel; beyond the picture's border, that of the nearest pixel.
     fn index(&self, x: usize, y: usize) -> usize {
         let y = y.clamp(self.rows.start, self.rows.end - 1) - self.rows.start;
         y * self.width + x.min(self.width - 1)
     }
 
-    /// What a pixel's centre sees.
+    /// Hit of a pixel's centre.
     pub fn hit(&self, x: usize, y: usize) -> Option<&Hit> {
         let hit = &self.hits[self.index(x, y)];
         (hit.object != NOTHING.object).then_some(hit)

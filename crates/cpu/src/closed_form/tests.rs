@@ -93,7 +93,8 @@ fn threads_make_no_difference() {
     }
 }
 
-/// As long as the plate, which is larger than the picture: every tile of the middle row has it.
+/// The segments are as long as the plate, which is larger than the picture: every tile of the
+/// middle row has them.
 #[test]
 fn a_segment_across_the_whole_picture() {
     let camera = "position_m = [0.0, 0.0, 0.002]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 1.0, 0.0]";

@@ -1,4 +1,4 @@
-//! What a pixel sees of a segment, with anti-aliasing or without.
+//! View of a segment from a pixel, with anti-aliasing or without.
 
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
@@ -15,7 +15,7 @@ pub(super) struct SegmentView {
     /// `wo` in the frame of the scratch.
     pub wo: DVec3,
     pub share: ScratchShare,
-    /// What it takes from the base by the talk's mask.
+    /// Share that it takes from the base by the talk's mask.
     pub density: f64,
     pub profile: Profile,
 }

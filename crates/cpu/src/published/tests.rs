@@ -25,7 +25,7 @@ fn scene() -> Scene {
         .scene()
 }
 
-/// What the plate's middle sends, by a method that `change` may have spoilt.
+/// Light of the plate's middle, by a method that `change` may have spoilt.
 fn middle(prepared: &Prepared, si: SineIntegral, change: impl Fn(&mut Published)) -> Masked {
     let scene = prepared.scene;
     let to_camera = scene.camera.position_m;
@@ -49,7 +49,7 @@ fn middle(prepared: &Prepared, si: SineIntegral, change: impl Fn(&mut Published)
     published.scratches(&point, &hit, &views)
 }
 
-/// What a method is told to look up is what it uses.
+/// A method uses the look-ups that it is given.
 #[test]
 fn a_missing_triangle_and_a_wrong_wavelength_are_seen() {
     let scene = scene();

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 /// would take more memory than a large map.
 const BLOCK: usize = 16;
 
-/// What a map is sampled by.
+/// Sampler of directions to a map.
 pub struct EnvironmentSampler {
     /// Shares its texels with the scene's.
     environment: Environment,
@@ -78,7 +78,7 @@ impl EnvironmentSampler {
         texel.iter().map(|c| f64::from(*c)).sum()
     }
 
-    /// The same above or below a row of cells. At a pole it is the mean of both sides.
+    /// Brightness of the texel above or below a row of cells. At a pole it is the mean of both sides.
     fn beside(&self, x: usize, row: usize, below: bool) -> f64 {
         match (row, below) {
             (0, false) => 0.5 * (self.texel(x, 0) + self.texel(self.across(x), 0)),
@@ -187,7 +187,7 @@ impl EnvironmentSampler {
     }
 }
 
-/// What keeps places off the very edge of what is lit, where the density is zero.
+/// Margin that keeps places off the very edge of the lit part, where the density is zero.
 const OFF_EDGE: f64 = 1e-12;
 
 /// The interval of cumulative `sums` that a share `u` of the last falls into, and how far into it: never all the way.

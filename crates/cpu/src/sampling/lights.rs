@@ -46,7 +46,7 @@ struct Picture {
 }
 
 impl Picture {
-    /// Along a ray.
+    /// Value of the picture along a ray.
     fn seen(&self, from: DVec3, direction: DVec3) -> DVec3 {
         let plane = PicturePlane::of(&self.corners_m.map(|corner| corner - from));
         let texture = &self.textures[self.texture];
@@ -55,7 +55,7 @@ impl Picture {
 }
 
 impl AreaLight {
-    /// What comes from there along a ray; every point of the light has its own cone.
+    /// Radiance that comes along a ray; every point of the light has its own cone.
     fn seen(&self, from: DVec3, direction: DVec3) -> DVec3 {
         let even = self.radiance * self.cone.map_or(1.0, |cone| cone.share(-direction));
         let picture = self.picture.as_ref();
@@ -75,7 +75,7 @@ enum Shape {
 pub struct LightSample {
     /// Unit vector.
     pub direction: DVec3,
-    /// To the point of the light that is seen there.
+    /// Distance to the point of the light that is seen there.
     pub distance_m: f64,
     /// Density of the direction, per steradian.
     pub pdf: f64,
@@ -83,10 +83,10 @@ pub struct LightSample {
     pub radiance: DVec3,
 }
 
-/// What a ray sees of a light.
+/// Hit of a ray on a light.
 #[derive(Clone, Copy, Debug)]
 pub struct LightHit {
-    /// To its first point on the light.
+    /// Distance to the ray's first point on the light.
     pub distance_m: f64,
     /// Linear Rec.709.
     pub radiance: DVec3,
@@ -104,10 +104,10 @@ impl AreaLights {
         Self::with_textures(lights, &Arc::default())
     }
 
-    /// The same with the textures of their pictures.
+    /// Makes the lights with the textures of their pictures.
     ///
     /// # Panics
-    /// If a picture is not among them.
+    /// Panics if a picture is not among them.
     pub fn with_textures<'l>(
         lights: impl IntoIterator<Item = &'l Light>,
         textures: &Arc<Vec<Texture>>,
@@ -135,7 +135,7 @@ impl AreaLights {
         Self { lights }
     }
 
-    /// How many lights there are.
+    /// Number of lights.
     pub fn len(&self) -> usize {
         self.lights.len()
     }
@@ -162,8 +162,8 @@ impl AreaLights {
         })
     }
 
-    /// What a ray (unit `direction`) sees of light `i`: its first point on the light. None if it misses, or meets a dark side.
-    /// From inside a sphere every ray hits.
+    /// Intersects a ray (unit `direction`) with light `i`, and returns its first point on the light. None if it misses, or meets a dark side. From inside a
+    /// sphere every ray hits.
     pub fn hit(&self, i: usize, from: DVec3, direction: DVec3) -> Option<LightHit> {
         let light = &self.lights[i];
         let distance_m = match &light.shape {
@@ -186,8 +186,8 @@ impl AreaLights {
         }
     }
 
-    /// How far a ray to light `i`, which arrives at `distance_m`, looks for what hides the light. It ends `step_m` above a flat light, so that it does
-    /// not meet the surface that the light lies in.
+    /// Length of a ray to light `i`, which arrives at `distance_m`, over which an object would hide the light. It ends `step_m` above a flat light, so that it
+    /// does not meet the surface that the light lies in.
     pub fn clear_m(&self, i: usize, direction: DVec3, distance_m: f64, step_m: f64) -> f64 {
         let cos = match &self.lights[i].shape {
             Shape::Sphere(_) | Shape::Tube(_) => 1.0,

@@ -1,4 +1,4 @@
-//! What a groove sends over a chord. A scratch sends light about the mirror's direction, with one depth; the orders of a grating may lie anywhere on a
+//! Light of a groove over a chord. A scratch sends light about the mirror's direction, with one depth; the orders of a grating may lie anywhere on a
 //! wide chord, where its depth is another. Twin: `ChordDepths` of scratch_light.wgsl.
 
 use glam::DVec3;
@@ -12,13 +12,13 @@ pub(super) struct PartedChord<'a> {
     width_um: f64,
     low: f64,
     step: f64,
-    /// Of each part: what lies below it, and the table at its depth.
+    /// For each part, the antiderivative at its lower end, and the table at its depth.
     parts: Vec<(DVec3, TableRow<'a>)>,
 }
 
 impl<'a> PartedChord<'a> {
-    /// Of a grating that is looked up as a scratch of a width, from q to q; `row` is its table at the cosine of a direction. None where one depth
-    /// serves.
+    /// The chord of a grating that is looked up as a scratch of a width, from q to q; `row` is its table at the cosine of a direction. None where one
+    /// depth serves.
     pub(super) fn new(
         line: BandLine,
         (low, high): (f64, f64),
@@ -47,7 +47,7 @@ impl<'a> PartedChord<'a> {
         })
     }
 
-    /// Beyond the chord's ends the depths are those at the ends.
+    /// Evaluates the antiderivative. Beyond the chord's ends the depths are those at the ends.
     pub(super) fn at(&self, q: f64) -> [f64; 3] {
         let i = ((q - self.low) / self.step).max(0.0) as usize;
         let (before, row) = &self.parts[i.min(self.parts.len() - 1)];

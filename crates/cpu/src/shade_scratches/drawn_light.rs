@@ -15,19 +15,19 @@ use hairline_scene::Environment;
 /// A direction of a source by way of a scratch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DrawnLight {
-    /// In the surface's frame.
+    /// Direction in the surface's frame.
     pub direction: DVec3,
-    /// What comes from there over what comes from a mean direction, given that directions are drawn by luminance.
+    /// Light from this direction over that from a mean direction, given that directions are drawn by luminance.
     pub color: DVec3,
 }
 
 /// One of many, drawn by the luminance of what each sends.
 pub(crate) struct Choice {
-    /// What all of them send.
+    /// Light of all of them.
     total: DVec3,
     /// The sum of the luminances.
     weight: f64,
-    /// In [0, 1): what is left of the number that picks.
+    /// Remainder, in [0, 1), of the number that picks.
     left: f64,
 }
 
@@ -238,7 +238,7 @@ impl ScratchLight<'_> {
         })
     }
 
-    /// The same for light of radiance 1 from all around, and what all of that sends.
+    /// Draws a direction for light of radiance 1 from all around, and returns the light that the scratch sends of it.
     pub fn draw_all_around(&self, [pick_u, cell_u]: [f64; 2]) -> Option<(DrawnLight, DVec3)> {
         let line = BandLine::new(self.wo, 0.0);
         let mut offers = Offers::new(pick_u);

@@ -24,7 +24,7 @@ const WINDOW_STD: f64 = 0.8367;
 /// The number of standard deviations that a footprint reaches, squared.
 const REACH2: f64 = (REACH_STD * REACH_STD) as f64;
 
-/// What the tests of segments need to know of some points. Lanes without a point see nothing.
+/// Points of a group, in the form for the tests of segments. Lanes without a point see nothing.
 pub(super) struct Group {
     object: [u32; LANES],
     /// Axes of the surface in world space, times a million: from metres to micrometres.
@@ -39,14 +39,14 @@ pub(super) struct Group {
     covariance_um2: [Lanes; 3],
     /// Variance of the coherence window.
     window_um2: Lanes,
-    /// How far off the plane of shading a segment may be.
+    /// Largest distance of a segment from the plane of shading.
     off_m: Lanes,
     /// The box of the points in the picture: its middle and half its size.
     middle_px: [f32; 2],
     half_px: [f32; 2],
 }
 
-/// How far a segment may be off the plane of shading to count for a point, metres.
+/// Largest distance of a segment from the plane of shading at which it counts for a point, metres.
 fn off_plane_m(point: &crate::surface::SurfacePoint) -> f64 {
     let sigma_m = point.coherence_um * 1e-6;
     let [ax, ay] = point.footprint_axes_m.map(|axis| axis.length_squared());
@@ -55,7 +55,7 @@ fn off_plane_m(point: &crate::surface::SurfacePoint) -> f64 {
 }
 
 impl Group {
-    /// At most [`LANES`] points.
+    /// A group of at most [`LANES`] points.
     pub fn new(points: &[ScratchPoint], frames: &[Frame]) -> Self {
         let mut group = Self {
             object: [u32::MAX; LANES],
@@ -114,7 +114,7 @@ impl Group {
         across <= line.reach_px && along <= half + line.reach_px
     }
 
-    /// Where a segment of an object lies under the footprints; none if no point sees it.
+    /// Position of a segment of an object under the footprints; none if no point sees it.
     #[inline(always)]
     pub fn see(&self, segment: &IndexedSegment, object: u32) -> Option<Seen> {
         let (s, e) = (segment.start_m.as_dvec3(), segment.end_m.as_dvec3());
@@ -203,14 +203,14 @@ impl Group {
 pub(super) struct Seen {
     /// 1 for those that see it; what else there is of others may be no number.
     sees: [u64; LANES],
-    /// Of the segment, in the surface's frame.
+    /// Tangent of the segment, in the surface's frame.
     tangent: [Lanes; 2],
-    /// Of its line from the point, and the variance of footprint and window across it.
+    /// Distance of the segment's line from the point, and the variance of footprint and window across it.
     pub offset_um: Lanes,
     pub variance_um2: Lanes,
     /// Square of the one over the other.
     far2: Lanes,
-    /// Its ends, in standard deviations of what lies along it.
+    /// Ends of the segment, in standard deviations along it.
     low: Lanes,
     high: Lanes,
 }
@@ -225,7 +225,7 @@ impl Seen {
         [self.low[lane], self.high[lane]]
     }
 
-    /// Where it lies under the footprint of a point.
+    /// Place of the segment under the footprint of a point.
     pub fn place(&self, lane: usize, frame: &Frame) -> BandPlace {
         let tangent = self.tangent(lane);
         BandPlace::new(
@@ -235,7 +235,7 @@ impl Seen {
         )
     }
 
-    /// As rays start from it, with its share.
+    /// Pick of the segment with its share, for rays that start from it.
     pub fn pick(&self, lane: usize, frame: &Frame, segment: &IndexedSegment, share: f64) -> Pick {
         let tangent = self.tangent(lane);
         Pick {

@@ -1,5 +1,5 @@
-//! Which lights can reach a segment from any point of a batch. Most segments are dark to most lights, so this decides once for
-//! the whole batch what each pair of a point and a segment would have to ask for itself.
+//! Lights that can reach a segment from any point of a batch. Most segments are dark to most lights, so this decides once for the
+//! whole batch what each pair of a point and a segment would have to ask for itself.
 //!
 //! A light reaches a scratch where xi_t = t . (wo + wi) lies within the band. With d, a segment's unit direction, and h = wo + wi
 //! without its part along the normal, t . h is (d . h) / |d_t|, and d_t, the part of d in the plane of shading, is no longer than d:
@@ -14,7 +14,7 @@ use hairline_optics::band::{BAND_REACH_STD, BAND_STD_MAX};
 /// The lights that any point of a batch sees.
 #[derive(Default)]
 pub(super) struct LightBounds {
-    /// By number of the light in the scene.
+    /// Bounds by the number of the light in the scene.
     bounds: Vec<Bound>,
 }
 
@@ -25,7 +25,7 @@ struct Bound {
     /// The box of h, world space.
     low: DVec3,
     high: DVec3,
-    /// How far d . h may be from zero.
+    /// Largest distance of d . h from zero.
     reach: f64,
 }
 

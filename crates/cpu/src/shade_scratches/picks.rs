@@ -12,18 +12,18 @@ use rand_pcg::Pcg32;
 /// A scratch under a point, or a grating.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pick {
-    /// In the surface's frame.
+    /// Tangent in the surface's frame.
     pub tangent: DVec2,
     pub place: BandPlace,
     pub along: Along,
     pub profile: Profile,
-    /// Of a grating; none for a scratch.
+    /// Spread of a grating's grooves; none for a scratch.
     pub row: Option<RowSpread>,
-    /// Of the point that it covers.
+    /// Share of the point that it covers.
     pub share: f64,
     /// Place of its light in [`LightViews::views`](crate::light_view::LightViews::views); that behind the last for the environment.
     pub source: usize,
-    /// What it sends by way of the source, or takes of the base.
+    /// Light that it sends by way of the source, or energy that it takes of the base.
     pub radiance: DVec3,
 }
 
@@ -34,7 +34,7 @@ pub(crate) struct Reservoirs {
     total: f64,
     /// The least of the picks' thresholds.
     next: f64,
-    /// What the total must exceed for the pick to be drawn anew, and the pick.
+    /// Threshold that the total must exceed for the pick to be drawn anew, and the pick.
     picks: Vec<(f64, Option<Pick>)>,
 }
 
@@ -70,7 +70,7 @@ impl Reservoirs {
         self.total
     }
 
-    /// That of a round: all or none are there.
+    /// Returns the pick of a round: all or none are there.
     pub fn get(&self, round: u32) -> Option<&Pick> {
         self.picks.get(round as usize)?.1.as_ref()
     }
@@ -78,9 +78,9 @@ impl Reservoirs {
 
 /// Those of a point.
 pub(crate) struct Picks {
-    /// What all send by way of all sources.
+    /// Light that all scratches send by way of all sources.
     pub radiance: DVec3,
-    /// What all take of the base.
+    /// Energy that all scratches take of the base.
     pub energy: DVec3,
     /// Pairs of a scratch and a source, by what the one sends of the other.
     pub lit: Reservoirs,
@@ -132,7 +132,7 @@ impl Picks {
             .add(&mut self.random, luminance(energy), pick);
     }
 
-    /// Has the one pick by a bound of its light stand for all: `light` tells what it sends by way of its source.
+    /// Makes the one pick, drawn by a bound of its light, stand for all: `light` returns the light that it sends by way of its source.
     pub fn light_one(&mut self, light: impl FnOnce(&Pick) -> DVec3) {
         let (mut radiance, bounds) = (DVec3::ZERO, self.lit.total);
         if let Some((_, Some(pick))) = self.lit.picks.first_mut() {

@@ -30,14 +30,15 @@ impl<'a> ScratchPoint<'a> {
     }
 }
 
-/// What of a point is the same for all scratches.
+/// Values of a point that are the same for all scratches.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
-    /// How the point moves by one standard deviation of the pixel's filter to the right and down, in the surface's frame.
+    /// Movements of the point by one standard deviation of the pixel's filter to the right and down, in the surface's
+    /// frame.
     pub steps_um: [DVec2; 2],
     /// The coherence window's variance.
     pub window_um2: f64,
-    /// Of the band that a pixel without perspective sees.
+    /// Standard deviations of the band that a pixel without perspective sees.
     pub stds: BandStds,
 }
 

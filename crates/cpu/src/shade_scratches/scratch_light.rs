@@ -33,7 +33,7 @@ pub(crate) struct ScratchLight<'a> {
     table: &'a ScratchTable,
     profile: Profile,
     pub(super) row: Option<RowSpread>,
-    /// Where the one line lies that stands for the band, if it is one of very many scratches ([`BandLines::by_one_line`]).
+    /// Place of the one line that stands for the band, if it is one of very many scratches ([`BandLines::by_one_line`]).
     one_line: Option<f64>,
 }
 
@@ -51,7 +51,7 @@ impl<'a> ScratchLight<'a> {
         }
     }
 
-    /// The same by one line of the band, whatever the light.
+    /// Uses one line of the band, whatever the light.
     pub fn by_one_line(self, node: Option<f64>) -> Self {
         Self {
             one_line: node,
@@ -73,7 +73,8 @@ impl<'a> ScratchLight<'a> {
         self.profile.width_um.into()
     }
 
-    /// Its width, where its light lies about the mirror's direction; that of a grating lies about its orders, wherever they are.
+    /// Width for weights by q, where the light lies about the mirror's direction; 0 for a grating, whose light lies about its orders, wherever
+    /// they are.
     pub(super) fn weighed_um(&self) -> f64 {
         match self.row {
             Some(_) => 0.0,
@@ -81,7 +82,7 @@ impl<'a> ScratchLight<'a> {
         }
     }
 
-    /// How the band moves over the pixel towards a light. `place` is where a scratch lies under the footprint.
+    /// Computes the movement of the band over the pixel towards a light. `place` is where a scratch lies under the footprint.
     #[inline]
     pub(super) fn motion(&self, place: BandPlace, views: &LightViews, view: usize) -> BandMotion {
         let tangent = self.frame.tangent;
@@ -215,7 +216,7 @@ impl<'a> ScratchLight<'a> {
         }
     }
 
-    /// By a sphere of radiance 1.
+    /// Light by way of the scratch of a sphere of radiance 1.
     fn sphere(&self, stds: &BandStds, cap: Cap, motion: BandMotion) -> Option<DVec3> {
         let cap = cap.turned(self.frame);
         let wo = self.wo + motion.shift * DVec3::X;
@@ -230,7 +231,7 @@ impl<'a> ScratchLight<'a> {
         }))
     }
 
-    /// By a polygon of radiance 1.
+    /// Light by way of the scratch of a polygon of radiance 1.
     fn polygon(
         &self,
         stds: &BandStds,
@@ -289,7 +290,7 @@ impl<'a> ScratchLight<'a> {
         sent.sum::<DVec3>().to_array()
     }
 
-    /// By light of radiance 1 from all around.
+    /// Light by way of the scratch of radiance 1 from all around.
     #[inline(always)]
     pub fn all_around(&self) -> DVec3 {
         let mut sum = DVec3::ZERO;
@@ -312,7 +313,7 @@ impl<'a> ScratchLight<'a> {
         self.spectrum(line, roots.range)
     }
 
-    /// By the environment but for its windows, along the band's middle line, cell by cell.
+    /// Light by way of the scratch of the environment without its windows, along the band's middle line, cell by cell.
     #[inline(always)]
     pub fn environment(&self, point: &SurfacePoint, environment: &Environment) -> DVec3 {
         let line = BandLine::new(self.wo, 0.0);

@@ -33,7 +33,7 @@ fn dish() -> Scene {
         .scene()
 }
 
-/// What a look at all segments of the object finds that project and bin would lose, for each margin.
+/// Pairs that a look at all segments of the object finds and project and bin would lose, for each margin.
 #[derive(Debug, Default)]
 struct Needed {
     pairs: usize,
@@ -239,7 +239,8 @@ fn lanes_see_the_closed_forms_share() {
     assert!(point.normal.distance(DVec3::Z) < 2.0);
 }
 
-/// From each part of the band as much is drawn as an integral over directions says: from the bright side of a cell, not from all of it alike.
+/// The light that is drawn from each part of the band is that of an integral over directions: it comes from the bright side of a cell, not
+/// from all of it alike.
 #[test]
 fn what_is_drawn_of_an_environment_comes_from_there() {
     const BINS: usize = 12;
@@ -325,7 +326,7 @@ fn what_is_drawn_of_an_environment_comes_from_there() {
     }
 }
 
-/// How far windows with the cells of the rest are from the whole map.
+/// Error of windows with the cells of the rest against the whole map.
 #[test]
 #[ignore = "prints how well maps are told by their windows and what is left"]
 fn windows_and_the_rest_are_the_map() {

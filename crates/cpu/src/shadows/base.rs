@@ -13,12 +13,12 @@ use glam::{DVec2, DVec3};
 use hairline_index::Hit;
 use std::f64::consts::PI;
 
-/// What shines on the base.
+/// A source of light on the base.
 #[derive(Clone, Copy)]
 struct Source {
     /// None for the environment.
     light: Option<u32>,
-    /// Where nothing hides it.
+    /// Light of the base where nothing hides the source.
     open: BaseRadiance,
     /// One over the probability with which it was drawn.
     per_chance: f64,
@@ -51,7 +51,7 @@ struct LobeRay {
     pdf: f64,
     /// The BRDF times the cosine.
     sent: BaseRadiance,
-    /// What it meets; none where nobody has followed it.
+    /// Hit of the ray; none where nobody has followed it.
     followed: Option<Option<Hit>>,
 }
 
@@ -66,7 +66,7 @@ struct Candidate {
 const FAINT: f64 = 0.02;
 
 impl<'a> Shadows<'a> {
-    /// What is left of the base's light, and what other objects send.
+    /// Returns the base's light that is not hidden, and the light of other objects.
     pub fn base(&self, at: &ShadowPoint, rooms: &mut [HitRoom<'a>]) -> BaseLight {
         let base = Base::new(at.point);
         let lobes = Lobes::new(&base, at.point);
@@ -264,7 +264,7 @@ impl<'a> Shadows<'a> {
         }
     }
 
-    /// How far a ray by the lobes looks for what hides a light, from where it started: that is not the point that its candidate is of.
+    /// Length of a ray by the lobes over which an object would hide the light, from the ray's own origin, which is not the candidate's point.
     fn clear_of_followed(&self, ray: Option<&LobeRay>, light: Option<u32>) -> f64 {
         let (Some(ray), Some(i)) = (ray, light) else {
             return f64::INFINITY;
@@ -313,7 +313,7 @@ impl<'a> Shadows<'a> {
         (on_light, by_lobes)
     }
 
-    /// The same for the environment without its suns, which are lights.
+    /// Candidates for the environment without its suns, which are lights.
     fn to_environment(
         &self,
         at: &ShadowPoint,

@@ -19,9 +19,9 @@ pub(super) struct Lobes<'l, 'a> {
     base: &'l Base<'l, 'a>,
     lobe: DrawnLobe<'a>,
     coat: Option<DrawnLobe<'a>>,
-    /// How often that of the body is drawn from.
+    /// Probability of drawing from the body's lobe.
     body_share: f64,
-    /// To the frame of the lobe and the body, where that is not the coat's.
+    /// Rotation to the frame of the lobe and the body, where that is not the coat's.
     under_coat: Option<DMat3>,
 }
 
@@ -30,7 +30,7 @@ struct DrawnLobe<'a> {
     wo: DVec3,
     facets: Facets,
     fresnel: FresnelRgb<'a>,
-    /// How often it is drawn from.
+    /// Probability of drawing from the lobe.
     share: f64,
 }
 

@@ -28,7 +28,7 @@ impl<'a> Shadows<'a> {
         (open, self.by_picks(at, picks, rooms))
     }
 
-    /// What is left of what scratches send, before they weaken one another, and what other objects send by way of them.
+    /// Returns the scratches' light that is not hidden, before they weaken one another, and the light of other objects by way of them.
     pub fn by_picks(
         &self,
         at: &ShadowPoint,
@@ -150,10 +150,10 @@ impl<'a> Shadows<'a> {
     }
 }
 
-/// What rays bring from other objects by way of scratches that were picked by the energy that they take.
+/// Light of rays from other objects by way of scratches that were picked by the energy that they take.
 #[derive(Default)]
 struct Brought {
-    /// What the picks send of light of radiance 1 from all around, and the energy that they take, each over that energy's luminance.
+    /// Light that the picks send of radiance 1 from all around, and the energy that they take, each over that energy's luminance.
     sent: DVec3,
     energy: DVec3,
     /// The parts of `sent` from the directions that were drawn, and these times the light from there.
@@ -175,7 +175,7 @@ impl Brought {
         self.most = self.most.max(light);
     }
 
-    /// What is sent of light from all around for each unit of energy.
+    /// Light that is sent of radiance 1 from all around, for each unit of energy.
     fn per_energy(&self) -> DVec3 {
         over(self.sent, self.energy).max(DVec3::ZERO)
     }

@@ -18,9 +18,9 @@ const EDGE_ON: f64 = 1e-10;
 pub(super) struct PolygonLight {
     /// World space, moved onto the plane: scene files write few digits, and a polygon that is a little bent has no one side.
     vertices_m: Vec<DVec3>,
-    /// The same in the plane's coordinates.
+    /// Outline in the plane's coordinates.
     outline_m: Vec<DVec2>,
-    /// Of the plane's coordinates.
+    /// Origin of the plane's coordinates.
     origin_m: DVec3,
     axes: [DVec3; 2],
     /// Unit vector on the lit side.
@@ -94,12 +94,12 @@ impl PolygonLight {
         }
     }
 
-    /// Of the angle between a unit direction and the normal.
+    /// Cosine of the angle between a unit direction and the normal.
     pub fn cos(&self, direction: DVec3) -> f64 {
         direction.dot(self.normal)
     }
 
-    /// How far a point is from the plane, positive on the side that the normal shows to. 0 for points that see the edge.
+    /// Height of a point above the plane, positive on the side that the normal shows to. 0 for points that see the edge.
     fn height_m(&self, from: DVec3) -> f64 {
         let to = from - self.origin_m;
         let height_m = to.dot(self.normal);
@@ -110,7 +110,7 @@ impl PolygonLight {
         }
     }
 
-    /// As [`PolygonLight::height_m`], and 0 for points that see the dark side too.
+    /// [`PolygonLight::height_m`], and 0 for points that see the dark side too.
     fn lit_height_m(&self, from: DVec3) -> f64 {
         let height_m = self.height_m(from);
         if self.two_sided {
@@ -134,7 +134,7 @@ impl PolygonLight {
         }
     }
 
-    /// Of all that is seen from a point at the given height.
+    /// Solid angle of all triangles from a point at the given height.
     fn solid_angle(&self, from: DVec3, height_m: f64) -> f64 {
         self.triangles
             .iter()

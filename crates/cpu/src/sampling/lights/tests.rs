@@ -554,7 +554,7 @@ fn light_timings() {
     }
 }
 
-/// How near a ray from the origin comes to a line between two points, by bisection.
+/// Least distance of a ray from the origin to a line between two points, by bisection.
 fn nearest_to_line(w: DVec3, [a, b]: [DVec3; 2]) -> f64 {
     let beside = |s: f64| {
         let p = a.lerp(b, s);

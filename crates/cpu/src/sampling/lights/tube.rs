@@ -46,7 +46,7 @@ impl TubeLight {
         self.middle_m(from).distance(from) <= self.radius_m
     }
 
-    /// Where a line meets the surface, both times; none where it misses.
+    /// Both crossings of a line with the surface; none where it misses.
     fn crossings(&self, from: DVec3, direction: DVec3) -> Option<[Crossing; 2]> {
         // The line within the round wall, then within either end: the tube is convex, and these are all of it.
         let to_start = from - self.start_m;
@@ -128,7 +128,7 @@ impl TubeLight {
         shown.iter().sum::<f64>() / self.area_m2()
     }
 
-    /// Where a ray meets it first, or passes nearest to its middle.
+    /// Distance at which a ray meets the tube first, or passes nearest to its middle.
     pub fn reach_m(&self, from: DVec3, direction: DVec3) -> f64 {
         self.hit(from, direction).unwrap_or_else(|| {
             let middle = self.start_m + 0.5 * self.length_m * self.axis;
