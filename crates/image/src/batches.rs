@@ -18,7 +18,7 @@ const FIRST_ROUNDS: u32 = 2;
 pub struct Batch {
     /// The first of them.
     pub first: u32,
-    /// How many there are.
+    /// Number of samples in the batch.
     pub count: u32,
 }
 
@@ -90,7 +90,7 @@ pub struct Batches {
 }
 
 impl Batches {
-    /// Nothing yet of `samples` rounds of rays for each pixel, at least 1: the batches are as large as can be.
+    /// Starts a picture of `samples` rounds of rays for each pixel, at least 1: the batches are as large as can be.
     pub fn of_rounds(samples: u32) -> Self {
         Self {
             image: None,
@@ -109,7 +109,7 @@ impl Batches {
         }
     }
 
-    /// Nothing yet of `samples` for each pixel, at least 1; more than a batch are rounded up to whole ones.
+    /// Starts a picture of `samples` for each pixel, at least 1; more than a batch are rounded up to whole ones.
     pub fn new(samples: u32) -> Self {
         let size = samples.clamp(1, BATCH_SAMPLES);
         Self {
@@ -133,7 +133,7 @@ impl Batches {
         self.done
     }
 
-    /// What is to be added next; none if all are there.
+    /// Batch to be added next; none if all are there.
     pub fn next(&self) -> Option<Batch> {
         (self.done < self.samples).then_some(Batch {
             first: self.done,
@@ -167,7 +167,7 @@ impl Batches {
         self.image.as_ref()
     }
 
-    /// The same.
+    /// Returns the picture without copying it.
     pub fn into_image(self) -> Option<Image> {
         self.image
     }

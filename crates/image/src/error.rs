@@ -1,4 +1,4 @@
-//! What can go wrong with image files.
+//! Errors of image files.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -40,7 +40,7 @@ pub enum Error {
     Unusable {
         /// The input path.
         path: PathBuf,
-        /// What is wrong with its contents, in words.
+        /// Reason of the failure, in words.
         reason: String,
     },
 }

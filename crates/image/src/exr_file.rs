@@ -14,10 +14,10 @@ use exr::prelude::*;
 
 use crate::{Error, Image, Noise, Picture, Primaries, ToRec709, held, in_gamut};
 
-/// What a render should remember about its making (scene, model, seed), by name. Any text; names of 246 bytes at most.
+/// Notes on the making of a render (scene, model, seed), by name. Any text; names of 246 bytes at most.
 pub type Notes = BTreeMap<String, String>;
 
-/// What the names of notes start with in a file, so that they do not meet the attributes of other software.
+/// Prefix of the names of notes in a file, so that they do not meet the attributes of other software.
 const NOTE_PREFIX: &str = "hairline.";
 
 /// Samples in a batch, an integer attribute. Outside the notes' prefix: no note can have its name.
@@ -111,7 +111,7 @@ pub fn read_image(path: &Path) -> std::result::Result<Image, Error> {
     Ok(read_image_with_notes(path)?.0)
 }
 
-/// Which part of its picture a file holds: of its largest part, of which only the head is read.
+/// Reads the window of a file: of its largest part, of which only the head is read.
 ///
 /// # Errors
 /// [`Error::CannotRead`], [`Error::Unusable`].
@@ -296,7 +296,7 @@ fn encode(
     Ok(bytes.into_inner())
 }
 
-/// What pictures of this program are in.
+/// Primaries of this program's pictures.
 const REC_709: attribute::Chromaticities = {
     let Primaries {
         red,
@@ -312,12 +312,12 @@ const REC_709: attribute::Chromaticities = {
     }
 };
 
-/// Which pixels of a picture a file holds: its data window in its display window.
+/// Pixels of a picture that a file holds: its data window in its display window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
     /// The first pixel, from the upper left corner of the picture.
     pub at_px: [i64; 2],
-    /// How many there are.
+    /// Width and height of the window.
     pub size_px: [u32; 2],
     /// Those of the picture.
     pub of_px: [u32; 2],
@@ -378,7 +378,7 @@ pub(crate) struct Contents {
     parts: Vec<Part>,
     pub(crate) notes: Notes,
     batch: Option<u32>,
-    /// Of colours in its channels R, G and B.
+    /// Conversion of the colours in its channels R, G and B.
     to_rec_709: Option<ToRec709>,
 }
 
@@ -544,13 +544,13 @@ impl Contents {
         self.to_rec_709.is_some() || self.find(["R", "G", "B"]).is_none()
     }
 
-    /// Which part of its picture it holds, where that is not all.
+    /// Window of the file, where that is not the whole picture.
     pub(crate) fn window(&self) -> Option<Window> {
         let mut windows = self.parts.iter().map(|part| part.window);
         windows.find(|window| !window.is_whole())
     }
 
-    /// How many samples each pixel has had, and the size of a batch; only if the file says both.
+    /// Number of samples of each pixel, and the size of a batch; only if the file says both.
     pub(crate) fn samples(&self) -> Option<(Vec<u32>, u32)> {
         let samples = self.parts.iter().find_map(|part| {
             match &part.channel(SAMPLES)?.sample_data {

@@ -3,7 +3,7 @@
 use crate::found::Found;
 use crate::tones::Tones;
 
-/// What a renderer makes: one value a pixel in each layer, row by row from the top. All layers are equally long.
+/// Picture of a renderer: one value a pixel in each layer, row by row from the top. All layers are equally long.
 ///
 /// The beauty is not stored: it is [`Image::base`] plus [`Image::scratches`] by construction.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,15 +26,15 @@ pub struct Image {
     /// The share of each pixel that surfaces cover, from 0 to 1: of a picture before a transparent background. There is nothing behind
     /// the surfaces then, so the colours are multiplied by the shares.
     pub alpha: Option<Vec<f32>>,
-    /// How sure the colours are, where they are Monte Carlo estimates.
+    /// Variances of the colours, where they are Monte Carlo estimates.
     pub noise: Option<Noise>,
-    /// What rays found, where there were any: for pictures of further rays, and for the filter. No file holds it.
+    /// Light that rays found, where there were any: for pictures of further rays, and for the filter. No file holds it.
     pub found: Option<Found>,
-    /// How a display averages the samples of each pixel, where renderers tell. No file holds it.
+    /// Means of each pixel's samples for a display, where renderers have them. No file holds them.
     pub tones: Option<Tones>,
 }
 
-/// How sure a Monte Carlo estimate is. All vectors are as long as the image's layers.
+/// Variances of a Monte Carlo estimate. All vectors are as long as the image's layers.
 ///
 /// The variances come from the scatter of batches: a pixel's samples are averaged by the batch, and the variance of the
 /// batches' means over their number is the variance of the pixel's mean.
@@ -43,11 +43,11 @@ pub struct Noise {
     /// Variance of each pixel's mean, channel by channel, in squared radiance. Not the sum of the next two: base and
     /// scratches come from the same samples and are correlated.
     pub beauty: Vec<[f32; 3]>,
-    /// The same of [`Image::base`].
+    /// Variance of [`Image::base`].
     pub base: Vec<[f32; 3]>,
-    /// The same of [`Image::scratches`].
+    /// Variance of [`Image::scratches`].
     pub scratches: Vec<[f32; 3]>,
-    /// The same of [`Image::density`].
+    /// Variance of [`Image::density`].
     pub density: Vec<[f32; 3]>,
     /// Samples that each pixel has had.
     pub samples: Vec<u32>,
@@ -56,7 +56,7 @@ pub struct Noise {
 }
 
 impl Noise {
-    /// Nothing sampled yet, in batches of `batch` samples.
+    /// Noise of a picture without samples yet, in batches of `batch` samples.
     pub fn new(size_px: [u32; 2], batch: u32) -> Self {
         let count = pixel_count(size_px);
         Self {
@@ -159,7 +159,7 @@ impl Image {
         pixel_count(self.size_px)
     }
 
-    /// Where the pixel in column `x` and row `y` (from the top) lies in each layer.
+    /// Index in each layer of the pixel in column `x` and row `y` (from the top).
     pub fn index(&self, x: u32, y: u32) -> usize {
         debug_assert!(x < self.size_px[0] && y < self.size_px[1]);
         y as usize * self.size_px[0] as usize + x as usize

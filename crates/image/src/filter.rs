@@ -21,13 +21,14 @@ pub const NOISE_STD: f32 = 1.5;
 pub const OFF_PLANE: f32 = 0.01;
 /// The power of the cosine between normals of mirrors.
 pub const NORMAL_POWER: f32 = 64.0;
-/// It falls by 1 and the square of so many times the roughness: a wide lobe sees much the same from normals that differ. Chosen by measured error.
+/// Factor n by which the power falls with the roughness r, as 1 / (1 + (n r)²): a wide lobe sees much the same from normals that differ. Chosen by
+/// measured error.
 pub const ROUGH_NORMALS: f32 = 3.0;
 /// The longest step in a mirror, pixels: a mirror image has edges that no guide knows.
 pub const MIRROR_STEP_PX: f32 = 4.0;
-/// What a rough surface adds to it, for each unit of roughness.
+/// Increase of that step by a rough surface, for each unit of roughness.
 pub const ROUGH_STEP_PX: f32 = 40.0;
-/// How far, in pixels, an outline is averaged with the surfaces to both sides of it.
+/// Distance, in pixels, over which an outline is averaged with the surfaces to both sides of it.
 pub const OUTLINE_PX: i32 = 2;
 /// Pixels to each side over which variances are averaged.
 pub const VARIANCE_PX: i32 = 2;
@@ -38,7 +39,7 @@ pub const LEAST_AROUND: f32 = 2.0;
 /// Pixels that are less alike do not count.
 pub const LEAST_ALIKE: f32 = 1e-3;
 
-/// Has base and scratches of a picture say what rays found, filtered. Nothing changes without rays.
+/// Replaces base and scratches of a picture by the light that rays found, filtered. Nothing changes without rays.
 pub fn filter_found(image: &mut Image) {
     let Some(found) = image.found.take() else {
         return;
@@ -66,8 +67,8 @@ pub fn filter_found(image: &mut Image) {
 }
 
 impl Found {
-    /// How sure base and scratches are, where no filter has changed them. Diffuse and specular light share their rays: their standard deviations
-    /// add up, which is an upper bound.
+    /// Variances of base and scratches that no filter has changed. Diffuse and specular light share their rays: their standard deviations add up,
+    /// which is an upper bound.
     fn noise(&self, image: &Image) -> Noise {
         let mut noise = Noise::new(image.size_px, 1);
         noise.samples.fill(self.rounds);
@@ -86,7 +87,7 @@ impl Found {
 }
 
 impl Image {
-    /// Has base and scratches say what rays found, without a filter, and tells how sure they are.
+    /// Replaces base and scratches by the light that rays found, without a filter, and sets their variances.
     pub fn show_found(&mut self) {
         let Some(found) = &self.found else { return };
         for (i, pixel) in found.pixels.iter().enumerate() {
@@ -129,7 +130,7 @@ impl Layer {
     }
 }
 
-/// What is filtered of a layer of a pixel: for each channel and, last, the variance of the luminance; below 0 where there is no signal.
+/// Signals of a layer of a pixel that are filtered: one for each channel and, last, the variance of the luminance; below 0 where there is no signal.
 #[derive(Clone, Copy, Default)]
 struct Signals {
     /// The share that is seen.
@@ -166,7 +167,7 @@ impl Signals {
         }
     }
 
-    /// What they make of a closed form.
+    /// Light of a closed form by these signals.
     fn light(&self, of: &FoundLight) -> [f32; 3] {
         let [r, g, b, _] = self.share;
         let left = left(of.open, [r, g, b]);
@@ -174,7 +175,7 @@ impl Signals {
     }
 }
 
-/// What tells whether pixels see the same surface.
+/// Guides that tell whether pixels see the same surface.
 struct Guides {
     size_px: [usize; 2],
     pixels: Vec<Guide>,
@@ -241,7 +242,7 @@ impl Guides {
         Self { size_px, pixels }
     }
 
-    /// How much pixels see the same surface, from 0 to 1; (dx, dy) leads from one to the other.
+    /// Similarity of the surfaces that two pixels see, from 0 to 1; (dx, dy) leads from one to the other.
     fn alike(&self, normal_power: f32, p: &Guide, q: &Guide, [dx, dy]: [i32; 2]) -> f32 {
         // An outline sees what both of its sides see; its own samples are few.
         if p.object == FoundPixel::SEVERAL_OBJECTS {
@@ -262,7 +263,7 @@ impl Guides {
     }
 }
 
-/// Nothing where the layer has no noise.
+/// Filters the signals of a layer; empty where the layer has no noise.
 fn filter_layer(guides: &Guides, found: &Found, layer: Layer) -> Vec<Signals> {
     let rounds = found.rounds;
     let mut signals: Vec<Signals> = found
@@ -403,7 +404,7 @@ fn smooth_variances(
 struct Around {
     weights: f32,
     variances: f32,
-    /// Of the luminance.
+    /// Weighted sum of the luminance.
     values: f32,
     squares: f32,
 }

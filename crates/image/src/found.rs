@@ -1,44 +1,44 @@
-//! What rays found of the light of a picture, beside the closed forms. Rays tell which share of a closed form is seen, and which light comes by way
-//! of other objects. Pictures of further rays add up here, and the filter works on it ([`crate::filter`]).
+//! Light that rays found in a picture, beside the closed forms. Rays tell which share of a closed form is seen, and which light comes by way of
+//! other objects. Pictures of further rays add up here, and the filter works on it ([`crate::filter`]).
 
 use bytemuck::{Pod, Zeroable};
 
 use crate::tone_map::tone_luminance as luminance;
 
-/// Of a picture, pixel by pixel.
+/// Light that rays found in a picture, pixel by pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// Rays of each pixel to each source of its light.
     pub rounds: u32,
-    /// As many as the image has.
+    /// Light of each pixel of the image.
     pub pixels: Vec<FoundPixel>,
 }
 
-/// Of a pixel. A shader writes the same struct.
+/// Light that rays found in a pixel. A shader writes the same struct.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct FoundPixel {
-    /// What no ray changes: the background, and what surfaces emit. Linear Rec.709 radiance.
+    /// Light that no ray changes: the background, and that of surfaces that emit. Linear Rec.709 radiance.
     pub rest: [f32; 3],
     /// Perceptual, from 0 to 1.
     pub roughness: f32,
     /// The object that is seen, and 1; 0 for the background; [`Self::SEVERAL_OBJECTS`] on edges.
     pub object: u32,
-    /// By the body of the base.
+    /// Light of the base's body.
     pub diffuse: FoundLight,
-    /// By the surface of the base.
+    /// Light of the base's surface.
     pub specular: FoundLight,
-    /// By scratches and gratings.
+    /// Light of scratches and gratings.
     pub scratches: FoundLight,
 }
 
-/// Of one layer of a pixel's light. Linear Rec.709 radiance.
+/// Light that rays found in one layer of a pixel. Linear Rec.709 radiance.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct FoundLight {
     /// The closed form: what is sent where nothing hides a source.
     pub open: [f32; 3],
-    /// What would be sent of light of radiance 1 from all around.
+    /// Light that would be sent if radiance 1 came from all around.
     pub around: [f32; 3],
     /// The mean weight of the rays to sources: `open`, but for noise.
     pub weight: [f32; 3],
@@ -46,9 +46,9 @@ pub struct FoundLight {
     pub seen: [f32; 3],
     /// The light of other objects: the mean of what rays brought.
     pub bounced: [f32; 3],
-    /// Over the rounds, the sum of the share of luminance that is seen, and of its square.
+    /// Sums over the rounds of the share of luminance that is seen, and of its square.
     pub share_moments: [f32; 2],
-    /// The same of the luminance of `bounced` over that of `around`.
+    /// Sums over the rounds of the luminance of `bounced` over that of `around`, and of its square.
     pub bounced_moments: [f32; 2],
 }
 
@@ -94,8 +94,8 @@ pub(crate) fn variance([sum, squares]: [f32; 2], count: u32) -> f32 {
     ((squares - sum * sum / n) / (n * (n - 1.0))).max(0.0)
 }
 
-/// What is left of a closed form by the shares of its channels. A channel below 0, where a colour lies outside of the gamut, goes with the
-/// luminance of the others: what is left has no negative luminance. Twin: `found_left`.
+/// Multiplies a closed form by the shares of its channels. A channel below 0, where a colour lies outside of the gamut, goes with the luminance of
+/// the others: what is left has no negative luminance. Twin: `found_left`.
 pub(crate) fn left(open: [f32; 3], share: [f32; 3]) -> [f32; 3] {
     let bright = open.map(|value| value.max(0.0));
     let bright_left = std::array::from_fn(|c| bright[c] * share[c]);

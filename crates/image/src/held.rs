@@ -52,7 +52,7 @@ pub fn bytes(path: &Path) -> Option<Arc<[u8]>> {
     Some(Arc::clone(&files().held.get(path)?.bytes))
 }
 
-/// Which of the files that were ever held this one is; none where it is on a disk.
+/// Number of the file among all that were ever held; none where it is on a disk.
 pub fn edition(path: &Path) -> Option<u64> {
     Some(files().held.get(path)?.edition)
 }
@@ -75,7 +75,7 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) {
     files().written.push(path.to_owned());
 }
 
-/// What was written since the last call, in order.
+/// Paths that were written since the last call, in order.
 pub fn take_written() -> Vec<PathBuf> {
     std::mem::take(&mut files().written)
 }

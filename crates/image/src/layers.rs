@@ -8,7 +8,7 @@ use crate::exr_file::{self, Contents, Notes, Window};
 use crate::metrics::Estimate;
 use crate::{Display, Error, Image, Layer, Picture, png, tone_map};
 
-/// What the numbers of a picture refer to.
+/// Reference of a picture's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Referred {
     /// The scene: linear radiance, without bounds (EXR).
@@ -20,9 +20,9 @@ pub enum Referred {
 /// One layer with what is known of its noise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeldLayer {
-    /// Which one.
+    /// Kind of the layer.
     pub layer: Layer,
-    /// Its values, three a pixel; depth has the same in all three.
+    /// Values of the layer, three a pixel; depth has the same in all three.
     pub values: Vec<[f32; 3]>,
     /// The variance of each value, if the layer is an estimate.
     pub variance: Option<Vec<[f32; 3]>>,
@@ -33,16 +33,16 @@ pub struct HeldLayer {
 pub struct Layers {
     /// Width and height.
     pub size_px: [u32; 2],
-    /// What the beauty's numbers refer to.
+    /// Reference of the beauty's numbers.
     pub referred: Referred,
-    /// In the order of [`Layer::ALL`]. Never empty when read from a file.
+    /// Layers in the order of [`Layer::ALL`]. Never empty when read from a file.
     pub held: Vec<HeldLayer>,
     /// Complete batches that each pixel's variances come from; `None` where nothing says so, and variances are then
     /// taken as exact.
     pub batches: Option<Vec<u32>>,
-    /// What the file remembers about its making.
+    /// Notes in the file on its making.
     pub notes: Notes,
-    /// Where the file holds a part of its picture: which.
+    /// Window of the file, where it holds a part of its picture.
     pub window: Option<Window>,
 }
 
@@ -113,8 +113,8 @@ impl Layers {
         })
     }
 
-    /// What a display shows of the beauty, as linear values in [0, 1]: tone-mapped unless that is done already. Alpha stays; the
-    /// other layers and the noise are left out: they mean nothing after the curve. Empty if there is no beauty.
+    /// Returns the beauty as a display shows it, as linear values in [0, 1]: tone-mapped unless that is done already. Alpha
+    /// stays; the other layers and the noise are left out: they mean nothing after the curve. Empty if there is no beauty.
     pub fn displayed(&self, display: &Display) -> Self {
         let alpha = self.get(Layer::Alpha).map(|held| &held.values);
         let shown = |(i, &rgb): (usize, &[f32; 3])| {

@@ -1,4 +1,4 @@
-//! How far one image is from another, and whether noise explains it.
+//! Differences of one image from another, and tests whether noise explains them.
 //!
 //! Everywhere the second image is the reference. Values that are not finite in either image are left out, and counted
 //! by [`Difference`].

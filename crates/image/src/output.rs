@@ -172,7 +172,7 @@ fn resolve(path: &Path) -> Result<PathBuf, Error> {
     }
 }
 
-/// Where symbolic links lead that end at nothing yet.
+/// Target of symbolic links that end at a name where no file is yet.
 fn end_of_links(path: &Path) -> PathBuf {
     // As many as Linux follows.
     const MOST_LINKS: usize = 40;

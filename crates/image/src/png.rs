@@ -96,7 +96,7 @@ pub fn read_picture(path: &Path) -> Result<Picture, Error> {
     Ok(read_with_alpha(path)?.0)
 }
 
-/// The same, with its alpha if it has one.
+/// Reads the picture, with its alpha if it has one.
 pub(crate) fn read_with_alpha(path: &Path) -> Result<(Picture, Option<Vec<f32>>), Error> {
     let file = File::open(path).map_err(|e| Error::cannot_read(path, &e))?;
     let decoded = image::load(BufReader::new(file), image::ImageFormat::Png).map_err(|e| {

@@ -20,7 +20,7 @@ pub struct Primaries {
 
 type Matrix = [[f64; 3]; 3];
 
-/// From another linear space to Rec.709.
+/// Conversion from another linear space to Rec.709.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToRec709(Matrix);
 
@@ -40,7 +40,7 @@ impl Primaries {
         white: [1.0 / 3.0, 1.0 / 3.0],
     };
 
-    /// Of the eight numbers of a file: red, green, blue, white.
+    /// Primaries of the eight numbers of a file: red, green, blue, white.
     pub fn of_numbers([rx, ry, gx, gy, bx, by, wx, wy]: [f64; 8]) -> Self {
         Self {
             red: [rx, ry],
@@ -50,8 +50,8 @@ impl Primaries {
         }
     }
 
-    /// What takes colours of these primaries to Rec.709. None where they are those of Rec.709, or all numbers are 0: programs write zeros where they know
-    /// no primaries.
+    /// Conversion of colours of these primaries to Rec.709. None where they are those of Rec.709, or all numbers are 0: programs write zeros where they
+    /// know no primaries.
     ///
     /// # Errors
     /// Primaries that span no colours, in words.
@@ -84,7 +84,7 @@ impl Primaries {
             && near(self.white, other.white)
     }
 
-    /// Of RGB whose white has luminance 1.
+    /// Matrix from RGB whose white has luminance 1 to XYZ.
     fn to_xyz(self) -> Option<Matrix> {
         let column = |[x, y]: [f64; 2]| [x, y, 1.0 - x - y];
         let columns = [self.red, self.green, self.blue].map(column);
@@ -95,7 +95,7 @@ impl Primaries {
 }
 
 impl ToRec709 {
-    /// The same colour; below zero in channels where Rec.709 has no such colour.
+    /// Converts a colour; the result is below zero in channels where Rec.709 has no such colour.
     pub fn color(&self, rgb: [f32; 3]) -> [f32; 3] {
         times(&self.0, rgb.map(f64::from)).map(|c| c as f32)
     }
@@ -119,7 +119,7 @@ fn white([x, y]: [f64; 2]) -> Option<[f64; 3]> {
     white.iter().all(|c| c.is_finite()).then_some(white)
 }
 
-/// From XYZ under one white to XYZ under another one.
+/// Matrix from XYZ under one white to XYZ under another one.
 fn adaptation(from: [f64; 2], to: [f64; 2]) -> Matrix {
     const BRADFORD: Matrix = [
         [0.8951, 0.2664, -0.1614],

@@ -68,7 +68,7 @@ fn process_of(name: &str) -> Option<u32> {
     process.parse().ok()
 }
 
-/// Where the system does not tell, only this process is known to run: the lock decides.
+/// Whether a process runs. If the system does not tell, only this process is known to run: the lock decides.
 fn is_running(process: u32) -> bool {
     process == std::process::id() || Path::new(&format!("/proc/{process}")).exists()
 }

@@ -1,4 +1,4 @@
-//! From linear radiance to the display. Twin: `crates/gpu/shaders/physics/tone_map.wgsl`.
+//! Tone curves, from linear radiance to the display. Twin: `crates/gpu/shaders/physics/tone_map.wgsl`.
 //!
 //! * Khronos Group, "Khronos PBR Neutral Tone Mapper", specification, 2024.
 //! * Troy Sobotka, "AgX", 2022 (its parametric curve), with the Rec.709 matrices published by Benjamin Wrensch,
@@ -40,7 +40,7 @@ impl ToneMap {
     }
 }
 
-/// How linear radiance becomes a picture on a display.
+/// Settings that make a picture on a display of linear radiance.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Display {
     /// Radiances are multiplied by 2^exposure_ev first.

@@ -1,4 +1,4 @@
-//! How a display averages the samples of a pixel.
+//! Means of a pixel's samples for a display.
 //!
 //! The linear mean of an edge between a lamp's mirror image and black metal is white as soon as one sample of it is: such edges look ragged however
 //! many samples there are. A display must average what it shows of each sample. L / (1 + L) stands for its curve (E. Reinhard et al., *Photographic
@@ -6,16 +6,16 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Of a picture. No file holds it: files of radiance have linear means.
+/// Tones of a picture. No file holds them: files of radiance have linear means.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tones {
-    /// What luminances are multiplied by before they are compressed: 2^exposure of the scene.
+    /// Factor on luminances before they are compressed: 2^exposure of the scene.
     pub gain: f32,
-    /// As many as the image has.
+    /// Tone of each pixel of the image.
     pub pixels: Vec<Tone>,
 }
 
-/// Of a pixel: two means over its samples. A shader writes the same.
+/// Tone of a pixel: two means over its samples. A shader writes the same struct.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct Tone {
@@ -25,7 +25,7 @@ pub struct Tone {
     pub compressed: f32,
 }
 
-/// What stands for a display's curve: from 0 to 1. Twin: `tone_compressed`.
+/// Curve from 0 to 1 that stands for a display's. Twin: `tone_compressed`.
 fn compressed(luminance: f32, gain: f32) -> f32 {
     let exposed = gain * luminance.max(0.0);
     exposed / (1.0 + exposed)
@@ -35,7 +35,7 @@ fn compressed(luminance: f32, gain: f32) -> f32 {
 const WHITE: f32 = 0.9999;
 
 impl Tone {
-    /// Of one sample.
+    /// Tone of one sample.
     pub fn of_sample(luminance: f32, gain: f32) -> Self {
         Self {
             luminance,

@@ -106,9 +106,9 @@ struct Sums {
     count: f64,
     difference: f64,
     variance: f64,
-    /// Of variance^2 over degrees of freedom.
+    /// Sum of variance^2 over degrees of freedom.
     spread: f64,
-    /// Of variance^2.
+    /// Sum of variance^2.
     variance_squares: f64,
 }
 

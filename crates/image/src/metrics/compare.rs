@@ -27,11 +27,11 @@ impl fmt::Display for Side {
     }
 }
 
-/// What keeps a comparison from being complete.
+/// Obstacle to a complete comparison.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Problem {
-    /// Nothing was compared.
+    /// The sizes differ, and nothing was compared.
     SizesDiffer {
         /// Width and height of A.
         a: [u32; 2],
@@ -42,7 +42,7 @@ pub enum Problem {
     MissingLayers {
         /// The image that lacks them.
         side: Side,
-        /// Which ones.
+        /// Layers that are missing.
         layers: Vec<Layer>,
     },
     /// There is no layer that both have.
@@ -51,9 +51,9 @@ pub enum Problem {
     NotFinite {
         /// The image that has them.
         side: Side,
-        /// In this layer.
+        /// Layer with the values.
         layer: Layer,
-        /// How many, each component by itself.
+        /// Number of values, each component by itself.
         values: usize,
     },
     /// One image is a PNG, so that the other was tone-mapped too and only what a display shows was compared.
@@ -100,21 +100,21 @@ impl fmt::Display for Problem {
 /// All figures of one layer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LayerComparison {
-    /// Which layer.
+    /// Kind of the layer.
     pub layer: Layer,
     /// Root mean square, largest difference, means.
     pub difference: Difference,
     /// [`relative_mse`].
     pub relative_mse: f64,
-    /// Of what a display shows for beauty, base and scratches; of the values for the others.
+    /// PSNR of the displayed colours for beauty, base and scratches; of the values for the others.
     pub psnr: Option<Psnr>,
-    /// For beauty, base and scratches; `None` in a build without the feature `flip`.
+    /// FLIP for beauty, base and scratches; `None` in a build without the feature `flip`.
     pub flip: Option<Flip>,
-    /// What is left when the noise is taken off, if one of the images says how noisy it is.
+    /// Difference that is left when the noise is taken off, if one of the images states its noise.
     pub beyond_noise: Option<BeyondNoise>,
     /// Whether noise explains the difference, if one of the images says how noisy it is.
     pub z_test: Option<ZTest>,
-    /// Where the differences are.
+    /// Map of the differences.
     pub error_map: ErrorMap,
 }
 
@@ -123,7 +123,7 @@ pub struct LayerComparison {
 pub struct Comparison {
     /// The layers that both have, in the order of [`Layer::ALL`].
     pub layers: Vec<LayerComparison>,
-    /// What could not be compared, or was left out.
+    /// Layers and pixels that could not be compared, or were left out.
     pub problems: Vec<Problem>,
 }
 

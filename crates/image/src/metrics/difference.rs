@@ -1,4 +1,4 @@
-//! How far one image is from another.
+//! Difference of one image from another.
 
 use crate::{Image, Layer};
 
@@ -24,10 +24,11 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Of `image` from `reference`, arrays of pixels of equal length; `mask` is true where a pixel counts.
+    /// Difference of `image` from `reference`, arrays of pixels of equal length; `mask` is true where a pixel
+    /// counts.
     ///
     /// # Panics
-    /// If the lengths differ.
+    /// Panics if the lengths differ.
     pub fn between<const N: usize>(
         image: &[[f32; N]],
         reference: &[[f32; N]],

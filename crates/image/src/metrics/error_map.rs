@@ -16,7 +16,7 @@ pub struct ErrorMap {
     pub highest: f64,
 }
 
-/// What is not finite in either image: a colour that magma does not have.
+/// Colour of pixels that are not finite in either image; magma does not have it.
 const NOT_FINITE: [f32; 3] = [0.0, 1.0, 0.0];
 
 /// The root of the mean over a pixel's values of the relative squared error, as [`super::relative_mse`] has it, from

@@ -48,9 +48,9 @@ const NOISE_MIN: f64 = 1e-5;
 pub(super) struct Residual {
     /// Image minus reference.
     pub difference: f64,
-    /// Of the difference.
+    /// Variance of the difference.
     pub variance: f64,
-    /// Of the variance.
+    /// Degrees of freedom of the variance.
     pub degrees_of_freedom: f64,
 }
 

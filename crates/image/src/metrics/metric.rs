@@ -7,7 +7,7 @@ use super::{LayerComparison, Verdict};
 pub enum Metric {
     /// Root mean square difference.
     Rms,
-    /// The same over the reference's root mean square.
+    /// Root mean square of the difference over that of the reference.
     RelativeRms,
     /// Relative mean squared error.
     RelativeMse,
@@ -21,7 +21,7 @@ pub enum Metric {
     Psnr,
     /// The rms difference that noise does not explain.
     RmsBeyondNoise,
-    /// The same over the reference's root mean square.
+    /// Root mean square beyond noise, over that of the reference.
     RelativeRmsBeyondNoise,
     /// Mean squared z-score.
     Z2,

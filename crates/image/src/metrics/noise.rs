@@ -1,4 +1,4 @@
-//! What is left of a difference when the known noise is taken off.
+//! Difference that is left when the known noise is taken off.
 
 use super::estimate::{Estimate, assert_same_length, residual};
 
@@ -22,11 +22,11 @@ pub struct BeyondNoise {
 }
 
 impl BeyondNoise {
-    /// Of `image` from `reference`, over the pixels where `mask` is true. `None` if neither has a variance, or if it is
-    /// known nowhere.
+    /// Difference of `image` from `reference` beyond noise, over the pixels where `mask` is true. `None` if neither has
+    /// a variance, or if it is known nowhere.
     ///
     /// # Panics
-    /// If the lengths differ.
+    /// Panics if the lengths differ.
     pub fn between(image: &Estimate, reference: &Estimate, mask: Option<&[bool]>) -> Option<Self> {
         assert_same_length(image, reference, mask);
         if image.variance.is_none() && reference.variance.is_none() {
@@ -94,7 +94,7 @@ impl BeyondNoise {
         over(self.rms(), self.reference_rms)
     }
 
-    /// The same interval around [`Self::relative_rms`].
+    /// Interval of [`Self::rms_within`] for [`Self::relative_rms`].
     pub fn relative_rms_within(&self, sigmas: f64) -> [f64; 2] {
         self.rms_within(sigmas)
             .map(|rms| over(rms, self.reference_rms))

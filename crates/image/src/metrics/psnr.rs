@@ -8,16 +8,16 @@ use crate::{Display, Layer};
 /// 10 lg(peak^2 / mean squared error).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Psnr {
-    /// In decibels; infinite for equal images.
+    /// Ratio in decibels; infinite for equal images.
     pub db: f64,
-    /// What counts as the peak: 1 for what a display shows.
+    /// Value of the peak: 1 for displayed colours.
     pub peak: f64,
 }
 
-/// Of two linear pictures as a display shows them: tone-mapped and sRGB-encoded. `None` if no pixel counts.
+/// Ratio of two linear pictures as a display shows them: tone-mapped and sRGB-encoded. `None` if no pixel counts.
 ///
 /// # Panics
-/// If the lengths differ.
+/// Panics if the lengths differ.
 pub fn psnr_displayed(
     image: &[[f32; 3]],
     reference: &[[f32; 3]],
@@ -28,10 +28,11 @@ pub fn psnr_displayed(
     ratio(squares, values, 1.0)
 }
 
-/// Of two layers as they are, by the largest magnitude in the reference. `None` if that is 0, or if no pixel counts.
+/// Ratio of two layers as they are, by the largest magnitude in the reference. `None` if that is 0, or if no pixel
+/// counts.
 ///
 /// # Panics
-/// If the lengths differ.
+/// Panics if the lengths differ.
 pub fn psnr_of_values(
     image: &[[f32; 3]],
     reference: &[[f32; 3]],
@@ -53,7 +54,7 @@ pub(super) fn is_displayed(layer: Layer) -> bool {
     matches!(layer, Layer::Beauty | Layer::Base | Layer::Scratches)
 }
 
-/// Over the pixels that are finite in both images.
+/// Sum of squared differences over the pixels that are finite in both images, and the number of values.
 fn sum_of_squares(
     image: &[[f32; 3]],
     reference: &[[f32; 3]],

@@ -3,7 +3,7 @@
 //! * Fabrice Rousselle, Claude Knaus, Matthias Zwicker, "Adaptive Sampling and Reconstruction using Greedy Error
 //!   Minimization", 2011, which divides the squared error by the squared reference plus a small number.
 
-/// How the small number in the denominator is to the squared mean of the reference: a tenth of the mean counts as dark.
+/// Share of the reference's mean that counts as dark; the small number in the denominator is its square.
 const DARK_SHARE: f64 = 0.1;
 
 /// Mean over all values of (a - b)^2 / (b^2 + e), with e = (0.1 mean |b|)^2.
@@ -44,7 +44,7 @@ pub fn relative_mse<const N: usize>(
     sum / count.max(1) as f64
 }
 
-/// What is added to the square of a reference value so that dark ones do not count without bound.
+/// Term that is added to the square of a reference value so that dark ones do not count without bound.
 pub(super) fn dark_square(reference: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = reference.fold((0.0, 0_usize), |(sum, count), b| (sum + b.abs(), count + 1));
     let mean = sum / count.max(1) as f64;

@@ -1,4 +1,4 @@
-//! How steady a sequence of pictures is: whether a point of a surface looks from one frame to the next as it did.
+//! Steadiness of a sequence of pictures: whether a point of a surface looks from one frame to the next as it did.
 //!
 //! Each frame is compared with the one before it, moved to where its surfaces are now (by depth and camera; bilinear). The figure
 //! is the mean FLIP ([`super::flip`]) over all pixels of all frames but the first whose surface the frame before shows too; without
@@ -16,8 +16,8 @@ const SAME_DEPTH: f64 = 0.01;
 /// Neighbours whose depths differ by more than this share are of two surfaces: a slope has less, in all but tiny pictures.
 const EDGE: f64 = 0.05;
 
-/// Where a point of a surface, seen at a pixel (from the upper left corner, pixel centres at half-integers) and a depth in
-/// metres in one frame, lies in another, and how deep; none behind the camera.
+/// Mapping of a point of a surface, seen at a pixel (from the upper left corner, pixel centres at half-integers) and a depth in
+/// metres in one frame, to its pixel and depth in another; none behind the camera.
 pub(crate) type Move<'a> = &'a (dyn Fn([f64; 2], f64) -> Option<([f64; 2], f64)> + Sync);
 
 /// The figure of a sequence, frame by frame.

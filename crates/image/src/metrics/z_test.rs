@@ -26,10 +26,10 @@ const MAX_BLOCK_CHANCE: f64 = 1e-4;
 /// The share of values without noise near them that may differ: a stray pixel of an outline.
 const WITHOUT_NOISE_MAX: f64 = 1e-3;
 
-/// What a z-test says of a difference.
+/// Verdict of a z-test on a difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// As large as the noise makes it.
+    /// The difference is as large as the noise makes it.
     ExplainedByNoise,
     /// There is more than noise in it.
     MoreThanNoise,
@@ -81,12 +81,12 @@ pub struct ZTest {
     pub picture_z: f64,
     /// The share of values that differ by more than rounding although no pixel of their block has noise: 0.
     pub share_without_noise: f64,
-    /// What follows from it all; see [`ZTest::between`].
+    /// Verdict from all of these; see [`ZTest::between`].
     pub verdict: Verdict,
 }
 
 impl ZTest {
-    /// Of `image` against `reference`, over the pixels where `mask` is true. `None` if neither has a variance.
+    /// Tests `image` against `reference`, over the pixels where `mask` is true. `None` if neither has a variance.
     ///
     /// There is **more than noise** if, by four standard errors, the variance ratio or the blocks' mean z^2 is above
     /// 1.3; if the picture's z is beyond 4; if a block's |z| is above [`ZTest::block_max_z_allowed`]; or if more than

@@ -45,7 +45,7 @@ impl File<'_> {
 
 const RGB: [(&str, f32); 3] = [("R", 1.0), ("G", 2.0), ("B", 4.0)];
 
-/// Where there are no pixels it is black; what lies outside of the picture is not seen.
+/// The picture is black where the file has no pixels; pixels outside the picture are not seen.
 #[test]
 fn pixels_lie_in_the_picture_where_the_file_says() {
     let folder = tempfile::tempdir().unwrap();
@@ -147,7 +147,7 @@ fn more_pixels_than_a_picture_can_have_are_refused_before_they_are_read() {
     assert!(error.contains("1000000016 x 16 pixels"), "{error}");
 }
 
-/// By the matrices of ITU-R BT.2087 and IEC 61966-2-1.
+/// The expected colours are those of the matrices of ITU-R BT.2087 and IEC 61966-2-1.
 #[test]
 fn colours_of_other_primaries_are_told_in_rec_709() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! What a Monte Carlo render writes is what it reads back, to the bit: a resumed run goes on from there.
+//! A Monte Carlo render reads back to the bit as it was written: a resumed run goes on from there.
 
 use std::fs;
 use std::path::Path;

@@ -1,10 +1,10 @@
-//! What noise explains, on noise whose variance is known, or estimated from batches as an integrator does.
+//! Verdicts on differences by noise whose variance is known, or estimated from batches as an integrator does.
 
 use hairline_image::metrics::{BeyondNoise, Estimate, Verdict, ZTest};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Not whole blocks, on purpose.
+/// Size that is no multiple of a block's, on purpose.
 const SIZE_PX: [u32; 2] = [134, 101];
 const PIXELS: usize = 134 * 101;
 
