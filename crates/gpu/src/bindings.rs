@@ -1,4 +1,4 @@
-//! What the passes bind, group by group. Twin: `shaders/scene/bindings.wgsl`.
+//! Bindings of the passes, group by group. Twin: `shaders/scene/bindings.wgsl`.
 //!
 //! Group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures; group 3 is each pass's own. Of the 16 sampled
 //! textures of a WebGPU stage 15 are taken, one more by passes that read visibility; of the 8 storage buffers 2.
@@ -17,10 +17,10 @@ pub(crate) const SCENE_BUFFERS: [&str; 6] = [
     "scratch tree",
 ];
 
-/// From this one on they lie in textures.
+/// Index of the first array of the scene that lies in a texture; those before it are buffers.
 const FIRST_ROWS: u32 = 2;
 const MATERIALS: u32 = 2;
-/// Among the scene's tables and textures, those of materials.
+/// Index of the materials' textures among the scene's tables and textures.
 const TEXTURES: u32 = 6;
 
 /// The layouts that the passes share.

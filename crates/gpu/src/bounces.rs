@@ -25,26 +25,26 @@ use crate::strip::{StripRoom, whole};
 use crate::transfer::Transfer;
 use crate::variant::{Constant, Seen, ShadeVariant, Way};
 
-/// What rays to other objects need, beside shadows.
+/// Passes for rays to other objects, besides those of shadows.
 pub(crate) struct Bounces {
-    /// How many objects light may go by on its way, beside the one that the camera sees.
+    /// Largest number of objects on a path of light, besides the one that the camera sees.
     pub count: u32,
     base_rays: ComputePass,
-    /// From what the camera sees, and from what rays have met.
+    /// Passes for rays from the camera's samples, and from what rays have met.
     trace: [ComputePass; 2],
     surface: ComputePass,
     light: ComputePass,
-    /// Of what rays have met.
+    /// Shadows of what rays have met.
     pub shadows: Shadows,
     /// None where the scene has no scratches.
     pub scratches: Option<BounceScratches>,
-    /// By way of gratings. None where the scene has none.
+    /// Pass for rays by way of gratings. None where the scene has none.
     gratings: Option<ComputePass>,
 }
 
 pub(crate) struct BounceScratches {
     begin: ComputePass,
-    /// From what the camera sees, and from what rays have met.
+    /// Picks for the camera's samples, and for what rays have met.
     pick: [PickByEnergyPass; 2],
     rays: ComputePass,
     count: ComputePass,
@@ -200,7 +200,7 @@ impl Bounces {
         self.surface.run(gpu, recording, &resources, groups);
     }
 
-    /// What the hits send, added to what the camera sees.
+    /// Adds the light of the hits to that of the camera's samples.
     pub(crate) fn record_light(&self, gpu: &Gpu, recording: &mut Recording, by: &Bounce) {
         let Some(hits) = &by.to.shadows else { return };
         let resources = [
@@ -218,7 +218,7 @@ impl Bounces {
 /// The rays of one round, from samples to what they meet.
 #[derive(Clone, Copy)]
 pub(crate) struct Bounce<'a> {
-    /// What rays found of what the camera sees.
+    /// Light that rays found for the camera's samples.
     pub seen: &'a ShadowRoom,
     pub from: &'a StripRoom,
     pub to: &'a StripRoom,
@@ -226,9 +226,9 @@ pub(crate) struct Bounce<'a> {
     pub round: &'a wgpu::Buffer,
     pub film: &'a wgpu::Buffer,
     pub groups: u32,
-    /// How many objects light goes by from `from` to the camera.
+    /// Number of objects on the path from `from` to the camera.
     pub depth: u32,
-    /// How it leaves what the camera sees.
+    /// Lobe by which the light leaves the camera's samples.
     pub way: Way,
 }
 
@@ -289,7 +289,7 @@ impl BounceScratches {
         pick.record(gpu, recording, by.from, picks, on.sorted, on.chunks);
     }
 
-    /// How many segments each hit may see, and where its list begins.
+    /// Counts the segments that each hit may see, and finds the start of its list.
     pub(crate) fn record_count(
         &self,
         gpu: &Gpu,
@@ -335,7 +335,7 @@ impl BounceScratches {
     }
 }
 
-/// Which of the two buffers of entries holds the lists of hits: they are made in their order.
+/// Index of the buffer of entries that holds the lists of hits: they are made in their order.
 pub(crate) const HITS_SORTED: usize = 0;
 
 async fn upload_tree(gpu: &Gpu, data: &SceneData) -> Result<wgpu::TextureView, Error> {

@@ -14,8 +14,9 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::shaders::{self, Module};
 
-/// What to run for each row: the inputs are `x[0]`, `x[1]`, ..., the outputs `y[0]`, `y[1]`, ... (zero unless set), both
-/// f32, and the tables are `table_0`, `table_1`, ...
+/// Code that runs for each row: the inputs are `x[0]`, `x[1]`, ..., the outputs `y[0]`, `y[1]`, ... (zero unless set),
+/// both f32, and the tables are `table_0`, `table_1`, ... (zero unless set), both f32, and the tables are `table_0`,
+/// `table_1`, ...
 #[derive(Clone, Copy, Debug)]
 pub struct Call<'a> {
     /// Modules that hold the function.
@@ -37,12 +38,12 @@ pub struct Table<'a> {
     pub texels: Texels<'a>,
 }
 
-/// What the texels of a [`Table`] are.
+/// Texels of a [`Table`].
 #[derive(Clone, Copy, Debug)]
 pub enum Texels<'a> {
-    /// For a texture of f32.
+    /// Texels of a texture of f32.
     Floats(&'a [[f32; 4]]),
-    /// For a texture of u32.
+    /// Texels of a texture of u32.
     Integers(&'a [[u32; 4]]),
 }
 

@@ -62,7 +62,7 @@ impl Canvas {
         self.size_px
     }
 
-    /// How many bands there are, counted from the top.
+    /// Number of bands, counted from the top.
     pub fn bands(&self) -> usize {
         self.bands.len()
     }
@@ -79,7 +79,7 @@ impl Canvas {
         self.bands[band].steps
     }
 
-    /// What the picture takes of the device's memory, bytes, without what the passes need for a band.
+    /// Device memory of the picture, bytes, without that of the passes for a band.
     pub fn bytes(&self) -> u64 {
         self.bands.iter().map(|band| band.film.bytes()).sum()
     }

@@ -10,7 +10,7 @@ use crate::shaders::Module;
 use crate::timing::Timing;
 use crate::variant::Constant;
 
-/// What a binding of group 3 is to the shader.
+/// Kind of a binding of group 3 in the shader.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Use {
     Reads,
@@ -23,13 +23,13 @@ pub(crate) enum Use {
 }
 
 pub(crate) struct ComputePass {
-    /// For timing.
+    /// Name for timing.
     name: &'static str,
     pipeline: Pipeline,
     group_3: wgpu::BindGroupLayout,
 }
 
-/// What all passes of a strip bind, and who notes their time.
+/// Bindings that all passes of a strip share, and the clock that notes their time.
 pub(crate) struct Recording<'a> {
     pub encoder: &'a mut wgpu::CommandEncoder,
     pub frame: &'a wgpu::BindGroup,
@@ -70,7 +70,7 @@ impl ComputePass {
         }
     }
 
-    /// What it was compiled to.
+    /// Compiled pipeline of the pass.
     #[cfg(all(test, not(target_arch = "wasm32")))]
     pub(crate) fn pipeline(&self) -> &wgpu::ComputePipeline {
         self.pipeline.get()

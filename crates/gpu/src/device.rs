@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 use crate::error::Error;
 use crate::pipeline_cache::PipelineCache;
 
-/// What kind of machine an adapter stands for.
+/// Kind of machine behind an adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AdapterKind {
     /// A GPU with its own memory.
@@ -29,7 +29,7 @@ pub enum AdapterKind {
 pub struct Adapter {
     /// The driver's name for it.
     pub name: String,
-    /// What it is.
+    /// Kind of the adapter.
     pub kind: AdapterKind,
     /// The interface it is reached by: "vulkan", "metal", "dx12", "gl".
     pub backend: String,
@@ -44,7 +44,7 @@ pub struct Adapter {
     handle: wgpu::Adapter,
 }
 
-/// Which adapters to consider.
+/// Choice among the adapters.
 #[derive(Clone, Debug, Default)]
 pub struct AdapterRequest {
     /// Hardware or software.
@@ -55,7 +55,7 @@ pub struct AdapterRequest {
     pub default_limits: bool,
 }
 
-/// Which kinds of adapters to consider.
+/// Kinds of adapters to consider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum KindRequest {
     /// A GPU if there is one, else a software driver.
@@ -72,11 +72,11 @@ pub enum KindRequest {
 pub struct Gpu {
     /// The device.
     pub device: wgpu::Device,
-    /// Its queue.
+    /// Queue of the device.
     pub queue: wgpu::Queue,
     /// The adapter that it was opened on.
     pub adapter: Adapter,
-    /// What was compiled on it, which its renderers share.
+    /// Pipelines that were compiled on it, which its renderers share.
     pub(crate) pipelines: PipelineCache,
     faults: Faults,
 }
@@ -190,8 +190,8 @@ impl Adapter {
         Ok(Gpu::from_parts(self, device, queue))
     }
 
-    /// What a device must be opened with to render: no more than WebGPU's default limits if `default_limits`, else with
-    /// the largest buffers that the adapter has; and the device's clock, if it has one.
+    /// Descriptor with which a device must be opened to render: no more than WebGPU's default limits if `default_limits`, else with the
+    /// largest buffers that the adapter has; and the device's clock, if it has one.
     pub fn device_descriptor(&self, default_limits: bool) -> wgpu::DeviceDescriptor<'static> {
         wgpu::DeviceDescriptor {
             label: Some("hairline"),
@@ -223,7 +223,7 @@ impl Adapter {
     }
 }
 
-/// What keeps an adapter from rendering: a limit below WebGPU's defaults, or no compute shaders.
+/// Reason why an adapter cannot render: a limit below WebGPU's defaults, or no compute shaders.
 fn shortcoming(limits: &wgpu::Limits, downlevel: &wgpu::DownlevelCapabilities) -> Option<String> {
     let mut missing = Vec::new();
     wgpu::Limits::defaults().check_limits_with_fail_fn(limits, false, |name, needed, allowed| {
@@ -313,7 +313,8 @@ impl Gpu {
         }
     }
 
-    /// Has `tell` called with the driver's reason as soon as the device is lost, from any thread. The first one is heard.
+    /// Sets the listener that is called with the driver's reason as soon as the device is lost, from any thread. The first one is
+    /// heard.
     pub fn on_lost(&self, tell: impl Fn(&str) + Send + Sync + 'static) {
         let _ = self.faults.on_lost.set(Box::new(tell));
     }
@@ -488,7 +489,7 @@ fn describe(adapters: &[Adapter]) -> String {
     lines.collect::<Vec<_>>().join(", ")
 }
 
-/// Where errors that no scope caught wait until somebody asks. Unheard, the graphics library would panic.
+/// Errors that no scope caught, kept until somebody asks. Unheard, the graphics library would panic.
 #[derive(Clone, Default)]
 struct Faults {
     first: Arc<Mutex<Option<Error>>>,

@@ -1,10 +1,10 @@
-//! What rough metal reflects, as textures for other engines: the arguments `shapes`, `albedo` and `curves` of `shaders/engine/lit_base.wgsl`.
+//! Reflection of rough metal, as textures for other engines: the arguments `shapes`, `albedo` and `curves` of `shaders/engine/lit_base.wgsl`.
 
 use hairline_optics::fresnel::{FRESNEL_NODES, FresnelCurve};
 use hairline_optics::lobe_table::{LOBE_TABLE_SIZE, albedo_table, shape_texels};
 use hairline_optics::metal::Metal;
 
-/// Of the last curve, which is a dielectric's.
+/// Refractive index of the last curve, which is a dielectric's.
 pub const IOR: f64 = 1.5;
 
 /// A texture of `rgba32float`.
@@ -33,7 +33,7 @@ pub fn albedo() -> Texels {
     Texels::new(LOBE_TABLE_SIZE, albedo_table().texels().to_vec())
 }
 
-/// How reflectance goes with the angle: Schlick's curve, those of [`Metal::ALL`], a dielectric's.
+/// Curves of reflectance over the angle: Schlick's, those of [`Metal::ALL`], a dielectric's.
 pub fn curves() -> Texels {
     let metals = Metal::ALL.iter().map(|metal| metal.fresnel_curve());
     let texels = std::iter::once(FresnelCurve::schlick().clone())

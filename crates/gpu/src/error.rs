@@ -1,4 +1,4 @@
-//! What can go wrong on the way to a picture from the GPU, in words for the person who waits for it.
+//! Errors on the way to a picture from the GPU, in words for the person who waits for it.
 
 /// A failure of the GPU renderer.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -6,7 +6,7 @@ pub enum Error {
     /// No adapter of this machine can render.
     #[error("no graphics driver can render here: {found}")]
     NoAdapter {
-        /// What was found instead.
+        /// Description of the adapters that were found.
         found: String,
     },
     /// The adapter refused to open a device, or its driver to compile a shader.
@@ -28,21 +28,21 @@ pub enum Error {
     OutOfMemory {
         /// Name of the adapter.
         adapter: String,
-        /// What was to be stored.
+        /// Name of the data to be stored.
         what: String,
-        /// Its size, bytes; 0 where the driver did not say which allocation failed.
+        /// Size of the data, bytes; 0 where the driver did not say which allocation failed.
         needed_bytes: u64,
     },
     /// Something is larger than the adapter can ever hold in one piece.
     #[error("{what}: {needed} {unit}, but {adapter} allows {allowed}")]
     TooLarge {
-        /// What is too large.
+        /// Name of what is too large.
         what: String,
-        /// How large it is.
+        /// Size that is needed.
         needed: u64,
-        /// How large it may be.
+        /// Largest size that is allowed.
         allowed: u64,
-        /// What both are counted in.
+        /// Unit of both sizes.
         unit: &'static str,
         /// Name of the adapter.
         adapter: String,

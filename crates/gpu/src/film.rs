@@ -1,4 +1,4 @@
-//! Where a picture comes together: sums over the samples of each pixel, in bands of rows.
+//! Film of a picture: sums over the samples of each pixel, in bands of rows.
 
 use std::ops::Range;
 
@@ -13,12 +13,12 @@ use crate::strip::{TILE_PX, strip_rows_max};
 /// Sums over the samples of each pixel of a band.
 pub(crate) struct Film {
     pub buffer: wgpu::Buffer,
-    /// Where the scene has shadows.
+    /// Light that rays found, where the scene has shadows.
     pub found: Option<FilmFound>,
     pixels: u64,
 }
 
-/// What rays found: sums over the samples of each pixel, too.
+/// Sums over the samples of each pixel of the light that rays found.
 pub(crate) struct FilmFound {
     pub buffer: wgpu::Buffer,
     /// Rays of each pixel to each source.
@@ -76,7 +76,7 @@ impl Film {
         Ok(())
     }
 
-    /// What its pixels take of the device's memory.
+    /// Device memory of its pixels.
     pub(crate) fn bytes(&self) -> u64 {
         let found = self.found.as_ref().map_or(0, |_| size_of::<FoundPixel>());
         self.pixels * (size_of::<FilmPixel>() + found) as u64

@@ -21,7 +21,7 @@ use crate::shaders;
 
 /// Diffuse, specular, scratches. Twin: filter.wgsl.
 const LAYERS: u32 = 3;
-/// Between the settings of two dispatches.
+/// Bytes between the settings of two dispatches.
 const SETTINGS_STRIDE: u64 = 256;
 /// Pixels to a side of a workgroup.
 const WORKGROUP_PX: u32 = 8;
@@ -40,11 +40,11 @@ struct Pass {
     bindings: &'static [u32],
 }
 
-/// What the passes leave for one another.
+/// Textures and buffers that the passes leave for one another.
 struct Room {
     size_px: [u32; 2],
     guides: wgpu::TextureView,
-    /// By turns: shares and bounced light.
+    /// Two pairs of textures that take turns, each of shares and of bounced light.
     signals: [[wgpu::TextureView; 2]; 2],
     settings: wgpu::Buffer,
     settings_max: u64,
@@ -232,7 +232,7 @@ impl Pass {
 struct Inputs<'a>([BindingResource<'a>; 9]);
 
 impl<'a> Inputs<'a> {
-    /// With the signals of one turn to read, and those of the other to write.
+    /// Bindings with the signals of one turn to read, and those of the other to write.
     fn of(room: &'a Room, film: &'a crate::film::Film, turn: usize) -> Self {
         let view = BindingResource::TextureView;
         let settings = BindingResource::Buffer(wgpu::BufferBinding {
@@ -256,7 +256,7 @@ impl<'a> Inputs<'a> {
     }
 }
 
-/// What a binding is to the shader.
+/// Layout of a binding in the shader.
 fn used(binding: u32) -> BindGroupLayoutEntry {
     let numbers = wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Float { filterable: false },

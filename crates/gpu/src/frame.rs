@@ -17,7 +17,7 @@ use crate::upload::GpuScene;
 /// camera comes nearer to anything that it can show.
 const NEAR_M: f32 = 1e-5;
 
-/// What of a picture is shaded at a time.
+/// Part of a picture that is shaded at a time.
 #[derive(Clone, Copy)]
 pub(crate) struct View<'a> {
     pub scene: &'a Scene,
@@ -25,7 +25,7 @@ pub(crate) struct View<'a> {
     pub size_px: [u32; 2],
     /// 0: every pixel through its centre; later ones: samples of pixels on edges and creases.
     pub step: u32,
-    /// Of pixels on edges.
+    /// Samples of pixels on edges.
     pub samples: u32,
     /// Those of them that are taken.
     pub batch: Batch,
@@ -93,12 +93,12 @@ pub(crate) struct Rounds {
     pub seed: u32,
 }
 
-/// What of a step is counted on the device.
+/// Numbers of a step that are counted on the device.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counted {
-    /// Of all tile lists.
+    /// Entries of all tile lists.
     pub entries: u32,
-    /// Of samples that are shaded together.
+    /// Groups of samples that are shaded together.
     pub groups: u32,
 }
 

@@ -1,5 +1,5 @@
-//! For programs with a thread to spare: drive a future to its end and let the device work meanwhile. A window or a
-//! browser has an event loop for this, and never calls it.
+//! Blocking for programs with a thread to spare: drive a future to its end and let the device work meanwhile. A
+//! window or a browser has an event loop for this, and never calls it.
 
 use std::future::Future;
 use std::io::Write;

@@ -1,4 +1,4 @@
-//! From a scene's own units to the structs that host and shader share.
+//! Conversion of a scene's own units to the structs that host and shader share.
 
 use glam::{DMat4, DVec3, Mat4, Vec3, Vec4};
 use hairline_index::{IndexedSegment, ScratchIndex};

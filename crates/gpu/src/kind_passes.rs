@@ -18,7 +18,8 @@ pub(crate) struct KindPasses(Vec<(Kind, ComputePass)>);
 pub(crate) const LIGHTS_NONE: u32 = Kind::ALL.len() as u32;
 
 impl KindPasses {
-    /// With `more` constants beside that of the kind. `uses` are the bindings before the range of lights.
+    /// Makes the passes with `more` constants besides that of the kind. `uses` are the bindings before
+    /// the range of lights.
     pub(crate) fn new(
         orders: &mut Orders,
         name: &'static str,

@@ -12,7 +12,7 @@ pub(crate) const ENVIRONMENT_VISIBLE: u32 = 2;
 /// The highest bit of [`Vertex::material`]: the bitangent is minus the cross product of normal and tangent.
 pub(crate) const VERTEX_BITANGENT_FLIPPED: u32 = 0x8000_0000;
 
-/// Where the pixels of a film begin in its buffer, bytes. A count comes first: invocations whose loops were cut short.
+/// Offset of the pixels of a film in its buffer, bytes. A count comes first: invocations whose loops were cut short.
 pub(crate) const FILM_PIXELS_OFFSET: u64 = 16;
 
 /// Name, size, and name and offset of each member.
@@ -43,7 +43,7 @@ macro_rules! shared {
     };
 }
 
-/// The same of structs that another crate has.
+/// Layout of a struct that another crate has.
 #[cfg(test)]
 macro_rules! of_image {
     ($name:ident { $($member:ident),* }) => {{
@@ -214,7 +214,7 @@ shared! {
         table_and_place: u32,
         leaves: f32,
     }
-    /// What its surface is made of.
+    /// The material of a sample's surface.
     PixelPaint {
         f0: [f32; 3],
         lobe: u32,
@@ -270,7 +270,7 @@ shared! {
         body: [f32; 3],
         offset_y: f32,
     }
-    /// What rays found of a layer of a sample.
+    /// Light that rays found in a layer of a sample.
     FoundRays {
         weight: [f32; 3],
         round_weight: f32,
@@ -322,7 +322,7 @@ shared! {
     ScanSettings {
         count: u32,
     }
-    /// What a dispatch of the filter takes; uniform.
+    /// Settings of a dispatch of the filter; uniform.
     FilterSettings {
         size_px: [u32; 2],
         first_row: u32,
@@ -342,7 +342,7 @@ shared! {
         least_around: f32,
         least_alike: f32,
     }
-    /// How a film is shown; uniform.
+    /// Settings for showing a film; uniform.
     DisplaySettings {
         size_px: [u32; 2],
         tone_map: u32,

@@ -1,4 +1,5 @@
-//! Which lights each dispatch over scratches takes: those of one kind, and as many as it has room for.
+//! Ranges of lights for each dispatch over scratches: those of one kind, and as many as it has room
+//! for.
 
 use hairline_scene::Scene;
 use wgpu::BufferUsages;

@@ -20,7 +20,7 @@ const LIGHT_TUBE: u32 = 2;
 const LIGHT_DOORS: u32 = 1;
 const LIGHT_PICTURE: u32 = 2;
 
-/// What lights scratches in a pass of its own. Twin: SCRATCH_LIGHTS of shade_scratches.wgsl.
+/// Kinds of lights that light scratches in a pass of their own. Twin: SCRATCH_LIGHTS of shade_scratches.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     Spheres,
@@ -54,7 +54,7 @@ impl Kind {
         }
     }
 
-    /// What a pass is compiled for that takes lights of this kind alone.
+    /// Constants of a pass that takes lights of this kind alone.
     pub(crate) fn constants(self) -> [(&'static str, f64); 9] {
         let mut only = Kinds::default();
         only.0[self as usize] = true;
@@ -116,7 +116,8 @@ impl Kinds {
         there.filter(folded).map(Kind::of_rays)
     }
 
-    /// What shaders call those that shine on scratches and those that shine on the base. Twin: contents.wgsl.
+    /// Constants of shaders for the kinds that shine on scratches and those that shine on the base. Twin:
+    /// contents.wgsl.
     pub(crate) fn constants(self, on_base: Self) -> [(&'static str, f64); 9] {
         [
             ("HAS_SPHERES", self.has(Kind::Spheres).into()),
@@ -161,7 +162,7 @@ pub(crate) fn kinds_on_base(scene: &Scene) -> Vec<Kind> {
     lights.map(Kind::of).collect()
 }
 
-/// Where the lights of each kind that the scene has lie among the sorted ones; the environment lies nowhere.
+/// Ranges among the sorted lights of each kind that the scene has; the environment has none.
 pub(crate) fn ranges(scene: &Scene) -> Vec<(Kind, Range<u32>)> {
     let lights = sorted(scene);
     let on_base = scene.all_lights().count();
@@ -275,7 +276,7 @@ pub(crate) fn packed(scene: &Scene, array: &TextureArray, origin_m: DVec3) -> Ve
     texels
 }
 
-/// How many texels [`packed`] makes.
+/// Number of texels that [`packed`] makes.
 pub(crate) fn texels(scene: &Scene) -> usize {
     let texels = |light| LIGHT_TEXELS + places(light);
     scene.scratch_lights().map(texels).sum()

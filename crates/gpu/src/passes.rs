@@ -24,9 +24,9 @@ pub(crate) struct ScenePasses {
     pub resolve: ResolvePass,
 }
 
-/// How base and scratches are shaded.
+/// Passes that shade base and scratches.
 pub(crate) enum Shade {
-    /// By Hairline's own method.
+    /// Hairline's own method.
     Own {
         base: ShadeBasePass,
         /// None where the scene has none.
@@ -34,7 +34,7 @@ pub(crate) enum Shade {
         /// None where the scene has none.
         gratings: Option<ShadeGratingsPass>,
     },
-    /// By the method of 2018.
+    /// The method of 2018.
     Published(ShadePublishedPass),
 }
 

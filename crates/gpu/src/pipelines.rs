@@ -24,7 +24,7 @@ impl Pipeline {
     }
 }
 
-/// What the passes over a scene ask for.
+/// Orders of the passes over a scene for pipelines.
 pub(crate) struct Orders<'a> {
     gpu: &'a Gpu,
     layouts: &'a Layouts,
@@ -156,7 +156,7 @@ impl<'a> Orders<'a> {
     }
 }
 
-/// What `create` compiles, or why the driver or the shader's own rules refuse it.
+/// Returns what `create` compiles, or the reason why the driver or the shader's own rules refuse it.
 pub(crate) async fn compiled<T>(gpu: &Gpu, create: impl FnOnce() -> T) -> Result<T, Error> {
     let ears = Ears::open(gpu);
     let created = create();

@@ -1,5 +1,5 @@
-//! What the method of 2018 looks up: the wavelengths of each material, the triangles of each light, and the scratches of each
-//! triangle. For Hairline's own method a single texel takes the place of each, since no binding may be empty.
+//! Look-up tables of the method of 2018: the wavelengths of each material, the triangles of each light, and the scratches of
+//! each triangle. For Hairline's own method a single texel takes the place of each, since no binding may be empty.
 
 use hairline_index::TriangleLists;
 use hairline_index::method::Structure;
@@ -115,7 +115,7 @@ fn light_triangles(scene: &Scene) -> Vec<[usize; 3]> {
         .collect()
 }
 
-/// Where each triangle's list begins and the last one ends, then the lists.
+/// Uploads the start of each triangle's list and the end of the last one, then the lists.
 async fn triangle_lists(
     transfer: &mut Transfer<'_>,
     source: &Source<'_>,

@@ -1,5 +1,5 @@
-//! From a buffer on the device to bytes on the host, without blocking: the future is done once somebody has driven the
-//! device that far (an event loop, or [`Gpu::block_on`](crate::device::Gpu::block_on)).
+//! Reads a buffer on the device to bytes on the host, without blocking: the future is done once somebody has driven
+//! the device that far (an event loop, or [`Gpu::block_on`](crate::device::Gpu::block_on)).
 
 use std::future::poll_fn;
 use std::ops::Range;
@@ -108,7 +108,8 @@ impl Gpu {
         self.map(&staging, unpadded).await
     }
 
-    /// What `take` makes of the bytes of a buffer with the usage `MAP_READ`, once what was submitted is done.
+    /// Maps a buffer with the usage `MAP_READ` once what was submitted is done, and returns what `take` makes of its
+    /// bytes.
     async fn map(
         &self,
         staging: &wgpu::Buffer,

@@ -24,12 +24,12 @@ use crate::strip_shader::StripShader;
 use crate::timing::{PassTime, Timing};
 use crate::upload::GpuScene;
 
-/// How to render, beside what the scene says.
+/// Options of a rendering besides the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderOptions {
     /// Jittered samples of a pixel on an edge or a crease; all other pixels, and all of them for 1, take one through the centre.
     pub samples: u32,
-    /// Which of the samples, and of the rays to each light; none: all. The pictures of all batches add up to the picture
+    /// Range of the samples, and of the rays to each light; none: all. The pictures of all batches add up to the picture
     /// ([`hairline_image::Batches`]).
     pub batch: Option<Batch>,
     /// Leaves out the shadows of a scene that has them.
@@ -69,7 +69,7 @@ pub struct Renderer {
     shown: Option<Shown>,
     /// Compiled when first needed.
     filter: Option<FilterPasses>,
-    /// What [`Renderer::render`] works on.
+    /// Arrays and film of [`Renderer::render`].
     band: Option<(StripRoom, Film)>,
 }
 
@@ -98,7 +98,7 @@ impl Renderer {
         &self.gpu
     }
 
-    /// Has the device note when each pass begins and ends from now on, for [`Self::pass_times`]. False where it has no clock.
+    /// Makes the device note when each pass begins and ends from now on, for [`Self::pass_times`]. False where it has no clock.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`], [`Error::Lost`].
@@ -109,8 +109,8 @@ impl Renderer {
         Ok(self.strips.timing.is_on())
     }
 
-    /// What each pass took since [`Self::time_passes`] or the last call, summed over its runs, once they are done. None
-    /// where passes are not timed, and after more than 2,048 runs.
+    /// Returns the time of each pass since [`Self::time_passes`] or the last call, summed over its runs, once they are done. None where passes
+    /// are not timed, and after more than 2,048 runs.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`], [`Error::Lost`].
@@ -344,8 +344,8 @@ impl Renderer {
         self.gpu.check()
     }
 
-    /// What [`Self::show`] draws, in memory: red, green, blue and opaque alpha, 8 bits each, row by row from the top. For
-    /// a window whose own device is another one.
+    /// Reads the picture that [`Self::show`] draws into memory: red, green, blue and opaque alpha, 8 bits each, row by row from the top. For a
+    /// window whose own device is another one.
     ///
     /// # Errors
     /// [`Error::TooLarge`] if the canvas is higher than the device's textures; [`Error::OutOfMemory`], [`Error::Lost`].

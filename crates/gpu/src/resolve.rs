@@ -25,7 +25,7 @@ impl ResolvePass {
         Self(ComputePass::order(orders, "resolve", module, &uses, &[]))
     }
 
-    /// What it was compiled to.
+    /// Compiled pipeline of the pass.
     #[cfg(all(test, not(target_arch = "wasm32")))]
     pub(crate) fn pipeline(&self) -> &wgpu::ComputePipeline {
         self.0.pipeline()

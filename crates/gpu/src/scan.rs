@@ -130,7 +130,8 @@ impl ScanPasses {
 }
 
 impl Scan {
-    /// How many elements the next recordings take, at most as many as there is room for.
+    /// Sets the number of elements that the next recordings take, at most as many as there is room
+    /// for.
     pub(crate) fn set_count(&mut self, gpu: &Gpu, count: u32) {
         let mut count = count;
         for level in &mut self.levels {

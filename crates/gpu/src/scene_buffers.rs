@@ -18,7 +18,7 @@ use crate::texture_array::TextureArray;
 use crate::transfer::Transfer;
 use crate::vertices::Vertices;
 
-/// What is bound, and what it was made from.
+/// Bind group of the arrays, and the elements that they were made from.
 pub(crate) struct SceneBuffers {
     pub group: wgpu::BindGroup,
     pub vertices: Vertices,
@@ -136,7 +136,7 @@ struct Small<T, R> {
 }
 
 impl<T: PartialEq, R: Clone> Small<T, R> {
-    /// What lies there already, if it is the same; else what `upload` brings.
+    /// Keeps the last resource if its elements are the same; else uploads them.
     async fn keep(
         last: Option<&Self>,
         elements: Vec<T>,

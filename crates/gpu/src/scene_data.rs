@@ -15,17 +15,17 @@ use crate::texture_array::TextureArray;
 use crate::textures::SceneTextures;
 use crate::transfer::{Transfer, Written};
 
-/// What the passes read of a scene, all but the camera.
+/// Data of a scene that the passes read, all but the camera.
 pub(crate) struct SceneData {
     pub buffers: SceneBuffers,
     pub textures: SceneTextures,
     pub light_count: u32,
-    /// Of the lights, those that do not shine on scratches alone: they come first.
+    /// Number of lights that do not shine on scratches alone: they come first.
     pub base_light_count: u32,
     pub light_ranges: LightRanges,
     /// The first of the objects that are the shapes of lights.
     pub lamps: u32,
-    /// Which objects have a surface that is not everywhere on their triangles.
+    /// Whether each object has a cutout.
     pub cutouts: Vec<bool>,
     pub written: Vec<Written>,
     device: wgpu::Device,
@@ -89,7 +89,7 @@ impl SceneData {
         })
     }
 
-    /// What uploaded positions are relative to, world space.
+    /// Origin of the uploaded positions, world space.
     pub(crate) fn origin_m(&self) -> DVec3 {
         self.buffers.vertices.origin_m
     }

@@ -34,7 +34,7 @@ impl ShadeScratchesPass {
         }
     }
 
-    /// Where the chunks of each group begin.
+    /// Finds the start of the chunks of each group.
     pub(crate) fn record_chunks(
         &self,
         gpu: &Gpu,
@@ -83,7 +83,7 @@ impl PickByEnergyPass {
         Self(order(orders, name, MODULE, &USES, LIGHTS_NONE, &constants))
     }
 
-    /// Of at most so many chunks; `output` is what the pass writes.
+    /// Records the pass over at most `chunks` chunks, which writes to `output`.
     pub(crate) fn record(
         &self,
         gpu: &Gpu,
@@ -99,7 +99,7 @@ impl PickByEnergyPass {
     }
 }
 
-/// What the pass that lights scratches binds before the range of lights.
+/// Bindings of the pass that lights scratches, before the range of lights.
 const USES: [Use; 6] = [
     Use::Reads,
     Use::Reads,

@@ -25,7 +25,7 @@ macro_rules! text {
     };
 }
 
-/// As `build.rs` writes it.
+/// Text of a module, as `build.rs` writes it.
 #[cfg(target_family = "wasm")]
 macro_rules! text {
     ($name:literal) => {
@@ -61,9 +61,9 @@ modules! {
     LUMINANCE = "physics/luminance" needs [];
     /// Random numbers that are even over rounds.
     SOBOL = "physics/sobol" needs [];
-    /// Where an area light meets the band of a scratch.
+    /// Intersection of an area light with the band of a scratch.
     BAND = "physics/band" needs [SCRATCH];
-    /// Where the lines of a band cross an outline of four edges.
+    /// Intersection of the lines of a band with an outline of four edges.
     FOUR_EDGES = "physics/four_edges" needs [BAND];
     /// The outline of a tube.
     TUBE = "physics/tube" needs [];
@@ -79,7 +79,7 @@ modules! {
     IRRADIANCE = "physics/irradiance" needs [];
     /// Fitted tables over roughness and angle.
     LOBE_TABLE = "physics/lobe_table" needs [];
-    /// What lobes reflect.
+    /// Reflectance of lobes.
     LOBE_FRESNEL = "physics/lobe_fresnel" needs [FRESNEL, LOBE_TABLE];
     /// The GGX lobe over an area light, by transformed cosines.
     LTC = "physics/ltc" needs [GGX, IRRADIANCE, LOBE_FRESNEL];
@@ -97,7 +97,7 @@ modules! {
     SURFACE_POINT = "physics/surface_point" needs [];
     /// Light from all around: look-ups in the maps.
     ENVIRONMENT = "physics/environment" needs [];
-    /// From linear radiance to the display.
+    /// Tone curves, from linear radiance to the display.
     TONE_MAP = "physics/tone_map" needs [];
     /// The method of 2018: segments of the band's middle line.
     PUBLISHED_SEGMENTS = "published/published_segments" needs [];
@@ -111,33 +111,33 @@ modules! {
     PUBLISHED_POLYGON = "published/published_polygon" needs [PUBLISHED_SEGMENTS];
     /// The method of 2018: the pixel's footprint.
     PUBLISHED_FOOTPRINT = "published/published_footprint" needs [GAUSSIAN];
-    /// What one scratch sends to the viewer: the module for other engines.
+    /// Light that one scratch sends to the viewer: the module for other engines.
     SCRATCH_LIGHT = "physics/scratch_light" needs [FOUR_EDGES, BAND_ENVIRONMENT, SCRATCH_TABLE, MASK, ENVIRONMENT];
-    /// What the grooves of a grating send.
+    /// Light that the grooves of a grating send.
     GRATING = "physics/grating" needs [SCRATCH_LIGHT];
-    /// For other engines: finding scratches under a footprint.
+    /// Search for scratches under a footprint, for other engines.
     SCRATCH_TREE = "engine/scratch_tree" needs [SCRATCH];
-    /// For other engines: the base of a point under lights.
+    /// The base of a point under lights, for other engines.
     LIT_BASE = "engine/lit_base" needs [FILTERED_LOBE, BAND, SCRATCH_LIGHT];
-    /// For other engines: all scratches of a point under lights.
+    /// All scratches of a point under lights, for other engines.
     SCRATCHED_SURFACE = "engine/scratched_surface" needs [SCRATCH_LIGHT, SCRATCH_TREE];
-    /// For other engines: the frame of a pixel from what a fragment shader knows.
+    /// The frame of a pixel from the inputs of a fragment shader, for other engines.
     PIXEL_FRAME = "engine/pixel_frame" needs [CAMERA, SCRATCHED_SURFACE, LIT_BASE];
-    /// For other engines: a pass that makes the table of a metal.
+    /// A pass that makes the table of a metal, for other engines.
     MAKE_SCRATCH_TABLE = "engine/make_scratch_table" needs [SCRATCH_TABLE];
     /// Pictures on flat lights.
     PICTURE = "physics/picture" needs [];
     /// The structs that the host fills, and no binding.
     LAYOUT = "scene/layout" needs [];
-    /// Where the scene is bound: group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures.
+    /// Bindings of the scene: group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures.
     BINDINGS = "scene/bindings" needs [LAYOUT];
-    /// Where elements lie in textures.
+    /// Places of elements in textures.
     TEXELS = "scene/texels" needs [];
     /// Arrays that lie in textures.
     ROWS = "scene/rows" needs [BINDINGS, TEXELS, CONTENTS];
     /// The triangles along a ray.
     TRIANGLE_TREE = "scene/triangle_tree" needs [TEXELS, SURFACE_POINT];
-    /// What a scene has: pipelines are compiled for it.
+    /// Contents of a scene, for which pipelines are compiled.
     CONTENTS = "scene/contents" needs [];
     /// The switches of the method of 2018 and the mask: pipelines are compiled for them.
     METHOD = "scene/method" needs [];
@@ -147,7 +147,7 @@ modules! {
     SEGMENTS = "scene/segments" needs [LAYOUT, SCRATCH];
     /// The scratches of each triangle.
     TRIANGLE_LISTS = "published/triangle_lists" needs [ROWS];
-    /// Where pixels lie in the arrays of a strip and in the film.
+    /// Places of pixels in the arrays of a strip and in the film.
     FILM = "scene/film" needs [BINDINGS];
     /// Surface points as they lie in memory.
     PIXEL_POINT = "scene/pixel_point" needs [LAYOUT, SURFACE_POINT, FRESNEL, CONTENTS];
@@ -155,19 +155,19 @@ modules! {
     LIGHTS = "scene/lights" needs [ROWS, CONTENTS, SURFACE_POINT, BAND, TUBE];
     /// Pictures on lights as a point sees them.
     PICTURE_LIGHT = "scene/picture_light" needs [SCENE, PICTURE];
-    /// What one scratch sends to the viewer of a rectangle with a picture.
+    /// Light that one scratch sends to the viewer of a rectangle with a picture.
     SCRATCH_PICTURE = "scene/scratch_picture" needs [PICTURE_LIGHT, SCRATCH_LIGHT];
-    /// From a triangle to the surface point.
+    /// Conversion of a triangle's hit to the surface point.
     HIT = "scene/hit" needs [SCENE, SURFACE_POINT, CAMERA, COAT];
     /// A segment in the picture, and the tiles and pixels that it comes near to.
     PROJECTED = "scene/projected" needs [ROWS, SEGMENTS, FILM];
-    /// Which pixels see a segment.
+    /// Test of which pixels see a segment.
     NEARNESS = "scene/nearness" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, BINDINGS];
-    /// What one scratch sends to the viewer of a polygon with many vertices.
+    /// Light that one scratch sends to the viewer of a polygon with many vertices.
     OUTLINE_LIGHT = "scene/outline_light" needs [ROWS, SCRATCH_LIGHT, TUBE];
     /// Spots of circular grooves.
     GROOVE_SPOTS = "scene/groove_spots" needs [LAYOUT, CONTENTS];
-    /// Which way the grooves of a grating run.
+    /// Directions of the grooves of a grating.
     GRATINGS = "scene/gratings" needs [GROOVE_SPOTS, GAUSSIAN];
     /// Single grooves of a grating.
     SINGLE_GROOVES = "scene/single_grooves" needs [GRATINGS, SOBOL, CONTENTS];
@@ -209,13 +209,13 @@ modules! {
     TILE_LISTS = "passes/tile_lists" needs [FILM];
     /// Whether samples are what rays have met: pipelines are compiled for it.
     AT_HITS = "scene/at_hits" needs [];
-    /// Which tile a group of samples belongs to.
+    /// Tile of a group of samples.
     GROUPS = "scene/groups" needs [FILM, AT_HITS];
     /// Pass: into how many chunks each group's list is cut.
     GROUP_CHUNKS = "passes/group_chunks" needs [GROUPS];
     /// A pixel with a segment that it sees.
     PAIRS = "scene/pairs" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, METHOD, BINDINGS];
-    /// What a pair sends of a light.
+    /// Light that a pair sends of a light.
     PAIR_LIGHT = "scene/pair_light" needs [PAIRS, OUTLINE_LIGHT, SCRATCH_PICTURE];
     /// A sample with a grating that it sees.
     GRATING_PAIRS = "scene/grating_pairs" needs [PAIRS, GRATING, SINGLE_GROOVES, GROOVE_GROUND, BINDINGS, CONTENTS];
@@ -231,19 +231,19 @@ modules! {
     BASE_LOBES = "scene/base_lobes" needs [BASE, LUMINANCE];
     /// Directions to area lights.
     LIGHT_SAMPLING = "scene/light_sampling" needs [LIGHTS, GGX, CONTENTS, SCRATCH_LIGHT, SHADOW];
-    /// What the passes of shadows share.
+    /// Functions that the passes of shadows share.
     SHADOW = "scene/shadow" needs [LAYOUT, SOBOL, LUMINANCE];
     /// Pass: a ray of each sample to one source of the base's light.
     SHADOW_BASE_RAYS = "passes/shadow_base_rays" needs [BASE_LOBES, LIGHT_SAMPLING, SHADOW, FILM, PIXEL_POINT];
-    /// Which surfaces a ray meets that cover a part of what lies behind them.
+    /// Rule by which a ray meets surfaces that cover a part of what lies behind them.
     COVERAGE = "scene/coverage" needs [SOBOL, TRIANGLE_TREE];
-    /// Where surfaces are not.
+    /// Cutouts of surfaces.
     CUTOUTS = "scene/cutouts" needs [SCENE, COVERAGE];
-    /// Where rays of a sample start.
+    /// Origin of the rays of a sample.
     RAY_START = "scene/ray_start" needs [CUTOUTS, PIXEL_POINT, AT_HITS, SHADOW];
-    /// What rays found of the layers of a sample's light.
+    /// Light that rays found in the layers of a sample.
     FOUND = "scene/found" needs [LAYOUT, CONTENTS, LUMINANCE];
-    /// Of a pixel, as the host has it.
+    /// Light that rays found in a pixel, as the host has it.
     FOUND_LIGHT = "scene/found_light" needs [FOUND];
     /// Pass: whether each ray sees its source.
     SHADOW_TRACE = "passes/shadow_trace" needs [RAY_START, FOUND, FILM];
@@ -253,11 +253,11 @@ modules! {
     FOUND_FILM = "passes/found_film" needs [FOUND_LIGHT, SCENE, PIXEL_POINT, FILM];
     /// Directions to light by way of a scratch.
     DRAWN_LIGHT = "scene/drawn_light" needs [OUTLINE_LIGHT, LUMINANCE];
-    /// The same by a rectangle with a picture.
+    /// `DRAWN_LIGHT` of a rectangle with a picture.
     DRAWN_PICTURE = "scene/drawn_picture" needs [DRAWN_LIGHT, SCRATCH_PICTURE];
     /// Rays to sources by way of a pair.
     DRAWN_RAY = "scene/drawn_ray" needs [DRAWN_PICTURE, PAIRS, LIGHT_SAMPLING, SHADOW];
-    /// Where under its pixel a pair lies.
+    /// Place of a pair under its pixel.
     PAIR_PLACE = "scene/pair_place" needs [DRAWN_LIGHT, PAIRS];
     /// Pass: where the sums begin by which scratches are picked.
     SHADOW_PICKS = "passes/shadow_picks" needs [SHADOW, PICKS, PIXEL_POINT, FILM];
@@ -265,7 +265,7 @@ modules! {
     SHADOW_PICKED_RAYS = "passes/shadow_picked_rays" needs [PAIR_PLACE, GRATING_PAIRS, DRAWN_RAY, PICKS, FILM];
     /// The sums of a sample over its scratches.
     SUMS = "scene/sums" needs [LAYOUT, METHOD, MASK, FILM, CONTENTS];
-    /// What the passes share that draw rays to other objects.
+    /// Functions that the passes share that draw rays to other objects.
     BOUNCE = "scene/bounce" needs [SHADOW];
     /// Pass: a ray of each sample to other objects by its base.
     BOUNCE_BASE_RAYS = "passes/bounce_base_rays" needs [BOUNCE, FOUND, BASE_LOBES, SUMS, PIXEL_POINT];
@@ -291,7 +291,7 @@ modules! {
     DISPLAY = "passes/display" needs [LAYOUT, TONE_MAP];
 }
 
-/// What `cargo xtask package` packs for other engines, with what it needs.
+/// Modules that `cargo xtask package` packs for other engines, with those that they need.
 pub static FOR_ENGINES: &[&Module] = &[
     &SCRATCHED_SURFACE,
     &LIT_BASE,
@@ -353,7 +353,7 @@ mod tests {
         }
     }
 
-    /// What other engines lift binds nothing and needs nothing that does.
+    /// Modules that other engines lift bind nothing and need no module that does.
     #[test]
     fn physics_binds_nothing() {
         let is_physics = |module: &Module| module.name.starts_with("physics/");
@@ -364,7 +364,7 @@ mod tests {
         }
     }
 
-    /// The same of what only engines call, and naga_oil takes no member of a struct that ends in a digit.
+    /// Modules for engines alone bind nothing either, and naga_oil takes no member of a struct that ends in a digit.
     #[test]
     fn what_engines_take_binds_nothing_and_its_members_end_in_letters() {
         for module in with_needs(FOR_ENGINES) {

@@ -53,7 +53,7 @@ impl ShadowPicksPass {
 pub(crate) struct PickedRaysPasses(Vec<ComputePass>);
 
 impl PickedRaysPasses {
-    /// By way of scratches, or of gratings.
+    /// Makes the passes for rays by way of scratches, or of gratings.
     pub(crate) fn new(orders: &mut Orders, of_gratings: bool) -> Self {
         use Use::{Reads, Uniform, Writes};
         let uses = [Reads, Reads, Reads, Reads, Writes, Uniform, Reads];
@@ -96,7 +96,7 @@ impl PickedRaysPasses {
 
 /// The passes about what is picked.
 pub(crate) trait ByPicks {
-    /// How many states there are of what has been picked so far.
+    /// Number of states of the picks so far.
     fn lanes(&self, on: &Scratched) -> u64;
 
     /// Picks for each sample as many as the round that was written says.
@@ -112,16 +112,16 @@ pub(crate) trait ByPicks {
 
     fn rays(&self) -> &PickedRaysPasses;
 
-    /// How light leaves the samples.
+    /// Lobe by which light leaves the samples.
     fn way(&self) -> Way;
 }
 
-/// What there is to be picked from.
+/// Groups and chunks of scratches to be picked from.
 #[derive(Clone, Copy)]
 pub(crate) struct Scratched {
     pub groups: u32,
-    /// Of scratches.
+    /// Number of chunks of scratches.
     pub chunks: u32,
-    /// Which of the two buffers of entries is sorted.
+    /// Index of the sorted buffer of entries.
     pub sorted: usize,
 }

@@ -10,7 +10,7 @@ use crate::layout::{FoundRays, ShadowRay, ShadowRound};
 pub(crate) struct ShadowRoom {
     pub round: wgpu::Buffer,
     pub rays: wgpu::Buffer,
-    /// What rays found, layer by layer of each sample.
+    /// Light that rays found, layer by layer of each sample.
     pub found: wgpu::Buffer,
     found_max: u64,
     points_max: u64,
@@ -22,11 +22,11 @@ pub(crate) struct ShadowRoom {
 const FOUND_BYTES: u64 = size_of::<FoundRays>() as u64;
 const RAY_BYTES: u64 = size_of::<ShadowRay>() as u64;
 const FOUND_USAGE: BufferUsages = BufferUsages::STORAGE.union(BufferUsages::COPY_DST);
-/// Of a scratch that is picked, or of the state of a lane of a chunk.
+/// Bytes of a scratch that is picked, or of the state of a lane of a chunk.
 const PICK_BYTES: u64 = 16;
 /// Picks of a sample that are made at once: each time all pairs are lit once more.
 const PICKS_MOST: u64 = 16;
-/// What they may take, unless there is one only.
+/// Largest memory of the picks, unless there is one only.
 const PICKS_BYTES_MOST: u64 = 1 << 28;
 
 impl ShadowRoom {

@@ -24,19 +24,19 @@ use crate::strip::{StripRoom, TILE_PX, whole};
 use crate::triangle_tree::TriangleTree;
 use crate::variant::{Constant, Seen, ShadeVariant};
 
-/// What rays to the lights of a scene need, beside the scene.
+/// Passes for rays to the lights of a scene.
 pub(crate) struct Shadows {
-    /// For each kind of source of the base: none has the code of the others.
+    /// Passes for each kind of source of the base: none has the code of the others.
     base: Vec<(Kind, ComputePass)>,
     trace: ComputePass,
     found: ComputePass,
     film: ComputePass,
-    /// Of a sample.
+    /// Number of layers of a sample.
     pub layers: u64,
-    /// By scratches and by gratings, of which the scene has some.
+    /// Passes by way of scratches and of gratings, for those that the scene has.
     pub by_picks: Vec<Box<dyn ByPicks>>,
     pub tree: TriangleTree,
-    /// How far the scene reaches from the origin of what was uploaded.
+    /// Largest distance of the scene from the origin of the uploaded positions.
     pub extent_m: f32,
 }
 
@@ -63,7 +63,7 @@ impl Shadows {
         Ok(shadows)
     }
 
-    /// The same for what rays have met.
+    /// Makes the passes for what rays have met.
     pub(crate) fn of_hits(&self, orders: &mut Orders) -> Self {
         Self::over(orders, self.tree.clone(), self.extent_m, Seen::ByRays)
     }
@@ -178,7 +178,7 @@ impl Shadows {
         pass.run(gpu, recording, &resources, in_a_row(groups));
     }
 
-    /// What rays found of samples, as light, once all rounds are done.
+    /// Converts what rays found to the light of the samples, once all rounds are done.
     pub(crate) fn record_found(
         &self,
         gpu: &Gpu,
@@ -200,7 +200,7 @@ impl Shadows {
         self.found.run(gpu, recording, &resources, in_a_row(groups));
     }
 
-    /// And on the film, after what nothing changes.
+    /// Adds what rays found to the film, after the light that nothing changes.
     pub(crate) fn record_film(
         &self,
         gpu: &Gpu,

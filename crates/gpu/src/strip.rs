@@ -33,18 +33,18 @@ pub(crate) const DIGITS: u32 = 256;
 /// Entries of a block that is sorted. Twin: sort.wgsl.
 const SORT_BLOCK: u32 = 256 * 8;
 
-/// What lies over the pixels and the tiles of a strip.
+/// Arrays over the pixels and the tiles of a strip.
 pub(crate) struct StripRoom {
     pub width_px: u32,
     pub rows: u32,
-    /// With a row more above and below, so that edges are found at the strip's border.
+    /// Object and triangle of each pixel, with a row more above and below, so that edges are found at the strip's border.
     pub visibility: wgpu::TextureView,
     pub depth: wgpu::TextureView,
-    /// Where each tile's list begins among the entries; one more than tiles.
+    /// Start of each tile's list among the entries; one more than tiles.
     pub list_starts: wgpu::Buffer,
-    /// And where the groups of its samples begin, in later steps.
+    /// Start of the groups of each tile's samples, in later steps.
     pub group_starts: wgpu::Buffer,
-    /// Of these; of hits, whose groups lie in no tile, of the starts of lists.
+    /// Prefix sum over `group_starts`. The groups of hits lie in no tile: there it sums over the starts of lists.
     pub group_scan: Scan,
     pub samples: Samples,
     pub lists: Lists,
@@ -59,7 +59,7 @@ pub(crate) struct BounceRoom {
     pub round: wgpu::Buffer,
     pub rays: wgpu::Buffer,
     pub points_max: u64,
-    /// By turns: what was met sends rays on, which meet what lies in the other one.
+    /// Two rooms that take turns: rays leave the hits of one, and the hits that they meet lie in the other.
     pub hits: [StripRoom; 2],
     pub groups_max: u32,
 }
@@ -70,7 +70,7 @@ pub(crate) struct Samples {
     pub paints: wgpu::Buffer,
     pub base_light: wgpu::Buffer,
     points_max: u64,
-    /// Where the chunks of each group begin; one more than groups.
+    /// Start of the chunks of each group; one more than groups.
     pub chunk_starts: wgpu::Buffer,
     pub chunk_scan: Scan,
     groups_max: u32,
@@ -80,7 +80,7 @@ pub(crate) struct Samples {
 
 /// The lists of a strip's tiles. They grow to exactly the size that is needed.
 pub(crate) struct Lists {
-    /// Where the entries of each segment begin; one more than segments.
+    /// Start of the entries of each segment; one more than segments.
     pub entry_starts: wgpu::Buffer,
     pub entry_scan: Scan,
     segments: u32,
@@ -93,11 +93,11 @@ pub(crate) struct Lists {
     pub made: Option<MadeLists>,
 }
 
-/// What the lists were made for.
+/// Rows and numbers for which the lists were made.
 pub(crate) struct MadeLists {
     pub rows: Range<u32>,
     pub entries: u32,
-    /// Which of the two buffers holds them.
+    /// Index of the buffer that holds them.
     pub sorted: usize,
 }
 
@@ -123,7 +123,7 @@ pub(crate) fn tile_count(width_px: u32, rows: u32) -> u32 {
     width_px.div_ceil(TILE_PX) * rows.div_ceil(TILE_PX)
 }
 
-/// As many chunks as there may be in so many tiles with so many entries.
+/// Largest number of chunks in so many tiles with so many entries.
 pub(crate) fn chunks_most(tiles: u32, entries: u32) -> u32 {
     tiles.min(entries) + entries / CHUNK_SEGMENTS
 }

@@ -323,7 +323,7 @@ impl StripShader {
     }
 }
 
-/// From samples to what their rays meet, which lie in one room and the other by turns. None before there are shadows.
+/// The rays of a round, from samples to their hits, which lie in the two rooms in turn. None before there are shadows.
 fn bounce<'a>(
     room: &'a StripRoom,
     bounce_room: &'a BounceRoom,
@@ -348,7 +348,7 @@ fn bounce<'a>(
     })
 }
 
-/// For the random numbers of what the rays of a round meet: a place may be met again in other rounds.
+/// Seed of the random numbers of what the rays of a round meet: a place may be met again in other rounds.
 fn seed(first: &ShadowRound, depth: u32) -> u32 {
     let chain = 3 * (first.first_round + first.round) + first.way;
     let mixed = chain.wrapping_mul(0x9e37_79b9) ^ depth.wrapping_mul(0x85eb_ca6b);

@@ -214,7 +214,7 @@ impl StripShader {
         Ok(None)
     }
 
-    /// How many groups the samples of a strip's edges make.
+    /// Counts the groups of the samples on a strip's edges.
     async fn count_groups(
         &self,
         view: &View<'_>,

@@ -11,14 +11,14 @@ use crate::transfer::{Place, Transfer};
 pub(crate) struct TextureArray {
     size_px: [u32; 2],
     levels: u32,
-    /// For each texture, the first level that is uploaded.
+    /// First level of each texture that is uploaded.
     first_levels: Vec<u32>,
     packed: Vec<[u32; 2]>,
 }
 
 /// Larger arrays start their largest textures at a coarser level: what a picture rarely resolves is not worth more.
 const ARRAY_MAX_BYTES: u64 = 1 << 30;
-/// What every WebGPU device can hold.
+/// Largest side of a texture on every WebGPU device.
 const TEXTURE_MAX_PX: u32 = 8192;
 
 impl TextureArray {
@@ -67,7 +67,7 @@ impl TextureArray {
         array
     }
 
-    /// How the shader knows a texture; zeros stand for none.
+    /// Shader's reference to a texture; zeros stand for none.
     pub(crate) fn packed(&self, texture: Option<usize>) -> [u32; 2] {
         texture.map_or([0; 2], |i| self.packed[i])
     }
@@ -115,7 +115,7 @@ fn level_size(texture: &Texture, level: u32) -> [u32; 2] {
     texture.size_px.map(|n| (n >> level).max(1))
 }
 
-/// As an array, whatever the number of its layers.
+/// View of a texture as an array, whatever the number of its layers.
 pub(crate) fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
     let dimension = Some(TextureViewDimension::D2Array);
     texture.create_view(&wgpu::TextureViewDescriptor {

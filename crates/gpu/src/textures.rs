@@ -20,15 +20,15 @@ use crate::source::Source;
 use crate::texture_array::{TextureArray, array_view};
 use crate::transfer::{Place, Transfer};
 
-/// What is bound, and what it was made from.
+/// Bind group of the tables and textures, and the data that they were made from.
 pub(crate) struct SceneTextures {
     pub group: wgpu::BindGroup,
     /// Each has one table.
     metals: Vec<Option<Metal>>,
-    /// And these, behind them.
+    /// Spectra of the gratings' tables, which follow those of the metals.
     grating_spectra: Vec<GratingSpectrum>,
     scratch_tables: wgpu::TextureView,
-    /// What the curves of reflectance are of.
+    /// Reflector of each curve.
     reflectors: Vec<Reflector>,
     curves: wgpu::TextureView,
     lobes: [wgpu::TextureView; 3],
@@ -202,7 +202,7 @@ async fn lobe(
     Ok(texture.create_view(&Default::default()))
 }
 
-/// What the camera sees, what rough surfaces reflect, and what scratches do; black where there is no environment.
+/// Maps for the camera's background, for rough surfaces and for scratches; black where there is no environment.
 async fn environment_maps(
     transfer: &mut Transfer<'_>,
     environment: Option<&Environment>,

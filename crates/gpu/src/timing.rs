@@ -1,4 +1,4 @@
-//! How long each pass takes on the device, by its own clock. Off until somebody asks, and then two timestamps a pass.
+//! Time of each pass on the device, by its own clock. Off until somebody asks, and then two timestamps a pass.
 //!
 //! Not wgpu-profiler: it gives the tree of scopes of one frame and adds query sets as it needs them, where callers want sums by pass
 //! over any number of submissions, or none past a bound.
@@ -16,7 +16,7 @@ use crate::error::Error;
 pub struct PassTime {
     /// The pass's name: "visibility", "shade", ...
     pub name: &'static str,
-    /// From its beginning to its end on the device.
+    /// Time from its beginning to its end on the device.
     pub time: Duration,
 }
 
@@ -71,7 +71,7 @@ impl Timing {
         self.0.is_some()
     }
 
-    /// For the descriptor of a compute pass.
+    /// Timestamps for the descriptor of a compute pass.
     pub(crate) fn compute(
         &self,
         name: &'static str,
@@ -84,7 +84,7 @@ impl Timing {
         })
     }
 
-    /// For the descriptor of a render pass.
+    /// Timestamps for the descriptor of a render pass.
     pub(crate) fn render(&self, name: &'static str) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
         let (queries, first) = self.0.as_ref()?.next(name)?;
         Some(wgpu::RenderPassTimestampWrites {
@@ -94,8 +94,8 @@ impl Timing {
         })
     }
 
-    /// What was submitted since the last call, summed by pass in the order of their first runs, once it is done. None where
-    /// nothing is timed, and after more runs than there is room for.
+    /// Times of the passes that were submitted since the last call, summed by pass in the order of their first runs, once they are
+    /// done. None where nothing is timed, and after more runs than there is room for.
     pub(crate) async fn read(&self, gpu: &Gpu) -> Result<Option<Vec<PassTime>>, Error> {
         let Some(clock) = &self.0 else {
             return Ok(None);

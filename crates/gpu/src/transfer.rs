@@ -5,12 +5,12 @@ use wgpu::{TextureFormat, TextureUsages};
 use crate::device::Gpu;
 use crate::error::Error;
 
-/// What an upload wrote of one of a scene's arrays or textures.
+/// Bytes that an upload wrote to one of a scene's arrays or textures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// Its name.
+    /// Name of the array or texture.
     pub what: &'static str,
-    /// What was written of it.
+    /// Number of bytes that were written.
     pub bytes: u64,
 }
 
@@ -20,7 +20,7 @@ pub(crate) struct Transfer<'a> {
     written: Vec<Written>,
 }
 
-/// Where in a texture.
+/// Place in a texture.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Place {
     pub level: u32,
@@ -34,7 +34,7 @@ impl<'a> Transfer<'a> {
         Self { gpu, written }
     }
 
-    /// What was written.
+    /// Ends the transfer, and returns what was written.
     pub(crate) fn end(self) -> Vec<Written> {
         self.written
     }

@@ -19,7 +19,7 @@ use crate::transfer::Transfer;
 /// Bits of a leaf that hold the texel of its first triangle. Twin: triangle_tree.wgsl.
 const FIRST_BITS: u32 = 28;
 
-/// How many texels a tree may have.
+/// Largest number of texels of a tree.
 const TEXELS_MAX: usize = 1 << FIRST_BITS;
 
 /// A tree on the device, and what it was made of.
@@ -67,7 +67,7 @@ impl TriangleTree {
     }
 }
 
-/// What rays meet.
+/// Meshes that rays meet.
 fn solid(scene: &Scene) -> impl Iterator<Item = &Arc<Mesh>> {
     let objects = scene.objects.iter().filter(|object| !object.is_lamp);
     objects.map(|object| &object.mesh)

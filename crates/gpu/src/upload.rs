@@ -22,7 +22,7 @@ pub struct GpuScene {
     pub(crate) shadows: Option<Shadows>,
     /// None: light goes by no other object.
     pub(crate) bounces: Option<Bounces>,
-    /// For shadows, or those of the scene before.
+    /// Tree for shadows, of this scene or of the one before.
     tree: Option<TriangleTree>,
     variant: ShadeVariant,
 }
@@ -87,7 +87,7 @@ impl GpuScene {
         Ok(())
     }
 
-    /// What the last upload or update wrote, beside what it copied on the device; nothing about what stayed as it was.
+    /// Arrays that the last upload or update wrote, without those that it copied on the device or left as they were.
     pub fn written(&self) -> &[Written] {
         &self.data.written
     }

@@ -1,4 +1,4 @@
-//! What shaders are compiled for: a method and what a scene has.
+//! Variants of the shaders: a method and a scene's contents.
 
 use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
@@ -7,29 +7,29 @@ use hairline_scene::{Bearing, Grating, GrooveField, Material, Object, Scene, Scr
 
 use crate::lights::{self, Kind, Kinds};
 
-/// What a pipeline is specialised for.
+/// Method and contents for which a pipeline is specialised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct ShadeVariant {
     pub method: Method,
-    /// What the scene has: code for what it lacks is left out, so that it costs nothing.
+    /// Contents of the scene: code for what it lacks is left out, so that it costs nothing.
     pub has: Contents,
 }
 
-/// Which parts of the shaders a scene needs.
+/// Parts of the shaders that a scene needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Contents {
     pub scratches: bool,
-    /// Which the method of 2018 leaves out.
+    /// Gratings; the method of 2018 leaves them out.
     pub gratings: bool,
     /// Gratings whose grooves could be seen one by one.
     pub single_grooves: bool,
-    /// And among these such that come nearer to one another along their way.
+    /// Those among them that come nearer to one another along their way.
     pub branching_grooves: bool,
     /// Gratings with pictures, or along texture coordinates.
     pub groove_maps: bool,
     /// Gratings whose grooves lie about spots.
     pub groove_spots: bool,
-    /// That shine on scratches, and on the base.
+    /// Kinds of lights that shine on scratches, and on the base.
     pub lights: Kinds,
     pub base_lights: Kinds,
     /// Lights with barn doors.
@@ -113,22 +113,22 @@ fn has_spots(grating: &Grating) -> bool {
 /// A constant that a pipeline sets.
 pub(crate) type Constant = (&'static str, f64);
 
-/// By what the samples are seen that a pass shades. Twin: at_hits.wgsl.
+/// Origin of the rays that see the samples of a pass. Twin: at_hits.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Seen {
     ByCamera,
-    /// From other samples.
+    /// Rays from other samples.
     ByRays,
 }
 
 impl Seen {
-    /// For passes whose shader asks.
+    /// Constant for passes whose shader asks.
     pub(crate) fn constant(self) -> Constant {
         ("AT_HITS", f64::from(u8::from(self == Self::ByRays)))
     }
 }
 
-/// How light leaves a sample. Twin: layout.wgsl.
+/// Lobe by which light leaves a sample. Twin: layout.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Way {
     Base,
@@ -140,8 +140,8 @@ impl Way {
     pub(crate) const ALL: [Self; 3] = [Self::Base, Self::Scratches, Self::Gratings];
 }
 
-/// What the overrides of a shader's text are set to, for a scene with everything and for one with nothing, by both methods and all masks:
-/// each set has a name. For compilers other than the device's own.
+/// Returns the values of the overrides in a shader's text, for a scene with everything and for one with nothing, by both methods and all
+/// masks: each set has a name. For compilers other than the device's own.
 pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> {
     let everything = Contents {
         scratches: true,

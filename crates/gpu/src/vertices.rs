@@ -18,7 +18,7 @@ use crate::transfer::Transfer;
 #[derive(Clone)]
 pub(crate) struct Vertices {
     pub buffer: wgpu::Buffer,
-    /// What uploaded positions are relative to, world space.
+    /// Origin of the uploaded positions, world space.
     pub origin_m: DVec3,
     meshes: Vec<PlacedMesh>,
 }

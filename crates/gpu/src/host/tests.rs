@@ -1,4 +1,4 @@
-//! What packing a scratch's segment loses.
+//! Precision lost by packing a scratch's segment.
 
 use super::*;
 use crate::call::Call;

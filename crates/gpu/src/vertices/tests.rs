@@ -1,4 +1,4 @@
-//! Where the origin lies.
+//! Tests of the origin's place.
 
 use super::*;
 

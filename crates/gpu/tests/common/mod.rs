@@ -38,7 +38,7 @@ const TUBE_M: [[f64; 3]; 4] = [
     [-0.2, 0.25, 0.3],
 ];
 
-/// What `hairline render` shows without a scene.
+/// Scene that `hairline render` shows without a file.
 pub const BUILT_IN: &str = include_str!("../../../../apps/hairline/src/built_in_scene.toml");
 
 pub fn scene(text: &str) -> Scene {
@@ -162,7 +162,7 @@ impl Stage {
     }
 }
 
-/// To take so many samples.
+/// Options with this number of samples.
 pub fn options(samples: u32) -> RenderOptions {
     RenderOptions {
         samples,

@@ -15,7 +15,8 @@ const DISPLAY: Display = Display {
     tone_map: ToneMap::None,
 };
 
-/// In bands of the same rows, since a rasteriser may round an edge differently where a band begins elsewhere.
+/// Renders in bands of the same rows, since a rasteriser may round an edge differently where a band begins
+/// elsewhere.
 fn rendered(stage: &mut Stage, size_px: [u32; 2], samples: u32, submission_px: u32) -> Image {
     let mut scene = stage.made.scene.clone();
     scene.render.size_px = size_px;
@@ -60,7 +61,7 @@ fn a_canvas_of_any_size_becomes_the_rendered_picture() {
     }
 }
 
-/// Which the host adds up: each is to be the one that it renders without a canvas.
+/// The host adds the batches up: each is to be the one that it renders without a canvas.
 #[test]
 fn a_canvas_holds_a_batch_of_samples_by_itself() {
     const SAMPLES: u32 = 12;
@@ -99,7 +100,7 @@ fn a_canvas_holds_a_batch_of_samples_by_itself() {
     assert!(penumbra > 50, "each batch has its own rays: {penumbra}");
 }
 
-/// What is shown is what the host's filter makes of what rays found, across bands.
+/// A canvas shows what the host's filter makes of what rays found, across bands.
 #[test]
 fn a_canvas_is_shown_as_the_host_filters_it() {
     let Some(gpu) = test_gpu() else { return };
@@ -188,7 +189,7 @@ fn bands_with_fewer_samples_are_exposed_alike() {
     assert!((few - all).abs() < 1.0, "{few}, not {all} of 255");
 }
 
-/// What an earlier view left, complete or not, is gone.
+/// An earlier view leaves nothing, complete or not.
 #[test]
 fn an_interrupted_view_leaves_nothing_behind() {
     let Some(gpu) = test_gpu() else { return };

@@ -205,7 +205,7 @@ fn irradiance() {
     }
 }
 
-/// Where the host puts them.
+/// The places of levels are those where the host puts them.
 #[test]
 fn places_of_levels() {
     let Some(gpu) = test_gpu() else { return };

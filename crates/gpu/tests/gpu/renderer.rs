@@ -391,7 +391,7 @@ fn the_environment_is_seen_where_it_is() {
     assert!(image.base.iter().all(|c| *c == [0.0; 3]));
 }
 
-/// What a browser gives must do.
+/// The limits of a browser must do.
 #[test]
 fn default_limits_are_enough() {
     let Some(gpu) = default_limits() else { return };

@@ -1,4 +1,4 @@
-//! After any edits a scene that was brought up to date shows what a fresh one does, and no more was written than had changed.
+//! Updates: after any edits the scene shows what a fresh one does, and no more was written than had changed.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use hairline_scene::{Base, Environment, LightShape, Sampling, Scene, ScratchTabl
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// With one of everything that shaders are compiled for, so that no edit but the last kind compiles.
+/// A scene with one of everything that shaders are compiled for, so that no edit but the last kind compiles.
 fn rich() -> Scene {
     let mut scene = plates().scene();
     scene.render.size_px = [48, 32];

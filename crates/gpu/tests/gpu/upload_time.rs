@@ -1,4 +1,4 @@
-//! How long an upload takes, by stage: printed, not judged.
+//! Time of an upload, by stage: printed, not judged.
 
 use std::time::Instant;
 
