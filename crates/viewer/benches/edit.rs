@@ -1,5 +1,5 @@
-//! From an edit to the picture: a layer of 100,000 scratches on the built-in pan whose width is changed again and again, as
-//! by a hand on a slider, then one of 1,000 beside it, and what the interface's own passes take meanwhile.
+//! Time from an edit to the picture: a layer of 100,000 scratches on the built-in pan whose width is changed again and again,
+//! as by a hand on a slider, then one of 1,000 beside it, and the time of the interface's own passes meanwhile.
 //!
 //! `cargo bench -p hairline-viewer --bench edit` prints a table. No statistics crate: what is measured spans three threads,
 //! and each stage says its own time.
@@ -18,7 +18,7 @@ const BUILT_IN: &str = include_str!("../../../apps/hairline/src/built_in_scene.t
 const SCRATCHES: u64 = 100_000;
 /// Half a kilometre of scratches in all, as on a pan that was scoured for years.
 const LENGTH_M: f64 = 0.005;
-/// Of the layer beside it.
+/// Number of scratches of the layer beside it.
 const FEW: u64 = 1000;
 const EDITS: usize = 12;
 

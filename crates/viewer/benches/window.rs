@@ -1,6 +1,6 @@
-//! What a frame of a real window takes, from one pass of the interface to the next: the pass, its drawing and the way to the
-//! screen, while nothing but the window is busy, while the view turns, and while a layer of 100,000 scratches is laid
-//! again and again under a hand on a slider.
+//! Time of a frame of a real window, from one pass of the interface to the next: the pass, its drawing and the way to the
+//! screen, while nothing but the window is busy, while the view turns, and while a layer of 100,000 scratches is laid again
+//! and again under a hand on a slider.
 //!
 //! `xvfb-run -s "-screen 0 1280x800x24" cargo bench -p hairline-viewer --bench window` prints a table. Without a display it
 //! says so; with `-- gpu` the GPU renderer paints, be it on a software driver. No statistics crate: what is measured is the
@@ -19,12 +19,12 @@ use hairline_viewer::{Options, Viewer};
 
 const BUILT_IN: &str = include_str!("../../../apps/hairline/src/built_in_scene.toml");
 const SCRATCHES: u64 = 100_000;
-/// As in the bench `edit`.
+/// Length of scratches, that of the bench `edit`.
 const LENGTH_M: f64 = 0.005;
 /// Frames of each of the three, after some that are not counted.
 const FRAMES: usize = 200;
 const UNCOUNTED: usize = 10;
-/// What a slow device may take to finish the first picture; else it goes on refining it while nothing moves.
+/// Longest time for a slow device to finish the first picture; else it goes on refining it while nothing moves.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 fn main() {
@@ -57,7 +57,7 @@ fn main() {
     }
 }
 
-/// What goes on while frames are counted.
+/// Activity while frames are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Scenario {
     /// The picture is finished, the interface drawn as fast as it can be.

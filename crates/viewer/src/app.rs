@@ -36,15 +36,15 @@ use crate::tools::Toolbox;
 use crate::viewport::Viewport;
 use crate::workspace::Workspace;
 
-/// What the viewer starts with.
+/// Options with which the viewer starts.
 pub struct Options {
     /// A scene file; none: `built_in`.
     pub scene: Option<PathBuf>,
     /// The text of the scene that is there without a file.
     pub built_in: &'static str,
-    /// What paints.
+    /// Renderer of the window's pictures.
     pub backend: Backend,
-    /// Where autosaves and the list of recent files are kept; none: nowhere.
+    /// Folder for autosaves and the list of recent files; none: they are not kept.
     pub state_dir: Option<PathBuf>,
     /// Whether to ask for files by the system's dialogs; else by a line in the window.
     pub native_dialogs: bool,
@@ -64,11 +64,11 @@ pub struct Viewer {
     frame_when_built: bool,
     /// The window may close.
     is_closing: bool,
-    /// What was typed last in the line for a path, until it was of use.
+    /// Text that was typed last in the line for a path, until it was of use.
     typed: Option<(Purpose, PathBuf)>,
     /// The file that is not there and is being looked for, as the scene names it.
     sought: Option<PathBuf>,
-    /// Once the scene is saved, this is done.
+    /// Wish that is fulfilled once the scene is saved.
     after_save: Option<Wish>,
     hides_list: bool,
     hides_inspector: bool,
@@ -77,13 +77,13 @@ pub struct Viewer {
     built_in: &'static str,
     /// The description that the engine was given last, and when the notes about it were read.
     asked: Option<Arc<Description>>,
-    /// Of the document, when the engine was last asked for a scene.
+    /// Revision of the document when the engine was last asked for a scene.
     asked_revision: u64,
-    /// That the window was given.
+    /// Title that the window was given.
     title: String,
-    /// Of the device that draws the window.
+    /// Loss of the device that draws the window.
     loss: WindowLoss,
-    /// Where a software driver draws.
+    /// State of a window that a software driver draws.
     #[cfg(not(target_arch = "wasm32"))]
     software: Option<crate::window::SoftwareWindow>,
 }
@@ -166,7 +166,7 @@ impl Viewer {
         &self.work.document
     }
 
-    /// To edit it by other hands than the widgets': tests and benches.
+    /// Document, for edits by other hands than the widgets': tests and benches.
     pub fn document_mut(&mut self) -> &mut Document {
         &mut self.work.document
     }
@@ -176,22 +176,22 @@ impl Viewer {
         self.work.camera()
     }
 
-    /// What paints, for tests.
+    /// Engine, for tests.
     pub fn engine(&self) -> &Engine {
         &self.work.engine
     }
 
-    /// What the engine was asked for last, for tests.
+    /// View that the engine was asked for last, for tests.
     pub fn view(&self) -> Option<crate::engine::View> {
         self.viewport.view
     }
 
-    /// How many small pictures of presets there are, and whether more are being rendered, for tests.
+    /// Number of small pictures of presets, and whether more are being rendered, for tests.
     pub fn small_pictures(&self) -> (usize, bool) {
         (self.work.gallery.count(), self.work.gallery.is_working())
     }
 
-    /// What the probe reads, for tests.
+    /// Reading of the probe, for tests.
     pub fn probed(&self) -> Option<crate::reading::Reading> {
         self.work.reading.probe.reading()
     }
@@ -313,7 +313,7 @@ impl Viewer {
         self.dialogs.is_modal() || self.export.is_asking() || self.files.is_about_to_ask()
     }
 
-    /// Has the window closed, without a question, when `loss` is told.
+    /// Makes the window close, without a question, when `loss` is told.
     #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn watch(&mut self, loss: WindowLoss) {
         self.loss = loss;
@@ -331,7 +331,8 @@ impl Viewer {
         (self.hides_list, self.hides_inspector) = (true, true);
     }
 
-    /// What is not saved is kept, and offered at the next start: nothing can be asked any more.
+    /// Writes an autosave of unsaved work, which is offered at the next start, and closes the window: nothing can
+    /// be asked any more.
     fn leave_lost_window(&mut self, ctx: &egui::Context) {
         if let Some(failed) = self.files.autosave_now(&self.work.document) {
             eprintln!("warning: no autosave: {failed}");

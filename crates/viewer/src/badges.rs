@@ -1,4 +1,5 @@
-//! What is unlike the scene's own picture in the window, told in its corner, each with a way back.
+//! Badges in the window's corner for each way in which it differs from the scene's own picture,
+//! each with a way back.
 
 use egui::{Align2, Area, Frame, Id, Order, Rect, Ui, vec2};
 

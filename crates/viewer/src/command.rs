@@ -61,7 +61,7 @@ pub(crate) enum Command {
     Shadows,
 }
 
-/// Where a command is found.
+/// Menu where a command is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Group {
     File,
@@ -98,7 +98,7 @@ impl Group {
 pub(crate) struct Entry {
     pub command: Command,
     pub group: Group,
-    /// What menus call it.
+    /// Name in menus.
     pub label: &'static str,
     pub shortcut: Option<KeyboardShortcut>,
 }
@@ -128,7 +128,7 @@ const COMMAND_SHIFT: Modifiers = Modifiers {
 };
 const PLAIN: Modifiers = Modifiers::NONE;
 
-/// In the order of the menus.
+/// All commands in the order of the menus.
 #[rustfmt::skip]
 const TABLE: &[Entry] = &[
     entry(Command::New, Group::File, "New from the built-in scene", Some((COMMAND, Key::N))),
@@ -254,7 +254,7 @@ impl Command {
         }
     }
 
-    /// What menus and screen readers call it.
+    /// Name for menus and screen readers.
     pub fn label(self) -> &'static str {
         self.entry().map_or("", |entry| entry.label)
     }
@@ -337,7 +337,7 @@ mod tests {
         }
     }
 
-    /// As they are printed on a keyboard, without names such as "OpenBracket".
+    /// Keys read as they are printed on a keyboard, without names such as "OpenBracket".
     #[test]
     fn keys_read_as_on_the_keyboard() {
         let text = |command: Command| key_text(&command.shortcut().unwrap());
@@ -355,7 +355,7 @@ mod tests {
         }
     }
 
-    /// As every other program has them.
+    /// The order is that of every other program.
     #[test]
     fn the_usual_order() {
         let at = |command: Command| TABLE.iter().position(|e| e.command == command).unwrap();

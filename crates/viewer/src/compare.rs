@@ -17,7 +17,7 @@ pub use figures::{Figures, LayerFigures};
 use side::{Side, SideTexture};
 use work::{Kept, Report, Shown, Wanted};
 
-/// What stands still for so many seconds is sampled.
+/// Seconds for which a view must stand still before it is sampled.
 const STILL_S: f64 = 0.3;
 
 /// The comparison, while it is open.
@@ -26,9 +26,9 @@ pub(crate) struct Compare {
     side: Side,
     /// Whether as many pixels are sampled as the window shows.
     full_size: bool,
-    /// From 0, left, to 1.
+    /// Position of the divider from 0, left, to 1.
     divider: f32,
-    /// What was wanted in the last pass, and since when.
+    /// Comparison that was wanted in the last pass, and since when.
     wanted: Option<(Wanted, f64)>,
     sampling: Option<Sampling>,
     /// Asked to stop, and not yet over.

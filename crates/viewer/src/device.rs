@@ -5,7 +5,7 @@ use std::sync::Arc;
 use eframe::egui_wgpu::{RenderState, WgpuSetup, WgpuSetupCreateNew};
 use hairline_gpu::{Adapter, AdapterKind, Error, Gpu};
 
-/// What is to paint.
+/// Renderer that is asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Renderer {
     /// The window's GPU; where that is a driver that computes on the CPU, the CPU renderer, which is faster.
@@ -17,7 +17,7 @@ pub enum Renderer {
     Cpu,
 }
 
-/// With what the renderer needs, so that it can share the device.
+/// Setup of the window's device with what the renderer needs, so that they can share it.
 pub(crate) fn setup() -> WgpuSetup {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     setup.device_descriptor =

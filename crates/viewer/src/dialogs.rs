@@ -19,7 +19,7 @@ use ask::{Loses, ask};
 pub(crate) use path_line::PathLine;
 use recovery::Recovery;
 
-/// What is being asked.
+/// Question in the window.
 pub(crate) enum Question {
     /// Unsaved changes stand in the way of a wish.
     Unsaved(Wish),
@@ -38,14 +38,14 @@ pub(crate) enum Question {
     /// A model that is to be added is much larger or smaller than what the scene shows.
     Fit {
         path: PathBuf,
-        /// Its size in its file.
+        /// Size of the model in its file.
         extent_m: f64,
         /// A size that suits the scene.
         fit_m: f64,
     },
 }
 
-/// Which questions are open.
+/// Open questions.
 #[derive(Default)]
 pub(crate) struct Dialogs {
     question: Option<Question>,

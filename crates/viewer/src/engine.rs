@@ -1,4 +1,4 @@
-//! What makes pictures of the scene while the interface goes on: nothing here is ever waited for by a widget.
+//! Engine that makes pictures of the scene while the interface goes on: nothing here is ever waited for by a widget.
 //!
 //! Two threads, in the order of the data: `builder` makes a scene of the newest description, with its trees and tables;
 //! `painter` paints the newest scene from the newest view, coarsely while something moves and ever finer while nothing does.
@@ -161,12 +161,12 @@ impl Engine {
         self.shared.has_failed()
     }
 
-    /// What happened since the last call.
+    /// Events since the last call.
     pub fn events(&self) -> Vec<Event> {
         self.shared.take_events()
     }
 
-    /// What paints at the moment.
+    /// Current renderer.
     pub fn backend(&self) -> Backend {
         self.shared.backend()
     }

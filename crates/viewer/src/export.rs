@@ -24,7 +24,7 @@ use crate::workspace::Workspace;
 use form::{Answer, Form, Shown};
 use work::{End, Report, Wish};
 
-/// What is being asked and what is being exported.
+/// Form of an export, and the exports in progress.
 #[derive(Default)]
 pub(crate) struct Export {
     /// The question that is open.
@@ -50,7 +50,7 @@ impl Export {
         self.form.is_some()
     }
 
-    /// What the next question of its kind begins with.
+    /// Remembers the form, with which the next question of its kind begins.
     fn remember(&mut self, form: Form) {
         let kind = usize::from(form.is_turntable);
         self.earlier[kind] = Some(form);

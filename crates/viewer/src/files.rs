@@ -19,7 +19,7 @@ use web_time::Instant;
 use crate::platform::HAS_THREADS;
 use watch::{Change, Watch};
 
-/// What a path is wanted for.
+/// Use of a path that is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
     Open,
@@ -46,7 +46,7 @@ impl Purpose {
         }
     }
 
-    /// What files are shown.
+    /// Name and extensions of the files that are shown.
     fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Open => ("Hairline scenes and models", &["toml", "glb", "gltf"]),
@@ -66,7 +66,7 @@ impl Purpose {
         matches!(self, Self::SaveAs | Self::Screenshot | Self::Turntable)
     }
 
-    /// What a new file is called before anyone has said.
+    /// Proposed name of a new file.
     pub fn proposal(self, document: &Document) -> String {
         let stem = document.path().and_then(Path::file_stem);
         let stem = stem.map_or("scene".into(), |stem| stem.to_string_lossy());
@@ -79,10 +79,10 @@ impl Purpose {
     }
 }
 
-/// What came of a dialog.
+/// Result of a dialog.
 pub(crate) enum Choice {
     Path(Purpose, PathBuf),
-    /// It was closed without a choice.
+    /// The dialog was closed without a choice.
     Nothing,
     /// The system has no dialogs: ask in the window.
     NoDialogs(Purpose),
@@ -119,7 +119,7 @@ struct Waiting {
 }
 
 impl Files {
-    /// Without a folder nothing is kept.
+    /// Files in a folder; without one nothing is kept.
     pub fn new(state_dir: Option<PathBuf>, native: bool, wake: egui::Context) -> Self {
         let recent = match &state_dir {
             Some(folder) => Recent::load(folder.join("recent.toml")),
@@ -213,7 +213,7 @@ impl Files {
         }
     }
 
-    /// What came of a dialog or a look into a file, once each.
+    /// Result of a dialog or a look into a file, once each.
     pub fn chosen(&mut self) -> Option<Choice> {
         for i in 0..self.probes.len() {
             match self.probes[i].try_recv() {
@@ -261,7 +261,7 @@ impl Files {
         Some(autosave.keep(document).err()?.to_string())
     }
 
-    /// What was recovered is kept until it is saved or given up.
+    /// Keeps a recovered autosave until the scene is saved or given up.
     pub fn take_over(&mut self, pending: Pending) {
         match &mut self.autosave {
             Some(autosave) => autosave.take_over(pending),

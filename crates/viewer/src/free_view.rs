@@ -1,4 +1,4 @@
-//! Where the window looks from: through the scene's camera, or from a place of its own, which changes nothing in the scene.
+//! Camera of the window: the scene's, or a free one of its own, which changes nothing in the scene.
 //!
 //! Whoever turns, moves or frames the view leaves the scene's camera where it is, and can go back to it or bring it along. The
 //! free view has the camera's up and exposure.
@@ -10,7 +10,7 @@ use hairline_scene::description::Camera;
 #[derive(Default)]
 pub(crate) struct FreeView {
     pub camera: Option<Camera>,
-    /// What was made sharp in it; none: what the scene's camera has in focus.
+    /// Point that was made sharp in it; none: the point that the scene's camera has in focus.
     pub focused_m: Option<DVec3>,
     /// Whether navigation moves the scene's camera.
     pub moves_camera: bool,

@@ -18,7 +18,7 @@ pub(crate) use thumb::Thumb;
 /// Width and height of a picture.
 const SIDE_PX: u32 = 96;
 
-/// What the thread and the window share.
+/// Pictures that the thread and the window exchange.
 #[derive(Default)]
 struct Desk {
     /// Those that are still to be rendered, each with the pass of the interface that showed its place last.
@@ -71,7 +71,7 @@ impl Gallery {
         lock(&self.desk).is_working
     }
 
-    /// How many pictures there are, for tests.
+    /// Number of pictures, for tests.
     pub fn count(&self) -> usize {
         self.pictures.values().flatten().count()
     }
@@ -106,7 +106,7 @@ fn work(desk: &Weak<Mutex<Desk>>, wake: &egui::Context) {
     }
 }
 
-/// What is to be rendered next: of those that were seen last the first that was asked for. None ends the work.
+/// Picture to be rendered next: of those that were seen last the first that was asked for. None ends the work.
 fn next(desk: &Mutex<Desk>) -> Option<Thumb> {
     let mut desk = lock(desk);
     let newest = desk.wanted.iter().map(|(pass, _)| *pass).max();

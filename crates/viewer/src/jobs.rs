@@ -106,8 +106,8 @@ impl Drop for Job {
     }
 }
 
-/// On threads of the job's own, which end with it. Where several share a pool, a thread that waits for a part of one's work
-/// may take up all of another's, and the first goes on only when the second has ended.
+/// Runs work on threads of the job's own, which end with it. Where several share a pool, a thread that waits for a part of
+/// one's work may take up all of another's, and the first goes on only when the second has ended.
 fn install<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     let pool = ThreadPoolBuilder::new()
         .thread_name(|i| format!("viewer job {i}"))

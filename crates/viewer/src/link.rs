@@ -7,7 +7,7 @@ use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 use flate2::read::ZlibEncoder;
 use flate2::{Compression, Decompress, FlushDecompress, Status};
 
-/// What the fragment begins with.
+/// Beginning of the fragment.
 const KEY: &str = "scene=";
 /// Longer ones are cut by programs that pass links on.
 const MOST_BYTES: usize = 8 << 10;
@@ -23,15 +23,15 @@ pub(crate) enum Error {
         MOST_BYTES
     )]
     TooLong {
-        /// Of the fragment.
+        /// Length of the fragment.
         needed: usize,
     },
-    /// It is cut short, or something in it was changed.
+    /// The link is cut short, or something in it was changed.
     #[error(
         "the link holds no whole scene: it was cut short or changed on its way; ask for the whole of it"
     )]
     Damaged,
-    /// It holds more than any scene that this program makes a link of.
+    /// The link holds more than any scene that this program makes a link of.
     #[error(
         "the link holds more than {MOST_TEXT_BYTES} bytes of text, which no scene of a link has"
     )]

@@ -45,14 +45,14 @@ pub(crate) fn show(ctx: &Context, work: &Workspace, area: Rect) -> Option<(FileU
     shown.inner.inner
 }
 
-/// What is said of one.
+/// Message about a missing file.
 pub(crate) fn words(description: &Description, of: FileUse, path: &Path) -> String {
     let name = path.file_name().unwrap_or(path.as_os_str());
     let what = what(description, of, path);
     format!("The {what} {} is not there.", name.to_string_lossy())
 }
 
-/// What the scene takes it for.
+/// Use of the file in the scene.
 fn what(description: &Description, of: FileUse, path: &Path) -> &'static str {
     let is_it = |file: Option<&PathBuf>| file.is_some_and(|file| file == path);
     match of {

@@ -5,7 +5,7 @@
 
 use egui::{Align2, RichText};
 
-/// How a line reads.
+/// Kind of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Error,
@@ -15,14 +15,14 @@ pub(crate) enum Kind {
 struct Notice {
     kind: Kind,
     text: String,
-    /// When it was first shown, or last while a scene was being built, seconds.
+    /// Time at which it was first shown, or last while a scene was being built, seconds.
     since: Option<f64>,
     /// Replaced by the next of the same topic.
     topic: &'static str,
 }
 
 impl Notice {
-    /// How long it stays, if it is a note.
+    /// Seconds for which it stays, if it is a note.
     fn seconds(&self) -> f64 {
         let lines = self.text.lines().count().max(1);
         NOTE_SECONDS + LINE_SECONDS * (lines - 1) as f64
@@ -42,7 +42,7 @@ const LINE_SECONDS: f64 = 3.0;
 const MOST: usize = 4;
 
 impl Notices {
-    /// It is printed on the terminal too.
+    /// Shows an error, and prints it on the terminal too.
     pub fn error(&mut self, topic: &'static str, text: impl Into<String>) {
         let text = text.into();
         let is_known = |notice: &Notice| notice.topic == topic && notice.text == text;
@@ -56,7 +56,7 @@ impl Notices {
         self.push(Kind::Note, topic, text.into());
     }
 
-    /// What was wrong is right again.
+    /// Removes the error of a topic once it is right again.
     pub fn clear(&mut self, topic: &'static str) {
         self.list.retain(|notice| notice.topic != topic);
     }
@@ -144,7 +144,7 @@ impl Notices {
     }
 }
 
-/// Without what a terminal would obey: a text may hold what stands in a file.
+/// Text without characters that a terminal would obey: it may hold the contents of a file.
 fn printable(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {

@@ -1,23 +1,23 @@
-//! What is drawn over the picture, kind by kind.
+//! Kinds of overlays that are drawn over the picture.
 
 /// A kind of lines or words over the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Overlay {
-    /// Which way the scratches of the selected layer run.
+    /// Directions of the scratches of the selected layer.
     Directions,
-    /// The same of all layers that are shown.
+    /// Directions of the scratches of all layers that are shown.
     AllDirections,
     /// The edge of the brush on the surface.
     Brush,
     /// Outlines of lights.
     Lights,
-    /// What moves and turns the selected part.
+    /// Handles that move and turn the selected part.
     Handles,
     /// Names of objects and lights.
     Names,
 }
 
-/// Which kinds are shown.
+/// Kinds of overlays that are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Overlays {
     shown: [bool; Overlay::ALL.len()],

@@ -128,7 +128,7 @@ impl Page {
         self.change(|viewer, context| viewer.open_link(context, fragment));
     }
 
-    /// What a mistake of the program said, once there was one.
+    /// Message of a mistake of the program, once there was one.
     pub fn failure(&self) -> Option<String> {
         Some(self.runner.panic_summary()?.message())
     }

@@ -1,4 +1,4 @@
-//! What is around the picture. A panel reads the document and hands changes to it; it keeps nothing.
+//! Panels around the picture. A panel reads the document and hands changes to it; it keeps nothing.
 
 pub(crate) mod busy;
 pub(crate) mod form;

@@ -7,7 +7,7 @@ use hairline_scene::description::Object;
 
 use crate::workspace::Workspace;
 
-/// What the file of an object calls its parts.
+/// Names of the parts in the file of an object.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Names {
     pub materials: BTreeSet<String>,

@@ -1,4 +1,4 @@
-//! What this platform has. In a browser a command that needs what is not there is in no menu and has no key.
+//! Features of this platform. In a browser a command that needs what is not there is in no menu and has no key.
 
 /// Whether paths lead to files that other programs read and write. Not in a browser: there the viewer holds the files that the page was
 /// given, and hands out those that it writes.
@@ -10,7 +10,7 @@ pub(crate) const HAS_THREADS: bool = cfg!(not(target_arch = "wasm32"));
 /// Whether the window is in a page, which shows a gallery of scenes and has an address.
 pub(crate) const HAS_PAGE: bool = cfg!(target_arch = "wasm32");
 
-/// Has the page show its gallery of scenes.
+/// Makes the page show its gallery of scenes.
 pub(crate) fn show_gallery() {
     #[cfg(target_arch = "wasm32")]
     crate::script::gallery();
@@ -24,7 +24,7 @@ pub(crate) fn page_address() -> Option<String> {
     None
 }
 
-/// Has the page hand out the files that were written.
+/// Makes the page hand out the files that were written.
 pub(crate) fn hand_out_files() {
     #[cfg(target_arch = "wasm32")]
     for path in hairline_image::held::take_written() {

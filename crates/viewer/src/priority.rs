@@ -3,8 +3,8 @@
 #[cfg(not(target_arch = "wasm32"))]
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
-/// Of 0 to 99: the interface, and a software driver that draws it, come first. Not so low that a busy machine would let what
-/// is painted or exported starve.
+/// Priority from 0 to 99: the interface, and a software driver that draws it, come first. Not so low that a busy machine would let what is
+/// painted or exported starve.
 #[cfg(not(target_arch = "wasm32"))]
 const PRIORITY: u8 = 40;
 

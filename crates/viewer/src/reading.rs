@@ -24,7 +24,7 @@ pub use histogram::Histogram;
 pub use layer_view::Shows;
 pub use probe::Reading;
 
-/// How the picture is read in this window; no part of the scene.
+/// Settings for reading the picture in this window; no part of the scene.
 #[derive(Default)]
 pub(crate) struct ReadingState {
     pub shows: Shows,
@@ -35,7 +35,7 @@ pub(crate) struct ReadingState {
 }
 
 impl ReadingState {
-    /// What the painter is asked for; `frame_px` is the size of the scene's picture in the window.
+    /// Reading that the painter is asked for; `frame_px` is the size of the scene's picture in the window.
     pub fn wanted(&self, frame_px: [u32; 2]) -> Wanted {
         Wanted {
             shows: self.shows,

@@ -1,4 +1,4 @@
-//! What the page's own script does for the viewer: functions of its object `hairlinePage`.
+//! Functions of the page's own script for the viewer, in its object `hairlinePage`.
 
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;

@@ -1,4 +1,4 @@
-//! What of a description is seen: the rest may change without a new scene.
+//! Part of a description that is seen: the rest may change without a new scene.
 
 use hairline_scene::Description;
 use hairline_scene::description::{Grating, Light, Material, Object, Scratches};
@@ -116,7 +116,7 @@ fn is_same_grating((a, x): (&Description, &Grating), (b, y): (&Description, &Gra
     place(a, &x.object) == place(b, &y.object) && named_as_y == *y
 }
 
-/// Which object has this name.
+/// Index of the object of this name.
 fn place(description: &Description, object: &str) -> Option<usize> {
     let mut objects = description.objects.iter();
     objects.position(|it| it.name == object)

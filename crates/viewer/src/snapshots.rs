@@ -29,7 +29,7 @@ pub(crate) struct Snapshots {
     /// Whether it is shown, in its way.
     is_shown: bool,
     way: Way,
-    /// From 0, left, to 1.
+    /// Position of the divider from 0, left, to 1.
     divider: f32,
 }
 
@@ -46,7 +46,7 @@ impl Default for Snapshots {
     }
 }
 
-/// How a snapshot is shown.
+/// Display of a snapshot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Way {
     Flip,
@@ -70,7 +70,7 @@ impl Way {
 struct Snapshot {
     name: String,
     description: Arc<Description>,
-    /// Of the scene when it was taken.
+    /// Folder of the scene when it was taken.
     base_dir: PathBuf,
     view: View,
     /// None until the first picture of it is there.

@@ -1,14 +1,14 @@
-//! How the interface looks.
+//! Colours and fonts of the interface.
 
 use egui::{Color32, Rect, RectAlign, Response, ThemePreference, Tooltip, Visuals};
 
 /// Text of what went wrong.
 pub(crate) const ERROR: Color32 = Color32::from_rgb(255, 140, 120);
 
-/// Under words on a picture: light ones are read on white.
+/// Background of words on a picture: light ones are read on white.
 pub(crate) const UNDER_WORDS: Color32 = Color32::from_black_alpha(180);
 
-/// Of panels.
+/// Background of panels.
 pub(crate) const GROUND: Color32 = Color32::from_gray(30);
 
 /// Dark and without hue, so that the eye judges the picture's colours and not the frame's.
@@ -81,7 +81,7 @@ pub(crate) fn beside(response: &Response, menu: Rect, text: &str) {
 mod tests {
     use super::*;
 
-    /// Of sRGB, by WCAG 2.
+    /// Luminance of an sRGB colour, by WCAG 2.
     fn luminance(color: Color32) -> f64 {
         let linear = |c: u8| {
             let c = f64::from(c) / 255.0;

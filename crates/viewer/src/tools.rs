@@ -1,4 +1,4 @@
-//! What the left mouse button does in the picture.
+//! Tools of the left mouse button in the picture.
 
 use hairline_editor::brush::BrushSettings;
 
@@ -27,7 +27,7 @@ impl Tool {
         Self::PickPart,
     ];
 
-    /// What it does, for a tooltip.
+    /// Description for a tooltip.
     pub fn hint(self) -> &'static str {
         match self {
             Self::Select => "Click selects what is there; drag turns the view",
@@ -46,9 +46,9 @@ impl Tool {
 /// The tools and how they are set.
 pub(crate) struct Toolbox {
     pub tool: Tool,
-    /// As it was set by hand; none until then.
+    /// Settings of the brush by hand; none until then.
     pub brush: Option<BrushSettings>,
-    /// As it fits what it was over last.
+    /// Settings that fit the object that it was over last.
     pub fitted: Option<BrushSettings>,
 }
 

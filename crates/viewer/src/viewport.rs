@@ -26,7 +26,7 @@ use gizmo::Gizmo;
 use line_field::LineField;
 use strokes::StrokeTool;
 
-/// What the picture's area keeps between passes.
+/// State of the picture's area between passes.
 pub(crate) struct Viewport {
     pub canvas: CanvasTexture,
     stroke: StrokeTool,
@@ -34,13 +34,13 @@ pub(crate) struct Viewport {
     line_fields: Vec<LineField>,
     /// The largest time of the interface's own passes of late, for the status line.
     pub interface_time: Duration,
-    /// That the engine was given last.
+    /// View that the engine was given last.
     pub view: Option<View>,
-    /// Where the pointer is in the picture, or where its right button opened a menu.
+    /// Position of the pointer in the picture, or where its right button opened a menu.
     pointed: Option<(Area, egui::Pos2)>,
     /// A light goes where the pointer drags its highlight.
     is_placing: bool,
-    /// When the wheel was last turned, seconds: its turns in a row are one step.
+    /// Time at which the wheel was last turned, seconds: its turns in a row are one step.
     wheeled: f64,
     /// The button went down to close a popup, and does nothing else until it goes down again.
     is_shielded: bool,

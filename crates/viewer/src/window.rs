@@ -22,7 +22,7 @@ pub enum Error {
     /// No display, or no driver that can draw a window.
     #[error("no window could be opened: {0}")]
     NoWindow(String),
-    /// Its graphics device is gone.
+    /// The window's graphics device is gone.
     #[error(
         "the window's graphics device was lost ({0}); what was not saved is kept and offered at the next start"
     )]
@@ -32,10 +32,10 @@ pub enum Error {
     Scene(#[from] hairline_scene::Error),
 }
 
-/// With a title and a panel beside it, it fits a screen of 1440 x 900.
+/// Size of the window: with a title and a panel beside it, it fits a screen of 1440 x 900.
 const SIZE: [f32; 2] = [1360.0, 800.0];
 
-/// What lists of windows show.
+/// Icon in lists of windows.
 fn icon() -> egui::IconData {
     let png = include_bytes!("../assets/hairline.png");
     eframe::icon_data::from_png_bytes(png).unwrap_or_default()
@@ -49,7 +49,7 @@ pub fn open(options: Options, renderer: Renderer) -> Result<(), Error> {
     open_as(options, renderer, |viewer| Box::new(viewer))
 }
 
-/// The same, with the viewer in the hands of another program, such as one that takes its times.
+/// Opens the window with the viewer in the hands of another program, such as one that takes its times.
 ///
 /// # Errors
 /// [`Error::NoWindow`], [`Error::Lost`].
@@ -100,7 +100,7 @@ pub fn open_as(
     }
 }
 
-/// Has `loss` told when the window's device is lost.
+/// Makes `loss` told when the window's device is lost.
 fn watch(state: Option<&RenderState>, backend: &Backend, loss: &WindowLoss) {
     let Some(state) = state else { return };
     loss.watch(&state.device);

@@ -1,4 +1,4 @@
-//! What all panels work on: the scene that is edited, what paints it, how it is seen, and what is told of it.
+//! Workspace of all panels: the scene that is edited, what paints it, how it is seen, and messages about it.
 
 mod fit;
 mod view;
@@ -22,7 +22,7 @@ use crate::reading::ReadingState;
 use crate::snapshots::Snapshots;
 use crate::tools::{Tool, Toolbox};
 
-/// It knows no panel: whoever shows a part of it takes it.
+/// Workspace of all panels. It knows no panel: whoever shows a part of it takes it.
 pub(crate) struct Workspace {
     pub document: Document,
     pub engine: Engine,
@@ -40,14 +40,14 @@ pub(crate) struct Workspace {
     pub closed_lens: Option<(f64, Option<f64>)>,
     /// Files that the scene names and that were not there when it was to be built.
     pub missing: Vec<(FileUse, PathBuf)>,
-    /// What was told of the scene's models last.
+    /// Notes on the scene's models that were told last.
     pub model_notes: Vec<String>,
-    /// What panels ask for, to be done once all are shown.
+    /// Commands that panels ask for, to be done once all are shown.
     pub wished: Vec<Command>,
 }
 
 impl Workspace {
-    /// What is selected.
+    /// Selected part.
     pub fn selection(&self) -> Selection {
         self.document.selection()
     }
@@ -104,7 +104,7 @@ impl Workspace {
         }
     }
 
-    /// What the author of the scene file should know about it.
+    /// Tells the notes on the scene file for its author.
     pub fn tell_notes(&mut self) {
         let notes = &self.document.description().notes;
         if !notes.is_empty() {
@@ -114,7 +114,7 @@ impl Workspace {
         }
     }
 
-    /// What the models of the newest scene have and the picture has not, once.
+    /// Tells, once, the contents of the newest scene's models that the picture does not have.
     pub fn tell_model_notes(&mut self) {
         let Some(built) = self.engine.built() else {
             return;
@@ -199,7 +199,7 @@ impl Workspace {
     }
 }
 
-/// What of a scene its file could not hold.
+/// Error of a scene that its file could not hold.
 fn flaw(description: &Description) -> Option<Error> {
     let is_right = description.check();
     is_right.and_then(|()| description.check_references()).err()

@@ -1,4 +1,4 @@
-//! Which document is edited: a new one, another one, one that is recovered; the file that it is saved to; and what comes of
+//! Changes of the document: a new one, another one, one that is recovered; the file that it is saved to; and the answers to
 //! questions about all that.
 
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What other programs have written, and what is taken from the disk again.
+//! Reaction to files that other programs have written, and reloading from the disk.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! What commands do.
+//! Effects of commands.
 
 use egui::ViewportCommand;
 use hairline_editor::actions::{layers, lights, materials, objects, studio};
@@ -11,7 +11,7 @@ use crate::files::Purpose;
 use crate::panels;
 use crate::tools::Tool;
 
-/// What a press of a bracket does to the brush.
+/// Factor of a press of a bracket on the brush.
 const BRUSH_STEP: f64 = 1.25;
 
 impl Viewer {

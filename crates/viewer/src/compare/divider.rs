@@ -7,7 +7,7 @@ use egui::{
 
 /// A hand finds it.
 const GRIP: f32 = 12.0;
-/// It never leaves the picture.
+/// Range of the divider, which never leaves the picture.
 const RANGE: std::ops::RangeInclusive<f32> = 0.02..=0.98;
 /// A press of an arrow.
 const STEP: f32 = 0.02;
@@ -54,7 +54,7 @@ pub(crate) fn show(ui: &mut Ui, frame: Rect, share: &mut f32, name: &str) {
     painter.circle_filled(pos2(x, frame.center().y), 5.0, color);
 }
 
-/// Which side is which, beside the divider at `x`.
+/// Names both sides, beside the divider at `x`.
 pub(crate) fn names(ui: &Ui, frame: Rect, x: f32, [left, right]: [&str; 2]) {
     let y = frame.bottom() - 10.0;
     for (align, x, name) in [

@@ -1,4 +1,4 @@
-//! How far the picture is from the reference, in numbers.
+//! Figures of the picture's error against the reference.
 
 use hairline_image::metrics::Difference;
 use hairline_image::{Image, Layer};
@@ -12,20 +12,21 @@ pub struct Figures {
     pub samples: f64,
     /// Base and scratches.
     pub beauty: LayerFigures,
-    /// What scratches scatter.
+    /// Figures of the scratches' light.
     pub scratches: LayerFigures,
 }
 
-/// The same for one layer, over the pixels that have samples.
+/// Figures of one layer, over the pixels that have samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayerFigures {
     /// The rms difference over the rms of the reference.
     pub relative_rms: f64,
-    /// What of it the reference's noise alone would be. None before each pixel has two batches.
+    /// The part of it that the reference's noise alone would be. None before each pixel has two
+    /// batches.
     pub relative_noise: Option<f64>,
-    /// Of the picture, over all pixels and channels: radiance.
+    /// Mean of the picture, over all pixels and channels: radiance.
     pub mean: f64,
-    /// Of the reference.
+    /// Mean of the reference.
     pub reference_mean: f64,
     /// Standard error of that mean. None before each pixel has two batches.
     pub reference_mean_error: Option<f64>,

@@ -1,4 +1,4 @@
-//! What a comparison draws over the picture: the right side, the divider, the figures and the scale of the errors.
+//! Overlay of a comparison: the right side, the divider, the figures and the scale of the errors.
 
 use egui::{
     Align, Align2, Color32, FontId, Grid, Id, Layout, Rect, Role, Sense, Shape, Ui, WidgetInfo,
@@ -52,7 +52,7 @@ impl Compare {
         }
     }
 
-    /// Over the picture, whose frame is `frame`.
+    /// Draws over the picture, whose frame is `frame`.
     fn draw(&mut self, ui: &mut Ui, frame: Rect, display: &Display) {
         let shown = self.shown();
         let x = frame.left() + self.divider * frame.width();

@@ -1,4 +1,4 @@
-//! What is right of the divider.
+//! The picture right of the divider.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use hairline_image::{Display, png};
 
 use super::work::Shown;
 
-/// What is right of the divider.
+/// The picture right of the divider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Reference,

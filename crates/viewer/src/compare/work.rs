@@ -16,12 +16,12 @@ use super::figures::Figures;
 use crate::engine::{Built, Wake, bands};
 use crate::jobs::Stop;
 
-/// What is to be compared.
+/// Request for a comparison.
 #[derive(Clone)]
 pub(super) struct Wanted {
     pub built: Arc<Built>,
     pub camera: Camera,
-    /// Of the picture in the window: the comparison is no larger, and has its shape.
+    /// Size of the picture in the window: the comparison is no larger, and has its shape.
     pub shown_px: [u32; 2],
     pub filter_std_px: f64,
     pub transport: Transport,
@@ -97,22 +97,22 @@ pub(super) struct Shown {
     /// Counts up.
     pub number: u64,
     pub reference: Picture,
-    /// Of the reference's pixels, in the mean.
+    /// Mean number of samples of the reference's pixels.
     pub samples: f64,
-    /// Nothing to compare with at first: the closed form takes longer than the first samples.
+    /// Comparison with the closed form; none at first, since that takes longer than the first samples.
     pub compared: Option<Compared>,
 }
 
-/// Where picture and reference differ, and how far.
+/// Differences of picture and reference.
 pub(super) struct Compared {
-    /// In false colours.
+    /// Differences in false colours.
     pub errors: Arc<ColorImage>,
     /// Relative errors of the darkest and the brightest colour.
     pub range: [f64; 2],
     pub figures: Figures,
 }
 
-/// What the thread tells the window.
+/// Report of the thread to the window.
 #[derive(Clone)]
 pub(super) struct Report {
     newest: Arc<Mutex<Option<Arc<Shown>>>>,
@@ -143,12 +143,12 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 /// Pixels of the reference that comes at once.
 const FIRST_PX: f64 = 1500.0;
-/// Of the one that is refined: never fewer, or there is nothing to see; never more, or the noise stays.
+/// Least size of the reference that is refined: with fewer pixels there is nothing to see, with more the noise stays.
 const LEAST_PX: f64 = 12_000.0;
 const MOST_PX: f64 = 160_000.0;
-/// What a round of one batch for each pixel may take.
+/// Longest time of a round of one batch for each pixel.
 const ROUND: Duration = Duration::from_secs(4);
-/// Between two pictures in the window.
+/// Interval between two pictures in the window.
 const REFRESH: Duration = Duration::from_millis(700);
 /// Then no eye sees noise any more.
 const ENOUGH_SAMPLES: u32 = 1 << 16;
@@ -157,7 +157,7 @@ pub(super) fn is_enough(samples: f64) -> bool {
     samples >= f64::from(ENOUGH_SAMPLES)
 }
 
-/// Of the closed form, on edges.
+/// Samples of the closed form on edges.
 const PICTURE_SAMPLES: u32 = 16;
 /// Pixels of its first band.
 const BAND_PX: u32 = 1 << 12;
@@ -260,7 +260,7 @@ struct Sampled {
 }
 
 impl Sampled {
-    /// What the window shows of it. Pixels without samples are those of `coarse`, and have no error.
+    /// Comparison as the window shows it. Pixels without samples are those of `coarse`, and have no error.
     fn shown(&self, number: u64, coarse: &Image) -> Shown {
         let size_px = self.reference.size_px;
         let noise = self.reference.noise.as_ref();

@@ -1,4 +1,4 @@
-//! What is to be done after an answer.
+//! Actions after an answer.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use hairline_editor::autosave::Pending;
 
 use crate::files::Purpose;
 
-/// What was asked for while there were unsaved changes.
+/// Action that was asked for while there were unsaved changes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Wish {
     New,
@@ -14,11 +14,11 @@ pub(crate) enum Wish {
     Quit,
 }
 
-/// What came of a question.
+/// Answer to a question.
 pub(crate) enum Answer {
     /// All stays as it is.
     Cancel,
-    /// The same, and the scene is not saved.
+    /// Nothing is done, and the scene is not saved.
     CancelSaving,
     /// The scene is saved before the wish.
     SaveBefore(Wish),
@@ -32,9 +32,9 @@ pub(crate) enum Answer {
     /// A path was typed.
     Path(Purpose, PathBuf),
     Reload,
-    /// What another program has written is passed over.
+    /// The text that another program has written is ignored.
     PassOver,
-    /// As large as in its file, or fitted to a size.
+    /// The model is added as large as in its file, or fitted to a size.
     AddModel(PathBuf, Option<f64>),
     Recover(Pending),
 }

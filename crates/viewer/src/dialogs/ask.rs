@@ -2,7 +2,7 @@
 
 use egui::{Context, Id, Key, Modal};
 
-/// What the first answer does to somebody's work.
+/// Effect of the first answer on somebody's work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Loses {
     Nothing,

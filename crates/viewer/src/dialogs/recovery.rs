@@ -1,4 +1,4 @@
-//! What an earlier run left, when it ended by accident.
+//! Recovery of an earlier run's work, when it ended by accident.
 
 use std::time::SystemTime;
 
@@ -9,7 +9,7 @@ use super::answer::Answer;
 use super::thumbnails::Thumbnails;
 use crate::panels::busy::Busy;
 
-/// What was left, as it is shown.
+/// Autosaves that are offered, as they are shown.
 pub(crate) struct Recovery {
     pending: Vec<Pending>,
     /// None until they are first shown.
@@ -18,7 +18,7 @@ pub(crate) struct Recovery {
     going: Option<usize>,
 }
 
-/// What was pressed.
+/// Button that was pressed.
 enum Press {
     Recover(usize),
     AskToDiscard(usize),
@@ -119,7 +119,7 @@ impl Recovery {
     }
 }
 
-/// How long ago, in words.
+/// Age of an autosave, in words.
 fn age(written: Option<SystemTime>) -> String {
     let seconds = written
         .and_then(|written| written.elapsed().ok())

@@ -48,7 +48,7 @@ impl Thumbnails {
         }
     }
 
-    /// Of an autosave, once it is there.
+    /// Picture of an autosave, once it is there.
     pub fn of(&mut self, i: usize, ctx: &Context) -> Option<TextureHandle> {
         while let Ok((i, picture)) = self.made.try_recv() {
             let name = format!("thumbnail {i}");

@@ -1,4 +1,4 @@
-//! What paints.
+//! The renderer of the window's pictures.
 
 use hairline_gpu::{AdapterKind, Gpu};
 
@@ -6,7 +6,7 @@ use hairline_scene::Transport;
 
 use super::pool;
 
-/// What paints.
+/// The renderer of the window's pictures.
 #[derive(Clone)]
 pub enum Backend {
     /// The CPU renderer, on threads of low priority.
@@ -18,7 +18,7 @@ pub enum Backend {
 }
 
 impl Backend {
-    /// What it has of the ways of light that are wanted while something moves: what takes longer than a movement lasts is left out.
+    /// Part of the wanted transport that is rendered while something moves: what takes longer than a movement lasts is left out.
     pub fn counts_in_motion(&self, wanted: Transport) -> Transport {
         if self.is_software() {
             Transport::DIRECT
@@ -35,7 +35,7 @@ impl Backend {
         }
     }
 
-    /// What the status line calls it.
+    /// Name in the status line.
     pub fn label(&self) -> String {
         match self {
             Self::Cpu => match pool::threads() {

@@ -11,12 +11,12 @@ use web_time::Instant;
 
 use super::Built;
 
-/// How much is painted between two looks at whether something newer is wanted.
+/// Amount that is painted between two looks at whether something newer is wanted.
 #[derive(Clone, Copy)]
 pub(super) struct BandSize {
     /// The first, pixels.
     first_px: u32,
-    /// Of which there are at least so many, rows.
+    /// Least number of rows.
     fewest_rows: u32,
     /// Bands that take less become larger, bands that take more become smaller.
     times: [Duration; 2],
@@ -101,7 +101,7 @@ fn render_once(
     }
 }
 
-/// By Hairline's own method.
+/// Options of Hairline's own method.
 pub(crate) fn options(samples: u32, transport: Transport, batch: Option<Batch>) -> RenderOptions {
     RenderOptions {
         samples,
@@ -133,7 +133,7 @@ impl Bands {
         }
     }
 
-    /// Of a picture of one sample a pixel.
+    /// Bands that refine the edges of a picture of one sample a pixel.
     pub fn edges_of(image: Image, size: BandSize) -> Self {
         let bands = Self::new(image.size_px, size);
         Self {

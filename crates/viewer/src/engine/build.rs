@@ -13,11 +13,11 @@ use super::sketch::Sketch;
 
 /// A scene with all that painting and picking look up.
 pub struct Built {
-    /// Of the description.
+    /// Revision of the description.
     pub revision: u64,
-    /// When the interface asked for it.
+    /// Time at which the interface asked for it.
     pub asked: Instant,
-    /// What it was made from.
+    /// Description that it was made from.
     pub description: Arc<Description>,
     /// The scene.
     pub scene: Scene,
@@ -25,20 +25,20 @@ pub struct Built {
     pub triangles: Arc<TriangleIndex>,
     /// The scratches; a sketch has no trees of them.
     pub scratches: Arc<ScratchIndex>,
-    /// What the materials mean to the physics.
+    /// Optical properties of the materials.
     pub tables: Arc<ScratchTables>,
-    /// How many pieces of scratches are looked at for a picture.
+    /// Number of pieces of scratches that are looked at for a picture.
     pub segments: usize,
-    /// What its scratches stand for, if these are but a few.
+    /// Weights of its scratches, if these are but a few of all.
     pub(crate) sketch: Option<Sketch>,
-    /// How long each stage took.
+    /// Time of each stage.
     pub stages: BuildStages,
 }
 
-/// How long a scene waited and took.
+/// Time for which a scene waited, and that of each stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BuildStages {
-    /// From the wish to the start: what the scene before it still took.
+    /// Time from the wish to the start, while the scene before it was built.
     pub waited: Duration,
     /// Files, meshes, scratches laid.
     pub scene: Duration,
@@ -54,7 +54,7 @@ impl Built {
         self.sketch.is_some()
     }
 
-    /// How many scratches and straight pieces it has.
+    /// Numbers of its scratches and straight pieces.
     pub fn scratch_counts(&self) -> (usize, usize) {
         self.scene
             .objects
@@ -73,7 +73,7 @@ impl Built {
 pub(super) struct Workshop {
     scenes: SceneBuilder,
     last: Option<Kept>,
-    /// For sketches, until a whole scene is built.
+    /// Builder of sketches, until a whole scene is built.
     sketches: Option<SceneBuilder>,
 }
 

@@ -6,7 +6,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use super::Event;
 use super::request::Shared;
 
-/// What `work` returns. None if it panicked, which is told: the caller drops what the work may have left half done.
+/// Returns the result of `work`. None if it panicked, which is told: the caller drops what the work may have left
+/// half done.
 pub(super) fn caught<T>(
     shared: &Shared,
     what: &'static str,

@@ -45,9 +45,9 @@ struct Last {
     completed: Option<Image>,
     step: Step,
     order: Order,
-    /// That it has.
+    /// Samples of the picture.
     samples: u32,
-    /// As it was shown last, by which view.
+    /// Picture and findings as they were shown last, and by which view.
     shown: RefCell<Option<(super::View, Picture, Findings)>>,
 }
 
@@ -59,13 +59,13 @@ struct Begun {
 }
 
 impl CpuEasel {
-    /// For a thread that paints.
+    /// Easel of a thread that paints.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn of_a_thread() -> Self {
         Self::new(super::bands::OF_A_THREAD)
     }
 
-    /// For an interface that waits meanwhile.
+    /// Easel that takes turns with the interface.
     pub fn in_turn() -> Self {
         Self::new(IN_TURN)
     }

@@ -1,4 +1,5 @@
-//! What a renderer does for the painter. A GPU is awaited: by a thread that blocks, in a browser by the page's own loop of events.
+//! Interface between the painter and a renderer. A GPU is awaited: by a thread that blocks, in a browser by the page's own loop of
+//! events.
 
 use hairline_scene::Transport;
 
@@ -8,7 +9,7 @@ use super::pace::Kind;
 use super::request::Order;
 use super::steps::Step;
 
-/// What a painter can do in one step.
+/// Steps of a renderer for the painter.
 pub(super) trait Easel {
     /// Takes the scene of `order`, if it is another one than before. True if it was.
     async fn take(&mut self, order: &Order) -> Result<bool, hairline_gpu::Error>;
@@ -25,13 +26,13 @@ pub(super) trait Easel {
     async fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, hairline_gpu::Error>;
     /// Samples of a pixel, where edges are as smooth as they get.
     fn best_samples(&self) -> u32;
-    /// As what it computes with.
+    /// Renderer behind it.
     fn backend(&self) -> Backend;
-    /// What it can do about time.
+    /// Ways in which it can save time.
     fn kind(&self) -> &'static Kind;
 }
 
-/// What an easel has to show.
+/// Picture that an easel has to show.
 pub(super) struct Shown {
     pub picture: Picture,
     pub size_px: [u32; 2],

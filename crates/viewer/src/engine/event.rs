@@ -1,32 +1,32 @@
-//! What the engine tells the interface.
+//! Events that the engine tells the interface.
 
 use std::sync::Arc;
 
-/// What went wrong or is worth a line, in the order of its coming.
+/// An event that went wrong or is worth a line, in the order of its coming.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
     /// The description of this revision makes no scene; the last good one stays in the picture.
     NotBuilt {
-        /// Of the description.
+        /// Revision of the description.
         revision: u64,
         /// Names the key, what was found and what would be right.
         message: String,
     },
     /// The device was lost or refused the scene; the CPU paints from now on.
     FellBack {
-        /// What the device said.
+        /// Message of the device.
         message: String,
     },
     /// A device that was lost is back.
     Recovered,
     /// A thread panicked, by a mistake of the program's. It goes on with the next change of the view or the scene.
     Panicked {
-        /// What it was at.
+        /// Name of the work.
         what: &'static str,
-        /// Of the panic.
+        /// Message of the panic.
         message: String,
     },
 }
 
-/// How the interface is told that something new is there.
+/// Callback by which the interface is told that something new is there.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;

@@ -12,28 +12,28 @@ use super::{BuildStages, Built, View};
 pub struct Frame {
     /// Counts up.
     pub number: u64,
-    /// What it shows.
+    /// Scene that it shows.
     pub built: Arc<Built>,
-    /// From where. Its size is the one that was wanted; `painted.size_px` may be smaller.
+    /// View that was wanted. Its size is the one that was wanted; `painted.size_px` may be smaller.
     pub view: View,
-    /// What to draw.
+    /// Picture to be drawn.
     pub picture: Picture,
-    /// How it was painted.
+    /// Settings with which it was painted.
     pub painted: Painted,
-    /// What was found out about it, as far as the view asked for it.
+    /// Findings about the picture, as far as the view asked for them.
     pub findings: crate::reading::Findings,
 }
 
 /// Pixels, encoded for the display.
 #[derive(Clone)]
 pub enum Picture {
-    /// In main memory.
+    /// Pixels in main memory.
     Pixels(Arc<egui::ColorImage>),
-    /// On the window's own device.
+    /// A texture on the window's own device.
     Texture(wgpu::TextureView),
 }
 
-/// How a picture was painted.
+/// Settings with which a picture was painted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Painted {
     /// Width and height of the picture.
@@ -50,22 +50,22 @@ pub struct Painted {
     pub done: f64,
     /// Whether nothing finer will come.
     pub is_final: bool,
-    /// What it took, from the order to the picture.
+    /// Time from the order to the picture.
     pub time: Duration,
-    /// What each pass took, where the device has a clock.
+    /// Time of each pass, where the device has a clock.
     pub passes: Vec<PassTime>,
-    /// From the edit to the picture, for the first picture of a scene.
+    /// Time from the edit to the picture, for the first picture of a scene.
     pub latency: Option<Latency>,
 }
 
 /// The way of an edit to the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Latency {
-    /// Of the description.
+    /// Revision of the description.
     pub revision: u64,
-    /// To the scene, its trees and tables.
+    /// Stages of building the scene, its trees and tables.
     pub build: BuildStages,
-    /// From the scene to the device; for the CPU, nothing.
+    /// Time from the scene to the device; zero for the CPU.
     pub upload: Duration,
     /// The first picture, after the upload.
     pub paint: Duration,

@@ -22,11 +22,11 @@ use crate::reading::{Findings, develop};
 
 /// Pixels of one submission on a software driver, between two looks at whether something newer is wanted.
 const SOFTWARE_BAND_PX: u32 = 1 << 16;
-/// On a GPU: well below what any system takes for hung.
+/// Pixels of a band on a GPU: well below what any system takes for hung.
 const HARDWARE_BAND_PX: u32 = 1 << 20;
 /// Samples on edges; fewer of them are no better than the one sample through the pixels' centres that came before.
 const FEWEST_SHOWN: u32 = 4;
-/// Between two pictures of one that becomes finer.
+/// Interval between two pictures of one that becomes finer.
 const REFRESH: Duration = Duration::from_millis(100);
 
 pub(super) struct GpuEasel {
@@ -38,10 +38,10 @@ pub(super) struct GpuEasel {
     /// The bounces of the shadows that what was uploaded has; none without shadows.
     bounces: Option<u32>,
     canvas: Option<Canvas>,
-    /// Of the canvas.
+    /// Step of the canvas.
     step: Option<Step>,
     adding: Adding,
-    /// What batches have added up to, of which the canvas has the last one, and how many samples it has.
+    /// Mean of the batches so far, of which the canvas has the last one, and its number of samples.
     mean: Option<(Image, u32)>,
 }
 
@@ -262,7 +262,7 @@ impl Easel for GpuEasel {
     }
 }
 
-/// What egui takes for a picture.
+/// Format of pictures for egui.
 const TARGET_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// A new one for each picture: the window may be drawing the last.

@@ -17,7 +17,7 @@ use super::request::{Order, Shared};
 #[cfg(target_arch = "wasm32")]
 use super::{Backend, task::Task};
 
-/// Of a finer picture: with the interface's own pass it is soon enough for a hand.
+/// Time of a slice of a finer picture: with the interface's own pass it is soon enough for a hand.
 const SLICE: Duration = Duration::from_millis(20);
 
 /// Builder and painter, one after the other.
@@ -100,15 +100,15 @@ impl InTurn {
     }
 }
 
-/// Between a movement and what is finer.
+/// Pause between a movement and finer pictures.
 #[derive(Default)]
 struct Pause {
-    /// When the last movement was painted.
+    /// Time at which the last movement was painted.
     moved: Option<Instant>,
 }
 
 impl Pause {
-    /// How long to wait before an order is gone on with; none where nothing is left to be done.
+    /// Time to wait before an order is continued; none where nothing is left to be done.
     fn before(&mut self, progress: &Progress, order: &Order) -> Option<Duration> {
         let now = Instant::now();
         if !progress.is_at(order) {

@@ -1,11 +1,11 @@
-//! How coarse a picture must be to come in time while something moves.
+//! Choice of how coarse a picture must be to come in time while something moves.
 
 use std::time::Duration;
 
-/// How coarse a picture is.
+/// Coarseness of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Level {
-    /// Of the full size, on each side.
+    /// Share of the full size, on each side.
     pub scale: f64,
     /// One scratch of so many is drawn, and stands for all of them.
     pub thin: u32,
@@ -15,7 +15,7 @@ const fn level(scale: f64, thin: u32) -> Level {
     Level { scale, thin }
 }
 
-/// For a renderer that draws all scratches: small steps, so that a change is not noticed, and few, so that it is rare.
+/// Levels of a renderer that draws all scratches: small steps, so that a change is not noticed, and few, so that it is rare.
 pub(super) const WHOLE: Kind = Kind {
     levels: &[
         level(1.0, 1),
@@ -31,7 +31,8 @@ pub(super) const WHOLE: Kind = Kind {
     segment_px: 0.0,
 };
 
-/// For a renderer that can draw a few scratches for all of them: what a coarse picture takes is its scratches and not its pixels.
+/// Levels of a renderer that can draw a few scratches for all of them: the time of a coarse picture is that of its scratches and
+/// not of its pixels.
 pub(super) const THINNED: Kind = Kind {
     levels: &[
         level(1.0, 1),
@@ -52,16 +53,16 @@ pub(super) const THINNED: Kind = Kind {
     segment_px: 0.03,
 };
 
-/// What a renderer can do about time.
+/// Levels of coarseness of a renderer.
 #[derive(Debug, PartialEq)]
 pub(super) struct Kind {
-    /// From the finest to the coarsest.
+    /// Levels from the finest to the coarsest.
     levels: &'static [Level],
-    /// What a picture in motion may take.
+    /// Longest time of a picture in motion.
     target: Duration,
-    /// Before anything is known: a small picture soon beats a large one late.
+    /// Seconds a pixel that are assumed before anything is known: a small picture soon beats a large one late.
     first_seconds_per_px: f64,
-    /// What a piece of a scratch costs wherever it lies, in pixels.
+    /// Cost of a piece of a scratch wherever it lies, in pixels.
     segment_px: f64,
 }
 
@@ -112,7 +113,7 @@ impl Pace {
         self.at + 1 == self.kind.levels.len()
     }
 
-    /// What a picture in motion is to be, of `full_px`. One that `begins` a movement is coarser.
+    /// Size and thinning of a picture in motion, of `full_px`. One that `begins` a movement is coarser.
     pub fn moving(&mut self, full_px: [u32; 2], segments: usize, begins: bool) -> ([u32; 2], u32) {
         let levels = self.kind.levels;
         let seconds_per_px = self
@@ -137,7 +138,7 @@ impl Pace {
         (scaled(full_px, levels[at].scale), levels[at].thin)
     }
 
-    /// In pixels with all their scratches.
+    /// Work for a picture, in pixels with all their scratches.
     fn work_px(&self, size_px: [u32; 2], thin: u32, segments: usize) -> f64 {
         let pixels = size_px.iter().map(|&side| f64::from(side)).product::<f64>();
         // A pixel of a thinned picture sees fewer scratches, of those that are left more.
@@ -146,7 +147,7 @@ impl Pace {
     }
 }
 
-/// So large on each side, and at least a pixel.
+/// Size scaled by a factor on each side, at least a pixel.
 pub(super) fn scaled(full_px: [u32; 2], scale: f64) -> [u32; 2] {
     full_px.map(|side| ((f64::from(side) * scale).round() as u32).max(1))
 }

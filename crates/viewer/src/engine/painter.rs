@@ -20,9 +20,9 @@ use super::studio::{Studio, Turn};
 #[cfg(not(target_arch = "wasm32"))]
 use super::{Backend, Event};
 
-/// What stands still for this long is refined.
+/// Time for which a view must stand still before it is refined.
 pub(super) const STILL: Duration = Duration::from_millis(150);
-/// How often a lost device is opened anew before the CPU takes over.
+/// Number of times that a lost device is opened anew before the CPU takes over.
 #[cfg(not(target_arch = "wasm32"))]
 const REOPENINGS: u32 = 2;
 
@@ -85,14 +85,14 @@ async fn work(shared: &Shared, easel: &mut impl Easel) -> Result<(), hairline_gp
     }
 }
 
-/// Which order is being painted, and how far it is.
+/// Order that is being painted, and its progress.
 pub(super) struct Progress {
     studio: Studio,
-    /// Whose first picture is there.
+    /// Order whose first picture is there.
     done: Option<Order>,
     /// The finer ones that are left.
     steps: Vec<Step>,
-    /// How many there were at first.
+    /// Number of steps at first.
     steps_first: usize,
 }
 

@@ -6,8 +6,8 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::priority;
 
-/// Whose threads. A pool each: a thread that waits takes up other work of its own pool, and a painter that took up the building
-/// of a scene would show nothing until that is done. What comes from outside waits until all that is in a pool is done.
+/// Users of threads. A pool each: a thread that waits takes up other work of its own pool, and a painter that took up the
+/// building of a scene would show nothing until that is done. What comes from outside waits until all that is in a pool is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Crew {
     /// Builds scenes.
@@ -70,7 +70,7 @@ fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, |n| n.get())
 }
 
-/// How many there are.
+/// Number of threads that paint.
 pub(super) fn threads() -> usize {
     Crew::Painter
         .pool()

@@ -1,4 +1,4 @@
-//! What the interface wants and what the threads have made of it: one lock, held for as long as it takes to move a pointer.
+//! Requests of the interface and results of the threads: one lock, held for as long as it takes to move a pointer.
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,7 +23,7 @@ struct State {
     wanted_scene: Option<WantedScene>,
     is_building: bool,
     built: Option<Arc<Built>>,
-    /// Of a newer description than that of `built`.
+    /// Sketch of a newer description than that of `built`.
     sketch: Option<Arc<Built>>,
     view: Option<View>,
     frame: Option<Arc<Frame>>,
@@ -37,7 +37,7 @@ struct State {
 }
 
 impl State {
-    /// What is to be painted now, if scene and view are there.
+    /// Order to be painted now, if scene and view are there.
     fn order(&self) -> Option<Order> {
         Some(Order {
             built: Arc::clone(self.sketch.as_ref().or(self.built.as_ref())?),
@@ -65,7 +65,7 @@ pub(super) struct Shared {
     wake: Wake,
 }
 
-/// What the painter is to paint.
+/// Order for the painter.
 #[derive(Clone)]
 pub(super) struct Order {
     pub built: Arc<Built>,
@@ -78,7 +78,7 @@ impl Order {
         Arc::ptr_eq(&self.built, &other.built) && self.view.has_same_pixels(&other.view)
     }
 
-    /// The same, with exposure, tone curve and all.
+    /// Whether the orders are the same, with exposure, tone curve and all.
     pub fn is_same(&self, other: &Self) -> bool {
         self.has_same_pixels(other) && self.view.is_shown_as(&other.view)
     }
@@ -189,7 +189,7 @@ impl Shared {
         self.news.notify_all();
     }
 
-    /// What it is a sketch of cannot be built: the last good scene stays.
+    /// Drops a sketch of a scene that cannot be built: the last good scene stays.
     pub fn drop_sketch(&self) {
         self.lock().sketch = None;
     }
@@ -203,7 +203,7 @@ impl Shared {
         (self.wake)();
     }
 
-    /// What is to be painted now, if scene and view are there.
+    /// Order to be painted now, if scene and view are there.
     pub fn order(&self) -> Option<Order> {
         self.lock().order()
     }
@@ -238,7 +238,7 @@ impl Shared {
         self.tell(is_awaited);
     }
 
-    /// Has the interface look at what is there.
+    /// Makes the interface look at what is there.
     #[cfg(target_arch = "wasm32")]
     pub fn wake(&self) {
         (self.wake)();

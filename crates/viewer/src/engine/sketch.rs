@@ -7,10 +7,10 @@ use hairline_scene::description::{Amount, Layer};
 const SCRATCHES: u64 = 700;
 /// A layer keeps at least so many.
 const FEWEST: u64 = 48;
-/// At most so few.
+/// Largest number of scratches that one of a sketch stands for.
 const THIN_MOST: u64 = 64;
 
-/// What the scratches of a sketch stand for.
+/// Weights of the scratches of a sketch.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Sketch {
     thin: f64,
@@ -19,7 +19,7 @@ pub(crate) struct Sketch {
 }
 
 impl Sketch {
-    /// Of a whole scene the description of a sketch; none where that would save little.
+    /// Description of a sketch of a whole scene; none where that would save little.
     pub fn of(description: &Description) -> Option<(Description, Self)> {
         let counts = description
             .scratches
@@ -67,7 +67,7 @@ impl Sketch {
         self.thin
     }
 
-    /// How many scratches one of a layer stands for.
+    /// Number of scratches that one of a layer stands for.
     pub fn weight(&self, layer: usize) -> f64 {
         self.weights.get(layer).copied().unwrap_or(1.0)
     }

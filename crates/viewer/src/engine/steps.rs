@@ -7,9 +7,9 @@ use super::View;
 use super::pace::{Kind, scaled};
 use super::request::Order;
 
-/// Between the small filter of the full picture, 1, and that of the coarse one, 0: chosen by eye.
+/// Filter of a thinned picture, between the small one of the full picture, 1, and that of the coarse one, 0: chosen by eye.
 const THINNED_FILTER: f64 = 0.8;
-/// Of the picture between the coarse one and the whole one: its scale, and one scratch of so many.
+/// Scale and thinning, one scratch of so many, of the picture between the coarse one and the whole one.
 const BETWEEN: (f64, u32) = (0.4, 4);
 
 /// Samples of shadows that add up while nothing moves: then no eye sees their noise on most scenes.
@@ -24,7 +24,7 @@ pub(super) struct Step {
     /// One scratch of so many stands for all of them.
     pub thin: u32,
     pub transport: Transport,
-    /// Which of the samples are added to those before; none: the picture is one by itself.
+    /// Batch of samples that is added to those before; none: the picture stands by itself.
     pub batch: Option<Batch>,
 }
 

@@ -25,7 +25,7 @@ pub(super) enum Turn {
 pub(super) struct Studio {
     pace: Pace,
     number: u64,
-    /// What the step that is not done yet has taken.
+    /// Time of the unfinished step so far.
     spent: Duration,
     /// The revision whose latency was told.
     latency_told: Option<u64>,

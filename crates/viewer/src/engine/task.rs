@@ -38,7 +38,7 @@ impl Task {
         task
     }
 
-    /// What paints, while it does not.
+    /// Bench of the painter, while it does not paint.
     pub fn at_rest(&self) -> Option<Ref<'_, Bench>> {
         Ref::filter_map(self.bench.borrow(), Option::as_ref).ok()
     }

@@ -1,10 +1,10 @@
-//! From where the scene is seen, and how.
+//! View of the scene: camera and display.
 
 use hairline_image::Display;
 use hairline_scene::Transport;
 use hairline_scene::scene::Camera;
 
-/// Where the picture is taken from, and how it is shown.
+/// View of the scene: camera and display.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     /// The camera; its exposure is that of `display`.
@@ -17,7 +17,7 @@ pub struct View {
     pub filter_std_px: f64,
     /// Shadows and bounces that are wanted; what paints may leave out a part of it.
     pub transport: Transport,
-    /// What is shown of the picture and found out about it: a change of it paints nothing anew either.
+    /// Reading of the picture that is wanted: a change of it paints nothing anew either.
     pub reading: crate::reading::Wanted,
 }
 

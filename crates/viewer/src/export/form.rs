@@ -14,13 +14,13 @@ const SIDE_PX: std::ops::RangeInclusive<u32> = 1..=16_384;
 const MOST_PX: u64 = 1 << 26;
 const LARGE_PX: [u32; 2] = [3840, 2160];
 
-/// What is being asked for.
+/// Settings of the export that is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Form {
     pub is_turntable: bool,
     pub size_px: [u32; 2],
     pub samples: u32,
-    /// From where the window looks; else from the scene's camera.
+    /// Whether the camera is that of the window; else it is the scene's.
     pub is_as_seen: bool,
     /// Whether what is no surface is transparent.
     pub is_transparent: bool,
@@ -30,17 +30,17 @@ pub(super) struct Form {
     pub path: String,
     /// Why it cannot be done so.
     pub refused: Option<String>,
-    /// Of a file that a dialog of the system has asked about: it may be replaced.
+    /// Path that a dialog of the system has asked about: its file may be replaced.
     pub agreed: Option<PathBuf>,
     /// Whether files that are there may be replaced; none while that is not asked.
     question: Option<String>,
 }
 
-/// What of the scene and the window the form depends on.
+/// Properties of the scene and the window that the form depends on.
 pub(super) struct Shown {
     /// Size of the scene's picture.
     pub scene_px: [u32; 2],
-    /// Of the picture in the window.
+    /// Size of the picture in the window.
     pub window_px: [u32; 2],
     /// Whether there is depth of field.
     pub has_lens: bool,
@@ -48,7 +48,7 @@ pub(super) struct Shown {
     pub is_view_free: bool,
 }
 
-/// What was pressed.
+/// Button that was pressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Answer {
     Start,
@@ -190,7 +190,7 @@ impl Form {
         .inner
     }
 
-    /// What is asked before files are replaced; none where none is there, or only the one that a dialog has asked about.
+    /// Question before files are replaced; none where none is there, or only the one that a dialog has asked about.
     fn question_before(&self) -> Option<String> {
         let frames = match self.motion() {
             Motion::Still => 1,
@@ -230,7 +230,7 @@ impl Form {
         answer
     }
 
-    /// What the samples are with depth of field.
+    /// Remark on the samples with depth of field.
     fn lens_remark(&self) -> String {
         let samples = Batches::new(self.samples).samples();
         let points = samples.div_ceil(BATCH_SAMPLES);
@@ -292,7 +292,7 @@ impl Form {
         answer
     }
 
-    /// What will come of it.
+    /// Remarks on the result.
     fn remarks(&mut self, ui: &mut Ui) {
         let first = self.motion().path(&self.path(), 0);
         let ending = first.extension().unwrap_or_default().to_string_lossy();

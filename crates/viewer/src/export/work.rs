@@ -13,7 +13,7 @@ use hairline_scene::{Camera, Description, Scene, Transport};
 use crate::engine::{Backend, Built, Wake, bands};
 use crate::jobs::Stop;
 
-/// How many pictures, and how the camera moves between them.
+/// Number of pictures, and the movement of the camera between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Motion {
     /// One, from the camera's place.
@@ -23,7 +23,7 @@ pub(super) enum Motion {
 }
 
 impl Motion {
-    /// Where a picture goes, counted from 0: NAME.png, or NAME-0001.png and on.
+    /// Path of a picture, counted from 0: NAME.png, or NAME-0001.png and on.
     pub fn path(self, path: &Path, frame: u32) -> PathBuf {
         match self {
             Self::Still => path.to_owned(),
@@ -32,10 +32,10 @@ impl Motion {
     }
 }
 
-/// What is to be exported.
+/// Request for an export.
 #[derive(Clone)]
 pub(super) struct Wish {
-    /// Its camera, exposure and filter.
+    /// Description with the export's camera, exposure and filter.
     pub description: Arc<Description>,
     pub size_px: [u32; 2],
     pub samples: u32,
@@ -44,7 +44,7 @@ pub(super) struct Wish {
     /// Whether what is no surface is transparent; the environment is not seen then.
     pub is_transparent: bool,
     pub motion: Motion,
-    /// As it was asked for; a turntable's pictures have numbers in their names.
+    /// Path as it was asked for; a turntable's pictures have numbers in their names.
     pub path: PathBuf,
     pub backend: Backend,
 }
@@ -57,7 +57,7 @@ impl Wish {
         }
     }
 
-    /// Where a picture goes, counted from 0.
+    /// Path of a picture, counted from 0.
     pub fn frame_path(&self, frame: u32) -> PathBuf {
         self.motion.path(&self.path, frame)
     }
@@ -101,17 +101,17 @@ fn numbered(path: &Path, number: u32) -> PathBuf {
     path.with_file_name(format!("{stem}-{number:04}.{ending}"))
 }
 
-/// How far it has come.
+/// Progress of an export.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct State {
     /// Pictures that are whole and in their places.
     pub written: u32,
-    /// Of the one that is being rendered.
+    /// Share of the picture that is being rendered.
     pub share: f64,
     pub end: Option<End>,
 }
 
-/// How it ended.
+/// End of an export.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum End {
     Complete,
@@ -119,7 +119,7 @@ pub(super) enum End {
     Failed(String),
 }
 
-/// What the job tells the window.
+/// Report of the job to the window.
 #[derive(Clone)]
 pub(super) struct Report {
     state: Arc<Mutex<State>>,
@@ -208,12 +208,12 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
 
 /// Pixels of the first band on the CPU.
 const CPU_BAND_PX: u32 = 1 << 13;
-/// On a driver that computes on the CPU, between two looks at whether to go on; all samples of them.
+/// Pixels between two looks at whether to go on, on a driver that computes on the CPU; with all their samples.
 const SOFTWARE_BAND_PX: u32 = 1 << 13;
-/// On a GPU.
+/// Pixels between two looks on a GPU.
 const HARDWARE_BAND_PX: u32 = 1 << 19;
 
-/// What renders: what the window's painter uses too, but a renderer of its own.
+/// Renderer of the export: of the same kind as the window's painter, but one of its own.
 enum Painter {
     Cpu,
     Gpu {

@@ -9,7 +9,7 @@ use std::time::{Duration, SystemTime};
 
 use hairline_scene::{Description, inputs};
 
-/// Between two looks. A change counts once a file has stood still for one.
+/// Interval between two looks. A change counts once a file has stood still for one.
 const PAUSE: Duration = Duration::from_millis(500);
 
 /// A file that another program has written.
@@ -59,7 +59,7 @@ impl Watch {
     }
 }
 
-/// What is known of a file without reading it.
+/// Version of a file, known without reading it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Stamp {
     modified: Option<SystemTime>,
@@ -88,9 +88,9 @@ struct Watched {
     path: PathBuf,
     /// The file that was asked for.
     of: PathBuf,
-    /// As it was told last, or was when it was first looked at.
+    /// Version that was told last, or at the first look.
     told: Option<Stamp>,
-    /// As it was at the last look.
+    /// Version at the last look.
     last: Option<Stamp>,
 }
 

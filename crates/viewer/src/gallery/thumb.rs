@@ -1,10 +1,10 @@
-//! What there are small pictures of.
+//! Subjects of small pictures.
 
 use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
 use hairline_editor::wear::Wear;
 use hairline_scene::environment::BuiltInMap;
 
-/// What a picture shows.
+/// Subject of a small picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Thumb {
     Layer(LayerPreset),

@@ -2,7 +2,7 @@
 
 use egui::{Response, Role, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
 
-/// Between two of its steps, seconds.
+/// Interval between two of its steps, seconds.
 const STEP_S: f64 = 0.15;
 const DOTS: usize = 8;
 
@@ -13,7 +13,7 @@ pub(crate) struct Busy {
 }
 
 impl Busy {
-    /// As high as a line.
+    /// A sign as high as a line.
     pub fn new() -> Self {
         Self { size: None }
     }

@@ -76,7 +76,7 @@ fn built_in_maps(ui: &mut Ui, work: &mut Workspace) {
     }
 }
 
-/// What scratches have beside the map that the picture shows.
+/// Describes the windows that scratches have besides the map of the picture.
 fn windows(work: &Workspace) -> Option<String> {
     let built = work.engine.built()?;
     match built.scene.environment.as_ref()?.windows() {
@@ -86,7 +86,7 @@ fn windows(work: &Workspace) -> Option<String> {
     }
 }
 
-/// What was parted from the map that the picture shows.
+/// Describes the suns that were parted from the map of the picture.
 fn suns(work: &Workspace) -> Option<String> {
     let built = work.engine.built()?;
     let suns = built.scene.environment.as_ref()?.suns();

@@ -23,7 +23,7 @@ const VALUE_WIDTH: f32 = 78.0;
 /// The label of the row that a part is called by.
 pub(super) const NAME: &str = "Name";
 
-/// What a control changed.
+/// Change by a control.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Change {
     /// The step's name in the history.
@@ -35,7 +35,7 @@ pub(crate) struct Change {
 /// Rows for one part of the scene.
 pub(crate) struct Form<'a> {
     pub ui: &'a mut Ui,
-    /// Of the object or the scene that lengths are to fit.
+    /// Diagonal of the object or the scene that lengths are to fit.
     pub diagonal_m: f64,
     /// Names the part, so that controls of two parts are two.
     scope: DragKey,
@@ -52,7 +52,7 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// What was changed in this pass.
+    /// Change in this pass.
     pub fn change(self) -> Option<Change> {
         self.change
     }

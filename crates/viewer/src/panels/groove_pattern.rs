@@ -1,4 +1,4 @@
-//! Which way the grooves of a grating run.
+//! Controls for the directions of a grating's grooves.
 
 use hairline_editor::ranges::Parameter;
 use hairline_scene::description::{Around, GroovePattern, UvAxis};

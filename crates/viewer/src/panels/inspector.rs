@@ -33,7 +33,7 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
         });
 }
 
-/// What there is to select, for someone who has selected nothing.
+/// Overview of the scene, for someone who has selected nothing.
 fn overview(ui: &mut Ui, work: &Workspace) {
     let description = work.document.description();
     ui.heading("Scene");

@@ -1,4 +1,4 @@
-//! Where on its object a layer of scratches lies, and how thickly.
+//! Controls for the places of its object on which a layer of scratches lies, and its density.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use hairline_scene::description::{Place, Scratches};
 use super::form::Form;
 use crate::parts::Names;
 
-/// Its rows; true where a part is to be picked in the picture.
+/// Shows the rows; returns true where a part is to be picked in the picture.
 pub(super) fn show(form: &mut Form, layer: &mut Scratches, names: Names) -> bool {
     form.section("Where");
     let has_parts = names.materials.len() > 1 || names.nodes.len() > 1;
@@ -96,7 +96,7 @@ pub(super) fn picture(form: &mut Form, label: &str, tooltip: &str, chosen: &mut 
     *chosen = (!file.is_empty()).then(|| file.into());
 }
 
-/// How the pictures lie.
+/// Control for the mapping of the pictures.
 fn tiles(form: &mut Form, place: &mut Place) {
     if place.files().next().is_none() {
         place.tile_m = None;
@@ -105,7 +105,7 @@ fn tiles(form: &mut Form, place: &mut Place) {
     tile(form, &mut place.tile_m);
 }
 
-/// How wide pictures are, if they do not lie by texture coordinates.
+/// Control for the width of pictures that do not lie by texture coordinates.
 pub(super) fn tile(form: &mut Form, tile_m: &mut Option<f64>) {
     let mut is_tiled = tile_m.is_some();
     form.toggle(

@@ -60,7 +60,7 @@ impl Kind {
     }
 }
 
-/// Without a coat, or with one.
+/// Rows for a material without a coat, or with one.
 fn coat_rows(form: &mut Form, coat: &mut Option<Coat>) {
     let mut is_coated = coat.is_some();
     let tooltip = "Whether a clear layer lies over it, in which its scratches are";

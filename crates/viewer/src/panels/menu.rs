@@ -136,7 +136,7 @@ fn item(ui: &mut Ui, work: &mut Workspace, command: Command) {
     }
 }
 
-/// What can be done with what is selected: the menu of the right button.
+/// Menu of the right button, with actions on the selection.
 pub(crate) fn on_selection(ui: &mut Ui, work: &mut Workspace) {
     if let Some(object) = work.selected_object() {
         ui.menu_button("Add scratches", |ui| {

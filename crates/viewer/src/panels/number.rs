@@ -6,17 +6,17 @@ use egui::{Context, DragValue, Id, Key, Response, Stroke, StrokeKind, Ui};
 use hairline_editor::quantity::{Shown, parse};
 use hairline_editor::ranges::Range;
 
-/// How one number is shown.
+/// Display of one number.
 pub(super) struct NumberBox<'a> {
     pub label: &'a str,
-    /// Before the number, in one of several boxes.
+    /// Text before the number, in one of several boxes.
     pub prefix: &'a str,
     pub range: &'a Range,
     pub shown: Shown,
     pub width: f32,
 }
 
-/// What became of what was typed.
+/// Result of reading what was typed.
 #[derive(Clone, Debug, Default)]
 enum Typed {
     #[default]
@@ -64,7 +64,7 @@ impl NumberBox<'_> {
         self.remark(ui, response)
     }
 
-    /// What was typed, as a number that the scene allows.
+    /// Reads a typed number that the scene allows.
     fn read(&self, words: &str) -> (Typed, Option<f64>) {
         let hard = &self.range.hard;
         let number = match parse(words, self.range.unit, self.shown) {
@@ -126,7 +126,7 @@ fn refused_id(response: &Response) -> Id {
     response.id.with("refused")
 }
 
-/// Where messages wait for the notices.
+/// Id under which messages wait for the notices.
 fn told_id() -> Id {
     Id::unique("what was typed for a number")
 }
@@ -144,7 +144,7 @@ fn remember(ui: &Ui, response: &Response, typed: Option<Typed>) {
     });
 }
 
-/// What is to be told of a number that was typed: a message, or that all is well again.
+/// Message about a number that was typed, or that all is well again.
 pub(crate) fn told(ctx: &Context) -> Option<Result<(), String>> {
     let typed = ctx.data_mut(|data| data.remove_temp::<Typed>(told_id()))?;
     Some(match typed {

@@ -121,10 +121,10 @@ pub(super) fn add_layer(ui: &mut Ui, work: &mut Workspace, object: usize) {
     }
 }
 
-/// Where scratches are noticed in a smaller share of the scratched pixels, other light is offered.
+/// Share of the scratched pixels in which scratches must be noticed; below it other light is offered.
 const FAINT: f32 = 0.08;
 
-/// How worn the object is: one choice over its layers of wear.
+/// Row for the object's wear: one choice over its layers of wear.
 fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
     let diagonal_m = work.diagonal_m(Some(object));
     let description = work.document.description();
@@ -185,7 +185,7 @@ fn scale(form: &mut Form, scale: &mut [f64; 3]) {
     }
 }
 
-/// As large as in its file, or fitted to a size: at first to about the one that it has.
+/// Rows for the size: that of the file, or fitted, at first to about the present one.
 fn fit_rows(form: &mut Form, fit_m: &mut Option<f64>) {
     let mut is_fitted = fit_m.is_some();
     form.toggle(
@@ -201,7 +201,7 @@ fn fit_rows(form: &mut Form, fit_m: &mut Option<f64>) {
     }
 }
 
-/// At rest, or at a time of its animation.
+/// Rows for a model at rest, or at a time of its animation.
 fn time_rows(form: &mut Form, time_s: &mut Option<f64>, animation: &mut Option<String>) {
     let mut is_animated = time_s.is_some();
     form.toggle(

@@ -129,7 +129,7 @@ struct Switched<'n> {
     selection: Selection,
     name: &'n str,
     is_shown: bool,
-    /// To complete "Show".
+    /// Text that completes "Show".
     what: &'n str,
     tooltip: &'n str,
 }
@@ -153,7 +153,7 @@ impl Switched<'_> {
     }
 }
 
-/// What screen readers and tests call a control that shows no text.
+/// Names a control that shows no text, for screen readers and tests.
 fn name_node(ui: &Ui, response: &egui::Response, name: &str) {
     ui.ctx()
         .accesskit_node_builder(response.id, |node| node.set_label(name));

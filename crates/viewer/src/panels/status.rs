@@ -42,7 +42,7 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, viewport: &Viewport) {
     });
 }
 
-/// What is being done while there is no picture yet.
+/// Text about the current work while there is no picture yet.
 pub(crate) fn before_the_first(engine: &Engine) -> &'static str {
     match engine.built() {
         Some(_) => "rendering the first picture",
@@ -70,7 +70,7 @@ fn picture(ui: &mut Ui, frame: &Frame, is_stale: bool) {
     }
 }
 
-/// What is being done about the picture.
+/// Text about the current work on the picture.
 fn activity(frame: &Frame, is_stale: bool) -> String {
     let painted = &frame.painted;
     let wanted = frame.view.transport;
@@ -106,7 +106,7 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
     }
 }
 
-/// What there is beside the closed form.
+/// Name of the light besides the closed form.
 fn ways(wanted: Transport) -> &'static str {
     match wanted.bounces {
         0 => "shadows",
@@ -114,7 +114,7 @@ fn ways(wanted: Transport) -> &'static str {
     }
 }
 
-/// How often light may go by other objects in the window.
+/// Range of bounces in the window.
 const BOUNCES: std::ops::RangeInclusive<u32> = 0..=8;
 
 /// Shadows and bounces, to be switched.
@@ -174,7 +174,7 @@ fn milliseconds(time: Duration) -> String {
     }
 }
 
-/// With a thin space between thousands.
+/// Formats a number with a thin space between thousands.
 fn grouped(n: usize) -> String {
     let digits = n.to_string();
     let mut out = String::new();

@@ -1,4 +1,4 @@
-//! What menus and keys ask of it.
+//! Commands of menus and keys for reading the picture.
 
 use super::{ReadingState, Shows};
 
@@ -16,9 +16,9 @@ pub(crate) enum ReadCommand {
     ResetExposure,
 }
 
-/// What a press of a key adds to the exposure of the window.
+/// Step of the window's exposure by a press of a key.
 const EXPOSURE_STEP_EV: f64 = 0.25;
-/// It goes no further.
+/// Largest exposure of the window, either way.
 const MOST_EV: f64 = 20.0;
 
 impl ReadingState {

@@ -6,10 +6,10 @@ use hairline_image::{Display, Image, png};
 use super::histogram::Histogram;
 use super::layer_view::{self, Shows};
 
-/// What the interface wants to know of the picture.
+/// Reading of the picture that the interface wants.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wanted {
-    /// What of it is shown.
+    /// Layer or false colour that is shown.
     pub shows: Shows,
     /// Whether its histogram is wanted: of the part in the middle that is this wide and high, which is the scene's picture.
     pub histogram_px: Option<[u32; 2]>,
@@ -22,10 +22,10 @@ impl Wanted {
     }
 }
 
-/// What was found out about a picture.
+/// Findings about a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
-    /// If it was wanted.
+    /// Histogram, if it was wanted.
     pub histogram: Option<Histogram>,
     /// Nearest and farthest surface of a picture of depths, metres.
     pub depths_m: Option<[f32; 2]>,

@@ -3,7 +3,7 @@
 use hairline_image::tone_map::{tone_luminance, tone_sanitize};
 use hairline_image::{Display, Picture};
 
-/// What an exposure meter takes for the middle between black and white.
+/// Middle between black and white of an exposure meter.
 pub(super) const MIDDLE_GREY: f32 = 0.18;
 
 /// Stops at the ends of the scale.

@@ -1,4 +1,4 @@
-//! How many pixels have which radiance.
+//! Histogram: numbers of pixels by radiance.
 
 use hairline_image::tone_map::tone_luminance;
 use hairline_image::{Display, Image};
@@ -13,7 +13,8 @@ const BINS: usize = ((STOPS[1] - STOPS[0]) * BINS_PER_STOP) as usize;
 /// Counts of exposed radiances by stops, for luminance, red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histogram {
-    /// For each eighth of a stop, from ten below middle grey to six above; what lies outside is counted at the ends.
+    /// Counts for each eighth of a stop, from ten below middle grey to six above; values outside are counted at the
+    /// ends.
     pub bins: Vec<[u32; 4]>,
     /// Pixels that were counted.
     pub pixels: u32,
@@ -26,7 +27,7 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// Of the middle `frame_px` pixels of an image that is displayed as `codes`, three bytes a pixel.
+    /// Counts the middle `frame_px` pixels of an image that is displayed as `codes`, three bytes a pixel.
     pub(super) fn of(image: &Image, codes: &[u8], display: &Display, frame_px: [u32; 2]) -> Self {
         let gain = display.exposure_ev.exp2() as f32 / MIDDLE_GREY;
         let mut bins = vec![[0; 4]; BINS];
@@ -62,7 +63,7 @@ impl Histogram {
     }
 }
 
-/// Of a value in units of middle grey, positive.
+/// Bin of a positive value in units of middle grey.
 fn bin(value: f32) -> usize {
     (((value.log2() - STOPS[0]) * BINS_PER_STOP) as usize).min(BINS - 1)
 }

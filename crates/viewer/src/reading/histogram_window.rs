@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, Rect, Stroke, Ui, pos2, vec2};
 use super::window::window;
 use super::{Histogram, histogram};
 
-/// With a missing histogram it says that it is being counted.
+/// Shows the histogram; if it is missing, the window says that it is being counted.
 pub(super) fn show_histogram(
     ui: &Ui,
     is_open: &mut bool,

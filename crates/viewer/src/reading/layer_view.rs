@@ -4,7 +4,7 @@ use hairline_image::{Display, Image, Picture, png};
 
 use super::false_color;
 
-/// What of a render the window shows.
+/// Layer or false colour that the window shows of a render.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shows {
     /// The picture.
@@ -36,7 +36,7 @@ impl Shows {
         Self::Depth,
     ];
 
-    /// What the window calls it.
+    /// Name in the window.
     pub fn name(self) -> &'static str {
         match self {
             Self::Beauty => "Beauty",
@@ -49,7 +49,7 @@ impl Shows {
         }
     }
 
-    /// What it tells.
+    /// Description for a hint.
     pub fn hint(self) -> &'static str {
         match self {
             Self::Beauty => "The picture",

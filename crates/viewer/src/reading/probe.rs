@@ -1,4 +1,4 @@
-//! What a pixel of the picture is made of: rendered anew by itself, from the same scene and the same place, whatever paints.
+//! Contents of a pixel of the picture: rendered anew by itself, from the same scene and the same place, whatever paints.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -28,7 +28,7 @@ pub struct Reading {
     pub density: [f32; 3],
     /// Distance along the view axis; 0 where there is no surface.
     pub depth_m: f32,
-    /// Of the surface, world space; 0 where there is none.
+    /// Normal of the surface, world space; 0 where there is none.
     pub normal: [f32; 3],
     /// The object and its material under the pixel's centre.
     pub under: Option<Under>,
@@ -38,12 +38,12 @@ pub struct Reading {
     pub samples: u32,
 }
 
-/// What the ray through a pixel's centre meets.
+/// Hit of the ray through a pixel's centre.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Under {
-    /// Its name.
+    /// Name of the object.
     pub object: String,
-    /// Its name.
+    /// Name of the material.
     pub material: String,
     /// World space.
     pub point_m: DVec3,
@@ -122,7 +122,7 @@ impl Probe {
         self.kept.take().is_some()
     }
 
-    /// Where it was put, in an area of the screen.
+    /// Position where it was put, in an area of the screen.
     pub fn kept_at(&self, area: Rect) -> Option<Pos2> {
         let [x, y] = self.kept?;
         Some(area.min + egui::vec2(x, y) * area.size())
@@ -266,7 +266,7 @@ fn on_picture(camera: &CameraFrame, point_m: DVec3) -> Option<DVec2> {
     (depth_m > 0.0).then(|| 0.5 * camera.size_px + DVec2::new(x, y))
 }
 
-/// Of a point from a line segment.
+/// Distance of a point from a line segment.
 fn distance(point: DVec2, a: DVec2, b: DVec2) -> f64 {
     let along = b - a;
     let share = (point - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);

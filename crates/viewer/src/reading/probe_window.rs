@@ -76,7 +76,7 @@ fn mark(painter: &Painter, pos: Pos2) {
     }
 }
 
-/// What is read, each with its name.
+/// Values of a reading, each with its name.
 fn lines(reading: &Reading, view: &View) -> Vec<(&'static str, String)> {
     let display = &view.display;
     let numbers = |rgb: [f32; 3]| rgb.map(number).join("  ");
@@ -166,7 +166,7 @@ fn rows(ui: &mut Ui, reading: &Reading, view: &View) {
     );
 }
 
-/// The same to be pasted elsewhere.
+/// Text of a reading to be pasted elsewhere.
 fn text(reading: &Reading, view: &View) -> String {
     let lines = lines(reading, view).into_iter();
     let lines = lines.map(|(name, value)| format!("{}\t{value}\n", name.trim()));

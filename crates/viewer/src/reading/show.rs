@@ -1,4 +1,4 @@
-//! What reads the picture, over the picture: the windows of the histogram and of the probe, and the scale of colours.
+//! Widgets over the picture that read it: the windows of the histogram and of the probe, and the scale of colours.
 
 use egui::{Align2, Color32, FontId, Rect, Response, Ui, pos2, vec2};
 

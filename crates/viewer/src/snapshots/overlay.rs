@@ -12,7 +12,7 @@ use crate::viewport::canvas::CanvasTexture;
 
 use super::{Snapshots, Way};
 
-/// Between two pictures, points.
+/// Gap between two pictures, points.
 const GAP: f32 = 2.0;
 
 impl Snapshots {
@@ -92,7 +92,7 @@ impl Snapshots {
     }
 }
 
-/// As large as it can be within `rect`, in the picture's shape.
+/// The largest rectangle within `rect` that has the picture's shape.
 fn fitting(rect: Rect, size_px: [u32; 2]) -> Rect {
     let [width, height] = size_px.map(|side| side.max(1) as f32);
     let scale = (rect.width() / width).min(rect.height() / height);

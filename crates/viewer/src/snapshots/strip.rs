@@ -48,7 +48,7 @@ impl Snapshots {
             .inner
     }
 
-    /// How the chosen one is shown, and what can be done with it.
+    /// Tools of the chosen snapshot.
     fn tools(&mut self, ui: &mut Ui) -> Option<usize> {
         let mut restored = None;
         ui.horizontal(|ui| {

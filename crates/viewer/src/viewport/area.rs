@@ -1,4 +1,4 @@
-//! Where the picture is on the screen, and the camera that sees all of it.
+//! Place of the picture on the screen, and the camera that sees all of it.
 
 use egui::Rect;
 use glam::DVec2;
@@ -27,13 +27,13 @@ impl Area {
         }
     }
 
-    /// In physical pixels.
+    /// Size of the area in physical pixels.
     pub fn size_px(&self) -> [u32; 2] {
         let size = self.rect.size() * self.pixels_per_point;
         [size.x, size.y].map(|side| (side.round() as u32).clamp(1, 8192))
     }
 
-    /// The same of the frame.
+    /// Size of the frame in physical pixels.
     pub fn frame_px(&self) -> [u32; 2] {
         let size = self.frame.size() * self.pixels_per_point;
         [size.x, size.y].map(|side| (side.round() as u32).clamp(1, 8192))

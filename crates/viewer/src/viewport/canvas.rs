@@ -20,7 +20,7 @@ pub(crate) struct CanvasTexture {
 
 /// A picture of another view is shown for so long without a sign: while something moves there is a new one before.
 const STALE_S: f64 = 0.4;
-/// What it is dimmed by then.
+/// Tint of a picture that is out of date.
 const STALE: Color32 = Color32::from_gray(110);
 
 enum Held {

@@ -32,7 +32,7 @@ pub(super) use lights::{at as light_at, middle as light_middle, show as show_lig
 /// Size of a handle's rectangle for the mouse, points.
 const REACH: f32 = 14.0;
 
-/// What is held or hovered.
+/// Handle that is held or hovered.
 #[derive(Default)]
 pub(super) struct Gizmo {
     grab: Option<Grab>,
@@ -44,9 +44,9 @@ struct Grab {
     handle: Handle,
     selection: Selection,
     start: Arc<Description>,
-    /// Where the button went down. The picture may be elsewhere by now: panels are as wide as what they show.
+    /// Aim where the button went down. The picture may be elsewhere by now: panels are as wide as what they show.
     pressed: Aim,
-    /// What the pointer has done so far.
+    /// Motion of the pointer so far.
     motion: Option<Motion>,
     /// The document's, as this drag left it: a change by others, such as undo, ends the drag.
     revision: u64,

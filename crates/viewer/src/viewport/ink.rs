@@ -4,10 +4,10 @@ use egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, vec2};
 
 use crate::style::UNDER_WORDS;
 
-/// How much wider the halo is than the line, points.
+/// Width of the halo beyond the line, points.
 const HALO: f32 = 2.5;
 
-/// What lies under a line of this colour: dark enough that a light line is seen on white.
+/// Colour of the halo under a line of this colour: dark enough that a light line is seen on white.
 fn halo(color: Color32) -> Color32 {
     Color32::from_black_alpha((f32::from(color.a()) * 0.8) as u8)
 }

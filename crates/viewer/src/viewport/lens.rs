@@ -1,4 +1,5 @@
-//! Between the screen and the world: the rays that the renderers cast, so that what is drawn over a picture lies on it.
+//! Projection between the screen and the world: by the rays that the renderers cast, so that what is drawn over a
+//! picture lies on it.
 
 use egui::Pos2;
 use glam::{DVec2, DVec3};
@@ -11,14 +12,14 @@ use super::Area;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Lens {
     frame: CameraFrame,
-    /// Of the area, in points.
+    /// Corner of the area, in points.
     corner: Pos2,
     /// Pixels of the picture in a point of the screen. The two differ a little where the area's sides are no whole
     /// pixels: the picture is stretched to fit.
     px_per_point: DVec2,
 }
 
-/// What is nearer to the plane of the pinhole than this part of its distance to the target counts as behind it.
+/// Least distance from the plane of the pinhole, over that of the target: nearer points count as behind it.
 const NEAR: f64 = 1e-4;
 
 impl Lens {
@@ -51,7 +52,7 @@ impl Lens {
             .normalize()
     }
 
-    /// Where a ray through `pos` meets a plane; none where it does not, or almost along it.
+    /// Point where a ray through `pos` meets a plane; none where it does not, or almost along it.
     pub fn on_plane(&self, pos: Pos2, through_m: DVec3, normal: DVec3) -> Option<DVec3> {
         let ray = self.ray(pos);
         let slope = ray.dot(normal);
@@ -64,7 +65,7 @@ impl Lens {
         (point_m - self.eye_m()).dot(self.forward())
     }
 
-    /// Where a point is seen; none behind the pinhole.
+    /// Position at which a point is seen; none behind the pinhole.
     pub fn project(&self, point_m: DVec3) -> Option<Pos2> {
         let depth_m = self.depth_m(point_m);
         (depth_m > 0.0)
@@ -92,7 +93,7 @@ impl Lens {
         self.depth_m(point_m).abs() * per_px * self.px_per_point.y
     }
 
-    /// Which way on the screen a point lies from the middle, be it behind the pinhole.
+    /// Direction on the screen in which a point lies from the middle, be it behind the pinhole.
     pub fn towards(&self, point_m: DVec3) -> egui::Vec2 {
         let from_eye = point_m - self.eye_m();
         let right = from_eye.dot(self.frame.per_px_x);
@@ -100,7 +101,7 @@ impl Lens {
         egui::vec2(right as f32, down as f32).normalized()
     }
 
-    /// From the area's corner, times the depth.
+    /// Vector from the area's corner, times the depth.
     fn across(&self, point_m: DVec3) -> egui::Vec2 {
         let from_eye = point_m - self.eye_m();
         let per_px = [self.frame.per_px_x, self.frame.per_px_y];

@@ -23,7 +23,7 @@ use super::{Area, ink};
 
 /// Length of a stroke that lies across the view, points.
 const LENGTH: f64 = 15.0;
-/// Its width, points.
+/// Width of a stroke, points.
 const WIDTH: f32 = 1.75;
 /// The view is laid out in squares of this side, each with one stroke.
 const CELL: f32 = 27.0;
@@ -31,9 +31,9 @@ const CELL: f32 = 27.0;
 const MOST: usize = 400;
 /// No more scratches are looked at for one view.
 const MOST_TRIES: usize = 60_000;
-/// So many between looks at the clock.
+/// Number of scratches between looks at the clock.
 const BATCH: usize = 64;
-/// What a pass of the interface may spend on all fields.
+/// Time of a pass of the interface for all fields.
 const BUDGET: Duration = Duration::from_micros(1500);
 /// A view that has not changed for so long is at rest, seconds.
 const REST_S: f64 = 0.12;
@@ -43,13 +43,13 @@ const LEAST_FACING: f64 = 0.12;
 /// The strokes, and what they were made for.
 #[derive(Default)]
 pub(super) struct LineField {
-    /// What a pass of the interface may spend on it.
+    /// Time of a pass of the interface for it.
     budget: Duration,
     layer: Option<Layer>,
     lens: Option<Lens>,
-    /// When the view changed last.
+    /// Time at which the view changed last.
     moved_s: f64,
-    /// How many scratches were looked at for this view; none while it moves.
+    /// Progress of the search for scratches in this view; none while it moves.
     search: Option<Search>,
     marks: Vec<Mark>,
     lines: Vec<[Pos2; 2]>,

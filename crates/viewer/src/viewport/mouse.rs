@@ -16,7 +16,7 @@ use super::{Area, Viewport, gizmo, pick, place};
 const POINTS_A_NOTCH: f64 = 50.0;
 
 impl Viewport {
-    /// What the mouse does in the picture.
+    /// Handles the mouse in the picture.
     pub fn interact(
         &mut self,
         ui: &mut egui::Ui,
@@ -174,7 +174,7 @@ fn context_menu(work: &mut Workspace, area: &Area, response: &Response) {
     }
 }
 
-/// What a click at a place selects.
+/// Selection by a click at a place.
 fn picked(work: &Workspace, area: &Area, pos: egui::Pos2) -> Selection {
     let description = work.document.description();
     let lens = Lens::new(&work.camera(), area);

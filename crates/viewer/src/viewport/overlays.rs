@@ -1,4 +1,4 @@
-//! What is drawn over the picture, kind by kind.
+//! Drawing of the overlays, kind by kind.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Ui};
 use hairline_editor::Selection;
@@ -12,7 +12,7 @@ use crate::tools::Tool;
 use crate::workspace::Workspace;
 
 impl Viewport {
-    /// What is drawn over the picture and can be dragged there.
+    /// Draws the overlays of the picture that can be dragged.
     pub fn show_overlays(&mut self, ui: &mut Ui, work: &mut Workspace, area: &Area) {
         let tool = work.toolbox.tool;
         line_field::show(ui, &mut self.line_fields, work, area);

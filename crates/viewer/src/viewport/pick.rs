@@ -1,4 +1,4 @@
-//! What lies under the mouse.
+//! Surface under the mouse.
 
 use egui::Pos2;
 use glam::DVec3;
@@ -11,9 +11,9 @@ use super::{Area, lens::Lens};
 /// A place on a surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Picked {
-    /// In the description's objects.
+    /// Index in the description's objects.
     pub object: usize,
-    /// In the object's mesh.
+    /// Index in the object's mesh.
     pub triangle: usize,
     /// World space.
     pub point_m: DVec3,
@@ -28,7 +28,7 @@ pub(super) fn surface(work: &Workspace, area: &Area, pos: Pos2) -> Option<Picked
     along(&built, &lens, pos)
 }
 
-/// The same of a scene and a view that are at hand: two rays, some microseconds.
+/// Picks in a scene and a view that are at hand: two rays, some microseconds.
 ///
 /// A ray that runs exactly along an edge may miss both of its triangles by a rounding, and then meets what lies behind; one
 /// a hair beside it does not.

@@ -21,7 +21,7 @@ const SHARES: [f64; 11] = [1.0, 0.85, 0.7, 0.55, 0.4, 0.3, 0.2, 0.1, 1.3, 1.8, 2
 const OFF_SURFACE: f64 = 1e-4;
 
 impl Viewport {
-    /// Has the highlight of the selected light follow the pointer, if the drag `is_free` for it.
+    /// Makes the highlight of the selected light follow the pointer, if the drag `is_free` for it.
     pub(super) fn place_by_drag(
         &mut self,
         work: &mut Workspace,
@@ -89,9 +89,9 @@ pub(super) fn place_light(work: &mut Workspace, hit: &Picked) {
         });
 }
 
-/// Where a light came to stand. Objects are counted as those that were built.
+/// Place where a light came to stand. Objects are counted as those that were built.
 enum Stands {
-    /// As far from its highlight as before.
+    /// The light is as far from its highlight as before.
     AsFar,
     /// Nearer or farther, for an object is in the way.
     Elsewhere(usize),

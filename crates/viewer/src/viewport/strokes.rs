@@ -29,11 +29,11 @@ const MOST_RAYS: usize = 2000;
 #[derive(Default)]
 pub(super) struct StrokeTool {
     going_on: Option<Going>,
-    /// Where the pointer was last in a drag that has met no object yet.
+    /// Last position of the pointer in a drag that has met no object yet.
     before: Option<Pos2>,
     /// Escape was pressed; nothing is drawn until the button is up.
     is_cancelled: bool,
-    /// What was drawn last, until a picture shows it.
+    /// Strokes that were drawn last, until a picture shows them.
     drawn: Option<Drawn>,
 }
 
@@ -42,7 +42,7 @@ struct Going {
     object: usize,
     settings: BrushSettings,
     world_from_object: DMat4,
-    /// Where the pointer was last.
+    /// Last position of the pointer.
     pos: Pos2,
     /// The stroke that the pointer draws, with its last point; none while the pointer is beside the object.
     open: Option<(Recorder, Place)>,
@@ -58,7 +58,7 @@ impl StrokeTool {
         was_going_on
     }
 
-    /// What the mouse does with the brush, if one `is_in_hand`; else ends what it has begun.
+    /// Handles the mouse for the brush, if one `is_in_hand`; else ends what it has begun.
     pub fn interact(
         &mut self,
         ui: &Ui,
@@ -152,7 +152,7 @@ struct Place {
     hit: Picked,
 }
 
-/// What rays are cast in.
+/// Scene and view in which rays are cast.
 #[derive(Clone, Copy)]
 struct World<'a> {
     built: &'a Built,
@@ -261,7 +261,7 @@ fn begin(work: &mut Workspace, world: World, pos: Pos2) -> Option<Going> {
     Some(going)
 }
 
-/// How the brush is set; before anyone has set it, as large as fits the object and the view.
+/// Settings of the brush; before anyone has set it, as large as fits the object and the view.
 fn settings(work: &mut Workspace, hit: &Picked) -> BrushSettings {
     let fitted = work.fitting_brush(Some(hit.object), hit.point_m);
     work.toolbox.fitted = Some(fitted);

@@ -1,7 +1,7 @@
 //! Why no window can be opened, in one sentence with what helps.
 
-/// What is missing before a window is tried: the libraries of the display are loaded while it opens, some of which end the
-/// program where they are not there.
+/// Returns what is missing for a window, before one is tried: the libraries of the display are loaded while it opens, some
+/// of which end the program where they are not there.
 #[cfg(target_os = "linux")]
 pub(super) fn missing() -> Option<String> {
     use x11_dl::{xcursor::Xcursor, xinput2::XInput2, xlib::Xlib, xlib_xcb::Xlib_xcb};
@@ -82,7 +82,7 @@ pub(super) fn sentence(error: &str) -> String {
     without_paths(error)
 }
 
-/// Without places in the source of libraries on the machine that built this program, and without empty lists.
+/// Removes places in the source of libraries on the machine that built this program, and empty lists.
 fn without_paths(error: &str) -> String {
     let mut kept: Vec<&str> = Vec::new();
     for part in error.split(": ") {

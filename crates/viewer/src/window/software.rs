@@ -9,7 +9,7 @@ use crate::engine::{Engine, View};
 /// A picture in motion takes less where nothing else runs. What takes longer is shown when it is there.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// What such a window does otherwise than one that a GPU draws.
+/// Behaviour of such a window that differs from one that a GPU draws.
 #[derive(Default)]
 pub(crate) struct SoftwareWindow {
     is_free: bool,
@@ -24,7 +24,7 @@ impl SoftwareWindow {
         Self::default()
     }
 
-    /// Has frames wait for no refresh of the screen, for which the driver stands still.
+    /// Makes frames wait for no refresh of the screen, for which the driver stands still.
     pub fn free(&mut self, frame: &mut eframe::Frame) {
         if !std::mem::replace(&mut self.is_free, true)
             && let Some(config) = frame.wgpu_surface_config()

@@ -1,4 +1,4 @@
-//! What fits the objects and the view: the camera that shows them, and the brush.
+//! Settings that fit the objects and the view: the camera that shows them, and the brush.
 
 use glam::DVec3;
 use hairline_editor::actions::materials;
@@ -7,7 +7,7 @@ use hairline_editor::{Selection, navigate};
 
 use super::Workspace;
 
-/// Where things are taken to be before the scene is built.
+/// Bounds of things that are assumed before the scene is built.
 const UNKNOWN_M: (DVec3, DVec3) = (DVec3::splat(-0.1), DVec3::splat(0.1));
 
 impl Workspace {
@@ -75,7 +75,7 @@ impl Workspace {
         });
     }
 
-    /// What stands farthest out of some objects; of all that the scene is about where they have nothing. As it was built last.
+    /// Extreme points of some objects; of all that the scene is about where they have nothing. As it was built last.
     fn points_of(&self, objects: &[usize]) -> Vec<DVec3> {
         let Some(built) = self.engine.built() else {
             return navigate::corners(UNKNOWN_M.0, UNKNOWN_M.1).to_vec();
@@ -139,7 +139,7 @@ impl Workspace {
         }
     }
 
-    /// Where their lowest point is along the vertical.
+    /// Height of their lowest point along the vertical.
     pub fn lowest_m(&self) -> Option<f64> {
         let up = self.document.description().camera.world_up();
         let (a, b) = self.built_bounds_m()?;
@@ -154,7 +154,7 @@ impl Workspace {
             .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
-    /// Of each object.
+    /// Bounds of each object.
     fn boxes_m(&self) -> Vec<(DVec3, DVec3)> {
         let Some(built) = self.engine.built() else {
             return Vec::new();

@@ -1,4 +1,4 @@
-//! Where the window looks from, and what moves it.
+//! Camera of the window, and its movements.
 
 use glam::DVec3;
 use hairline_editor::{DragKey, navigate};
@@ -27,7 +27,8 @@ impl Workspace {
         }
     }
 
-    /// How far away a free view is in focus: what is sharp stays sharp while the view moves. None: at its target.
+    /// Distance at which a free view is in focus: what is sharp stays sharp while the view moves. None: at its
+    /// target.
     fn free_focus_m(&self, free: &Camera) -> Option<f64> {
         let scene = &self.document.description().camera;
         scene.aperture_mm?;

@@ -37,7 +37,7 @@ pub fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
     })
 }
 
-/// The same with other options.
+/// Viewer with other options.
 pub fn viewer_with(options: Options) -> Harness<'static, Viewer> {
     viewer_of(options, [1280.0, 800.0])
 }
@@ -61,7 +61,7 @@ pub fn viewer_of_any_file(scene: &std::path::Path) -> Harness<'static, Viewer> {
     })
 }
 
-/// The same in another size.
+/// Viewer in another size.
 pub fn viewer_of(options: Options, size: [f32; 2]) -> Harness<'static, Viewer> {
     Harness::builder().with_size(size).build_eframe(|cc| {
         Viewer::new(&cc.egui_ctx, None, options).expect("the test's scene is good")
@@ -108,7 +108,7 @@ pub fn light(harness: &Harness<'static, Viewer>, i: usize) -> Light {
     description(harness).lights[i].clone()
 }
 
-/// Where the picture is.
+/// Rectangle of the picture.
 pub fn picture(harness: &Harness<'static, Viewer>) -> Rect {
     harness.get_by_role_and_label(Role::Image, "Picture").rect()
 }

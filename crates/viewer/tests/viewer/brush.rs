@@ -137,7 +137,7 @@ fn a_thousand_places_of_the_pointer_are_taken_up_at_once() {
     println!("a pass with 1000 places of the pointer: {took:?}");
 }
 
-/// Until the picture has it. What is drawn in a free view is seen from there.
+/// The stroke is shown until the picture has it. What is drawn in a free view is seen from there.
 #[test]
 fn a_stroke_that_the_picture_waits_for_lies_where_the_pointer_was() {
     let mut harness = common::viewer(common::BUILT_IN);

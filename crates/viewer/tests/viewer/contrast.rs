@@ -17,7 +17,7 @@ fn contrast(text: Color32, ground: Color32) -> f32 {
     a.max(b) / a.min(b)
 }
 
-/// What is drawn so far: rectangles with their colours. Pictures count as white, on which light text is hardest to read.
+/// Rectangles drawn so far, with their colours. Pictures count as white, on which light text is hardest to read.
 type Grounds = Vec<(Rect, Color32)>;
 
 fn ground(grounds: &Grounds, at: Pos2) -> Color32 {

@@ -31,7 +31,7 @@ const MODEST: &str = concat!(
     "\n[render]\nsize_px = [160, 100]\n"
 );
 
-/// What the dialog begins with.
+/// Number of samples with which the dialog begins.
 const SAMPLES: u32 = hairline_scene::DEFAULT_SAMPLES;
 
 fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
@@ -70,7 +70,7 @@ pub fn wait_exported(harness: &mut Harness<'static, Viewer>) {
     common::wait_until(harness, "the export ends", |viewer| !viewer.is_exporting());
 }
 
-/// What the CPU renderer makes of the scene, turned by so much.
+/// Renders the scene by the CPU renderer, turned by so many degrees.
 fn rendered(text: &str, turned_deg: f64) -> (Image, Display) {
     let mut description = Description::from_toml(text, Path::new("test")).unwrap();
     navigate::turn(&mut description.camera, turned_deg.to_radians());
@@ -88,7 +88,7 @@ fn rendered(text: &str, turned_deg: f64) -> (Image, Display) {
     (closed_form::render(&scene, &options, &|_| {}), display)
 }
 
-/// What files of radiance hold of an image.
+/// Image as a file of radiance holds it.
 fn in_a_file(image: Image) -> Image {
     Image {
         tones: None,
@@ -375,7 +375,7 @@ fn pictures_of_a_turntable_that_are_there_are_counted_before_they_are_replaced()
     );
 }
 
-/// As many samples as were asked for are taken of a lens too, and the dialog says what few of them look like.
+/// A lens takes the number of samples that was asked for, and the dialog says what few of them look like.
 #[test]
 fn a_lens_has_the_samples_that_were_asked_for() {
     let folder = tempfile::tempdir().unwrap();

@@ -321,7 +321,7 @@ fn a_models_axis_and_size_are_in_its_panel() {
     assert_eq!(object(&harness).up, hairline_scene::description::Up::Z);
 }
 
-/// What was wrong with the scene before is nothing to the one that is opened.
+/// Messages about the scene before mean nothing to the one that is opened.
 #[test]
 fn messages_about_a_scene_go_with_it() {
     let folder = tempfile::tempdir().unwrap();

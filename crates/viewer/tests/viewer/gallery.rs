@@ -76,7 +76,7 @@ fn metals_are_chosen_by_their_swatches() {
     assert_ne!(description(&harness).materials[0].kind, gold);
 }
 
-/// By its name alone: no file is written, whether the scene has one or not.
+/// The map is known by its name alone: no file is written, whether the scene has one or not.
 #[test]
 fn a_map_in_the_box_is_named_in_the_scene() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! What is being painted gives way to what is wanted next.
+//! Painting gives way to what is wanted next.
 
 use std::time::{Duration, Instant};
 
@@ -44,7 +44,7 @@ fn all_is_framed_and_then_the_pan_while_the_built_in_scene_is_refined() {
     assert!(took.iter().all(|took| *took < SOON), "{took:?}");
 }
 
-/// In the middle of the window, where it is looked for, and in the line at the bottom.
+/// The words stand in the middle of the window, where they are looked for, and in the line at the bottom.
 #[test]
 fn before_the_first_picture_the_window_says_what_it_does() {
     let harness = viewer(BUILT_IN);

@@ -27,7 +27,7 @@ fn corners(light: &Light) -> Vec<DVec3> {
     light.kind.corners_m()
 }
 
-/// How far the farthest corner lies from the plane through the first three.
+/// Largest distance of a corner from the plane through the first three.
 fn out_of_plane_m(light: &Light) -> f64 {
     let corners = corners(light);
     let normal = (corners[1] - corners[0])

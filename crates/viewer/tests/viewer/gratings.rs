@@ -111,7 +111,7 @@ fn every_control_of_a_grating_is_live() {
     assert_eq!(*description(&harness), *before);
 }
 
-/// What is built of them is seen.
+/// The built gratings are seen.
 #[test]
 fn presets_are_added_by_the_menu_and_built() {
     let mut harness = viewer(SMALL);

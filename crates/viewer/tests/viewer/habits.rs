@@ -1,4 +1,4 @@
-//! What people expect of any program: wheels, keys, menus, names of files.
+//! Habits of all programs: wheels, keys, menus, names of files.
 
 use std::path::Path;
 
@@ -386,7 +386,7 @@ fn the_colour_picker_has_all_its_signs() {
     assert!(egui::Popup::is_any_open(&harness.ctx));
 }
 
-/// With what is wrong, and what was typed.
+/// The line stays with what is wrong, and with what was typed.
 #[test]
 fn the_line_for_a_path_stays_until_the_path_is_right() {
     let folder = tempfile::tempdir().unwrap();
@@ -436,7 +436,7 @@ fn the_line_for_a_path_stays_until_the_path_is_right() {
     harness.get_by_label("Path");
 }
 
-/// In one slow pass: the path's letters are no commands.
+/// The keys come in one slow pass: the path's letters are no commands.
 #[test]
 fn what_is_typed_after_the_key_for_open_is_the_path() {
     let mut harness = viewer(SMALL);

@@ -1,4 +1,4 @@
-//! What of a model's file is changed and chosen in the panels.
+//! Changes and choices in the panels for a model's file.
 
 use crate::common::{self, click_on, description, undo, wait_until};
 use crate::picking::two_squares;
@@ -23,7 +23,7 @@ fn opened(selection: Selection) -> (Harness<'static, Viewer>, tempfile::TempDir)
     (harness, dir)
 }
 
-/// Until a material of the built scene has this roughness, and the other one its own.
+/// Waits until a material of the built scene has this roughness, and the other one its own.
 fn wait_for_roughness(harness: &mut Harness<'static, Viewer>, gold: f64) {
     wait_until(harness, "the roughness of gold", |viewer| {
         viewer.engine().built().is_some_and(|built| {
@@ -74,7 +74,7 @@ fn the_scene_is_seen_by_a_camera_of_its_models_file() {
     assert_eq!(description(&harness).camera, before);
 }
 
-/// What of a model is not in the picture is told when it is opened, and once.
+/// Contents of a model that the picture does not have are told when it is opened, and once.
 #[test]
 fn what_of_a_model_is_left_out_is_told() {
     let dir = tempfile::tempdir().unwrap();

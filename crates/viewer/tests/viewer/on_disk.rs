@@ -15,7 +15,7 @@ fn open(path: &Path) -> Harness<'static, Viewer> {
     harness
 }
 
-/// As many editors do: another file takes the name.
+/// Replaces a file as many editors do: another file takes the name.
 fn replace(path: &Path, text: &str) {
     let other = path.with_extension("new");
     std::fs::write(&other, text).unwrap();
@@ -106,7 +106,7 @@ fn unsaved_changes_are_asked_about_and_kept_or_given_to_undo() {
     assert_eq!(*description(&harness), *mine);
 }
 
-/// Also before the watch has seen it: the text itself is compared.
+/// Saving also asks before the watch has seen the change: the text itself is compared.
 #[test]
 fn saving_over_what_another_program_wrote_asks_first() {
     let folder = tempfile::tempdir().unwrap();

@@ -17,7 +17,7 @@ use hairline_scene::description::{Environment, Layer, Map, Pattern};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 
-/// What the panel on the right holds of a kind.
+/// Names of the controls of a kind in the panel on the right.
 pub fn controls(harness: &Harness<'static, Viewer>, role: Role) -> Vec<String> {
     let picture = common::picture(harness);
     let mut names: Vec<String> = harness
@@ -69,7 +69,7 @@ pub fn is_live(harness: &mut Harness<'static, Viewer>, name: &str) {
     );
 }
 
-/// The same for each number.
+/// Checks each number.
 fn every_number_is_live(harness: &mut Harness<'static, Viewer>) -> usize {
     let names = controls(harness, Role::SpinButton);
     for name in &names {

@@ -1,4 +1,4 @@
-//! What a click in the picture meets.
+//! Surfaces and lights that a click in the picture meets.
 
 use crate::common;
 use egui::{Rect, vec2};

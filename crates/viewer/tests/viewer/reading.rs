@@ -31,7 +31,7 @@ fn pixels(frame: &Frame) -> &egui::ColorImage {
     }
 }
 
-/// What the probe reads at a place.
+/// Reading of the probe at a place.
 fn read(harness: &mut Harness<'static, Viewer>, at: Pos2) -> Reading {
     harness.hover_at(at);
     let picture = common::picture(harness);
@@ -176,7 +176,7 @@ fn layers_and_exposure_are_shown_and_the_scene_stays() {
     assert!(!harness.state().document().is_modified());
 }
 
-/// On a device the layers are read back.
+/// The layers are read back from a device.
 #[test]
 fn layers_of_a_device_are_those_of_the_cpu() {
     let Some(gpu) = test_gpu() else { return };

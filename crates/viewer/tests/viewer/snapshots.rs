@@ -64,7 +64,7 @@ fn a_snapshot_is_flipped_to_and_restored_as_one_step() {
     assert_eq!(*harness.state().document().description(), turned);
 }
 
-/// What is around the scene's own picture is dimmed, as in the current look.
+/// The surroundings of the scene's own picture are dimmed, as in the current look.
 #[test]
 fn a_snapshot_that_is_flipped_to_has_the_frame_of_the_picture() {
     let mut harness = opened();

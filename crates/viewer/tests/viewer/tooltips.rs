@@ -1,4 +1,4 @@
-//! Where tooltips come.
+//! Places of tooltips.
 
 use crate::common::{SMALL, click_on, viewer, wait_built};
 use egui::accesskit::Role;

@@ -1,4 +1,4 @@
-//! Without threads the same pictures come, and no slice of a finer one holds the interface up.
+//! Pictures without threads are the same, and no slice of a finer one holds the interface up.
 
 use std::path::PathBuf;
 use std::sync::Arc;

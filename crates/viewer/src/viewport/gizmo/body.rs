@@ -1,4 +1,4 @@
-//! What handles hang on.
+//! Body that handles belong to.
 
 use glam::DVec3;
 use hairline_editor::{Selection, place_light};
@@ -10,9 +10,9 @@ use super::cone::Spot;
 /// A light or an object, as far as handles are concerned.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Body {
-    /// What names of handles call it.
+    /// Noun in the names of handles.
     pub noun: &'static str,
-    /// What it moves with and turns about.
+    /// Middle, which it moves with and turns about.
     pub center_m: DVec3,
     /// Whether it has a place.
     pub moves: bool,
@@ -24,12 +24,12 @@ pub(super) struct Body {
     pub corners_m: Vec<DVec3>,
     /// The polygon's, unit.
     pub normal: Option<DVec3>,
-    /// Of a light that has one.
+    /// Cone of a light that has one.
     pub spot: Option<Spot>,
 }
 
 impl Body {
-    /// Of what is selected; none where that has no place, or is a hidden light.
+    /// Body of the selection; none where that has no place, or is a hidden light.
     pub fn of(description: &Description, selection: Selection) -> Option<Self> {
         match selection {
             Selection::Light(i) => {

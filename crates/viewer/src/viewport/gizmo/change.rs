@@ -1,4 +1,4 @@
-//! What the motion of a handle changes in the scene.
+//! Changes of the scene by the motion of a handle.
 
 use glam::{DMat3, DVec3, EulerRot};
 use hairline_editor::{Selection, place_light};

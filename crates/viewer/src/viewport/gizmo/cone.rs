@@ -10,7 +10,7 @@ use hairline_scene::description::{Light, limits};
 
 use crate::viewport::lens::Lens;
 
-/// From the light to its rims, points.
+/// Distance from the light to its rims, points.
 const OUTER: f32 = 132.0;
 const INNER: f32 = 104.0;
 /// Pieces of a rim.
@@ -19,10 +19,10 @@ const STEPS: usize = 48;
 const LIVELY: f32 = 0.6;
 /// Angles that are tried for a place of the pointer.
 const TRIED: usize = 720;
-/// Where two angles are seen in one place, the one that is nearer to that before, by so many points a radian.
+/// Weight of staying near to the place before, points a radian, where two angles are seen in one place.
 const NEARER: f64 = 2.0;
 
-/// Which rim.
+/// Rim of the cone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Rim {
     Outer,
@@ -34,7 +34,7 @@ pub(super) enum Rim {
 pub(super) struct Spot {
     apex_m: DVec3,
     axis: DVec3,
-    /// From the axis to the outer rim.
+    /// Angle from the axis to the outer rim.
     half_rad: f64,
     softness: f64,
 }
@@ -104,7 +104,7 @@ impl Spot {
         lively.map(|(step, now, _)| (step, now)).collect()
     }
 
-    /// Where a rim is to be met by those who do not see it.
+    /// Position at which a rim is to be met by those who do not see it.
     pub fn knob(&self, lens: &Lens, rim: Rim) -> Option<Pos2> {
         let lively = self.lively(lens, rim);
         let right = lively.iter().max_by(|a, b| a.1.x.total_cmp(&b.1.x));

@@ -1,4 +1,4 @@
-//! How handles look.
+//! Drawing of handles.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Vec2, vec2};
 

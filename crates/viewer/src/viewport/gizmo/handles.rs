@@ -1,4 +1,4 @@
-//! Where handles are on the screen, and which one lies under the pointer. They are as large on the screen whatever the
+//! Positions of handles on the screen, and the one under the pointer. They are as large on the screen whatever the
 //! distance.
 
 use std::f64::consts::TAU;
@@ -12,13 +12,13 @@ use crate::viewport::lens::Lens;
 
 /// Length of an arrow that lies across the view, points.
 const ARROW: f32 = 84.0;
-/// Where an arrow begins: the middle has a handle of its own.
+/// Start of an arrow: the middle has a handle of its own.
 const GAP: f32 = 12.0;
 /// An arrow that is seen shorter than this, from its tip, cannot be dragged.
 const SHORTEST: f32 = 26.0;
 /// Radius of a ring.
 pub(super) const RING: f32 = 58.0;
-/// Where the handle of the size is.
+/// Distance of the handle of the size.
 const SIZE: f32 = 74.0;
 /// Nearer to the middle than this a corner would hide it.
 const CORNER_GAP: f32 = 14.0;
@@ -27,7 +27,7 @@ const LINE_REACH: f32 = 6.0;
 /// and a knob within this.
 const KNOB_REACH: f32 = 9.0;
 
-/// What the axes are called.
+/// Names of the axes.
 pub(super) const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// One thing to drag.
@@ -48,7 +48,7 @@ pub(super) enum Handle {
 }
 
 impl Handle {
-    /// What a screen reader and the history call it.
+    /// Name for a screen reader and the history.
     pub fn name(self, body: &Body) -> String {
         let noun = body.noun;
         match self {
@@ -72,7 +72,7 @@ impl Handle {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Placed {
     pub handle: Handle,
-    /// What is to be met besides the knob.
+    /// Line that is to be met besides the knob.
     pub line: Vec<Pos2>,
     /// The tip of an arrow, the corner; of a ring, the place that is farthest from all others.
     pub knob: Pos2,
@@ -190,7 +190,7 @@ fn ring(i: usize, center_m: DVec3, to_eye: DVec3, m_per_point: f64, lens: &Lens)
     })
 }
 
-/// Of eight directions, the one that is farthest from all others, above rather than below.
+/// The direction, of eight, that is farthest from all others, above rather than below.
 fn freest(directions: &[Vec2]) -> Vec2 {
     let candidates = [1_u8, 3, 7, 5, 0, 2, 4, 6].map(|eighth| {
         let angle = -std::f32::consts::FRAC_PI_4 * f32::from(eighth);

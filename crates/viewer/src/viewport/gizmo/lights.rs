@@ -16,7 +16,7 @@ use crate::viewport::lens::Lens;
 const REACH: f32 = 8.0;
 /// A lamp is never seen smaller than this.
 const SMALLEST: f32 = 6.0;
-/// From what the camera looks at to the sign of a sun, were it to lie across the view, points.
+/// Distance from the camera's target to the sign of a sun, were it to lie across the view, points.
 const SUN_REACH: f32 = 120.0;
 /// Length of the tick on the side on which a polygon shines.
 const TICK: f32 = 18.0;
@@ -68,7 +68,8 @@ pub(in crate::viewport) fn at(description: &Description, lens: &Lens, pos: Pos2)
         .map(|(_, i)| i)
 }
 
-/// Where a light's middle is seen; of a sun the middle of the sign that stands for it. None behind the eye.
+/// Position of a light's middle on the screen; of a sun the middle of the sign that stands for it. None
+/// behind the eye.
 pub(in crate::viewport) fn middle(
     light: &Light,
     lens: &Lens,
@@ -110,7 +111,7 @@ fn sun_sign(middle: Pos2, target: Pos2) -> Vec<[Pos2; 2]> {
         .collect()
 }
 
-/// What of the outline lies before the eye, in pieces.
+/// Part of the outline before the eye, in pieces.
 fn outline(light: &Light, lens: &Lens, description: &Description) -> Vec<[Pos2; 2]> {
     let points_m = match &light.kind {
         LightKind::Sun { .. } => {
@@ -139,7 +140,7 @@ fn outline(light: &Light, lens: &Lens, description: &Description) -> Vec<[Pos2; 
     edges.filter_map(|(a, b)| lens.segment(*a, *b)).collect()
 }
 
-/// What the eye sees as a sphere's edge; nothing from within.
+/// Edge of a sphere as the eye sees it; empty from within.
 fn circle(lens: &Lens, center_m: DVec3, radius_m: f64) -> Vec<DVec3> {
     let to_eye = lens.eye_m() - center_m;
     let sin = radius_m / to_eye.length();

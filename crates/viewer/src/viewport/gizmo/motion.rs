@@ -1,4 +1,4 @@
-//! From the way of the pointer to what it does to a body. Everything counts from where the button went down.
+//! Motion of a body by a drag of the pointer. Everything counts from where the button went down.
 
 use std::f64::consts::PI;
 
@@ -10,14 +10,14 @@ use super::cone::Rim;
 use super::handles::{self, Handle};
 use crate::viewport::lens::Lens;
 
-/// What a drag does.
+/// Effect of a drag.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Motion {
-    /// Along this, in metres.
+    /// Movement by this vector, in metres.
     Move(DVec3),
     /// About an axis of the world through the middle, by radians.
     Turn(DVec3, f64),
-    /// By a factor.
+    /// Scaling by a factor.
     Resize(f64),
     /// A corner to this place.
     Corner(usize, DVec3),
@@ -27,13 +27,13 @@ pub(super) enum Motion {
     Soften(f64),
 }
 
-/// Nothing is moved further than so many times its distance to the eye: an axis that runs to the horizon has no end.
+/// Longest movement, over the distance to the eye: an axis that runs to the horizon has no end.
 const FARTHEST: f64 = 10.0;
 /// A turn snaps to this.
 const SNAP_RAD: f64 = PI / 12.0;
-/// And a cone's angle to this.
+/// Step of a cone's angle.
 const SNAP_DEG: f64 = 5.0;
-/// Nothing shrinks to less of itself in one drag.
+/// Least factor of a drag on the size.
 const SMALLEST: f64 = 0.02;
 /// Below this cosine between the view and a ring's axis the ring is seen from its edge.
 const EDGE_ON: f64 = 0.3;
@@ -46,14 +46,14 @@ pub(super) struct Aim {
 }
 
 impl Aim {
-    /// Where the ray meets a plane.
+    /// Point where the ray meets a plane.
     fn on(&self, through_m: DVec3, normal: DVec3) -> Option<DVec3> {
         self.lens.on_plane(self.pos, through_m, normal)
     }
 }
 
-/// What a drag of the handle from one place to another does to the body as it was at the first; none where the pointer's
-/// ray does not tell.
+/// Motion by a drag of the handle from one place to another, on the body as it was at the first; none where the
+/// pointer's ray does not tell.
 pub(super) fn of(body: &Body, handle: Handle, from: &Aim, to: &Aim, snaps: bool) -> Option<Motion> {
     let center_m = body.center_m;
     let eye_m = from.lens.eye_m();
@@ -130,7 +130,7 @@ fn turn_rad(center_m: DVec3, axis: DVec3, from: &Aim, to: &Aim) -> Option<f64> {
 }
 
 impl Motion {
-    /// How far it went, to be shown beside the pointer.
+    /// Length of the motion, to be shown beside the pointer.
     pub fn words(&self, handle: Handle) -> Option<String> {
         Some(match (*self, handle) {
             (Self::Move(delta_m), Handle::Axis(i)) => {

@@ -1,4 +1,4 @@
-//! What the brush shows over the picture: its edge, and the strokes that the picture does not have yet.
+//! Drawing of the brush over the picture: its edge, and the strokes that the picture does not have yet.
 
 use egui::{Color32, Painter, Pos2, Shape, Stroke, Ui};
 use glam::DVec3;
@@ -15,7 +15,7 @@ pub(super) struct Drawn {
     pub ways_m: Vec<Vec<DVec3>>,
     /// The document's, with the strokes in it.
     pub revision: u64,
-    /// How many the scene has with them: with fewer, they were taken away again.
+    /// Number of strokes that the scene has with them: with fewer, they were taken away again.
     pub strokes: usize,
     pub tool: Tool,
 }
@@ -34,7 +34,7 @@ pub(super) fn stroke_count(description: &Description) -> usize {
     layers.map(|layer| layer.strokes.len()).sum()
 }
 
-/// What was drawn last, while the picture is without it.
+/// Shows the strokes that were drawn last, while the picture is without them.
 pub(super) fn show_drawn(ui: &Ui, work: &Workspace, kept: &mut Option<Drawn>, area: &Area) {
     let Some(drawn) = kept.take() else {
         return;
