@@ -31,10 +31,10 @@ pub const LAYERS: [Layer; 2] = [Layer::Base, Layer::Scratches];
 /// The mask that is linear in the shares: of both methods it makes the same of a pixel.
 const MASK: Mask = Mask::Linear;
 
-/// One of [`SCENES`].
+/// Loads one of [`SCENES`].
 ///
 /// # Panics
-/// Where it cannot be loaded.
+/// Panics where it cannot be loaded.
 pub fn scene(name: &str) -> Scene {
     read(name, |text| text)
 }

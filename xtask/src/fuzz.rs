@@ -24,7 +24,7 @@ use rayon::prelude::*;
 pub struct Fuzz {
     /// Number of mutated inputs, besides those of earlier findings.
     cases: u64,
-    /// Other mutations.
+    /// Seed of the mutations.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// The first case: to run one again, `fuzz 1 --seed S --from CASE`.

@@ -184,7 +184,7 @@ fn full(row: &Grating, places_um: Places, rows: u32, block: u32) -> Sent {
     sum.into_iter().map(mean).collect()
 }
 
-/// All grooves under the window, with their phases, at a wavelength of each step of the spectrum.
+/// Light of all grooves under the window, with their phases, at a wavelength of each step of the spectrum.
 fn one_row(row: &Grating, places_um: &[f64], random: &mut Pcg64) -> Sent {
     let mut sent = vec![[0.0; 3]; Q_COUNT];
     let samples = spectrum::samples();

@@ -83,7 +83,7 @@ impl Models {
     }
 }
 
-/// All models below a folder.
+/// Adds all models below a folder.
 fn list(folder: &Path, paths: &mut Vec<PathBuf>) -> Result<()> {
     for entry in fs::read_dir(folder).with_context(|| format!("list {}", folder.display()))? {
         let path = entry?.path();

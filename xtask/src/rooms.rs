@@ -61,7 +61,7 @@ impl Rooms {
     }
 }
 
-/// All that have sources of their own; others are looked at when they are named.
+/// Folders of all crates that have sources of their own; others are looked at when they are named.
 fn crates() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let libraries = std::fs::read_dir(root.join("crates")).into_iter().flatten();

@@ -122,7 +122,7 @@ impl Wheel {
     }
 }
 
-/// Both at once: each waits for one core at times, and for the disk.
+/// Runs both at once: each waits for one core at times, and for the disk.
 fn beside<A: Send, B: Send>(
     a: impl FnOnce() -> A + Send,
     b: impl FnOnce() -> B + Send,

@@ -404,7 +404,7 @@ fn layers() -> impl TypedValueParser<Value = Layer> {
     by_name(Layer::ALL, Layer::name)
 }
 
-/// One of `all`, by its name.
+/// Parser for one of `all`, by its name.
 fn by_name<T: Copy + Send + Sync + 'static, const N: usize>(
     all: [T; N],
     name: fn(T) -> &'static str,

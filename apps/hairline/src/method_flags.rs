@@ -129,7 +129,7 @@ impl MethodFlags {
         }
     }
 
-    /// Those of the published method alone, as they are written.
+    /// Flags of the published method alone, as they are written.
     fn switches(&self) -> Vec<String> {
         let mut flags = Vec::new();
         flags.extend(self.index.map(|v| written("index", v)));
@@ -138,7 +138,7 @@ impl MethodFlags {
         flags
     }
 
-    /// All of them, as they are written.
+    /// All flags, as they are written.
     fn given(&self) -> Vec<String> {
         let mut flags = Vec::new();
         if self.method != Whole::Default {

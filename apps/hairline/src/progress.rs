@@ -40,7 +40,7 @@ impl Progress {
         progress
     }
 
-    /// Says what is done meanwhile; the share stays.
+    /// Names the current step; the share stays.
     pub fn say(&self, what: &'static str) {
         self.bar.set_message(what);
     }
@@ -75,7 +75,7 @@ impl Drop for Progress {
     }
 }
 
-/// Tells on stderr how work goes, with a bar while a part of it is in progress.
+/// Listener that shows on stderr how work goes, with a bar while a part of it is in progress.
 #[derive(Default)]
 pub struct Terminal {
     bar: Mutex<Option<Progress>>,

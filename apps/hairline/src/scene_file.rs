@@ -241,7 +241,7 @@ impl Source {
     }
 }
 
-/// Says of pictures and lists what they are good for; what has another name is read.
+/// Refuses pictures and lists with a hint at their use; files of other names are read.
 pub fn refuse_other_files(path: &Path) -> Result<(), Failure> {
     let ending = path
         .extension()

@@ -25,7 +25,7 @@ pub(crate) struct TileLists {
 
 /// Parts that the segments are divided into, to be counted and written at the same time. What they are does not change the lists.
 const PARTS: usize = 16;
-/// Fewer segments than this are not worth a part.
+/// Least number of segments that are worth a part.
 const PART_LEAST: usize = 1 << 12;
 /// Counters of all parts together are at most about so many, unless one part alone has more.
 const COUNTERS: usize = 1 << 24;

@@ -98,7 +98,7 @@ pub(crate) fn picture_mean(texture: &Texture) -> DVec3 {
         .truncate()
 }
 
-/// All of a picture, from corner to corner.
+/// Corners of a whole picture.
 pub(crate) const WHOLE: [DVec2; 2] = [DVec2::ZERO, DVec2::ONE];
 
 /// A trilinear look-up that ends at the edges of a range.

@@ -35,7 +35,7 @@ pub(crate) struct Wide<'a> {
 pub(crate) enum Shared {
     /// The sample has the scratches of this number of samples, itself among them.
     Among(u32),
-    /// Another one of the batch has them.
+    /// Another sample of the batch has the scratches.
     With(usize),
 }
 

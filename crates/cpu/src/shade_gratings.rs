@@ -19,7 +19,7 @@ pub(crate) struct ShadedGratings {
 }
 
 impl ShadedGratings {
-    /// Those of an object at a point. `views` are ready for scratches. `picks`, where there are shadows, has its sources cleared.
+    /// Shades the gratings of an object at a point. `views` are ready for scratches. `picks`, where there are shadows, has its sources cleared.
     pub fn new(
         prepared: &Prepared,
         point: &SurfacePoint,

@@ -68,7 +68,7 @@ struct RayEnd {
 pub(crate) struct ShadowPoint<'p, 'a> {
     pub point: &'p SurfacePoint<'a>,
     pub object: u32,
-    /// None where it is not the camera that sees the point.
+    /// Filter of the pixel; none where it is not the camera that sees the point.
     pub pixel: Option<PixelFilter<'p>>,
     pub views: &'p LightViews<'a>,
     /// Rays for each source.
@@ -81,14 +81,14 @@ pub(crate) struct ShadowPoint<'p, 'a> {
 /// Rays for each source.
 #[derive(Clone, Copy)]
 pub(crate) struct Rounds {
-    /// Those that are cast now.
+    /// Rounds that are cast now.
     pub now: Batch,
     /// Number of all rounds.
     pub all: u32,
 }
 
 impl Rounds {
-    /// All at once.
+    /// All rounds at once.
     pub fn all(rounds: u32) -> Self {
         Self {
             now: Batch::all(rounds),

@@ -18,7 +18,7 @@ use hairline_scene::description::{Environment, Map};
 
 use crate::{Selection, paths};
 
-/// Why an action was refused; it reads as a sentence for the artist.
+/// Reason why an action was refused; it reads as a sentence for the artist.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ActionError {
     /// A material that objects still have.
@@ -35,7 +35,7 @@ pub enum ActionError {
     /// An empty name where a name is needed.
     #[error("a name must not be empty")]
     EmptyName,
-    /// Another one is called that.
+    /// Another part has that name.
     #[error("there is already {what} called \"{name}\"; choose another name")]
     NameTaken {
         /// "an object", say.

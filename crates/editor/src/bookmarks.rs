@@ -29,7 +29,7 @@ pub struct Bookmarks {
 }
 
 impl Bookmarks {
-    /// Those of a scene without a file; `store` is the file that bookmarks are kept in, if they are kept.
+    /// Bookmarks of a scene without a file; `store` is the file that bookmarks are kept in, if they are kept.
     pub fn new(store: Option<PathBuf>) -> Self {
         Self {
             store,
@@ -37,7 +37,7 @@ impl Bookmarks {
         }
     }
 
-    /// Those of a scene in the place of the last.
+    /// Replaces the bookmarks by those of another scene.
     pub fn open(&mut self, scene: Option<&Path>) {
         self.scene = scene.map(absolute);
         let stored = self.stored();
@@ -59,7 +59,7 @@ impl Bookmarks {
         }
     }
 
-    /// All, in the order of their making.
+    /// All bookmarks, in the order of their making.
     pub fn list(&self) -> &[Bookmark] {
         &self.list
     }

@@ -28,7 +28,7 @@ pub struct Document {
     revision: u64,
     /// The file's text as it was opened or saved last; none where there is no file.
     text: Option<Arc<str>>,
-    /// Another text of the file that was seen, and may be written over.
+    /// Other text of the file that was seen, and may be written over.
     passed_over: Option<Arc<str>>,
 }
 
@@ -102,8 +102,8 @@ impl Document {
         }
     }
 
-    /// Another number after every change of the description, undo and redo among them. No two documents of one run share a
-    /// number, unless one is a clone of the other.
+    /// Number that changes with every change of the description, undo and redo among them. No two documents of one run
+    /// share a number, unless one is a clone of the other.
     pub fn revision(&self) -> u64 {
         self.revision
     }

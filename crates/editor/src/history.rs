@@ -10,7 +10,7 @@ use hairline_scene::description::Stroke;
 
 use crate::Selection;
 
-/// Tells one drag from another: the widget or gizmo that is dragged.
+/// Key that distinguishes one drag from another: the widget or gizmo that is dragged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct DragKey(pub u64);
 

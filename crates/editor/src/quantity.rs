@@ -56,7 +56,7 @@ impl Unit {
         }
     }
 
-    /// One of it, in metres, degrees, steps, pixels and kelvins.
+    /// Size of one unit, in metres, degrees, steps, pixels and kelvins.
     fn size(self) -> f64 {
         match self {
             Self::Micrometre => 1e-6,
@@ -127,7 +127,7 @@ impl Unit {
 /// The unit in which a number is shown, and in which one without a unit is typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shown {
-    /// One of it, in the parameter's own unit.
+    /// Size of one unit shown, in the parameter's own unit.
     factor: f64,
     /// Symbol with the space that belongs before it.
     symbol: &'static str,
@@ -203,7 +203,7 @@ pub fn parse(typed: &str, unit: Unit, shown: Shown) -> Result<f64, QuantityError
     }
 }
 
-/// Why what was typed is no number; it reads as a sentence.
+/// Reason why what was typed is no number; it reads as a sentence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct QuantityError {
     typed: String,

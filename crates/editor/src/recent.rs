@@ -39,7 +39,7 @@ impl Recent {
         self.write();
     }
 
-    /// Those that are still there, the latest first.
+    /// Files that are still there, the latest first.
     pub fn list(&self) -> Vec<PathBuf> {
         let files = self.files.iter();
         files.filter(|file| file.is_file()).cloned().collect()

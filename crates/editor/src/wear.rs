@@ -74,8 +74,8 @@ fn take_rounded(value: &mut Distribution, to: &Distribution) {
     }
 }
 
-/// Gives an object a wear: its layers of wear, in the place of the first of those that were there; behind its other layers where there were
-/// none.
+/// Sets the wear of an object: its layers of wear take the place of the first of those that were there; behind its other layers where there
+/// were none.
 ///
 /// # Errors
 /// [`ActionError::Missing`].

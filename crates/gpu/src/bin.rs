@@ -37,7 +37,7 @@ impl BinPasses {
         }
     }
 
-    /// Says which of the two buffers holds the lists.
+    /// Records the passes, and returns which of the two buffers holds the lists.
     pub(crate) async fn record(
         &self,
         gpu: &Gpu,

@@ -64,7 +64,7 @@ impl BounceRoom {
         points * RAY_BYTES <= gpu.largest_array()
     }
 
-    /// Says which round is next.
+    /// Writes which round is next.
     pub(crate) fn write(&self, gpu: &Gpu, round: &ShadowRound) {
         let bytes = bytemuck::bytes_of(round);
         gpu.queue.write_buffer(&self.round, 0, bytes);

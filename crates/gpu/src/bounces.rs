@@ -36,7 +36,7 @@ pub(crate) struct Bounces {
     light: ComputePass,
     /// Shadows of what rays have met.
     pub shadows: Shadows,
-    /// None where the scene has no scratches.
+    /// Passes by way of scratches; none where the scene has no scratches.
     pub scratches: Option<BounceScratches>,
     /// Pass for rays by way of gratings. None where the scene has none.
     gratings: Option<ComputePass>,

@@ -39,7 +39,7 @@ pub struct Adapter {
     pub max_storage_binding_bytes: u64,
     /// The largest picture side, pixels.
     pub max_texture_px: u32,
-    /// Why it cannot render, if it cannot.
+    /// Reason why it cannot render, if it cannot.
     pub shortcoming: Option<String>,
     handle: wgpu::Adapter,
 }

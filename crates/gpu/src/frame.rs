@@ -27,7 +27,7 @@ pub(crate) struct View<'a> {
     pub step: u32,
     /// Samples of pixels on edges.
     pub samples: u32,
-    /// Those of them that are taken.
+    /// Batch of the samples that is taken.
     pub batch: Batch,
     pub without_shadows: bool,
 }
@@ -89,7 +89,7 @@ impl View<'_> {
 #[derive(Clone, Copy)]
 pub(crate) struct Rounds {
     pub now: Batch,
-    /// Other random numbers for each.
+    /// Seed of the random numbers.
     pub seed: u32,
 }
 

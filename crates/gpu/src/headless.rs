@@ -95,7 +95,7 @@ pub fn test_gpu() -> Option<&'static Gpu> {
     }
 }
 
-/// Says on stderr that the test of this thread is skipped.
+/// Prints to stderr that the test of this thread is skipped.
 pub fn skip(why: &str) {
     let thread = std::thread::current();
     let test = thread.name().unwrap_or("a test");

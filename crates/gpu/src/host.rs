@@ -93,7 +93,7 @@ pub(crate) fn objects(index: &ScratchIndex, gratings: &[Vec<Grating>]) -> Vec<Ob
     index.tree.objects.iter().enumerate().map(object).collect()
 }
 
-/// Those of each object of a scene, each once for each material that it lies on.
+/// Converts the gratings of each object of a scene, each once for each material that it lies on.
 pub(crate) fn gratings(
     scene: &Scene,
     tables: &ScratchTables,

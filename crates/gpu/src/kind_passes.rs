@@ -32,7 +32,7 @@ impl KindPasses {
         Self(has.lights.over_scratches().map(pass).collect())
     }
 
-    /// All lights, as many at once as there is room for.
+    /// Records the passes over all lights, as many at once as there is room for.
     pub(crate) fn record(
         &self,
         gpu: &Gpu,

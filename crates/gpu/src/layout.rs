@@ -356,7 +356,7 @@ mod tests {
     use crate::shaders;
     use naga::{Module, TypeInner};
 
-    /// Those of this crate and those that a film holds for another one.
+    /// Structs of this crate and those that a film holds for another one.
     fn all_host_structs() -> Vec<HostStruct> {
         let mut all = host_structs();
         all.push(of_image!(FoundLight {
@@ -394,7 +394,7 @@ mod tests {
         })
     }
 
-    /// Why a host struct differs from the shader's, if it does.
+    /// Describes the difference of a host struct from the shader's, if there is one.
     fn difference(
         module: &Module,
         name: &str,

@@ -46,7 +46,7 @@ impl Kind {
 
     const CORNERED: [Self; 4] = [Self::Quads, Self::Outlines, Self::Tubes, Self::Pictures];
 
-    /// Those of rays, which take polygons of few vertices as others.
+    /// Kind of the light's rays, which take polygons of few vertices as others.
     pub(crate) fn of_rays(self) -> Self {
         match self {
             Self::Quads => Self::Outlines,
@@ -79,12 +79,12 @@ pub(crate) struct Kinds([bool; Kind::ALL.len()]);
 impl Kinds {
     pub(crate) const ALL: Self = Self([true; Kind::ALL.len()]);
 
-    /// Those that shine on scratches.
+    /// Kinds that shine on scratches.
     pub(crate) fn of(scene: &Scene) -> Self {
         Self::of_lights(scene, scene.scratch_lights())
     }
 
-    /// Those that shine on the base.
+    /// Kinds that shine on the base.
     pub(crate) fn on_base(scene: &Scene) -> Self {
         Self::of_lights(scene, scene.all_lights())
     }
@@ -102,14 +102,14 @@ impl Kinds {
         self.0[kind as usize]
     }
 
-    /// Those with a pass over scratches: spheres where there are none, for the mask.
+    /// Kinds with a pass over scratches: spheres where there are none, for the mask.
     pub(crate) fn over_scratches(self) -> impl Iterator<Item = Kind> {
         let none = self == Self::default();
         let wanted = move |kind: &Kind| self.has(*kind) || none && *kind == Kind::Spheres;
         Kind::ALL.into_iter().filter(wanted)
     }
 
-    /// Those of rays, each of which has passes of its own.
+    /// Kinds of rays, each of which has passes of its own.
     pub(crate) fn of_rays(self) -> impl Iterator<Item = Kind> {
         let folded = move |kind: &Kind| *kind != Kind::Quads || !self.has(Kind::Outlines);
         let there = Kind::ALL.into_iter().filter(move |kind| self.has(*kind));

@@ -29,9 +29,9 @@ pub(crate) enum Shade {
     /// Hairline's own method.
     Own {
         base: ShadeBasePass,
-        /// None where the scene has none.
+        /// Passes for scratches; none where the scene has none.
         scratches: Option<Box<ScratchPasses>>,
-        /// None where the scene has none.
+        /// Pass for gratings; none where the scene has none.
         gratings: Option<ShadeGratingsPass>,
     },
     /// The method of 2018.
@@ -46,7 +46,7 @@ pub(crate) struct ScratchPasses {
 }
 
 impl ScenePasses {
-    /// Those of tile lists, if scratches are shaded by them.
+    /// Passes of tile lists, if scratches are shaded by them.
     pub(crate) fn scratches(&self) -> Option<&ScratchPasses> {
         match &self.shade {
             Shade::Own { scratches, .. } => scratches.as_deref(),

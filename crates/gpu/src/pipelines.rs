@@ -33,7 +33,7 @@ pub(crate) struct Orders<'a> {
 }
 
 struct Order {
-    /// All that the pipeline is compiled of.
+    /// Key of everything that the pipeline is compiled of.
     key: String,
     module: &'static shaders::Module,
     entry_point: &'static str,

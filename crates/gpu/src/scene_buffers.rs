@@ -39,7 +39,7 @@ impl SceneBuffers {
         self.index.tree.segments.len() as u32
     }
 
-    /// Those of each object one after the other; passes about gratings bind them.
+    /// Gratings of each object one after the other; passes about gratings bind them.
     pub(crate) fn gratings(&self) -> &wgpu::Buffer {
         &self.gratings.there
     }

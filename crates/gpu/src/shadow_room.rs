@@ -110,7 +110,7 @@ impl ShadowRoom {
         encoder.clear_buffer(&self.found, 0, None);
     }
 
-    /// Says which round is next.
+    /// Writes which round is next.
     pub(crate) fn write(&self, gpu: &Gpu, round: &ShadowRound) {
         let bytes = bytemuck::bytes_of(round);
         gpu.queue.write_buffer(&self.round, 0, bytes);

@@ -48,9 +48,9 @@ pub(crate) struct StripRoom {
     pub group_scan: Scan,
     pub samples: Samples,
     pub lists: Lists,
-    /// None before there are shadows.
+    /// Arrays of shadows; none before there are shadows.
     pub shadows: Option<ShadowRoom>,
-    /// None before there are bounces.
+    /// Arrays of bounces; none before there are bounces.
     pub bounces: Option<Box<BounceRoom>>,
 }
 
@@ -89,7 +89,7 @@ pub(crate) struct Lists {
     entries_max: u32,
     pub digit_starts: wgpu::Buffer,
     pub digit_scan: Scan,
-    /// None before lists were made, and while they are.
+    /// Rows of the lists; none before lists were made, and while they are.
     pub made: Option<MadeLists>,
 }
 

@@ -18,9 +18,9 @@ use crate::variant::{Contents, ShadeVariant};
 pub struct GpuScene {
     pub(crate) data: SceneData,
     pub(crate) passes: ScenePasses,
-    /// None: nothing hides a light.
+    /// Shadow passes; none: nothing hides a light.
     pub(crate) shadows: Option<Shadows>,
-    /// None: light goes by no other object.
+    /// Bounce passes; none: light goes by no other object.
     pub(crate) bounces: Option<Bounces>,
     /// Tree for shadows, of this scene or of the one before.
     tree: Option<TriangleTree>,

@@ -23,7 +23,7 @@ pub(crate) struct Contents {
     pub gratings: bool,
     /// Gratings whose grooves could be seen one by one.
     pub single_grooves: bool,
-    /// Those among them that come nearer to one another along their way.
+    /// Single grooves that come nearer to one another along their way.
     pub branching_grooves: bool,
     /// Gratings with pictures, or along texture coordinates.
     pub groove_maps: bool,

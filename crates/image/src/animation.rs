@@ -9,7 +9,8 @@ use crate::output::{check_writable, write_atomically};
 use crate::png::quantize;
 use crate::{Display, Error, Picture};
 
-/// More frames in a second than this are shown slower than asked: viewers take delays below 10 ms for a mistake.
+/// Largest number of frames in a second: viewers take delays below 10 ms for a mistake, and show more frames slower than
+/// asked.
 pub const FPS_MAX: u16 = 100;
 
 /// An animation in the making. It is kept in memory, compressed, until [`Animation::finish`]: the file is whole or not there.

@@ -10,7 +10,7 @@ pub const BATCH_SAMPLES: u32 = 4;
 /// Samples at most in a batch of what rays find: their closed forms are computed once for each batch.
 pub const BATCH_ROUNDS: u32 = 16;
 
-/// Those of the first batch while somebody looks: as few as tell how they vary.
+/// Rounds of the first batch while somebody looks: as few as tell how they vary.
 const FIRST_ROUNDS: u32 = 2;
 
 /// Some of the samples of each pixel.
@@ -23,7 +23,7 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// All of `samples`.
+    /// The batch of all `samples`.
     pub fn all(samples: u32) -> Self {
         Self {
             first: 0,
@@ -31,7 +31,7 @@ impl Batch {
         }
     }
 
-    /// Those that `samples`, at least 1, are averaged in; more than a batch are rounded up to whole ones.
+    /// Batches in which `samples`, at least 1, are averaged; more than a batch are rounded up to whole ones.
     pub fn of(samples: u32) -> impl Iterator<Item = Self> {
         let count = samples.clamp(1, BATCH_SAMPLES);
         let batches = samples.max(1).div_ceil(count);
@@ -41,7 +41,7 @@ impl Batch {
         })
     }
 
-    /// Those that `samples` rounds of rays add up in while somebody looks: the first one is soon there, and later ones are as large as can be.
+    /// Batches in which `samples` rounds of rays add up while somebody looks: the first one is soon there, and later ones are as large as can be.
     pub fn growing(samples: u32) -> impl Iterator<Item = Self> {
         let after = move |first: u32| {
             let count = (3 * first).clamp(FIRST_ROUNDS, BATCH_ROUNDS);

@@ -24,7 +24,7 @@ pub enum Error {
     CannotWrite {
         /// The output path.
         path: PathBuf,
-        /// Why, in words.
+        /// Reason in words.
         reason: String,
     },
     /// The file cannot be opened or read.
@@ -32,7 +32,7 @@ pub enum Error {
     CannotRead {
         /// The input path.
         path: PathBuf,
-        /// Why, in words.
+        /// Reason in words.
         reason: String,
     },
     /// The file was read, but it does not hold a picture that can be used.

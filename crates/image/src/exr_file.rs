@@ -319,7 +319,7 @@ pub struct Window {
     pub at_px: [i64; 2],
     /// Width and height of the window.
     pub size_px: [u32; 2],
-    /// Those of the picture.
+    /// Width and height of the whole picture.
     pub of_px: [u32; 2],
 }
 
@@ -373,7 +373,7 @@ impl fmt::Display for Window {
 /// The largest picture that is read, or that a few pixels may be placed in.
 const LARGEST_PX: u64 = 1 << 29;
 
-/// All that a file holds.
+/// Contents of a file.
 pub(crate) struct Contents {
     parts: Vec<Part>,
     pub(crate) notes: Notes,

@@ -34,7 +34,7 @@ pub const OUTLINE_PX: i32 = 2;
 pub const VARIANCE_PX: i32 = 2;
 /// Bounced light is an outlier beyond so many standard deviations of the pixels around: with fewer, light that few rays find would be lost.
 pub const OUTLIER_STD: f32 = 12.0;
-/// Fewer pixels around tell nothing of outliers: the sum of how alike they are.
+/// Least sum of how alike the pixels around are: fewer tell nothing of outliers.
 pub const LEAST_AROUND: f32 = 2.0;
 /// Pixels that are less alike do not count.
 pub const LEAST_ALIKE: f32 = 1e-3;

@@ -108,7 +108,7 @@ pub(crate) fn left(open: [f32; 3], share: [f32; 3]) -> [f32; 3] {
     }
 }
 
-/// None where there is nothing to take a part of.
+/// Ratio of a part to the whole, 0 to 1; none where the whole is nothing.
 fn ratio(part: f32, all: f32) -> Option<f32> {
     (all > 0.0).then(|| (part / all).clamp(0.0, 1.0))
 }

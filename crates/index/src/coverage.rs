@@ -13,7 +13,7 @@ pub enum Coverage {
     Only(u32),
     /// The ray meets each by chance, with the probability of its alpha.
     Drawn {
-        /// Other numbers for each.
+        /// Key of the random numbers.
         key: u32,
         /// Numbers of neighbouring rounds of one key are spread evenly.
         round: u32,

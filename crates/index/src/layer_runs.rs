@@ -71,7 +71,7 @@ pub(crate) fn groups<'a>(scene: &'a Scene, object: &'a Object) -> Vec<Vec<LayerR
 }
 
 impl<'a> LayerRun<'a> {
-    /// All of an object, in their order; one for each layer, since a builder lays them layer by layer.
+    /// All runs of an object, in their order; one for each layer, since a builder lays them layer by layer.
     pub(crate) fn of(scene: &'a Scene, object: &'a Object) -> impl Iterator<Item = Self> {
         let runs = object.scratches.chunk_by(|a, b| a.layer == b.layer);
         runs.map(move |scratches| Self {

@@ -57,7 +57,7 @@ impl ScratchIndex {
         })
     }
 
-    /// All but the trees, for pictures of a draft, which looks nothing up there.
+    /// Makes the index without trees, for pictures of a draft, which looks nothing up there.
     pub fn without_trees(scene: &Scene) -> Self {
         let objects = scene.objects.len();
         Self {

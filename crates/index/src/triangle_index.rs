@@ -20,7 +20,7 @@ use crate::tree;
 pub struct TriangleNode {
     /// The next node that is not below this one; always greater than the node's own index.
     pub skip: u32,
-    /// Those of a leaf, at most eight, as [`TriangleIndex::triangles`] numbers them; empty for an inner node.
+    /// Triangles of a leaf, at most eight, as [`TriangleIndex::triangles`] numbers them; empty for an inner node.
     pub triangles: Range<u32>,
 }
 

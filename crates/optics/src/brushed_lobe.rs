@@ -80,7 +80,7 @@ struct SlicePart {
     weight: f64,
     middle: f64,
     alpha: f64,
-    /// Those that reflect to above the horizon, as tangents of [`Moments`].
+    /// Bounds, as tangents of [`Moments`], of the facets that reflect to above the horizon.
     from: f64,
     to: f64,
 }

@@ -182,7 +182,7 @@ fn sptd_cap_region(cap: SphericalCap) -> SphericalRegion {
     }
 }
 
-/// The other side of a cap.
+/// Complement of a cap on the sphere.
 fn sptd_complement(cap: SphericalCap) -> SphericalCap {
     SphericalCap {
         axis: -cap.axis,

@@ -33,7 +33,7 @@ pub(super) struct RowView {
 }
 
 impl RowView {
-    /// One of the gratings at a point of an object, or none.
+    /// Draws one of the gratings at a point of an object, or none.
     pub(super) fn drawn(
         scene: &Scene,
         object: usize,

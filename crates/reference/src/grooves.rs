@@ -30,7 +30,7 @@ pub(super) struct GrooveView {
 }
 
 impl GrooveView {
-    /// None where the piece lies on another side of the surface, or too far to matter.
+    /// Makes the view of a piece; none where it lies on another side of the surface, or too far to matter.
     pub(crate) fn new(point: &SurfacePoint, groove: &Groove, reach_sigma: f64) -> Option<Self> {
         if groove.normal.as_dvec3().dot(point.normal) < FACING_MIN_COS as f64 {
             return None;
@@ -74,7 +74,7 @@ impl GrooveView {
         })
     }
 
-    /// One of a grating's, which is as long as its line.
+    /// A groove of a grating, which is as long as its line.
     pub(crate) fn of_row(frame: BandFrame, wo: DVec3, piece: GroovePiece, sigma_um: f64) -> Self {
         Self {
             frame,

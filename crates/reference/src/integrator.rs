@@ -31,7 +31,7 @@ pub struct Settings {
     pub bounces: u32,
     /// Whether objects hide the lights and the environment from one another. The closed form has no shadows.
     pub shadows: bool,
-    /// Other samples.
+    /// Seed of the samples.
     pub seed: u64,
 }
 
@@ -46,7 +46,7 @@ pub struct Parts {
     pub tables: Arc<ScratchTables>,
     /// One for each material.
     reflectances: Arc<Vec<Reflectance>>,
-    /// Those of coats.
+    /// Reflectances of coats.
     coats: Arc<Vec<Option<Reflectance>>>,
     depth_coherence: Arc<Vec<f32>>,
 }
@@ -112,7 +112,7 @@ pub struct Integrator<'a> {
     pub(super) tables: Arc<ScratchTables>,
     /// One for each material.
     pub(super) reflectances: Arc<Vec<Reflectance>>,
-    /// Those of coats.
+    /// Reflectances of coats.
     pub(super) coats: Arc<Vec<Option<Reflectance>>>,
     pub(super) lights: AreaLights,
     pub(super) environment: Option<EnvironmentSampler>,

@@ -17,7 +17,7 @@ pub(super) struct CutNormal {
 }
 
 impl CutNormal {
-    /// None if the interval is empty or holds less than 1e-12 of the distribution.
+    /// Cuts the distribution; none if the interval is empty or holds less than 1e-12 of it.
     pub(crate) fn new(std: f64, low: f64, high: f64) -> Option<Self> {
         let mirrored = low > 0.0;
         let (a, b) = if mirrored { (-high, -low) } else { (low, high) };
@@ -69,7 +69,7 @@ pub(super) struct CutCauchy {
 }
 
 impl CutCauchy {
-    /// None if the interval is empty.
+    /// Cuts the distribution; none if the interval is empty.
     pub(crate) fn new(scale: f64, low: f64, high: f64) -> Option<Self> {
         let first_rad = (low / scale).atan();
         let span_rad = (high / scale).atan() - first_rad;

@@ -15,13 +15,13 @@ const LEAST_WEIGHT: f64 = 1e-6;
 
 /// A mixture of the peaks of orders and a distribution that leaves no direction out, cut to an interval.
 pub(super) struct Orders {
-    /// Ascending sums of the weights, the middle of each peak, and the peak about it.
+    /// Peaks of the orders: ascending sums of the weights, the middle of each peak, and the peak about it.
     peaks: Vec<(f64, f64, CutNormal)>,
     rest: CutCauchy,
 }
 
 impl Orders {
-    /// None if the interval is empty.
+    /// Makes the mixture; none if the interval is empty.
     pub(super) fn new(
         row: &Row,
         nm: &Spectrum<f64>,

@@ -159,7 +159,7 @@ pub(super) struct LobeDirections {
     q: Across,
 }
 
-/// One of them.
+/// A direction of [`LobeDirections`].
 pub(super) struct LobeDirection {
     pub xi_t: f64,
     pub q: f64,
@@ -170,7 +170,7 @@ pub(super) struct LobeDirection {
 }
 
 impl LobeDirections {
-    /// None where no direction above the horizon has these components.
+    /// Draws a direction; none where no direction above the horizon has these components.
     pub(crate) fn sample(&self, u: f64, v: f64) -> Option<LobeDirection> {
         let (xi_t, q) = (self.xi_t.sample(u), self.q.sample(v));
         let wi = direction_from_cosines(xi_t - self.wo.x, q - self.wo.y)?;

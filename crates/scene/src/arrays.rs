@@ -20,7 +20,7 @@ pub struct Arrays {
 }
 
 impl Arrays {
-    /// None at all.
+    /// Empty arrays.
     pub(crate) fn none() -> &'static Self {
         static NONE: std::sync::LazyLock<Arrays> = std::sync::LazyLock::new(Arrays::default);
         &NONE
@@ -213,7 +213,7 @@ impl ScratchArrays {
         Ok(Self { ends_m, profiles })
     }
 
-    /// One of [`Self::SIZES`], by its place, of each scratch.
+    /// Values of one size for each scratch; `place` is its index in [`Self::SIZES`].
     pub fn size(&self, place: usize) -> impl Iterator<Item = f32> {
         let of = LISTED_SIZES[place].of;
         self.profiles
@@ -221,7 +221,7 @@ impl ScratchArrays {
             .map(move |profile| *of(&mut profile.clone()))
     }
 
-    /// Both ends of each, metres.
+    /// Both ends of each scratch, metres.
     pub fn ends_m(&self) -> &[[[f64; 3]; 2]] {
         &self.ends_m
     }

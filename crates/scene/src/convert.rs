@@ -18,7 +18,7 @@ use crate::picture_lie::PictureLie;
 use crate::scene::{Base, Camera, GLTF_DIELECTRIC_F0, Material, RenderSettings, Scene, Specular};
 use crate::surface::world_from_object;
 
-/// All that takes no time: camera, settings, materials, lights.
+/// Converts the parts of a scene that take no time: camera, settings, materials, lights.
 pub(crate) fn without_surfaces(description: &Description) -> Scene {
     let lights = description.lights.iter().filter(|light| !light.hidden);
     Scene {

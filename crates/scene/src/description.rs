@@ -86,7 +86,7 @@ pub struct Description {
     /// The model whose own lights the `lights` were made of, as its object names it. Not part of the file.
     #[serde(skip)]
     pub lights_of: Option<PathBuf>,
-    /// Notes on the file for its author, a line each. Not part of it.
+    /// Notes on the file for its author, a line each; they are no part of the file.
     #[serde(skip)]
     pub notes: Vec<String>,
 }

@@ -51,7 +51,7 @@ impl Error {
         self.is_cancelled
     }
 
-    /// Says where the mistake is, unless a more exact place is known already.
+    /// Sets the place of the mistake, unless a more exact one is known already.
     #[must_use]
     pub fn at(mut self, file: &Path, line: Option<usize>) -> Self {
         self.place.get_or_insert_with(|| Place {

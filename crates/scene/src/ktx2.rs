@@ -16,7 +16,7 @@ pub(crate) fn is_ktx(bytes: &[u8]) -> bool {
     bytes.starts_with(ANY_MAGIC)
 }
 
-/// Why an image is not read.
+/// Reason why an image is not read.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub(crate) struct Broken(String);

@@ -70,7 +70,7 @@ impl Doors {
 }
 
 impl Cone {
-    /// All directions.
+    /// A cone of all directions.
     pub fn open(axis: DVec3) -> Self {
         Self {
             axis,
@@ -113,7 +113,7 @@ pub enum LightShape {
         /// Whether the other side shines too.
         two_sided: bool,
     },
-    /// All that is within a radius of a line: a tube with round ends. It lights nothing that is within.
+    /// A tube with round ends: all points within a radius of a line. It lights nothing inside itself.
     Tube {
         /// The ends of the line, world space; not the same.
         ends_m: [DVec3; 2],

@@ -12,7 +12,7 @@ pub struct Progress {
     pub stage: Stage,
     /// Units of it that are done, of `total`.
     pub done: u64,
-    /// All of its units: objects for [`Stage::Meshes`], scratches for [`Stage::Scratches`].
+    /// Number of units of the stage: objects for [`Stage::Meshes`], scratches for [`Stage::Scratches`].
     pub total: u64,
 }
 

@@ -71,7 +71,7 @@ pub fn mesh(path: &Path) -> Result<MeshSummary, Error> {
 pub(crate) struct ProbedMesh {
     /// Mesh in the file's frame.
     pub mesh: Mesh,
-    /// Those of its triangles.
+    /// Materials of its triangles.
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
     pub summary: MeshSummary,

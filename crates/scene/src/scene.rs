@@ -47,7 +47,7 @@ impl Transport {
     }
 }
 
-/// Fewer points of a lens would be seen one by one.
+/// Least number of samples with a lens: fewer points of it would be seen one by one.
 const LENS_SAMPLES: u32 = 64;
 
 /// Default of `hairline render`.
@@ -97,7 +97,8 @@ impl Scene {
         scene
     }
 
-    /// Those, then the environment's [windows](Environment::windows): what shines on scratches beside the rest of the environment.
+    /// The lights of [`Self::all_lights`], then the environment's [windows](Environment::windows): all that shine on scratches besides the rest of
+    /// the environment.
     pub fn scratch_lights(&self) -> impl Iterator<Item = &Light> + Clone {
         let windows = self.environment.iter().flat_map(Environment::windows);
         self.all_lights().chain(windows)

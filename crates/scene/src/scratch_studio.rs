@@ -14,7 +14,7 @@ const LAMPS_MAX: usize = 3;
 const LEAST_GAIN: f64 = 0.02;
 /// Scratches are bright where normals are this near to that of a highlight.
 const FAN_DEG: f64 = 10.0;
-/// Another lamp stands for what lies farther from the highlight.
+/// Angle of a highlight beyond which another lamp serves.
 const APART_DEG: f64 = 16.0;
 /// The height of a lamp, at least, as a highlight sees it: lower ones would stand in the ground.
 const LEAST_ELEVATION_DEG: f64 = 6.0;
@@ -79,7 +79,7 @@ pub(crate) struct Subject<'a> {
     pub meshes: &'a [&'a Mesh],
     /// Number of meshes to be lit, the first ones; others may hide lights.
     pub count: usize,
-    /// Those of the meshes.
+    /// Materials of the meshes.
     pub materials: &'a [Material],
     pub textures: &'a [Texture],
 }

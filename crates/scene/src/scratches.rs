@@ -50,7 +50,7 @@ use walk::{Course, Walker};
 const PILOTS: u64 = 1024;
 /// Segments that are enough to know.
 const PILOT_SEGMENTS: usize = 1 << 20;
-/// Tells the draws of whether a scratch is laid from all others: seeds of layers end below.
+/// Bit that distinguishes the draws of whether a scratch is laid from all others: seeds of layers end below.
 const LOT: u64 = 1 << 63;
 /// Scratches of one task.
 const CHUNK: u64 = 32;

@@ -75,7 +75,7 @@ struct Projected {
 }
 
 impl Projected {
-    /// None where a corner is not before the camera.
+    /// Projects a triangle; none where a corner is not before the camera.
     fn new(frame: &CameraFrame, corners_m: [DVec3; 3]) -> Option<Self> {
         let depths_m = corners_m.map(|corner| (corner - frame.position_m).dot(frame.forward));
         if depths_m.iter().any(|depth_m| !(*depth_m > 0.0)) {

@@ -124,7 +124,7 @@ fn profile(shape: &Shape) -> Profile {
     }
 }
 
-/// All within a radius of a line along z about the origin.
+/// A capsule: all points within a radius of a line along z about the origin.
 pub(crate) fn capsule(half_length_m: f64, radius_m: f64, facets: u32) -> Surface {
     let end = DVec2::new(0.0, half_length_m);
     let side = DVec2::new(radius_m, half_length_m);

@@ -112,7 +112,7 @@ impl Surface {
         turned
     }
 
-    /// Gives every triangle vertices of its own, with the triangle's normal: what glTF 2.0 asks for where a file has no normals
+    /// Makes vertices of its own for every triangle, with the triangle's normal, as glTF 2.0 asks for where a file has no normals
     /// (section 3.7.2.1).
     pub(crate) fn make_flat_normals(&mut self) {
         let mut vertices = Vec::with_capacity(self.triangles.len() * 3);

@@ -27,7 +27,7 @@ pub(crate) enum Channels {
     Normals,
 }
 
-/// Why an image is no texture.
+/// Reason why an image is no texture.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Unusable {
     #[error("{0}")]

@@ -319,7 +319,7 @@ impl Viewer {
         self.loss = loss;
     }
 
-    /// Tells that a software driver draws the window.
+    /// Sets that a software driver draws the window.
     #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn set_software(&mut self, software: crate::window::SoftwareWindow) {
         self.software = Some(software);

@@ -217,7 +217,7 @@ const ALSO: &[(Command, KeyboardShortcut)] = &[
     ),
 ];
 
-/// Those before which a menu draws a line.
+/// Commands before which a menu draws a line.
 const SECTIONS: &[Command] = &[
     Command::Save,
     Command::AddModel,

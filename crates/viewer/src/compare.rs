@@ -31,7 +31,7 @@ pub(crate) struct Compare {
     /// Comparison that was wanted in the last pass, and since when.
     wanted: Option<(Wanted, f64)>,
     sampling: Option<Sampling>,
-    /// Asked to stop, and not yet over.
+    /// Jobs that were asked to stop, and have not ended yet.
     ending: Vec<Job>,
     kept: Arc<Mutex<Kept>>,
     refused: Option<String>,

@@ -90,7 +90,7 @@ impl Dialogs {
 }
 
 impl Question {
-    /// None until there is an answer.
+    /// Shows the question; none until there is an answer.
     fn show(&mut self, ctx: &egui::Context, title: &str) -> Option<Answer> {
         match self {
             Self::Unsaved(wish) => unsaved(ctx, title, wish),
@@ -143,7 +143,7 @@ const ADVICE: [(&str, [&str; 4]); 2] = [
     ),
 ];
 
-/// All keys and what the mouse does; true when it is to be closed.
+/// Shows all keys and the actions of the mouse; true when it is to be closed.
 fn help(ui: &mut Ui) -> bool {
     const MOUSE: [(&str, &str); 9] = [
         ("Drag", "turns the view"),

@@ -109,8 +109,8 @@ impl Engine {
         }
     }
 
-    /// Does a slice of what is wanted, where there are no threads for it: some 20 ms, but for the building of a scene, the first
-    /// picture of a movement and what a single row takes. Returns when to come again; none: when something is wanted.
+    /// Does a slice of the wanted work, where there are no threads for it: some 20 ms, but for the building of a scene, the first picture
+    /// of a movement and the time of a single row. Returns when to come again; none: when something is wanted.
     pub fn work(&mut self) -> Option<Duration> {
         match &mut self.workers {
             #[cfg(not(target_arch = "wasm32"))]

@@ -316,7 +316,7 @@ fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
-/// None before anything can be said.
+/// Time that is left, in words; none before anything can be said.
 fn time_left(elapsed: Duration, done: f64) -> Option<String> {
     if done < 0.01 || elapsed < Duration::from_secs(1) {
         return None;

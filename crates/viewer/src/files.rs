@@ -276,7 +276,7 @@ impl Files {
         }
     }
 
-    /// Another document begins.
+    /// Prepares the files for another document.
     pub fn reopen(&mut self) {
         self.close();
         self.scene_changed = false;

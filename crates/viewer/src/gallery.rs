@@ -21,9 +21,9 @@ const SIDE_PX: u32 = 96;
 /// Pictures that the thread and the window exchange.
 #[derive(Default)]
 struct Desk {
-    /// Those that are still to be rendered, each with the pass of the interface that showed its place last.
+    /// Pictures that are still to be rendered, each with the pass of the interface that showed its place last.
     wanted: Vec<(u64, Thumb)>,
-    /// Those that are rendered and not yet textures; none where it failed.
+    /// Pictures that are rendered and not yet textures; none where it failed.
     done: Vec<(Thumb, Option<ColorImage>)>,
     is_working: bool,
 }
@@ -32,7 +32,7 @@ struct Desk {
 #[derive(Default)]
 pub(crate) struct Gallery {
     desk: Arc<Mutex<Desk>>,
-    /// None while a picture is not there yet, or where it failed.
+    /// Textures of the pictures; none while one is not there yet, or where it failed.
     pictures: HashMap<Thumb, Option<TextureHandle>>,
 }
 

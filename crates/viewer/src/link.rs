@@ -14,7 +14,7 @@ const MOST_BYTES: usize = 8 << 10;
 /// A short fragment must not fill the memory.
 const MOST_TEXT_BYTES: usize = 1 << 20;
 
-/// Why there is no link, or no scene in it.
+/// Reason why there is no link, or no scene in it.
 #[derive(Debug, PartialEq, thiserror::Error)]
 pub(crate) enum Error {
     /// The scene does not fit.

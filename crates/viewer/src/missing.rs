@@ -8,7 +8,7 @@ use hairline_scene::description::{FileUse, GroovePattern};
 
 use crate::workspace::Workspace;
 
-/// More would hide the picture; the others follow when these are found.
+/// Largest number of messages: more would hide the picture; the others follow when these are found.
 const MOST: usize = 6;
 
 /// Shows them. `area` is the picture's. The one that is to be found, if its button was pressed.

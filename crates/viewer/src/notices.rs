@@ -38,7 +38,7 @@ pub(crate) struct Notices {
 /// A note goes by itself after this time, and as much longer for each further line as it takes to read it.
 const NOTE_SECONDS: f64 = 5.0;
 const LINE_SECONDS: f64 = 3.0;
-/// More would hide the picture.
+/// Largest number of messages: more would hide the picture.
 const MOST: usize = 4;
 
 impl Notices {
@@ -61,7 +61,7 @@ impl Notices {
         self.list.retain(|notice| notice.topic != topic);
     }
 
-    /// Another scene is there: what was told of the one before goes. What is told of the machine stays.
+    /// Removes the messages about the scene before, when another one is there. Messages about the machine stay.
     pub fn begin_scene(&mut self) {
         self.list
             .retain(|notice| matches!(notice.topic, "device" | "autosave"));

@@ -21,7 +21,7 @@ pub(crate) enum Overlay {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Overlays {
     shown: [bool; Overlay::ALL.len()],
-    /// All are hidden, whatever is switched on.
+    /// Whether all are hidden, whatever is switched on.
     are_hidden: bool,
 }
 

@@ -92,7 +92,7 @@ impl Page {
         Some(read(&*self.runner.app_mut::<Viewer>()?))
     }
 
-    /// Does something with the viewer, and has it drawn anew.
+    /// Changes the viewer, and has it drawn anew.
     fn change(&self, work: impl FnOnce(&mut Viewer, &egui::Context)) {
         if let Some(mut viewer) = self.runner.app_mut::<Viewer>() {
             work(&mut viewer, &self.context);

@@ -14,7 +14,7 @@ pub(crate) struct Names {
     pub nodes: BTreeSet<String>,
 }
 
-/// Those of an object, in the newest scene that was built.
+/// Names of the parts of an object, in the newest scene that was built.
 pub(crate) fn names(work: &Workspace, object: &str) -> Names {
     let described = work.document.description().objects.iter();
     let described = described.clone().find(|it| it.name == object);

@@ -19,7 +19,7 @@ use crate::viewport::canvas::CanvasTexture;
 /// A picture of a window takes some megabytes.
 const MOST: usize = 24;
 
-/// All of them, and which is being looked at.
+/// All snapshots, and which is being looked at.
 pub(crate) struct Snapshots {
     list: Vec<Snapshot>,
     /// Counts those that were ever taken: names stay unique.
@@ -73,7 +73,7 @@ struct Snapshot {
     /// Folder of the scene when it was taken.
     base_dir: PathBuf,
     view: View,
-    /// None until the first picture of it is there.
+    /// Picture of the snapshot; none until the first one is there.
     frame: Option<Arc<Frame>>,
     canvas: CanvasTexture,
 }

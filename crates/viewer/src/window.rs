@@ -16,7 +16,7 @@ use crate::priority;
 pub use crate::device::Renderer;
 pub(crate) use software::SoftwareWindow;
 
-/// Why there is no window.
+/// Reason why there is no window.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// No display, or no driver that can draw a window.

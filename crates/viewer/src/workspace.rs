@@ -52,7 +52,7 @@ impl Workspace {
         self.document.selection()
     }
 
-    /// Does an action as one step, or tells why it was refused.
+    /// Applies an action as one step, or tells why it was refused.
     pub fn apply(
         &mut self,
         label: &str,

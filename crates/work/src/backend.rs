@@ -55,11 +55,11 @@ pub struct Rendered {
     pub image: Image,
     /// Samples of each pixel with shadows, or of each pixel on an edge.
     pub samples: u32,
-    /// Fewer of them are there if it was stopped.
+    /// Samples that were asked for; there are fewer if the work was stopped.
     pub wanted: u32,
 }
 
-/// Why a [`Task`] cannot be done as it is asked for.
+/// Reason why a [`Task`] cannot be done as it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
     /// Bounces without shadows: the light that an object hides would be counted beside its own.
@@ -192,7 +192,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// All that the scene shows.
+    /// Renders all that the scene shows.
     fn render_visible(
         &mut self,
         scene: &Scene,
@@ -255,7 +255,7 @@ impl<'a> Painter<'a> {
         })
     }
 
-    /// None if it was stopped.
+    /// Renders a batch of samples; none if it was stopped.
     fn render_batch(
         &mut self,
         scene: &Scene,

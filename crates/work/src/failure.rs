@@ -1,4 +1,4 @@
-//! Why a command did not do its work, and how the caller is told.
+//! Failures of a command, and the exit codes for the caller.
 
 use std::fmt;
 use std::process::ExitCode;

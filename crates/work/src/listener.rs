@@ -21,7 +21,7 @@ pub trait Listener: Sync {
     fn end(&self);
 }
 
-/// Says nothing of the work.
+/// A listener that says nothing of the work.
 pub struct Quiet;
 
 impl Listener for Quiet {

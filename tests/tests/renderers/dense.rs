@@ -1,4 +1,5 @@
-//! More than any fixed length of a list or side of a picture: right by the CPU's picture, or refused in words.
+//! Scenes that exceed any fixed length of a list or side of a picture: right by the CPU's picture, or refused
+//! in words.
 
 use hairline_fixtures::{BALL, SceneFile};
 use std::sync::Arc;

@@ -9,7 +9,7 @@ use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
 use hairline_scene::Scene;
 use std::ops::ControlFlow;
 
-/// One of each shape over a table, `visible` or not; the last two shine away from the camera, the spot partly.
+/// A lamp of each shape over a table, `visible` or not; the last two shine away from the camera, the spot partly.
 fn lamps(visible: bool) -> Scene {
     let light = |keys: &str| format!("[[light]]\nvisible = {visible}\n{keys}");
     SceneFile::seen_from([0.0, -0.6, 0.12])

@@ -31,7 +31,7 @@ struct Both<'a> {
 }
 
 impl<'a> Both<'a> {
-    /// None where there is no driver.
+    /// Prepares both renderers; none where there is no driver.
     fn new(name: &'a str, scene: &'a Scene) -> Option<Self> {
         let gpu = headless::test_gpu()?;
         Some(Self {

@@ -27,7 +27,7 @@ fn on_a_plane(random: &mut Sequence, center: Vec3, corners: [Vec2; 4]) -> Option
     row(random, at)
 }
 
-/// None where the point lies so near to the polygon's plane that single precision has no side for it.
+/// Draws a row; none where the point lies so near to the polygon's plane that single precision has no side for it.
 fn row(random: &mut Sequence, corners: [Vec3; 4]) -> Option<Row> {
     let (away, facing) = polygon_facing(corners.iter().map(|c| c.as_dvec3()), true);
     let away = away.normalize_or_zero().as_vec3();

@@ -346,7 +346,7 @@ fn elliptic_cones() {
 struct Rows<const N: usize> {
     /// Lights clear of the horizon, seen from above 3 degrees.
     clear: Vec<[f32; N]>,
-    /// The others.
+    /// Rows at the horizon.
     horizon: Vec<[f32; N]>,
 }
 

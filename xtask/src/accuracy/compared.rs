@@ -108,7 +108,7 @@ fn noise(beyond: &BeyondNoise) -> f64 {
     }
 }
 
-/// None if the reference is black.
+/// Ratio of the means; none if the reference is black.
 fn mean_ratio(a: &Estimate, b: &Estimate, mask: &[bool]) -> Option<Figure> {
     let (mut image, mut reference, mut variance) = (0.0, 0.0, 0.0);
     for i in (0..mask.len()).filter(|i| mask[*i]) {

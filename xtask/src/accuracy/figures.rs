@@ -8,7 +8,7 @@ use super::masks::MaskFigures;
 use super::scenes::SceneFigures;
 use super::sweeps::SweepFigures;
 
-/// All figures. A part is None if it was never measured.
+/// Figures of all parts. A part is None if it was never measured.
 #[derive(Serialize)]
 pub struct Figures {
     pub scenes: Option<Vec<SceneFigures>>,

@@ -36,8 +36,8 @@ pub struct Node {
     rms: f64,
 }
 
-/// All nodes, row by row. Each begins with what its neighbours towards the normal and towards the mirror have, and is held to that, so that
-/// nodes can be interpolated.
+/// Fits all nodes, row by row. Each begins with what its neighbours towards the normal and towards the mirror have, and is held to that, so
+/// that nodes can be interpolated.
 pub fn fit() -> Vec<Node> {
     let first = [0.0, 0.01, -0.01, 0.02, -0.02, 0.0, 0.0, 0.0, 0.0, 0.0];
     let mut nodes: Vec<Node> = Vec::new();

@@ -3,7 +3,7 @@
 use super::case::Case;
 use super::originals::scene_with;
 
-/// All of them.
+/// Inputs of earlier findings.
 pub fn all() -> Vec<Case> {
     let plate = "[[object]]\nname = \"plate\"\nshape.disk.radius_m = 0.08\nmaterial = \"steel\"\n";
     let list = format!(

@@ -134,7 +134,7 @@ fn draco_at(speed: i32) -> Result<Packed> {
     })
 }
 
-/// All modes, and all filters; attributes by both versions of their coding.
+/// A model packed in all modes, and with all filters; attributes by both versions of their coding.
 pub fn meshopt() -> Result<Packed> {
     let tube = tube();
     let corners = tube.indices.len();

@@ -8,7 +8,7 @@ use super::opened::{Opened, Outcome, Source};
 /// Largest number of files of one outcome that are named, the first ones.
 const NAMED: usize = 12;
 
-/// All tables.
+/// Writes all tables.
 pub fn document(sources: &[Source]) -> String {
     let mut out = String::from(INTRODUCTION);
     summary(&mut out, sources);

@@ -105,7 +105,7 @@ fn reference(scene: &Scene, image: &Image, time: Duration) -> Image {
     reference
 }
 
-/// None if the reference's scratches are black.
+/// Compares the scratches; none if the reference's are black.
 fn compared(image: &Image, reference: &Image) -> Option<CellError> {
     let mask = away_from_silhouettes(image, reference, SILHOUETTE_DEPTH);
     let (a, b) = (Layers::from(image), Layers::from(reference));

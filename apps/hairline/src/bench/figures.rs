@@ -6,7 +6,7 @@ use super::counts::Counts;
 use super::machine::Machine;
 use super::way::Way;
 
-/// All of a benchmark.
+/// All figures of a benchmark.
 #[derive(Serialize)]
 pub struct Figures {
     pub hairline: &'static str,
@@ -62,7 +62,7 @@ pub struct Cell {
     pub way: Way,
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// None where nothing is lit.
+    /// Error of the picture; none where nothing is lit.
     pub error: Option<CellError>,
     /// Figure of the talk for the published method.
     pub talk_ms: Option<f64>,
@@ -156,7 +156,7 @@ pub struct Curve {
     pub points: Vec<Point>,
 }
 
-/// One of them.
+/// A point of a curve.
 #[derive(Serialize)]
 pub struct Point {
     /// Scratches, zoom, lights, or pixels.

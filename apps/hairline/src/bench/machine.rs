@@ -10,7 +10,7 @@ use super::worker::Worker;
 pub struct Machine {
     /// "gpu" or "cpu".
     pub backend: &'static str,
-    /// None for the CPU renderer.
+    /// Name of the adapter; none for the CPU renderer.
     pub adapter: Option<String>,
     pub adapter_kind: Option<&'static str>,
     pub driver: Option<String>,

@@ -15,7 +15,7 @@ use super::worker::{Ready, Worker, counted};
 use crate::progress::Progress;
 use hairline_work::failure::Failure;
 
-/// All cells, by lamps and zooms of one scene.
+/// Measures all cells, by lamps and zooms of one scene.
 pub fn of_the_talk(
     worker: &mut Worker,
     base: Stage,

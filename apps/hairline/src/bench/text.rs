@@ -12,7 +12,7 @@ const NOTHING: &str = "–";
 /// Mark of times that were scaled.
 const SCALED: &str = "*";
 
-/// All of it.
+/// Writes the document.
 pub fn document(figures: &Figures) -> String {
     let mut text = String::new();
     // A string takes everything.
@@ -220,7 +220,7 @@ fn lines(curve: &Curve) -> (Vec<String>, Vec<Vec<String>>) {
     (header, lines)
 }
 
-/// Why there are no times, each reason once.
+/// Lists the reasons why there are no times, each once.
 fn refusals(text: &mut String, figures: &Figures) -> std::fmt::Result {
     let cells = figures.table.iter().map(|cell| {
         let what = format!("{}, {}x", cell.row.name(), cell.zoom);

@@ -112,7 +112,7 @@ pub fn by_turns(
     Ok(runs.into_iter().map(|runs| runs.outcome(of_rows)).collect())
 }
 
-/// Why a cell has no time, where a device is too small for it; other errors are no measurement.
+/// Reason why a cell has no time, where a device is too small for it; other errors are no measurement.
 fn refusal(error: &Error) -> Result<String, Failure> {
     match error {
         Error::TooLarge { .. } | Error::OutOfMemory { .. } | Error::IterationBudget { .. } => {
@@ -122,8 +122,8 @@ fn refusal(error: &Error) -> Result<String, Failure> {
     }
 }
 
-/// Has the driver compile, and measures a strip in the middle. Some drivers compile a pass once it has something to do, which may be at
-/// the picture's edge: all of it is rendered where half the effort suffices.
+/// Makes the driver compile, and measures a strip in the middle. Some drivers compile a pass once it has something to do, which may be
+/// at the picture's edge: all of it is rendered where half the effort suffices.
 fn warm_up(
     wall: &mut impl FnMut(&Rows) -> Result<Duration, Error>,
     height: u32,

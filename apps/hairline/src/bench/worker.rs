@@ -83,7 +83,7 @@ impl Worker {
         }
     }
 
-    /// None for the CPU renderer.
+    /// Adapter that renders; none for the CPU renderer.
     pub fn adapter(&self) -> Option<&Adapter> {
         match self {
             Self::Gpu(worker) => Some(&worker.gpu.adapter),

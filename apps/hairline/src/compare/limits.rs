@@ -103,7 +103,7 @@ fn parse(
     })
 }
 
-/// One of `all` by its name, or what the author probably meant.
+/// Finds one of `all` by its name, or a hint at what the author probably meant.
 fn named<T: Copy, const N: usize>(
     what: &str,
     word: &str,

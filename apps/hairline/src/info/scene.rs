@@ -15,7 +15,7 @@ use crate::console::print;
 use crate::scene_file::{self, Loaded, Overrides};
 use hairline_work::failure::Failure;
 
-/// All of a scene that is worth to be known, in the units of its file.
+/// Everything about a scene that is worth knowing, in the units of its file.
 #[derive(Serialize)]
 struct Contents {
     size_px: [u32; 2],

@@ -1,4 +1,4 @@
-//! Why there is no window, in one sentence that says what to do.
+//! Reason why there is no window, in one sentence that says what to do.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
 

@@ -9,7 +9,7 @@ fn folder_with_scene() -> tempfile::TempDir {
     folder_with("plate.toml", &SCRATCHED)
 }
 
-/// All but the scene.
+/// Names of all files but the scene.
 fn written_in(folder: &Path) -> Vec<String> {
     let mut names = names_in(folder);
     names.retain(|name| name != "plate.toml");

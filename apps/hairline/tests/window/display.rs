@@ -31,7 +31,7 @@ pub struct Display {
 }
 
 impl Display {
-    /// None where there is no Xvfb.
+    /// Starts a display; none where there is no Xvfb.
     pub fn start(size_px: [u16; 2]) -> Option<Self> {
         let [width, height] = size_px;
         let mut server = Command::new("Xvfb")
@@ -263,7 +263,7 @@ impl Display {
         }
     }
 
-    /// All of it.
+    /// Picture of the whole screen.
     pub fn screen(&self) -> Picture {
         let [width, height] = self.size_px.map(f32::from);
         self.screenshot(Rect::from_min_size(Pos2::ZERO, egui::vec2(width, height)))

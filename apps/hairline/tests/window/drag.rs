@@ -27,7 +27,7 @@ const EVENT: Duration = Duration::from_millis(50);
 const DURATION: Duration = Duration::from_secs(3);
 /// A picture from elsewhere changes more of the area than handles that move over it do.
 const TURNED: f64 = 0.02;
-/// Other scratches, seen from the same place.
+/// Least change by other scratches, seen from the same place.
 const EDITED: f64 = 0.001;
 
 /// Counts of pictures on the screen.

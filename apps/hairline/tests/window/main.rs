@@ -56,7 +56,7 @@ radiance = 0.3
 two_sided = true
 "#;
 
-/// Only what hangs takes longer: machines that test may be tenfold slower than they were, for minutes.
+/// Longest wait: machines that test may be tenfold slower than they were, for minutes.
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// The program with its window.
@@ -187,7 +187,7 @@ fn width_um(description: &Description) -> f64 {
     }
 }
 
-/// None where there can be none and need not be.
+/// Starts a display; none where there can be none and need not be.
 fn display() -> Option<Display> {
     let display = Display::start([1280, 800]);
     if display.is_none() {

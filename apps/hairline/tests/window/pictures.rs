@@ -78,7 +78,7 @@ impl<'d> Studio<'d> {
     }
 }
 
-/// Does `make` in a window with the scene, where there can be one.
+/// Runs `make` in a window with the scene, where there can be one.
 fn in_a_window(make: impl FnOnce(Studio, &Path)) {
     if test_gpu().is_none() {
         return;

@@ -24,7 +24,8 @@ pub(super) struct SegmentView {
 const ENDLESS_UM: f64 = 1e9;
 
 impl SegmentView {
-    /// None where the segment lies on another side of the surface or out of the footprint's reach.
+    /// Makes the view of a segment; none where it lies on another side of the surface or out of the
+    /// footprint's reach.
     pub fn new(
         point: &SurfacePoint,
         segment: &IndexedSegment,

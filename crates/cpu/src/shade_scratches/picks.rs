@@ -76,7 +76,7 @@ impl Reservoirs {
     }
 }
 
-/// Those of a point.
+/// Picks of a point.
 pub(crate) struct Picks {
     /// Light that all scratches send by way of all sources.
     pub radiance: DVec3,

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 /// A source of light on the base.
 #[derive(Clone, Copy)]
 struct Source {
-    /// None for the environment.
+    /// Index of the light; none for the environment.
     light: Option<u32>,
     /// Light of the base where nothing hides the source.
     open: BaseRadiance,
@@ -24,7 +24,7 @@ struct Source {
     per_chance: f64,
 }
 
-/// Both layers.
+/// Rays of both layers of the base.
 #[derive(Default)]
 struct BaseRays {
     specular: LayerRays,

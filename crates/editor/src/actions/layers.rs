@@ -55,7 +55,8 @@ pub fn duplicate(description: &mut Description, index: usize) -> Result<Selectio
     Ok(insert(description, index + 1, copy))
 }
 
-/// Gives a layer a seed that no other one has: the same wear, other scratches. Layers without a seed stay as they are.
+/// Sets a seed for a layer that no other one has: the same wear, other scratches. Layers without a seed stay as they
+/// are.
 ///
 /// # Errors
 /// [`ActionError::Missing`].
@@ -110,7 +111,7 @@ pub fn shift(
     list::shift::<Scratches>(description, index, by, selection)
 }
 
-/// Gives a layer a name; an empty one takes it away.
+/// Sets the name of a layer; an empty one removes it.
 ///
 /// # Errors
 /// [`ActionError::Missing`].

@@ -20,7 +20,7 @@ pub fn duplicate(description: &mut Description, index: usize) -> Result<Selectio
     Ok(list::insert(description, index + 1, copy))
 }
 
-/// Gives a light a name; an empty one takes it away.
+/// Sets the name of a light; an empty one removes it.
 ///
 /// # Errors
 /// [`ActionError::Missing`].

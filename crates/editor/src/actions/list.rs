@@ -24,7 +24,7 @@ pub(super) trait Part: Clone + 'static {
     fn place(selection: Selection) -> Option<usize>;
     /// Name of the part, if it has one.
     fn name(&self) -> Option<&str>;
-    /// Gives it a name, which is not empty, or takes away one that may be missing.
+    /// Sets its name, which is not empty, or removes one that may be missing.
     fn set_name(&mut self, name: Option<String>);
     /// Whether they are listed one after the other, so that they can change places.
     fn is_listed_with(&self, _other: &Self) -> bool {

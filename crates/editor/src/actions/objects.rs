@@ -162,7 +162,7 @@ pub fn layers(description: &Description, index: usize) -> Vec<usize> {
     list::places(description, |layer: &Scratches| layer.object == object.name)
 }
 
-/// Gives an object another material of the scene; none where a mesh shall have those of its file.
+/// Sets another material of the scene for an object; none where a mesh shall have those of its file.
 ///
 /// # Errors
 /// [`ActionError::Missing`]: no such object or material, or none for a shape.

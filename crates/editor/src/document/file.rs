@@ -11,7 +11,7 @@ use hairline_scene::{Description, Error, reading};
 use super::{Document, layout, next_revision};
 use crate::paths;
 
-/// Why a document was not saved.
+/// Reason why a document was not saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
     /// The document has no file yet; ask for one.

@@ -125,7 +125,7 @@ fn name(part: &Table) -> Option<&str> {
     part.get("name").and_then(Item::as_str)
 }
 
-/// Both were written by the same hand.
+/// Whether two items are the same text; both were written by the same serializer.
 fn same(a: &Item, b: &Item) -> bool {
     match (a, b) {
         (Item::ArrayOfTables(a), Item::ArrayOfTables(b)) => {

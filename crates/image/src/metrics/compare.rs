@@ -1,4 +1,4 @@
-//! Everything that can be said of two files.
+//! Comparison of two files in all figures.
 
 use std::fmt;
 

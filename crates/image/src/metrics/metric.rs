@@ -82,7 +82,7 @@ impl Metric {
         }
     }
 
-    /// Why a layer that was compared may lack the figure.
+    /// Reason why a layer that was compared may lack the figure.
     pub fn why_missing(self) -> &'static str {
         match self {
             Self::RmsBeyondNoise | Self::RelativeRmsBeyondNoise | Self::Z2 => {

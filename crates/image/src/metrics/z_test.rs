@@ -1,4 +1,4 @@
-//! Is a difference more than noise?
+//! A z-test: is a difference more than noise?
 //!
 //! A variance that is itself estimated, from a few batches, makes the plain z-test see too many outliers. Three remedies:
 //!
@@ -10,7 +10,7 @@
 use super::blocks::{self, Blocks, Pooled, Single, Weighed};
 use super::estimate::{Estimate, assert_same_length};
 
-/// Fewer values with noise than this make no verdict.
+/// Least number of values with noise for a verdict.
 const VALUES_MIN: usize = 100;
 
 /// Mean squares of z may be off by this factor before they count: batches that are not quite normal, and the Wallace
@@ -56,7 +56,7 @@ impl Verdict {
 pub struct ZTest {
     /// Values with a known variance above zero: those of the next three figures.
     pub values: usize,
-    /// Other values: of unknown variance, without noise, or not finite.
+    /// Number of other values: of unknown variance, without noise, or not finite.
     pub left_out: usize,
     /// Mean of z: 0.
     pub mean_z: f64,

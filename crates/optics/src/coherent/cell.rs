@@ -147,7 +147,7 @@ impl Trapezoid {
 }
 
 impl Cell {
-    /// None where the window is negligible.
+    /// Makes the cell; none where the window is negligible.
     fn new(trapezoid: &Trapezoid, sign_of_all: f64, coherence_um: f64) -> Option<Self> {
         let [[a, b], [c, d]] = trapezoid.edges;
         let (first, second) = (a.distance(b), c.distance(d));

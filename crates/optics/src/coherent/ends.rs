@@ -139,7 +139,7 @@ fn horner<const N: usize>(coefficients: &[f64], z: Complexes<N>) -> Complexes<N>
 struct Weideman {
     /// L
     scale: f64,
-    /// Those of p, from the constant term on.
+    /// Coefficients of p, from the constant term on.
     coefficients: [f64; TERMS],
 }
 

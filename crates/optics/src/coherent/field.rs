@@ -214,7 +214,7 @@ fn sum_of_cells<const N: usize>(cells: &[Cell], k_per_um: Lanes<N>, xi: DVec2) -
 }
 
 impl Strip {
-    /// None where the window does not reach.
+    /// Prepares a piece; none where the window does not reach it.
     fn new(piece: &GroovePiece, coherence_um: f64) -> Option<Self> {
         let [near, far] = piece.across_um();
         let across = Span::cover(near, far, coherence_um);

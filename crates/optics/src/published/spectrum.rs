@@ -152,7 +152,7 @@ mod tests {
         }
     }
 
-    /// All tabulated wavelengths, the exact Si: what the default path's table holds.
+    /// Light by all tabulated wavelengths and the exact Si, as the default path's table holds it.
     fn by_all(segments: &BandSegments, width_um: f64, depth_nm: f64) -> [f64; 3] {
         let f0 = spectrum::rgb_from_reflectance(gold);
         let sum = spectrum::rgb_from_reflectance(|nm| {

@@ -1,4 +1,5 @@
-//! All wavelengths at once, by series, against the exact functions one by one; what is hidden against plain slices.
+//! Tests of all wavelengths at once, by series, against the exact functions one by one; and of hidden parts against plain
+//! slices.
 
 use super::{pieces, random_grooves};
 use glam::DVec2;

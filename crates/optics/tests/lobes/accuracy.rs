@@ -107,7 +107,7 @@ fn reflectances(cos_h: f64) -> [f64; 3] {
     ]
 }
 
-/// All three at once, each a channel.
+/// All three reflectances at once, one in each channel.
 fn fresnel() -> FresnelRgb<'static> {
     static CURVE: LazyLock<FresnelCurve> = LazyLock::new(|| FresnelCurve::new(reflectances));
     FresnelRgb {

@@ -21,7 +21,7 @@ struct Coat<'a> {
     /// Number of earlier layers on the same object with the same seed.
     number: u64,
     is_shown: bool,
-    /// Those that it is read from, as they are.
+    /// Versions of the files that the layer is read from.
     files: Vec<Stamp>,
     /// The surface that it is laid on. For a layer that is not to be laid it is set only if it was
     /// made before.
@@ -98,7 +98,7 @@ impl<'a> Work<'a> {
         Ok(())
     }
 
-    /// All tables, with what the last build has laid for them.
+    /// Pairs all tables with the scratches that the last build has laid for them.
     fn coats(&self, surfaces: &[Arc<KeptSurface>]) -> Result<Vec<Coat<'a>>, Error> {
         let tables = &self.description.scratches;
         let solo = tables.iter().any(|table| table.solo);

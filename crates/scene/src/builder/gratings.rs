@@ -14,7 +14,7 @@ use crate::scene::{Scene, Texture};
 use crate::texture::{self, Channels, Texels, texture_bytes};
 
 impl Work<'_> {
-    /// Those of all objects that are not hidden.
+    /// Converts the gratings of all objects that are not hidden.
     pub(super) fn gratings(
         &mut self,
         scene: &mut Scene,

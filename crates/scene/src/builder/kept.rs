@@ -26,7 +26,7 @@ pub(super) struct Kept {
     pub textures: Textures,
     pub pictures: Vec<KeptPicture>,
     pub groove_pictures: Vec<KeptGroovePicture>,
-    /// Those of layers' places.
+    /// Grey maps of layers' places.
     pub grey_maps: Vec<(Stamp, Arc<GreyMap>)>,
     /// The map with no rotation, intensity 1.
     pub map: Option<(MapKey, Environment)>,

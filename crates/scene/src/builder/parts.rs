@@ -73,7 +73,8 @@ impl OnPart {
     }
 }
 
-/// Gives materials of a file the factors that an object says. `key` is the way to it.
+/// Replaces factors of a file's materials by those of an object. `key` is the path to it in the scene file. `key` is the
+/// way to it.
 ///
 /// # Errors
 /// A material that the file does not have.

@@ -10,7 +10,7 @@ use super::values::serialize_named;
 use crate::error::Error;
 use crate::scene::{Base, Material};
 
-/// One of `overrides`: what a scene says of a material of a model's file. Its maps stay, and multiply these factors.
+/// One of `overrides`: other factors for a material of a model's file. Its maps stay, and multiply these factors.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Override {
     /// The material's name in the file. Required.

@@ -55,7 +55,7 @@ impl Description {
         Ok(text)
     }
 
-    /// Notes about materials that look rougher than they say.
+    /// Notes about materials that are rendered rougher than the file states.
     fn smoother_than_can_be(&self, text: &str, name: &Path) -> Vec<String> {
         let least = GGX_MIN_ALPHA.sqrt();
         let is_smoother = |(_, material): &(usize, &Material)| {

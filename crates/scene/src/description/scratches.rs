@@ -123,7 +123,7 @@ impl Default for Brushed {
     }
 }
 
-/// One of the `strokes` of a `[[scratches]]`: where a brush went.
+/// One of the `strokes` of a `[[scratches]]`: the path of a brush.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
     /// Points on or near the surface, in the object's own frame, in the order of the stroke. One point is a dab. Required.

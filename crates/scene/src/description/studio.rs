@@ -34,7 +34,7 @@ impl Default for Studio {
 }
 
 impl Studio {
-    /// None.
+    /// A scene without a studio.
     pub const NONE: Self = Self {
         hidden: true,
         intensity: 1.0,

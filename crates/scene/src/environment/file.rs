@@ -19,7 +19,7 @@ pub enum Error {
     CannotRead {
         /// The file.
         path: PathBuf,
-        /// Why, in words.
+        /// Reason in words.
         reason: String,
     },
     /// The file's name does not end in .hdr or .exr.

@@ -30,8 +30,8 @@ impl WeightedMean {
     }
 }
 
-/// Another size of a map: the mean over the area of each new texel where it is larger than the old ones, linear
-/// interpolation where it is smaller. Beyond a pole the map goes on with the row on its other side.
+/// Resamples a map to another size: the mean over the area of each new texel where it is larger than the old ones, linear interpolation where
+/// it is smaller. Beyond a pole the map goes on with the row on its other side.
 pub(super) fn resample(map: &Picture, size_px: [u32; 2]) -> Picture {
     let [old_width, old_height] = map.size_px;
     let [width, height] = size_px;

@@ -145,13 +145,13 @@ impl Brightness {
 /// Texels that hang together and are bright.
 struct Spot {
     texels: Vec<usize>,
-    /// Those about it, if it is no larger than a sun may be.
+    /// Texels about the spot, if it is no larger than a sun may be.
     ring: Vec<usize>,
     is_small: bool,
 }
 
 impl Spot {
-    /// All that is brighter than `threshold` and hangs together with `peak`, but for what was seen before.
+    /// Connected texels about `peak` that are brighter than `threshold`, without those that were seen before.
     fn around(map: &Picture, peak: usize, threshold: f64, seen: &mut [bool]) -> Self {
         let middle = direction(map, peak);
         let mut spot = Self {

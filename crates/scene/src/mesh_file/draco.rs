@@ -24,7 +24,7 @@ pub(super) struct Unpacked {
 }
 
 impl Unpacked {
-    /// None where a primitive is not packed.
+    /// Unpacks a primitive; none where it is not packed.
     pub(super) fn of(
         document: &Document,
         primitive: &Primitive,

@@ -46,7 +46,7 @@ const IS_DATA: [&str; 7] = [
 /// Part of a file that an extension belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scope {
-    /// All but what follows.
+    /// All other contents of the file.
     File,
     /// The look of surfaces: materials and their images.
     Look,

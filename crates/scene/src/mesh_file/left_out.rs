@@ -85,7 +85,7 @@ impl Found {
         }
     }
 
-    /// All extensions below a value, wherever the specification lets one be.
+    /// Counts all extensions below a value, wherever the specification lets one be.
     fn extensions(&mut self, value: &Value, scope: Scope, wanted: Wanted) {
         match value {
             Value::Array(elements) => {
@@ -156,7 +156,7 @@ impl Found {
         });
     }
 
-    /// Those of a file, where the scene has others, else what of them the scene's have not.
+    /// Counts the lights of a file: all, where the scene has others; else the properties that the scene's lights do not have.
     fn lights(&mut self, root: &Value, are_shown: bool) {
         let extension = |value: &Value, name: &str| {
             let extension = value.get("extensions")?.get(lights::NAME)?;

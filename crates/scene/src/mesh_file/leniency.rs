@@ -88,7 +88,7 @@ pub(super) fn loosen(root: &mut Root) {
     }
 }
 
-/// Other values for none of an accessor's elements, in a view of a buffer of no bytes.
+/// Makes a sparse accessor without elements, in a view of a buffer of no bytes.
 fn nothing(root: &mut Root) -> Option<gltf::json::accessor::sparse::Sparse> {
     let made = |text: String| gltf::json::deserialize::from_str::<Value>(&text).ok();
     let buffer = made(r#"{"byteLength":0,"uri":"data:application/octet-stream;base64,"}"#.into());

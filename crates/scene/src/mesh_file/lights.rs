@@ -36,7 +36,7 @@ pub(crate) enum PunctualKind {
     Directional,
 }
 
-/// Those of the nodes that show.
+/// Lights of the nodes that show.
 pub(super) fn of(document: &gltf::Document) -> Result<Vec<Punctual>, Flaw> {
     let none = Vec::new();
     let table = document

@@ -20,7 +20,7 @@ use crate::texture::Channels;
 
 /// Mapping of the primitives' materials to the scene's.
 pub(super) enum Materials<'a> {
-    /// All of them this one.
+    /// One material of the scene for all primitives.
     One(u32),
     /// The file's own, added to the scene as they are met.
     Own(Own<'a>),

@@ -239,7 +239,7 @@ impl<'a> Keys<'a> {
         }
     }
 
-    /// One of the parts of a key.
+    /// Numbers of one part of a key.
     fn part(&self, key: usize, part: usize, parts: usize) -> Vec<f64> {
         let numbers = &self.values[(key * parts + part) * self.width..][..self.width];
         numbers.iter().copied().map(f64::from).collect()

@@ -53,7 +53,7 @@ fn has_unknown_paths(root: &Root) -> bool {
     channels.any(|it| matches!(it.target.path, Checked::Invalid))
 }
 
-/// All of 2 are made so that a reader of 2.0 can read them.
+/// Checks the version. All files of version 2 are made so that a reader of 2.0 can read them.
 fn check_version(version: &str) -> Result<(), Flaw> {
     match version.split('.').next() {
         Some("2") => Ok(()),
@@ -86,7 +86,7 @@ pub(super) struct Kept {
     pub cameras: bool,
 }
 
-/// The rest.
+/// Removes the animations and cameras that are not kept.
 pub(super) fn leave_out_what_is_ignored(root: &mut Root, kept: Kept) {
     if !kept.animations {
         root.animations.clear();
@@ -102,7 +102,7 @@ pub(super) fn leave_out_what_is_ignored(root: &mut Root, kept: Kept) {
 /// Extensions by which a texture may have its image.
 const IMAGES_BY: [&str; 2] = ["EXT_texture_webp", "KHR_texture_basisu"];
 
-/// Gives each texture its image, which may be named by an extension.
+/// Sets the image of each texture, which may be named by an extension.
 pub(super) fn find_images(root: &mut Root) -> Result<(), Flaw> {
     let images = root.images.len();
     for (i, texture) in root.textures.iter_mut().enumerate() {
@@ -143,7 +143,7 @@ pub(super) fn find_images(root: &mut Root) -> Result<(), Flaw> {
     Ok(())
 }
 
-/// Gives the accessors of what Draco packs the view that it is packed in: the crate knows none without a view.
+/// Sets the view of the accessors whose values Draco packs: the crate knows none without a view.
 pub(super) fn find_packed_views(root: &mut Root) {
     let mut packed = Vec::new();
     for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {

@@ -15,14 +15,14 @@ use super::primitive::{self, Rough};
 use super::skin::Motion;
 use super::source::Buffers;
 
-/// Those of a file.
+/// Primitives of a file, with the transforms of their nodes.
 pub(super) struct Shapes<'a> {
     document: &'a Document,
     buffers: &'a Buffers,
     placed: Vec<Placed<'a>>,
 }
 
-/// One of them.
+/// A primitive of a file.
 pub(super) struct Shape<'a> {
     pub primitive: Primitive<'a>,
     /// The names of its node and of those above it.

@@ -28,7 +28,7 @@ const BESIDE_M: f64 = 1e-7;
 /// A layer's description with the ground that it goes on.
 pub(super) struct Painted<'a> {
     layer: &'a Brushed,
-    /// Tells layers of one seed apart.
+    /// Number that distinguishes layers of one seed.
     number: u64,
     ground: &'a Ground,
     paths: Vec<Path>,

@@ -166,7 +166,7 @@ impl LookUp {
     }
 }
 
-/// Those that scratches are to keep to, if any.
+/// Edges that scratches are to keep to, if any.
 fn edges(means: &Means, key: &str) -> Result<Option<Edges>, Error> {
     let Some(whole) = &means.whole else {
         return Ok(None);

@@ -16,7 +16,7 @@ use crate::scene::Segment;
 /// A layer's description with the ground that it goes on.
 pub(super) struct Strewn<'a> {
     pub laid: &'a Laid,
-    /// Tells layers of one seed apart.
+    /// Number that distinguishes layers of one seed.
     pub number: u64,
     pub ground: &'a Ground,
 }

@@ -531,7 +531,7 @@ fn radiances_of_any_unit_are_kept() {
     assert_eq!(environment.repaired_texels(), 2);
 }
 
-/// Those of ITU-R BT.2020, by the matrix of BT.2087; the last such line counts.
+/// The primaries are those of ITU-R BT.2020, converted by the matrix of BT.2087; the last such line counts.
 #[test]
 fn radiance_files_in_their_colours() {
     let folder = tempfile::tempdir().unwrap();

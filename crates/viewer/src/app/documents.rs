@@ -17,7 +17,7 @@ use crate::snapshots::Snapshots;
 use crate::tools::Tool;
 
 impl Viewer {
-    /// Does what would lose unsaved changes, or asks first.
+    /// Fulfils a wish that would lose unsaved changes, or asks first.
     pub(super) fn wish(&mut self, ctx: &egui::Context, wish: Wish) {
         if self.work.document.is_modified() {
             self.dialogs.ask(Question::Unsaved(wish));

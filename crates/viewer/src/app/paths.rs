@@ -65,7 +65,7 @@ impl Viewer {
         }
     }
 
-    /// Says what is wrong with a file: in the line where its path was typed, if it was.
+    /// Shows the error of a file: in the line where its path was typed, if it was.
     pub(super) fn tell_wrong_file(&mut self, topic: &'static str, why: String) {
         match self.typed.take() {
             Some((purpose, path)) => {
@@ -177,7 +177,7 @@ impl Viewer {
     }
 }
 
-/// Why a path that was typed is of no use, where that is seen at once.
+/// Reason why a path that was typed is of no use, where that is seen at once.
 fn refusal(purpose: Purpose, path: &Path) -> Option<String> {
     let shown = path.display();
     let folder = path.parent().filter(|it| !it.as_os_str().is_empty());

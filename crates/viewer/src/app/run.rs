@@ -15,7 +15,7 @@ use crate::tools::Tool;
 const BRUSH_STEP: f64 = 1.25;
 
 impl Viewer {
-    /// Does it, or tells why not.
+    /// Runs a command, or tells why not.
     pub(super) fn run(&mut self, ctx: &egui::Context, command: Command) {
         if !self.work.can(command) {
             return;

@@ -31,7 +31,7 @@ pub(super) struct SideTexture {
 }
 
 impl SideTexture {
-    /// Another reference begins: numbers count from the start.
+    /// Forgets the picture when another reference begins: numbers count from the start.
     pub fn forget(&mut self) {
         self.held = None;
     }

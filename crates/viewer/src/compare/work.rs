@@ -67,7 +67,7 @@ fn scaled(shown_px: [u32; 2], most_px: f64) -> [u32; 2] {
 /// A straight piece takes some 200 bytes in the tree and while it is built: this is 600 MB, built in a few seconds.
 const MOST_PIECES: usize = 3_000_000;
 
-/// Why there can be no reference of the scene, in words for the artist.
+/// Reason why there can be no reference of the scene, in words for the artist.
 pub(super) fn refusal(built: &Built) -> Option<String> {
     let (_, pieces) = built.scratch_counts();
     (pieces > MOST_PIECES).then(|| {

@@ -16,7 +16,7 @@ pub(crate) enum Wish {
 
 /// Answer to a question.
 pub(crate) enum Answer {
-    /// All stays as it is.
+    /// Nothing changes.
     Cancel,
     /// Nothing is done, and the scene is not saved.
     CancelSaving,

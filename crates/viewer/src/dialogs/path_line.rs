@@ -11,7 +11,7 @@ use crate::files::{Purpose, from_home};
 pub(crate) struct PathLine {
     purpose: Purpose,
     text: String,
-    /// Why what was typed before was of no use.
+    /// Reason why the text before was of no use.
     refused: Option<String>,
 }
 
@@ -32,7 +32,7 @@ impl PathLine {
         }
     }
 
-    /// None until there is an answer.
+    /// Shows the line; none until there is an answer.
     pub(super) fn show(&mut self, ctx: &Context) -> Option<Answer> {
         let is_new = ctx.memory(|memory| memory.focused().is_none());
         if is_new {

@@ -12,7 +12,7 @@ use crate::panels::busy::Busy;
 /// Autosaves that are offered, as they are shown.
 pub(crate) struct Recovery {
     pending: Vec<Pending>,
-    /// None until they are first shown.
+    /// Small pictures; none until they are first shown.
     thumbnails: Option<Thumbnails>,
     /// One that somebody wants to throw away, and has to say so again.
     going: Option<usize>,
@@ -77,7 +77,7 @@ impl Recovery {
         answer
     }
 
-    /// None until there is an answer.
+    /// Shows the autosaves; none until there is an answer.
     pub fn show(&mut self, ctx: &Context) -> Option<Answer> {
         let modal = Modal::new(Id::unique("recover")).show(ctx, |ui| {
             ui.set_width(520.0);

@@ -147,7 +147,7 @@ impl Workshop {
         })
     }
 
-    /// Gives up where `cancelled` says so, which is asked from any thread: then there is none.
+    /// Builds a scene; none where `cancelled` says so, which is asked from any thread.
     ///
     /// # Errors
     /// As [`Loader::build`]; what was kept stays.

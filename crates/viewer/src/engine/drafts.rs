@@ -9,7 +9,7 @@ use hairline_scene::description::Layer;
 use super::Built;
 use super::sketch::Sketch;
 
-/// Those of the last scene, by how few they are.
+/// Drafts of the last scene, by their thinning.
 #[derive(Default)]
 pub(super) struct Drafts {
     scratches: Weak<ScratchIndex>,

@@ -69,6 +69,6 @@ pub struct Latency {
     pub upload: Duration,
     /// The first picture, after the upload.
     pub paint: Duration,
-    /// All of it, from the wish of the interface to the picture in its hands.
+    /// Time of all of it, from the wish of the interface to the picture in its hands.
     pub total: Duration,
 }

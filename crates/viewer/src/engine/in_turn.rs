@@ -55,8 +55,8 @@ impl InTurn {
         }
     }
 
-    /// Does what is wanted most, and returns when to come again if there is more to do. A scene is built to its end: the
-    /// interface stands still for as long.
+    /// Does the most urgent work, and returns when to come again if there is more to do. A scene is built to its end: the interface
+    /// stands still for as long.
     pub fn slice(&mut self, shared: &Arc<Shared>) -> Option<Duration> {
         if let Some(wanted) = shared.take_scene() {
             builder::build(shared, &mut self.workshop, wanted);

@@ -22,7 +22,7 @@ pub(super) enum Crew {
 }
 
 impl Crew {
-    /// None where the system starts no threads: then the caller computes.
+    /// Pool of the user; none where the system starts no threads: then the caller computes.
     fn pool(self) -> Option<&'static ThreadPool> {
         static BUILDER: OnceLock<Option<ThreadPool>> = OnceLock::new();
         static DRAFTER: OnceLock<Option<ThreadPool>> = OnceLock::new();
@@ -49,7 +49,7 @@ impl Crew {
         pool.get_or_init(start).as_ref()
     }
 
-    /// Does `work`, with its parallel parts on these threads.
+    /// Runs `work` with its parallel parts on these threads.
     pub fn install<T: Send>(self, work: impl FnOnce() -> T + Send) -> T {
         match self.pool() {
             Some(pool) => pool.install(work),

@@ -28,7 +28,7 @@ pub(super) struct Form {
     pub degrees: f64,
     /// The path, as it is typed.
     pub path: String,
-    /// Why it cannot be done so.
+    /// Reason why it cannot be done so.
     pub refused: Option<String>,
     /// Path that a dialog of the system has asked about: its file may be replaced.
     pub agreed: Option<PathBuf>,

@@ -261,7 +261,7 @@ impl Painter {
         })
     }
 
-    /// None if `go_on` said no.
+    /// Renders a picture; none if `go_on` said no.
     async fn paint(
         &mut self,
         built: &Built,
@@ -316,7 +316,7 @@ impl Painter {
     }
 }
 
-/// None if `go_on` said no.
+/// Renders a picture on a GPU in bands; none if `go_on` said no.
 async fn on_gpu_in_bands(
     renderer: &mut Renderer,
     uploaded: &GpuScene,

@@ -69,7 +69,7 @@ struct Stamp {
 }
 
 impl Stamp {
-    /// None while there is no such file: one that is being replaced is away for a moment.
+    /// Version of a file; none while there is no such file: one that is being replaced is away for a moment.
     fn of(path: &Path) -> Option<Self> {
         let data = std::fs::metadata(path).ok()?;
         #[cfg(unix)]

@@ -74,7 +74,7 @@ pub(super) struct Studio {
 }
 
 impl Studio {
-    /// None where the scene cannot be made, which a test excludes.
+    /// Renders a picture; none where the scene cannot be made, which a test excludes.
     pub fn picture(&mut self, thumb: Thumb, side_px: u32) -> Option<ColorImage> {
         let (description, map) = match thumb {
             Thumb::Layer(preset) => {

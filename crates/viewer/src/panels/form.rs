@@ -161,7 +161,7 @@ impl<'a> Form<'a> {
         });
     }
 
-    /// One of several, by name.
+    /// Row for the choice of one of several values, by name.
     pub fn choice<T: PartialEq + Clone>(
         &mut self,
         label: &str,
@@ -218,7 +218,7 @@ impl<'a> Form<'a> {
         });
     }
 
-    /// One of several places, counted from 1 on the screen.
+    /// Row for one of several places, counted from 1 on the screen.
     pub fn numbered(&mut self, parameter: Parameter, i: usize, position_m: &mut [f64; 3]) {
         let range = parameter.range(self.diagonal_m);
         let label = format!("{} {}", range.label, i + 1);
@@ -317,7 +317,7 @@ fn share(ui: &Ui, n: usize) -> f32 {
     ((ui.available_width() - gaps) / n as f32).max(40.0)
 }
 
-/// One of several numbers in a row, which are shown alike.
+/// Box for one of several numbers in a row, which are shown alike.
 fn small_box(
     ui: &mut Ui,
     width: f32,
@@ -372,7 +372,7 @@ pub(super) fn end_naming(ctx: &Context) -> bool {
         .is_some()
 }
 
-/// Gives the keyboard to a text of so many characters, and selects all of it.
+/// Moves the keyboard's focus to a text of `count` characters, and selects all of it.
 fn select_all(response: &Response, count: usize) {
     response.request_focus();
     let ctx = &response.ctx;

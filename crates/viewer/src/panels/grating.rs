@@ -10,7 +10,7 @@ use super::groove_pattern;
 use super::layer_place::{picture, tile};
 use crate::workspace::Workspace;
 
-/// Those of the object with this index, with what adds one.
+/// Section of the gratings of the object with this index, with a menu that adds one.
 pub(super) fn section(ui: &mut Ui, work: &mut Workspace, object: usize) {
     let description = work.document.description().clone();
     let Some(name) = description.objects.get(object).map(|o| o.name.clone()) else {

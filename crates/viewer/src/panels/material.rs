@@ -187,7 +187,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     });
 }
 
-/// All materials to begin with.
+/// Cards of all materials to begin with.
 pub(super) fn material_cards(ui: &mut Ui, work: &mut Workspace) -> Option<MaterialPreset> {
     let choices = MaterialPreset::all().map(|p| (p, Thumb::Material(p), p.name(), p.tooltip()));
     cards(ui, &mut work.gallery, "materials", choices)

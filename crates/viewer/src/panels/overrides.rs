@@ -9,7 +9,7 @@ use super::form::Form;
 use crate::parts;
 use crate::workspace::Workspace;
 
-/// Those of the object with this index.
+/// Section of the overrides of the object with this index.
 pub(super) fn section(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let description = work.document.description().clone();
     let Some(object) = description.objects.get(index) else {

@@ -25,7 +25,7 @@ pub enum Shows {
 }
 
 impl Shows {
-    /// All, in the order of the menu.
+    /// All values, in the order of the menu.
     pub const ALL: [Self; 7] = [
         Self::Beauty,
         Self::FalseColor,

@@ -7,7 +7,7 @@ use hairline_scene::{Camera, description};
 /// The picture's area on the screen, in points.
 #[derive(Clone, Copy)]
 pub(crate) struct Area {
-    /// All of it.
+    /// Rectangle of the whole area.
     pub rect: Rect,
     /// The part that the scene's own picture shows: as large as fits, in the middle. What is seen around it is not in the
     /// picture that is rendered or exported.

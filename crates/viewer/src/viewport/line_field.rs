@@ -61,7 +61,7 @@ struct Layer {
     object: usize,
     segments: Arc<Vec<Segment>>,
     scratches: Arc<Vec<Scratch>>,
-    /// Those of `scratches` that are this layer's.
+    /// Index of the layer's first scratch in `scratches`.
     first: usize,
     count: usize,
 }
@@ -145,7 +145,7 @@ pub(super) fn show(ui: &Ui, fields: &mut Vec<LineField>, work: &Workspace, area:
 }
 
 impl LineField {
-    /// Says whether there is nothing left to do.
+    /// Updates the marks; returns whether there is nothing left to do.
     fn update(
         &mut self,
         built: &Built,
@@ -213,7 +213,7 @@ impl LineField {
     }
 }
 
-/// Those of the marks that are seen. What the time does not suffice for comes back when the view rests.
+/// Lines of the marks that are seen. What the time does not suffice for comes back when the view rests.
 fn lines(marks: &[Mark], built: &Built, lens: &Lens, deadline: Instant) -> Vec<[Pos2; 2]> {
     let batches = marks
         .chunks(BATCH)

@@ -37,7 +37,7 @@ pub(super) struct StrokeTool {
     drawn: Option<Drawn>,
 }
 
-/// All of one drag. It stays on the object that it began on, and is one step.
+/// State of one drag. It stays on the object that it began on, and is one step.
 struct Going {
     object: usize,
     settings: BrushSettings,
@@ -225,7 +225,7 @@ impl Going {
         }
     }
 
-    /// All strokes so far.
+    /// Paths of all strokes so far.
     fn ways_m(&self) -> impl Iterator<Item = &[DVec3]> {
         let done = self.done.iter().map(|(_, way_m)| way_m.as_slice());
         let open = self.open.iter().map(|(recorder, _)| recorder.way_m());

@@ -1,4 +1,4 @@
-//! Why no window can be opened, in one sentence with what helps.
+//! Checks that a window can be opened; if not, one sentence says what helps.
 
 /// Returns what is missing for a window, before one is tried: the libraries of the display are loaded while it opens, some
 /// of which end the program where they are not there.
@@ -47,7 +47,7 @@ pub(super) fn missing() -> Option<String> {
     None
 }
 
-/// Other systems have their display built in.
+/// Nothing is missing: other systems have their display built in.
 #[cfg(not(target_os = "linux"))]
 pub(super) fn missing() -> Option<String> {
     None

@@ -192,7 +192,7 @@ fn a_turntable_goes_round() {
     assert_ne!(first, rendered(TINY, 120.0).0, "the camera does turn");
 }
 
-/// Only whole pictures, numbered without a gap; returns how many.
+/// Checks that there are only whole pictures, numbered without a gap; returns their number.
 fn whole_pictures(folder: &Path) -> usize {
     let names = names(folder);
     for (i, name) in names.iter().enumerate() {
@@ -335,7 +335,7 @@ fn a_transparent_picture_has_alpha_and_is_taken_from_where_the_window_looks() {
     }
 }
 
-/// Asked once, answered no by Escape and yes by the button; the next export asks again.
+/// The question is asked once, answered no by Escape and yes by the button; the next export asks again.
 #[test]
 fn a_picture_that_is_there_is_replaced_only_after_a_question() {
     let folder = tempfile::tempdir().unwrap();

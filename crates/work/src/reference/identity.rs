@@ -38,7 +38,7 @@ fn mask_name(settings: &Settings) -> &'static str {
     }
 }
 
-/// All that two runs must have in common for their samples to be those of one picture.
+/// Notes on everything that two runs must have in common for their samples to be those of one picture.
 pub fn notes(settings: &Settings, scene_fingerprint: &str) -> Notes {
     let values = [
         format!(

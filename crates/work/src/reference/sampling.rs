@@ -43,7 +43,7 @@ impl Limits {
     }
 }
 
-/// Why the work ended.
+/// Reason why the work ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
     /// Each pixel has its samples.

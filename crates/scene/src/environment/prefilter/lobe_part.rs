@@ -90,7 +90,7 @@ struct Pair<'a> {
     /// Polar angle of the row that is made, from the map's top.
     middle_rad: f64,
     rows: Rows,
-    /// Both ways: a map is twice as wide as high.
+    /// Angle of a texel, across and down: a map is twice as wide as high.
     texel_rad: f64,
     texel_solid_angle: f64,
 }

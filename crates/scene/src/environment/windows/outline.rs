@@ -23,7 +23,7 @@ pub(crate) struct Window {
 /// A disc, or four corners.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Outline {
-    /// All within a radius of a direction.
+    /// Directions within a radius of one.
     Disc {
         /// Unit vector.
         direction: DVec3,

@@ -237,7 +237,7 @@ const MESHOPT: Element = leaf(
     ],
 );
 
-/// Those that are read.
+/// Extensions that are read.
 const EXTENSIONS: [(&str, &Element); 15] = [
     (
         "EXT_mesh_gpu_instancing",

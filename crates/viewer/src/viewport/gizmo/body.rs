@@ -20,7 +20,7 @@ pub(super) struct Body {
     pub turns: bool,
     /// Whether it has one size.
     pub resizes: bool,
-    /// Those of a polygon.
+    /// Corners of a polygon.
     pub corners_m: Vec<DVec3>,
     /// The polygon's, unit.
     pub normal: Option<DVec3>,

@@ -40,7 +40,7 @@ pub(super) struct Spot {
 }
 
 impl Spot {
-    /// None without a cone.
+    /// Cone of a light; none without a cone.
     pub fn of(light: &Light) -> Option<Self> {
         let cone = light.cone.as_ref()?;
         let apex_m = place_light::center(light);

@@ -16,7 +16,8 @@ const AXES: [Color32; 3] = [
 const LIT: Color32 = Color32::from_rgb(255, 226, 150);
 const PLAIN: Color32 = Color32::from_gray(226);
 
-/// All handles; the one that is hovered or held is lit, and while one is held the others step back.
+/// Draws all handles; the one that is hovered or held is lit, and while one is held the others step
+/// back.
 pub(super) fn draw_handles(
     painter: &Painter,
     placed: &[Placed],
@@ -104,7 +105,7 @@ fn boxed(painter: &Painter, at: Pos2, align: Align2, words: &str, color: Color32
     painter.galley(rect.min, galley, color);
 }
 
-/// Tells where a body is that the picture does not show.
+/// Draws a mark towards a body that the picture does not show.
 pub(super) fn draw_off_screen(painter: &Painter, lens: &Lens, body: &Body, area: &Area) {
     let way = lens.towards(body.center_m);
     let inside = area.rect.shrink(18.0);
