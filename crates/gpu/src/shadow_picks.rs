@@ -1,4 +1,4 @@
-//! Light that shadow rays follow by way of what was picked: scratches, or gratings.
+//! Shadow rays by way of picks: scratches, or gratings, that were chosen for a sample.
 //!
 //! Some pairs of a sample, each of a scratch or a grating with a light, stand for all. They are picked by lighting all of them once more; a round
 //! takes one of the picks.

@@ -139,7 +139,7 @@ impl Shadows {
         self.record_trace(gpu, recording, room, shadow_room, film, groups);
     }
 
-    /// A ray of each sample by way of what was picked, and what it meets.
+    /// Draws a ray of each sample by way of its pick, and follows it.
     #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
     pub(crate) fn record_picked_round(
         &self,

@@ -11,7 +11,7 @@ use crate::strip::{DEPTH_FORMAT, StripRoom, VISIBILITY_FORMAT};
 
 pub(crate) struct VisibilityPass {
     objects: wgpu::RenderPipeline,
-    /// Objects whose surface is not everywhere on their triangles.
+    /// Objects with cutouts.
     cutouts: wgpu::RenderPipeline,
     /// The shapes of lights, of which the camera sees the fronts.
     lamps: wgpu::RenderPipeline,

@@ -38,12 +38,12 @@ struct Settings {
 @group(#{MATERIAL_BIND_GROUP}) @binding(105) var<uniform> settings: Settings;
 
 const PI: f32 = 3.14159265;
-// How far a directional light stands off.
+// Distance of a directional light.
 const FAR_M: f32 = 1000.0;
-// From the middle to the rim, of one without a size: the sun's.
+// Angular radius of a directional light without a size: the sun's.
 const SUN_RAD: f32 = 0.00465;
 
-// What is lit, and the light that has been summed.
+// Surface that is lit, and the light that has been summed.
 struct Lit {
     here: PixelFrame,
     base: LitBase,
@@ -53,7 +53,7 @@ struct Lit {
     scratches: vec3f,
 }
 
-// From world space into the surface's frame, at the point.
+// Converts a point from world space into the surface's frame, relative to the point.
 fn to_surface(lit: ptr<function, Lit>, world: vec3f) -> vec3f {
     let at_view = (view.view_from_world * vec4f(world, 1.0)).xyz;
     return (*lit).here.surface_from_view * (at_view - (*lit).here.position_view);
@@ -134,7 +134,7 @@ fn add_lights(lit: ptr<function, Lit>, in: PbrInput, view_z: f32, cluster: u32) 
 }
 
 #ifdef ENVIRONMENT_MAP
-// What the scratches mirror of it, by look-ups along the band of each.
+// Adds the light of the environment that the scratches mirror, by look-ups along the band of each.
 fn add_environment(lit: ptr<function, Lit>, in: PbrInput, cluster: u32) {
     let world_from_surface = mat3x3f(view.world_from_view[0].xyz, view.world_from_view[1].xyz, view.world_from_view[2].xyz)
         * transpose((*lit).here.surface_from_view);

@@ -15,7 +15,7 @@ struct LitBase {
     reflecting: LobeFresnel,
 }
 
-// What a base gets of a light of radiance 1.
+// Light that a base gets of a light of radiance 1.
 struct BaseLit {
     specular: vec3f,                // single scattering of the lobe
     form_factor: f32,               // of the body: times its albedo it is its radiance

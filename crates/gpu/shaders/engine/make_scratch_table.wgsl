@@ -12,9 +12,9 @@ struct SpectralWeights {
 }
 
 @group(0) @binding(0) var<uniform> spectrum: SpectralWeights;
-// For each wavelength and column: the integral of sinc^2 over the wavelength, and its derivative by the column.
+// Integral of sinc^2 over the wavelength, and its derivative by the column, for each wavelength and column.
 @group(0) @binding(1) var<storage, read> chords: array<vec2f>;
-// For each row and wavelength: |D|^2.
+// |D|^2 for each row and wavelength.
 @group(0) @binding(2) var<storage, read> energies: array<f32>;
 @group(0) @binding(3) var table: texture_storage_2d_array<rgba32uint, write>;
 

@@ -12,14 +12,14 @@
 const SCRATCH_TREE_WIDTH: u32 = 1024u;
 const SCRATCH_TREE_FIRST_BITS: u32 = 28u;
 const SCRATCH_TREE_END: u32 = 0xffffffffu;
-// Of a node that lies within the footprint's reach, so many pieces stand for all.
+// Pieces of a node within the footprint's reach that stand for all.
 const SCRATCH_TREE_MOST: u32 = 64u;
-// In the place of a normal: scratches from a list have none, and show on both sides of a sheet.
+// Word in the place of a normal: scratches from a list have none, and show on both sides of a sheet.
 const SCRATCH_TREE_NO_NORMAL: u32 = 0x8080u;
 // A scratch shows at a point only if their normals agree at least this well: the far side of a sheet has the opposite one.
 const SCRATCH_TREE_FACING: f32 = 0.2;
 
-// On the way through the tree.
+// State of a walk through the tree.
 struct ScratchWalk {
     lower: vec3f,
     node: u32,
@@ -45,7 +45,7 @@ fn scratch_tree_texel(tree: texture_2d<u32>, at: u32) -> vec4u {
     return textureLoad(tree, vec2u(at % SCRATCH_TREE_WIDTH, at / SCRATCH_TREE_WIDTH), 0);
 }
 
-// How alike the depths of the object's scratches are: for mask_resolve().
+// Coherence of the phase steps of the object's scratches, for mask_resolve().
 fn scratch_tree_depth_coherence(tree: texture_2d<u32>) -> f32 {
     return bitcast<f32>(scratch_tree_texel(tree, 0u).z);
 }
@@ -55,7 +55,7 @@ fn scratch_tree_coherence_um(tree: texture_2d<u32>) -> f32 {
     return bitcast<f32>(scratch_tree_texel(tree, 0u).w);
 }
 
-// To all pieces whose boxes come as near to a position as half the sides of a box around it.
+// Starts a walk to all pieces whose boxes come as near to a position as half the sides of a box around it.
 fn scratch_walk(tree: texture_2d<u32>, position: vec3f, reach: vec3f) -> ScratchWalk {
     let head = scratch_tree_texel(tree, 0u);
     return ScratchWalk(position - reach, 0u, position + reach, 0u, 0u, 1u, 1.0, head.y, head.x);

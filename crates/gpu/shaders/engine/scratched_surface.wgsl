@@ -10,7 +10,7 @@
 //   let masked = mask_resolve(scratched_with(sums, light), scratch_tree_depth_coherence(tree));
 //   colour = diffuse + specular * (1.0 - masked.taken) + masked.scratches * fresnel;
 
-// What an engine knows of the point under a pixel.
+// The point under a pixel, as an engine describes it.
 struct SurfaceView {
     position: vec3f,                // in the object's frame
     surface_from_object: mat3x3f,   // turns and scales: from the object's frame and unit to the surface's and metres
@@ -23,7 +23,7 @@ struct SurfaceView {
 
 // Standard deviation of the filter of a pixel, in pixels.
 const SCRATCHED_FILTER_STD: f32 = 0.5;
-// How far the surface may be off the plane of shading for each length along it.
+// Largest distance of the surface from the plane of shading, over the length along it.
 const SCRATCHED_BENDS: f32 = 0.125;
 
 struct ScratchedPoint {
@@ -83,7 +83,7 @@ fn scratched_seen(tree: texture_2d<u32>, point: ScratchedPoint, walk: ScratchWal
     return seen;
 }
 
-// What the scratches take of the base; their light is left to the functions below.
+// Energy that the scratches take of the base; their light is left to the functions below.
 fn scratched_sums(tables: texture_2d_array<u32>, tree: texture_2d<u32>, point: ScratchedPoint) -> ScratchSums {
     var sums = ScratchSums(0.0, 0.0, vec3f(0.0), vec3f(0.0));
     var walk = scratched_walk(tree, point);
@@ -96,12 +96,12 @@ fn scratched_sums(tables: texture_2d_array<u32>, tree: texture_2d<u32>, point: S
     return sums;
 }
 
-// The same with the light that the functions below gave.
+// Those sums with the light that the functions below gave.
 fn scratched_with(sums: ScratchSums, radiance: vec3f) -> ScratchSums {
     return ScratchSums(sums.share, sums.share_by_line, radiance, sums.energy);
 }
 
-// What they send of a sphere of radiance 1; before the mask and Fresnel.
+// Light that the scratches send of a sphere of radiance 1; before the mask and Fresnel.
 fn scratched_sphere(tables: texture_2d_array<u32>, tree: texture_2d<u32>, point: ScratchedPoint, center_m: vec3f, radius_m: f32) -> vec3f {
     var sum = vec3f(0.0);
     var walk = scratched_walk(tree, point);
@@ -114,7 +114,7 @@ fn scratched_sphere(tables: texture_2d_array<u32>, tree: texture_2d<u32>, point:
     return sum;
 }
 
-// Of a flat light of radiance 1 with three or four corners.
+// Light that the scratches send of a flat light of radiance 1 with three or four corners.
 fn scratched_quad(tables: texture_2d_array<u32>, tree: texture_2d<u32>, point: ScratchedPoint, light: QuadLight) -> vec3f {
     var sum = vec3f(0.0);
     var walk = scratched_walk(tree, point);
@@ -127,7 +127,7 @@ fn scratched_quad(tables: texture_2d_array<u32>, tree: texture_2d<u32>, point: S
     return sum;
 }
 
-// For an engine that looks its environment up by itself: one of the ENVIRONMENT_CELLS cells of a scratch's band.
+// One of the ENVIRONMENT_CELLS cells of a scratch's band, for an engine that looks its environment up by itself.
 struct ScratchedCell {
     direction: vec3f,               // of the look-up, in the surface's frame
     roughness: f32,                 // perceptual, of the mirror lobe that stands for the cell
@@ -142,7 +142,8 @@ fn scratched_cell(tables: texture_2d_array<u32>, table: u32, wo: vec3f, tangent:
     return ScratchedCell(surface_from_band(tangent, cell.direction), environment_cell_roughness(cell), high - low);
 }
 
-// Of an environment of prefiltered levels, see environment.wgsl. `map_from_surface` turns directions into the map's frame.
+// Light that the scratches send of an environment of prefiltered levels, see environment.wgsl. `map_from_surface` turns directions into
+// the map's frame.
 fn scratched_environment(
     tables: texture_2d_array<u32>,
     tree: texture_2d<u32>,

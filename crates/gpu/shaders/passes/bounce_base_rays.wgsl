@@ -2,11 +2,11 @@
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
-// In: by what way the camera sees the samples.
+// Holds the way by which the camera sees the samples, at first.
 @group(3) @binding(2) var<storage, read_write> rays: array<BounceRay>;
 // 3 and 4: sums.wgsl.
 @group(3) @binding(5) var<uniform> shadow_round: ShadowRound;
-// Of samples that the camera sees.
+// Light that rays found for the samples that the camera sees.
 @group(3) @binding(6) var<storage, read_write> found: array<FoundRays>;
 
 @compute @workgroup_size(8, 8)

@@ -8,7 +8,7 @@
 @group(3) @binding(3) var<storage, read_write> film: Film;
 @group(3) @binding(4) var tree: texture_2d<u32>;
 
-// How many segments a sample may see; listed from a place on, for one lane of a group.
+// Counts the segments that a sample may see; lists them from a place on, for one lane of a group.
 fn gather(at: u32, group: u32, lane: u32, lists: bool, from_entry: u32) -> u32 {
     let paint = PixelPaint();
     let point = surface_point_from(points[at], paint);

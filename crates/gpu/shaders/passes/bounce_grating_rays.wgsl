@@ -4,7 +4,7 @@
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
 // 2: grating_pairs.wgsl; 3 and 4: sums.wgsl.
 @group(3) @binding(5) var<uniform> shadow_round: ShadowRound;
-// In: by what way the camera sees the samples.
+// Holds the way by which the camera sees the samples, at first.
 @group(3) @binding(6) var<storage, read_write> rays: array<BounceRay>;
 
 // A direction by way of one of the gratings, by what each sends of light of radiance 1 from all around; what all send is written to `sent`.

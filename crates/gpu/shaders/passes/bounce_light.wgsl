@@ -1,8 +1,8 @@
-// Pass: what the rays have met sends, added to what rays found of the samples that the camera sees. A workgroup a group. Twins:
-// cpu/src/bounces.rs, cpu/src/found.rs.
+// Pass: adds the light of what the rays have met to the light that rays found for the camera's samples. A workgroup a group.
+// Twins: cpu/src/bounces.rs, cpu/src/found.rs.
 
 @group(3) @binding(0) var<storage, read> rays: array<BounceRay>;
-// Of what they met.
+// Light of what the rays met.
 @group(3) @binding(1) var<storage, read> base_light: array<BaseLight>;
 @group(3) @binding(2) var<storage, read> hit_found: array<FoundRays>;
 @group(3) @binding(3) var<storage, read_write> found: array<FoundRays>;

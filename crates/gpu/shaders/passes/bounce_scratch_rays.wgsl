@@ -2,14 +2,14 @@
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
-// In: by what way the camera sees the samples.
+// Holds the way by which the camera sees the samples, at first.
 @group(3) @binding(2) var<storage, read_write> rays: array<BounceRay>;
 // 3 and 4: sums.wgsl.
 @group(3) @binding(5) var<uniform> shadow_round: ShadowRound;
 @group(3) @binding(6) var<storage, read> picks: array<vec4u>;
 
-// By a scratch; `energy` is the luminance of what all of them take of the base, by which it was picked. What it sends is that of the sample's
-// scratches before they weaken one another.
+// Draws a ray by a scratch; `energy` is the luminance of the energy that all of them take of the base, by which it was picked. What it sends
+// is that of the sample's scratches before they weaken one another.
 fn ray_by(last: BounceRay, pixel: PixelPoint, index: u32, energy: f32, seed: u32) -> BounceRay {
     let segment = segment_from(scratch_segment(index));
     let pair = pair_of(pixel, segment);

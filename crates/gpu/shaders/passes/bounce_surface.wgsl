@@ -1,6 +1,6 @@
-// Pass: from what a ray has met to its surface point. A workgroup a group. Twin: cpu/src/bounces.rs.
+// Pass: surface points of what the rays have met. A workgroup a group. Twin: cpu/src/bounces.rs.
 
-// Where the rays come from.
+// Points that the rays come from.
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> rays: array<BounceRay>;
 @group(3) @binding(2) var<storage, read_write> hit_points: array<PixelPoint>;

@@ -1,4 +1,4 @@
-// Pass: what each sample's ray meets. A workgroup a group. Twin: cpu/src/shadows.rs.
+// Pass: follows each sample's ray to its hit. A workgroup a group. Twin: cpu/src/shadows.rs.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

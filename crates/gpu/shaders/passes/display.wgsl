@@ -1,4 +1,4 @@
-// From the film to a display's colours.
+// Converts the film to a display's colours.
 
 @group(0) @binding(0) var<uniform> display: DisplaySettings;
 @group(0) @binding(1) var<storage, read> display_film: DisplayFilm;

@@ -1,4 +1,5 @@
-// Passes: the filter of what rays found, a layer at a time. Twin: image/src/filter.rs, which names the papers and explains the numbers.
+// Passes: the filter of the light that rays found, a layer at a time. Twin: image/src/filter.rs, which names the papers and explains
+// the numbers.
 //
 // The signals of a layer, red, green, blue and the variance of the luminance, below 0 where there is none, go from texture to texture.
 
@@ -15,7 +16,7 @@
 const FILTER_DIFFUSE: u32 = 0u;
 const FILTER_SPECULAR: u32 = 1u;
 
-// What tells whether pixels see the same surface.
+// Guide that tells whether pixels see the same surface.
 struct Guide {
     object: u32,                // and 1
     per_depth: f32,
@@ -37,7 +38,7 @@ fn is_in(pixel: vec2i) -> bool {
     return all(pixel >= vec2i(0)) && all(pixel < vec2i(settings.size_px));
 }
 
-// How the reciprocal of depth changes along a step: of both sides the one that changes less, as the other one may lie beyond an edge.
+// Change of the reciprocal of depth along a step: the smaller one of both sides, as the other side may lie beyond an edge.
 fn slope_along(own: Guide, pixel: vec2i, step: vec2i) -> f32 {
     var least = 1e30;
     for (var side = -1; side <= 1; side += 2) {
@@ -67,7 +68,7 @@ fn normal_power(own: Guide) -> f32 {
     return settings.normal_power / (1.0 + width * width);
 }
 
-// How much a pixel so many steps away sees the same surface, from 0 to 1.
+// Similarity of the surface that a pixel so many steps away sees, from 0 to 1.
 fn alike(own: Guide, slope: vec2f, other: Guide, step: vec2i) -> f32 {
     if all(step == vec2i(0)) {
         return 1.0;
@@ -94,13 +95,13 @@ fn layer_at(at: u32) -> FoundLight {
     return film_found[at].scratches;
 }
 
-// Of the mean of as many numbers as there are rounds; 0 of one, which tells nothing of it.
+// Variance of the mean of as many numbers as there are rounds; 0 of one, which tells nothing of it.
 fn variance_of(moments: array<f32, 2>) -> f32 {
     let count = f32(settings.rounds);
     return select(0.0, max((moments[1] - moments[0] * moments[0] / count) / (count * (count - 1.0)), 0.0), settings.rounds > 1u);
 }
 
-// From the film of a band to the textures.
+// Writes the film of a band to the textures.
 @compute @workgroup_size(8, 8)
 fn filter_signals(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= settings.size_px.x || id.y >= settings.rows {
@@ -128,7 +129,7 @@ fn filter_signals(@builtin(global_invocation_id) id: vec3u) {
     textureStore(bounced_out, pixel, select(nothing, vec4f(mean, variance_of(light.bounced_moments)), rgb_luminance(around) > 0.0));
 }
 
-// What a signal adds to weights, variances, values and squares.
+// Contribution of a signal to weights, variances, values and squares.
 fn noise_of(signal: vec4f) -> vec4f {
     let value = rgb_luminance(signal.xyz);
     return select(vec4f(0.0), vec4f(1.0, signal.w, value, value * value), signal.w >= 0.0);
@@ -260,7 +261,7 @@ fn filter_step(@builtin(global_invocation_id) id: vec3u) {
     textureStore(bounced_out, id.xy, mean_of(light, light_sum, weights.y));
 }
 
-// From the textures to the film of a band.
+// Writes the textures to the film of a band.
 @compute @workgroup_size(8, 8)
 fn filter_film(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= settings.size_px.x || id.y >= settings.rows {

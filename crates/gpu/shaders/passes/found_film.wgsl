@@ -1,4 +1,5 @@
-// Pass: what rays found of the samples of a pixel, on the film. One invocation a pixel, after resolve.wgsl. Twin: cpu/src/resolve.rs.
+// Pass: adds the light that rays found for the samples of a pixel to the film. One invocation a pixel, after resolve.wgsl. Twin:
+// cpu/src/resolve.rs.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

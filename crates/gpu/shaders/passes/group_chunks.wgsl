@@ -1,4 +1,4 @@
-// Pass: into how many chunks the list of each group is cut. One invocation a group.
+// Pass: number of chunks into which the list of each group is cut. One invocation a group.
 
 @group(3) @binding(1) var<storage, read> list_starts: array<u32>;
 // One more than groups; becomes prefix sums.

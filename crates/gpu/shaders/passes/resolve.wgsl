@@ -51,7 +51,7 @@ fn with_tone(sample: FilmPixel) -> FilmPixel {
     return value;
 }
 
-// What lane `lane` of a group adds to its pixel.
+// Light and guides that lane `lane` of a group adds to its pixel.
 fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
     let point = points[at];
     var value: FilmPixel;

@@ -1,11 +1,11 @@
-// Pass: the light of gratings, and what they take of the mirror's direction. A workgroup a group; a dispatch for each kind of light. Twin:
-// cpu/src/shade_gratings.rs.
+// Pass: the light of gratings, and the energy that they take of the mirror's direction. A workgroup a group; a dispatch for each kind of
+// light. Twin: cpu/src/shade_gratings.rs.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
 // 2: grating_pairs.wgsl.
 @group(3) @binding(3) var<storage, read> chunk_starts: array<u32>;
-// As sums.wgsl says; or, where gratings are picked, as picks.wgsl does, with a state for each lane of a group.
+// Sums as in sums.wgsl; or, where gratings are picked, states as in picks.wgsl, one for each lane of a group.
 @group(3) @binding(4) var<storage, read_write> grating_words: array<vec4u>;
 @group(3) @binding(5) var<storage, read_write> film: Film;
 @group(3) @binding(6) var<uniform> range: LightRange;

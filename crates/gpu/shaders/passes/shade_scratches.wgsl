@@ -18,7 +18,8 @@
 override PICKS: bool = false;
 
 const LANES: u32 = 64u;
-// From so many segments in a tile's list on, one line stands for the band of each. Footprints are wide there, and wide bands take five lines.
+// Number of segments in a tile's list from which on one line stands for the band of each. Footprints are wide there, and wide bands take five
+// lines.
 const LONG_LIST: u32 = 16384u;
 // A segment shows at a point only if their normals agree at least this well.
 const FACING_MIN_COS: f32 = 0.2;
@@ -29,18 +30,18 @@ const QUEUE: u32 = 512u;
 const LIGHTS_AT_ONCE: u32 = 7u;
 const_assert LANES * (LIGHTS_AT_ONCE + 1u) <= QUEUE;
 
-// Of each segment of the batch.
+// Ends of each segment of the batch.
 var<workgroup> ends: array<Ends, LANES>;
-// For each segment of the batch the pixels near to it, the upper half of the tile and the lower one.
+// Pixels near to each segment of the batch, the upper half of the tile and the lower one.
 var<workgroup> near_pixels: array<vec2u, LANES>;
-// For each pixel the segments near to it.
+// Segments near to each pixel.
 var<workgroup> marks: array<vec2u, LANES>;
 // Inclusive prefix sums of the numbers of marks.
 var<workgroup> pair_ends: array<u32, LANES>;
-// What each lane has, four lanes to an element, and the sum of all.
+// Number of each lane, four lanes to an element, and the sum of all.
 var<workgroup> lane_counts: array<vec4u, LANES / 4u>;
 var<workgroup> lanes_total: u32;
-// What each pair adds: its energy, or its radiance; share, and share by line.
+// Contribution of each pair: its energy, or its radiance; share, and share by line.
 var<workgroup> results: array<vec3f, LANES>;
 var<workgroup> shares: array<vec2f, LANES>;
 // The pixel in 6 bits, the light in 3, the place of the segment in the chunk.
@@ -95,7 +96,7 @@ fn pair_pixel(k: u32) -> u32 {
     return low;
 }
 
-// Of the marked segments of a batch those that a pixel may see.
+// Marked segments of a batch that a pixel may see.
 fn marks_seen(at: u32, marked: vec2u) -> vec2u {
     let here = nearness(points[at]);
     var seen = vec2u(0u);
@@ -110,7 +111,7 @@ fn marks_seen(at: u32, marked: vec2u) -> vec2u {
     return seen;
 }
 
-// Where the line of a segment lies: evenly over the segments, the same in each pixel.
+// Place of the one line of a segment in its band: even over the segments, and the same in each pixel.
 fn one_line_node(index: u32) -> f32 {
     return f32(index * 0x9E3779B9u) / 4294967296.0;
 }
@@ -121,7 +122,7 @@ fn is_there(pixel: PixelPoint, index: u32, segment: Segment) -> bool {
     return index >= object.first_segment && index < object.end_segment && dot(segment.normal, pixel.normal) >= FACING_MIN_COS;
 }
 
-// Which lights of the dispatch may reach a pair, a bit for each.
+// Lights of the dispatch that may reach a pair, a bit for each.
 fn lights_reaching(pair: Pair) -> u32 {
     if lights_are_around() {
         return 1u;
@@ -146,7 +147,7 @@ fn light_pair(pair: Pair, light_index: u32) -> vec3f {
     return pair_light(pair, light_index);
 }
 
-// What the lanes before have, given what each has. Called in uniform control flow. With two barriers in place of twelve: each lane
+// Sum of the numbers of the lanes before, given each lane's. Called in uniform control flow. With two barriers in place of twelve: each lane
 // adds up all before it. lanes_total is the sum of all then.
 fn before_lane(lane: u32, own: u32) -> u32 {
     lane_counts[lane / 4u][lane % 4u] = own;
@@ -163,7 +164,7 @@ fn before_lane(lane: u32, own: u32) -> u32 {
     return sum;
 }
 
-// Where the pick of the next stratum of a sample lies. One that has the scratches of others has a pick for each of them.
+// Place of the pick of the next stratum of a sample. One that has the scratches of others has a pick for each of them.
 fn pick_to(at: u32, state: PickState) -> u32 {
     let slot = pick_slot(state);
     if !pixel_shares(points[at]) {
@@ -183,7 +184,7 @@ fn pick_to(at: u32, state: PickState) -> u32 {
     return to;
 }
 
-// Where a chunk lies.
+// Entries of a chunk.
 struct Chunk {
     group: u32,
     first_entry: u32,

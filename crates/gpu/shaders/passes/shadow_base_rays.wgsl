@@ -39,7 +39,7 @@ fn candidate_scaled(weight: BaseRadiance, factor: vec3f) -> BaseRadiance {
     return BaseRadiance(weight.specular * factor, weight.diffuse * factor);
 }
 
-// What the picture on a light, if it has one, sends from a direction.
+// Radiance from a direction of the picture on a light, if it has one.
 fn light_picture_toward(point: SurfacePoint, light: Light, direction: vec3f) -> vec3f {
     var radiance = vec3f(1.0);
     if HAS_PICTURES && (light.extras & LIGHT_PICTURE) != 0u {

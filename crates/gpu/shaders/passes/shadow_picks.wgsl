@@ -1,5 +1,5 @@
-// Passes: where the running sums begin by which shade_scratches.wgsl picks scratches for shadow rays, and shade_gratings.wgsl gratings. A workgroup a
-// group.
+// Passes: start values of the running sums by which shade_scratches.wgsl picks scratches for shadow rays, and shade_gratings.wgsl gratings. A
+// workgroup a group.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> chunk_starts: array<u32>;
@@ -21,7 +21,7 @@ fn strata_before(sum: f32, seed: u32, step: f32, count: u32) -> u32 {
     return min(stratum + u32(pick_threshold(seed, stratum, step) < sum), count);
 }
 
-// For how many samples a sample has the scratches.
+// Number of samples for which a sample has the scratches.
 fn sharing(at: u32) -> u32 {
     if !pixel_shares(points[at]) {
         return 1u;

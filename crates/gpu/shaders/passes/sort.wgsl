@@ -10,7 +10,7 @@ const SORT_WORDS: u32 = 8u;
 
 @group(3) @binding(0) var<uniform> settings: SortSettings;
 @group(3) @binding(1) var<storage, read> entries: array<vec4u>;
-// How often each digit occurs in each block, digit after digit; then how many entries come before those.
+// Number of times that each digit occurs in each block, digit after digit; then the number of entries before those.
 @group(3) @binding(2) var<storage, read_write> digit_starts: array<u32>;
 @group(3) @binding(3) var<storage, read_write> sorted: array<vec4u>;
 

@@ -1,4 +1,4 @@
-// Pass: where the list of each tile begins among the sorted entries. One invocation a tile.
+// Pass: finds the start of each tile's list among the sorted entries. One invocation a tile.
 
 @group(3) @binding(0) var<storage, read> entries: array<vec4u>;
 // One more than tiles.

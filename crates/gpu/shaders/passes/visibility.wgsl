@@ -1,11 +1,11 @@
-// Which triangle and object a pixel sees: x holds the triangle + 1 (0: nothing), y the object.
+// Triangle and object that each pixel sees: x holds the triangle + 1 (0: nothing), y the object.
 
 struct VisibilityVertex {
     @builtin(position) clip: vec4f,
     @location(0) @interpolate(flat) ids: vec2u,
 }
 
-// Where a point lies in the picture.
+// Clip position of a point.
 fn visibility_clip(position_m: vec3f) -> vec4f {
     let relative = position_m - frame.camera_m;
     let depth = dot(frame.forward, relative);

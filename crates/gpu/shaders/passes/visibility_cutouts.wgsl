@@ -1,4 +1,4 @@
-// Which triangle and object a pixel sees, of objects whose surface is not everywhere on their triangles.
+// Triangle and object that each pixel sees, for objects with cutouts.
 
 struct CutoutVertex {
     @builtin(position) clip: vec4f,

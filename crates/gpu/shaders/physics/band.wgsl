@@ -1,5 +1,5 @@
-// Where an area light meets the band of a scratch: a signed sum over roots, each alone. Twin: optics/src/band.rs, which
-// explains it. All vectors are in the scratch's frame: x along the tangent, y across it, z along the surface normal.
+// Intersects an area light with the band of a scratch: a signed sum over roots, each alone. Twin: optics/src/band.rs, which explains it.
+// All vectors are in the scratch's frame: x along the tangent, y across it, z along the surface normal.
 
 const BAND_REACH_STD: f32 = 4.0;
 
@@ -58,7 +58,7 @@ fn band_stds(coherence_um: f32) -> vec4f {
     return band_std(coherence_um, 1.0) * BAND_MEAN_NM;
 }
 
-// How xi_t moves over one standard deviation of the pixel's filter: for each scratch there the part of this along its tangent. Vectors of
+// Movement of xi_t over one standard deviation of the pixel's filter; that of a scratch is the component along its tangent. Vectors of
 // the surface's frame.
 fn band_moves(turn: vec2f, axis: vec3f, wo: vec3f, per_distance_o: f32, wi: vec3f, per_distance_i: f32) -> vec2f {
     let by_wo = (wo.xy * dot(axis, wo) - axis.xy) * per_distance_o;
@@ -105,7 +105,7 @@ fn band_lines(wo_t: f32, lowest: f32, highest: f32, stds: vec4f) -> BandLines {
     return BandLines(count, share_below, gaussian_cdf(highest / stds.w) - share_below, channel_shares, stds, 0.5);
 }
 
-// The same by one line, below which the share `node` of the lit part of the band lies.
+// Replaces the lines by a single one, below which the share `node` of the lit part of the band lies.
 fn by_one_line(all: BandLines, node: f32) -> BandLines {
     var lines = all;
     lines.count = min(all.count, 1u);
@@ -278,7 +278,7 @@ fn band_edge_extent(edge: BandEdge) -> vec2f {
     );
 }
 
-// How often an edge crosses the half plane of positive x that ends at a direction, against the clock; x and y span the plane
+// Number of times that an edge crosses the half plane of positive x that ends at a direction, counter-clockwise; x and y span the plane
 // across it. Over an outline the sum is 0 unless it goes around.
 fn band_edge_crossing(a: vec2f, b: vec2f) -> i32 {
     let side = a.x * b.y - b.x * a.y;
@@ -287,7 +287,7 @@ fn band_edge_crossing(a: vec2f, b: vec2f) -> i32 {
     return i32(up) - i32(down);
 }
 
-// Where a line crosses an edge, and in which sense.
+// Crossings of a line with an edge, and their sense.
 struct EdgeCrossings {
     rising: f32,
     falling: f32,
@@ -331,7 +331,7 @@ fn edge_range(range: vec2f, edge: EdgeCrossings) -> vec2f {
     );
 }
 
-// How often an edge winds about the direction straight down on the line.
+// Number of times that an edge winds about the direction straight down on the line.
 fn line_winding(line: BandLine, a: vec3f, b: vec3f) -> i32 {
     let up = vec2f(line.radius, line.along);
     return band_edge_crossing(vec2f(dot(a.xz, up), a.y), vec2f(dot(b.xz, up), b.y));

@@ -23,7 +23,7 @@ const BRUSHED_RULE_AROUND = array<vec2f, 4>(
 const BRUSHED_RULE_ACROSS = array<vec2f, 2>(vec2f(0.339981044, 0.652145155), vec2f(0.861136312, 0.347854845));
 const BRUSHED_FAR: f32 = 1e9;
 const BRUSHED_LEAST_SHARE: f32 = 1e-9;
-// What rounding leaves of a sum that is nothing.
+// Rounding error of a sum that is nothing.
 const BRUSHED_ROUNDING: f32 = 1e-5;
 const BRUSHED_NEWTON_ROUNDS: i32 = 5;
 
@@ -183,7 +183,7 @@ fn brushed_to_local(lobe: BrushedLobe, w: vec3f) -> vec3f {
     return vec3f(lobe.along * w.x + vec2f(-lobe.along.y, lobe.along.x) * w.y, w.z);
 }
 
-// Where a direction lies among the slices, from -1 to 1, each as likely.
+// Place of a direction's slice, from -1 to 1, such that facets are evenly spread over places.
 fn brushed_place(lobe: BrushedLobe, w: vec3f) -> f32 {
     let magnitude = length(w);
     let x = -(w.x + lobe.wo.x * magnitude) / lobe.alphas.x;
@@ -196,7 +196,7 @@ fn brushed_place_of_slope(lobe: BrushedLobe, slope: f32) -> f32 {
     return x * inverseSqrt(1.0 + x * x);
 }
 
-// What of a range of places reflects to above the horizon.
+// Cuts a range of places to those whose facets reflect to directions above the horizon.
 fn brushed_visible(lobe: BrushedLobe, range: vec2f) -> vec2f {
     let low = brushed_place_of_slope(lobe, (-1.0 - lobe.wo.x) / lobe.wo.z);
     let high = brushed_place_of_slope(lobe, (1.0 - lobe.wo.x) / lobe.wo.z);
@@ -261,7 +261,7 @@ fn brushed_facet(lobe: BrushedLobe, slice: BrushedSlice, part: BrushedPart, tang
     return BrushedFacet(wi, h, weight, cos_h);
 }
 
-// How much facets of a kind count at slopes.
+// Weight of facets of kind `k` at slopes.
 fn brushed_counts(lobe: BrushedLobe, k: u32, slopes: vec2f) -> f32 {
     if lobe.excess == 0.0 {
         return 1.0;
@@ -273,7 +273,7 @@ fn brushed_counts(lobe: BrushedLobe, k: u32, slopes: vec2f) -> f32 {
     return select(1.0 + lobe.excess, -lobe.excess, k == 1u) * (1.0 - tails);
 }
 
-// What a part of a slice reflects, from its moments.
+// Light that a part of a slice reflects, from its moments.
 fn brushed_reflected(lobe: BrushedLobe, slice: BrushedSlice, k: u32, sums: BrushedMoments, fresnel: FresnelRgb, curves: texture_2d<f32>) -> vec3f {
     let part = brushed_part(lobe, slice, k);
     var moments = sums;
@@ -297,7 +297,7 @@ fn brushed_reflected(lobe: BrushedLobe, slice: BrushedSlice, k: u32, sums: Brush
     return sum;
 }
 
-// What the surface reflects of light from all around, single scattering; with F = 1 in w.
+// Light that the surface reflects of radiance 1 from all around, single scattering; with F = 1 in w.
 fn brushed_albedo(lobe: BrushedLobe, fresnel: FresnelRgb, curves: texture_2d<f32>) -> vec4f {
     let range = brushed_visible(lobe, vec2f(-1.0, 1.0));
     var sum = vec4f(0.0);
@@ -411,7 +411,7 @@ fn brushed_sphere_of(lobe: BrushedLobe, axis: vec3f, sin2: f32) -> BrushedSphere
     return BrushedSphere(e, a2, b, range, d);
 }
 
-// What the lobe reflects of a sphere, single scattering, over its radiance.
+// Light that the lobe reflects of a sphere, single scattering, over its radiance.
 fn brushed_sphere(lobe: BrushedLobe, axis: vec3f, sin2: f32, fresnel: FresnelRgb, curves: texture_2d<f32>) -> vec3f {
     let sphere = brushed_sphere_of(lobe, axis, sin2);
     let range = brushed_visible(lobe, sphere.range);

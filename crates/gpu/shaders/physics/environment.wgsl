@@ -59,7 +59,7 @@ fn environment_whole(map: texture_2d<f32>) -> EnvironmentPlace {
     return EnvironmentPlace(0, 0, vec2<i32>(textureDimensions(map)));
 }
 
-// Where a level lies: two of each size, one above the other, but for the first, which has a size of its own.
+// Place of a level: two of each size, one above the other, but for the first, which has a size of its own.
 fn environment_level_place(levels: texture_2d<f32>, level: i32) -> EnvironmentPlace {
     let mip = (level + 1) / 2;
     // Not textureDimensions(levels, mip): a software driver (llvmpipe) answers all 8 pixels that it runs in step with the first

@@ -47,7 +47,7 @@ fn environment_lobe(lobe: LtcLobe, shapes: texture_2d<f32>) -> EnvironmentLobe {
     return EnvironmentLobe(lobe.x_axis, mirror, lobe.alpha, middle, axis, sqrt(long2 * aspect / cosine), cosine, axis_middle);
 }
 
-// Of a look-up; the mean slope lies behind the last.
+// Fitted numbers of a look-up; the mean slope lies behind the last.
 fn environment_shape(shapes: texture_2d<f32>, alpha: f32, cos_o: f32, i: u32) -> vec4f {
     return lobe_table_lookup_below(shapes, i32(LOBE_TABLE_SIZE) * i32(1u + i), sqrt(alpha), cos_o);
 }

@@ -15,7 +15,7 @@ fn spread_bounded(spread: vec3f, cos_o: f32) -> vec3f {
     return vec3f(variance, spread.z * (kept.x * kept.y));
 }
 
-// What variances of slopes add to the squares of alphas.
+// Increases of squared alphas by variances of slopes.
 fn spread_widening(variance: vec2f, alpha: vec2f) -> vec2f {
     return (2.6 + 2.5 / (1.0 + 1.5 * sqrt(variance) / alpha)) * variance;
 }
@@ -43,7 +43,7 @@ fn filtered_lobe(alpha: f32, spread: vec3f, cos_o: f32) -> FilteredLobe {
     return FilteredLobe(vec2f(alpha_x, alpha_y), turn.y / (alpha_x * alpha_y), bend2 / (bend2 + 0.25), select(excess, 0.0, excess < 0.02));
 }
 
-// How many lobes it is the sum of at most.
+// Largest number of lobes whose sum it is.
 const FILTERED_LOBE_PARTS: u32 = 3u;
 
 // One of the lobes.

@@ -1,4 +1,4 @@
-// Where the lines of a band cross an outline of three or four edges. All vectors are in the scratch's frame. Twin: PolygonView of
+// Intersects the lines of a band with an outline of three or four edges. All vectors are in the scratch's frame. Twin: PolygonView of
 // optics/src/band.rs, for any number of edges.
 
 // Unit directions to three or four corners. Edges are made where they are asked for: kept, they would take forty registers. Loops over
@@ -33,7 +33,7 @@ fn four_edges_extent(corners: FourEdges, away: vec3f) -> vec2f {
     return whole_extent(extent, winding, highest, away);
 }
 
-// Where a line crosses each edge, and in which sense: 1 and 0 stand for yes and no.
+// Crossings of a line with each edge, and their sense: 1 and 0 stand for yes and no.
 struct FourRoots {
     rising: vec4f,              // q where the tangent component rises along the edge
     falling: vec4f,

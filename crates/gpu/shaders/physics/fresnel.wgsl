@@ -12,7 +12,7 @@ struct FresnelRgb {
     curve: u32,
 }
 
-// Of either of two unit directions.
+// Cosine of the half vector with either of two unit directions.
 fn half_vector_cos(wi: vec3f, wo: vec3f) -> f32 {
     return 0.5 * length(wi + wo);
 }

@@ -61,7 +61,7 @@ fn ggx_multiple_scattering(f0: f32, e0: f32) -> f32 {
     return 1.0 + f0 * (1.0 / clamp(e0, 1e-3, 1.0) - 1.0);
 }
 
-// What a rough surface reflects from its single scattering, over a light or over the hemisphere: multiple scattering added.
+// Adds multiple scattering to what a rough surface reflects by single scattering, over a light or over the hemisphere.
 fn ggx_area_reflectance(single: vec3f, f0: vec3f, e0: f32) -> vec3f {
     let gain = vec3f(
         ggx_multiple_scattering(f0.x, e0),

@@ -1,4 +1,4 @@
-// What the grooves of a grating send: as a scratch does, with a table of their own. Twins: cpu/src/shade_scratches/row_spread.rs,
+// Light of the grooves of a grating: as of a scratch, with a table of their own. Twins: cpu/src/shade_scratches/row_spread.rs,
 // cpu/src/shade_scratches/scratch_light.rs; equations: docs/model.md, section 12.
 
 // A grating's table is looked up as that of a scratch of this width and this depth. Twin: optics/src/grating/table.rs.
@@ -11,7 +11,7 @@ fn row_seen(tangent: vec2f, share: f32, turns_rad: vec2f, angle_std_rad: f32) ->
     return SeenScratch(ScratchShare(share, 0.0), tangent, 0.0, vec2f(0.0), 1.0, profile, true, turns_rad, angle_std_rad, -1.0);
 }
 
-// By an environment, as scratch_environment().
+// Light of an environment, as scratch_environment().
 fn row_environment(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, levels: texture_2d<f32>, map_from_surface: mat3x3f) -> vec3f {
     let line = band_line_at(band_from_surface(seen.tangent, point.wo), 0.0);
     var sum = vec3f(0.0);
@@ -24,7 +24,7 @@ fn row_environment(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScr
     return sum;
 }
 
-// By light of radiance 1 from all around: what the base loses.
+// Light of radiance 1 from all around: the energy that the base loses.
 fn row_all_around(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch) -> vec3f {
     let line = band_line_at(band_from_surface(seen.tangent, point.wo), 0.0);
     var sum = vec3f(0.0);

@@ -1,4 +1,4 @@
-// What the facets of a lobe reflect. Needs fresnel, lobe_table. Twin: LobeFresnel of optics::ltc.
+// Reflectance of the facets of a lobe. Needs fresnel, lobe_table. Twin: LobeFresnel of optics::ltc.
 
 struct LobeFresnel {
     fresnel: FresnelRgb,

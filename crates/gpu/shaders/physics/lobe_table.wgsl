@@ -21,7 +21,7 @@ fn lobe_table_lookup(table: texture_2d<f32>, roughness: f32, cos_o: f32) -> vec4
     return lobe_table_lookup_below(table, 0, roughness, cos_o);
 }
 
-// In a table that lies below others, `first_row` rows down.
+// Looks up a table that lies below others, `first_row` rows down.
 fn lobe_table_lookup_below(table: texture_2d<f32>, first_row: i32, roughness: f32, cos_o: f32) -> vec4f {
     let at = lobe_table_at(LOBE_TABLE_SIZE, roughness, cos_o);
     let i = vec2i(at.corner) + vec2i(0, first_row);

@@ -38,7 +38,7 @@ fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table:
     );
 }
 
-// The same with other normals.
+// The lobe with other normals.
 fn ltc_widened(lobe: LtcLobe, alphas: vec2f, shear: f32, bent: f32, turned: f32) -> LtcLobe {
     var widened = lobe;
     widened.alphas = alphas;
@@ -49,8 +49,8 @@ fn ltc_widened(lobe: LtcLobe, alphas: vec2f, shear: f32, bent: f32, turned: f32)
     return widened;
 }
 
-// Of an angle within 90 degrees. Taylor's series, 4e-6 at 90 degrees: the built-in sine may be off by 5e-4 anywhere, an
-// eighth of a mirror's lobe.
+// Sine and cosine of an angle within 90 degrees. Taylor's series, 4e-6 at 90 degrees: the built-in sine may be off by 5e-4 anywhere, an eighth of
+// a mirror's lobe.
 fn lobe_sin_cos(angle: f32) -> vec2f {
     let a2 = angle * angle;
     let sine = clamp(angle * (1.0 - a2 / 6.0 * (1.0 - a2 / 20.0 * (1.0 - a2 / 42.0 * (1.0 - a2 / 72.0)))), -1.0, 1.0);
@@ -136,7 +136,7 @@ fn ltc_sphere_vector(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
     return vector;
 }
 
-// What is within the rim c + u cos t + v sin t in the cosine's space; in the frame of u, v and n, c is `centre`.
+// The cone within the rim c + u cos t + v sin t in the cosine's space; in the frame of u, v and n, c is `centre`.
 struct LtcCone {
     u: vec3f,
     root: f32,
@@ -282,7 +282,8 @@ fn ltc_reflected(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>
     return integral * mix(mean, reflecting.albedo / lobe.albedo, sin4 * sin4);
 }
 
-// What the lobe reflects, single scattering, of a light so small that it lies in one direction, from its vector irradiance in the cosine's space.
+// Light that the lobe reflects, single scattering, of a light so small that it lies in one direction, from its vector irradiance in the cosine's
+// space.
 fn ltc_small_light(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>, vector: vec3f) -> vec3f {
     let magnitude = max(length(vector), 1e-30);
     var sums = LtcMeans(vec4f(0.0), 0.0, 0.0);

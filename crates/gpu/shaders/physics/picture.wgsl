@@ -1,4 +1,4 @@
-// A picture on a flat light: where it is looked up, and how finely. Twin: optics/src/picture.rs, which names the source.
+// Look-ups of a picture on a flat light: their place and their blur. Twin: optics/src/picture.rs, which names the source.
 
 // A parallelogram that a picture lies on, relative to a point.
 struct PicturePlane {
@@ -31,12 +31,12 @@ fn picture_part(plane: PicturePlane, i: u32) -> PicturePlane {
     return PicturePlane(plane.corner + right * f32(i % PICTURE_PARTS) + up * f32(i / PICTURE_PARTS), right, up);
 }
 
-// Where part `i` lies in the picture: its left upper corner.
+// Left upper corner of part `i` in the picture.
 fn picture_part_uv(i: u32) -> vec2f {
     return vec2f(f32(i % PICTURE_PARTS), f32(PICTURE_PARTS - 1u - i / PICTURE_PARTS)) / f32(PICTURE_PARTS);
 }
 
-// Where a direction meets the picture; beside it, at its nearest edge.
+// Position at which a direction meets the picture; beside the picture, that on its nearest edge.
 fn picture_uv(plane: PicturePlane, toward: vec3f) -> vec2f {
     let normal = cross(plane.right, plane.up);
     let per_area2 = 1.0 / max(dot(normal, normal), 1e-30);
@@ -49,7 +49,7 @@ fn picture_uv(plane: PicturePlane, toward: vec3f) -> vec2f {
     return clamp(vec2f(right, 1.0 - up), vec2f(0.0), vec2f(1.0));
 }
 
-// What a cosine about the normal sees of the picture in the mean, given the picture's vector irradiance.
+// Look-up for the mean of the picture under a cosine about the normal, given the picture's vector irradiance.
 fn picture_look(plane: PicturePlane, vector: vec3f) -> PictureLook {
     let normal = cross(plane.right, plane.up);
     let area = max(length(normal), 1e-30);

@@ -6,7 +6,7 @@ struct Profile {
     depth_nm: f32,
 }
 
-// From two half floats.
+// Profile from two half floats.
 fn profile_unpacked(word: u32) -> Profile {
     let halves = unpack2x16float(word);
     return Profile(halves.x, halves.y);

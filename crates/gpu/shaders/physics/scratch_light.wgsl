@@ -1,5 +1,5 @@
-// What one scratch sends to the viewer: the module for other engines, which Hairline's own pass calls as well. No binding, no entry
-// point. Twins: cpu/src/shade_scratches/scratch_light.rs; equations: docs/model.md, sections 4 to 6.
+// Light that one scratch sends to the viewer: the module for other engines, which Hairline's own pass calls as well. No binding, no entry point.
+// Twins: cpu/src/shade_scratches/scratch_light.rs; equations: docs/model.md, sections 4 to 6.
 //
 // Frame: the surface's, z along the shading normal, any x. Positions are relative to the point and in metres unless named otherwise.
 // A caller asks scratch_seen() for each scratch near to the pixel, and where its share is not 0 one of the functions below for each
@@ -50,7 +50,7 @@ fn scratch_seen(point: LitPoint, start_um: vec2f, end_um: vec2f, profile: Profil
     return SeenScratch(share, t, offset, across, variance, profile, false, vec2f(0.0), 0.0, -1.0);
 }
 
-// Its width, as chord_cos() asks for.
+// Width of the scratch for chord_cos().
 fn weighed_um(seen: SeenScratch) -> f32 {
     return select(seen.profile.width_um, 0.0, seen.is_row);
 }
@@ -136,7 +136,7 @@ fn scratch_below(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScrat
     return scratch_table(tables, point.table, seen.profile.width_um * q, oblique_depth_nm(seen.profile.depth_nm, cos_i, point.wo.z));
 }
 
-// How it rises at q, up to a factor.
+// Derivative of that at q, up to a factor.
 fn scratch_slope(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, q: f32, cos_i: f32) -> vec3f {
     return scratch_table_slope(tables, point.table, seen.profile.width_um * q, oblique_depth_nm(seen.profile.depth_nm, cos_i, point.wo.z));
 }
@@ -159,7 +159,7 @@ fn seen_lines(seen: SeenScratch, wo_t: f32, extent: vec2f, stds: vec4f) -> BandL
     return by_one_line(lines, seen.node);
 }
 
-// By a sphere of radiance 1.
+// Light of a sphere of radiance 1.
 fn scratch_sphere(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: f32) -> vec3f {
     if center_m.z <= -radius_m {
         return vec3f(0.0);
@@ -202,7 +202,7 @@ struct QuadLight {
     two_sided: bool,
 }
 
-// By a flat light of radiance 1. It is cheaper to ask scratch_meets() first.
+// Light of a flat light of radiance 1. It is cheaper to ask scratch_meets() first.
 fn scratch_quad(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, light: QuadLight) -> vec3f {
     let facing = polygon_facing(light.normal, light.a_m, light.two_sided);
     if facing == 0.0 {
@@ -247,7 +247,8 @@ fn surface_direction(v: vec3f) -> vec3f {
     return select(vec3f(0.0), v * inverseSqrt(max(length2, 1e-37)), length2 > 1e-30);
 }
 
-// By an environment of prefiltered levels, along the band's middle line, cell by cell. `map_from_surface` turns directions into the map's frame.
+// Light of an environment of prefiltered levels, along the band's middle line, cell by cell. `map_from_surface` turns directions into the map's
+// frame.
 fn scratch_environment(
     tables: texture_2d_array<u32>,
     point: LitPoint,

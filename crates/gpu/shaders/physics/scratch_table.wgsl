@@ -37,7 +37,7 @@ fn scratch_table_total(table: texture_2d_array<u32>, layer: u32, depth_nm: f32) 
     return 2.0 * (near + (far - near) * (y - f32(row)));
 }
 
-// How T rises with |u|, up to a factor: the colours of what comes from a direction.
+// Derivative of T by |u|, up to a factor: the colours of the light from a direction.
 fn scratch_table_slope(table: texture_2d_array<u32>, layer: u32, u_um: f32, depth_nm: f32) -> vec3f {
     let u = min(abs(u_um), 1e18);
     let column = min(i32(u / (u + SCRATCH_TABLE_U_HALF_UM) * f32(SCRATCH_TABLE_COLUMNS - 1) + 0.5), SCRATCH_TABLE_COLUMNS - 1);

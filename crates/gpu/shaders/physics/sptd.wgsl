@@ -116,7 +116,7 @@ fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
     return lens;
 }
 
-// Of caps that are at most hemispheres: two sectors less the kite between centres and corners.
+// Intersection of caps that are at most hemispheres: two sectors less the kite between centres and corners.
 fn sptd_lens(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
     let region_a = sptd_cap_region(a);
     let region_b = sptd_cap_region(b);

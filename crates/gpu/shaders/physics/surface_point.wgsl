@@ -33,7 +33,7 @@ struct SurfacePoint {
     long_axis: vec2f,           // that way, a unit vector of the frame of what is under the coat
 }
 
-// How far a surface may be off the plane of a footprint for each length along it, where shading and facet normal agree.
+// Largest distance of a surface from the plane of a footprint, over the length along it, where shading and facet normal agree.
 const SURFACE_BENDS: f32 = 0.125;
 
 fn surface_from_world(point: SurfacePoint, v: vec3f) -> vec3f {

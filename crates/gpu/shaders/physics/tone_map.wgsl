@@ -1,4 +1,4 @@
-// From linear radiance to the display. Twin: crates/image/src/tone_map.rs, which names the sources and gives the reasons.
+// Tone curves, from linear radiance to the display. Twin: crates/image/src/tone_map.rs, which names the sources and gives the reasons.
 
 const TONE_MAP_NEUTRAL: u32 = 0u;
 const TONE_MAP_AGX: u32 = 1u;
@@ -33,7 +33,7 @@ fn tone_sanitize(c: f32) -> f32 {
     return clamp(c, -TONE_RADIANCE_MAX, TONE_RADIANCE_MAX);
 }
 
-// What stands for a display's curve where samples are averaged, from 0 to 1. Twin: crates/image/src/tones.rs.
+// Curve from 0 to 1 that stands for a display's where samples are averaged. Twin: crates/image/src/tones.rs.
 fn tone_compressed(luminance: f32, gain: f32) -> f32 {
     let exposed = gain * max(luminance, 0.0);
     return exposed / (1.0 + exposed);

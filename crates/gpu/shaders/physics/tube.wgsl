@@ -85,7 +85,7 @@ fn tube_corner(outline: TubeOutline, i: u32) -> vec3f {
     return select(outline.a.center, outline.b.center, is_b) + out * (cos(angle) * x + sin(angle) * y);
 }
 
-// How far a unit direction from the origin goes to where it is nearest to the tube's axis, less half its way through a sphere there: to the
+// Distance along a unit direction from the origin to the point nearest to the tube's axis, less half its way through a sphere there: to the
 // surface if it comes straight, into the tube if it comes aslant. Below zero where the tube lies behind.
 fn tube_reach_m(a: vec3f, b: vec3f, radius: f32, direction: vec3f) -> f32 {
     let e = b - a;

@@ -1,7 +1,7 @@
 // The method of 2018, kept to be compared with: a blend of the pixel's two limits, and the density that masks the base.
 // Twin: optics/src/published/footprint.rs, which explains it.
 
-// How the surface moves from one pixel to the next, right and down; x along the scratch, y across it.
+// Step on the surface from one pixel to the next, right and down; x along the scratch, y across it.
 struct PixelFootprint {
     right_um: vec2f,
     down_um: vec2f,

@@ -64,7 +64,7 @@ fn published_scratches(point: SurfacePoint, object: Object, triangle: u32) -> Sc
     return sums;
 }
 
-// What a pixel sees of a segment.
+// Share of a segment that a pixel sees, and its density.
 struct PublishedWeight {
     share: ScratchShare,
     density: f32,

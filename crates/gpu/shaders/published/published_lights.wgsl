@@ -1,5 +1,5 @@
-// What a scratch sends to the viewer from a light by the method of 2018: eight wavelengths, the talk's steps, the middle line of the
-// band, depths along the normal. Twin: cpu/src/published.rs.
+// Light that a scratch sends to the viewer by the method of 2018: eight wavelengths, the talk's steps, the middle line of the band,
+// depths along the normal. Twin: cpu/src/published.rs.
 
 // Wavelengths of published_wavelengths. Twin: optics/src/published/spectrum.rs.
 const PUBLISHED_WAVELENGTHS: u32 = 8u;

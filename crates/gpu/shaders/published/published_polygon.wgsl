@@ -85,7 +85,8 @@ fn edge_places(x: f32, plane: vec3f, other: vec3f, another: vec3f) -> vec2f {
     return select(vec2f(CULLED), y, inside >= vec2f(-CULL_SLACK));
 }
 
-// What a triangle above the horizon covers of the line; `wo` and the corners, unit directions, in the scratch's frame.
+// Segments of the line that a triangle above the horizon covers; `wo` and the corners, unit directions, in the scratch's
+// frame.
 fn triangle_segments(wo: vec3f, a: vec3f, b: vec3f, c: vec3f) -> BandSegments {
     var segments: BandSegments;
     let x = -wo.x;

@@ -1,4 +1,4 @@
-// The method of 2018, kept to be compared with: what a light covers of the band's middle line, as segments of q. Twin:
+// The method of 2018, kept to be compared with: the segments of q that a light covers on the band's middle line. Twin:
 // optics/src/published/segments.rs.
 
 // Low and high q of each segment.

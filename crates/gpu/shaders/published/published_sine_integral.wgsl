@@ -26,7 +26,7 @@ const SINE_INTEGRAL_G1: f32 = 2.79;
 const SINE_INTEGRAL_G2: f32 = 5.61;
 const SINE_INTEGRAL_G3: f32 = 2.47150372;
 
-// The same to 3.4e-3.
+// sine_integral_of() to 3.4e-3.
 fn sine_integral_fast_of(x: f32, sin_x: f32, cos_x: f32) -> f32 {
     let f = (x + SINE_INTEGRAL_F) / ((x + SINE_INTEGRAL_F) * x + 0.636619772 * SINE_INTEGRAL_F);
     let g = (x + SINE_INTEGRAL_G1) / (((x + SINE_INTEGRAL_G1) * x + SINE_INTEGRAL_G2) * x + SINE_INTEGRAL_G3);

@@ -31,7 +31,8 @@ fn published_chord(ends: vec2f, width_um: f32, wavelength_um: f32, fast: bool) -
         - published_chord_integral(ends.x, width_um, wavelength_um, fast);
 }
 
-// What one wavelength adds to the channels per unit of the scratch's share, under a light of radiance 1, Fresnel left out.
+// Contribution of one wavelength to the channels per unit of the scratch's share, under a light of radiance 1, Fresnel
+// left out.
 fn published_radiance(
     wavelength: PublishedWavelength,
     segments: BandSegments,

@@ -5,7 +5,7 @@ fn triangle_lists_word(i: u32) -> u32 {
     return textureLoad(triangle_lists, row_texel(i), 0).x;
 }
 
-// Where the list of a triangle begins and ends, for triangle_list_segment.
+// Start and end of the list of a triangle, for triangle_list_segment.
 fn triangle_list(triangle: u32) -> vec2u {
     return vec2u(triangle_lists_word(triangle), triangle_lists_word(triangle + 1u));
 }

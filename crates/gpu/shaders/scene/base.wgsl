@@ -7,7 +7,7 @@ struct BaseRadiance {
     diffuse: vec3f,             // from the body under it
 }
 
-// What of a light falls on a lobe, as its vector irradiance in the cosine's space, and on the body, as a form factor.
+// Light that falls on a lobe, as its vector irradiance in the cosine's space, and on the body, as a form factor.
 struct LightOnBase {
     vector: vec3f,
     form_factor: f32,
@@ -56,7 +56,7 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> LightOnBase
     return LightOnBase(irradiance_end(specular), lambert_end(diffuse));
 }
 
-// The same of a light with a picture.
+// Light of a light with a picture on a lobe and the body.
 struct PictureOnBase {
     seen: LightOnBase,
     mean: BaseRadiance,         // what the lobe reflects of the picture and what falls on the body, over what it would be of an even one
@@ -118,7 +118,7 @@ fn picture_irradiance(plane: PicturePlane, corners: u32) -> vec3f {
     return irradiance_end(state);
 }
 
-// What the lobe reflects of light from all around, single scattering, and what falls on the body.
+// Light of radiance 1 from all around that the lobe reflects, single scattering, and that falls on the body.
 fn base_environment(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel) -> BaseRadiance {
     let looked_up = environment_lobe(lobe, lobe_shapes);
     var all = vec3f(0.0);
@@ -138,7 +138,7 @@ fn base_environment(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel)
     return BaseRadiance(normal * all + (reflecting.albedo - normal) * grazing, scene_irradiance(point.normal) / 3.14159265);
 }
 
-// The same, of any scene.
+// base_environment() for any scene.
 fn base_surroundings(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel) -> BaseRadiance {
     var light: BaseRadiance;
     if HAS_ENVIRONMENT {
@@ -196,13 +196,13 @@ fn coat_layer(point: SurfacePoint) -> Layer {
     return layer_of(surface_of_coat(point), coat_fresnel(), surface_coat(point.coat).y);
 }
 
-// What it reflects of light of which single scattering returns so much.
+// Adds multiple scattering to the light of single scattering.
 fn layer_of_single(layer: Layer, single: vec3f) -> vec3f {
     // The fit may make the second part a little larger than the first.
     return ggx_area_reflectance(max(single, vec3f(0.0)), layer.reflecting.fresnel.at_normal, layer.sharp.albedo);
 }
 
-// What the body sends, over what falls on it: what the lobe over it does not reflect reaches it.
+// Light that the body sends, over the light that falls on the base: it gets what the lobe over it does not reflect.
 fn base_body(point: SurfacePoint, layer: Layer) -> vec3f {
     return point.diffuse * max(1.0 - layer.albedo, vec3f(0.0));
 }
@@ -219,7 +219,7 @@ fn base_radiance(point: SurfacePoint) -> BaseRadiance {
     return base_radiance_of(point, vec2u(0u, frame.base_light_count), true);
 }
 
-// The same by some of the lights, from the first to the one before the end, and from all around or not.
+// Radiance of the base by some of the lights, from the first to the one before the end, and from all around or not.
 fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
     if !HAS_COATS {
         let layer = base_layer(point);
@@ -253,7 +253,7 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
     return base;
 }
 
-// What a lobe reflects, single scattering, and what falls on a body under it.
+// Light that a lobe reflects, single scattering, and that falls on a body under it.
 fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
     if HAS_ANISOTROPY && layer.is_brushed {
         return brushed_lit(point, layer, of_lights, surrounded);
@@ -300,7 +300,7 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
     return sum;
 }
 
-// The same of facets that lean further one way, slice by slice.
+// layer_lit() for facets that lean further one way, slice by slice.
 fn brushed_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
     let lobe = base_brushed_lobe(point);
     let fresnel = layer.reflecting.fresnel;

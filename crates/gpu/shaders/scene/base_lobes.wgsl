@@ -127,7 +127,7 @@ fn base_lobes_pdf(lobes: BaseLobes, on_top: vec3f) -> f32 {
     return density;
 }
 
-// What the base sends of light of radiance 1 from all around. Twin: Base::albedo.
+// Light that the base sends of radiance 1 from all around. Twin: Base::albedo.
 fn base_lobes_around(lobes: BaseLobes) -> BaseRadiance {
     let bare = BaseRadiance(lobes.around, lobes.body);
     if HAS_COATS && lobes.coat_share > 0.0 {

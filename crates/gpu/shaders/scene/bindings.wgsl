@@ -1,4 +1,4 @@
-// Where the scene is bound. Twin: src/bindings.rs. Group 3 is each pass's own.
+// Bindings of the scene. Twin: src/bindings.rs. Group 3 is each pass's own.
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 

@@ -1,4 +1,4 @@
-// What the passes share that draw rays to other objects: docs/model.md, section 11. Twin: cpu/src/bounces.rs.
+// Functions that the passes share that draw rays to other objects: docs/model.md, section 11. Twin: cpu/src/bounces.rs.
 
 // The part of the rays of a sample that goes one way: those whose number is from `low` on and below `low + share`.
 struct BounceWay {
@@ -6,8 +6,9 @@ struct BounceWay {
     share: f32,
 }
 
-// How often the ray of a sample goes by way of its scratches and its gratings, which take so much of the base. The camera's samples send rays all
-// ways by turns; what those meet sends one, where the CPU's sends all.
+// Probability with which the ray of a sample goes by way of its scratches and its gratings, which take so much of the base. The camera's samples
+// send rays all ways in turn; hits send one, where the CPU's send all. The camera's samples send rays all ways by turns; what those meet sends
+// one, where the CPU's sends all.
 fn bounce_way(way: u32, by_scratches: vec3f, by_gratings: vec3f, which: ShadowRound) -> BounceWay {
     if which.depth == 0u {
         return BounceWay(0.0, f32(way == which.way));

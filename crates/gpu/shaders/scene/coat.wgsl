@@ -2,7 +2,7 @@
 
 // Needs, beside its modules: fresnel_curves.
 
-// Of its refractive index, COAT_IOR of crates/scene.
+// Reflectance at normal incidence by its refractive index, COAT_IOR of crates/scene.
 const COAT_F0: vec3f = vec3f(0.04);
 
 // The share of the surface that it covers, and its roughness: 16 bits each, as of materials. Beside normals of its own 12 bits each, and 8 to spare.
@@ -21,7 +21,7 @@ fn surface_coat(coat: u32) -> vec2f {
     return select(vec2f(0.0), unpack2x16unorm(coat), HAS_COATS);
 }
 
-// What is under the coat has the coat's normal. No packed normal is this one.
+// Mark of a surface under the coat with the coat's normal. No packed normal is this one.
 const UNDER_COAT_ALIKE: u32 = 0x80008000u;
 
 // A unit vector as a point of an octahedron that is folded open: 16 bits each. Z. Cigolle et al., "A Survey of Efficient Representations for
@@ -39,7 +39,7 @@ fn under_coat_normal(packed: u32) -> vec3f {
     return normalize(vec3f(unfolded - below * select(vec2f(-1.0), vec2f(1.0), unfolded >= vec2f(0.0)), z));
 }
 
-// What is under the coat, in its own frame. Twin: SurfacePoint::under_coat.
+// The surface under the coat, in its own frame. Twin: SurfacePoint::under_coat.
 fn surface_under_coat(point: SurfacePoint) -> SurfacePoint {
     var under = point;
     if HAS_COAT_NORMALS && point.under_coat != UNDER_COAT_ALIKE {
@@ -71,7 +71,7 @@ fn coat_fresnel() -> FresnelRgb {
     return FresnelRgb(COAT_F0, 1.0, COAT_CURVE);
 }
 
-// What the surface in which scratches lie reflects: the layer, where it is.
+// Reflectance of the surface in which scratches lie: the layer, where it is.
 fn coated_reflectance(base: FresnelRgb, coat: u32, cos_theta: f32) -> vec3f {
     var reflectance = fresnel_eval(fresnel_curves, base, cos_theta);
     if HAS_COATS {

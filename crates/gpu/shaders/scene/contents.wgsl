@@ -1,10 +1,11 @@
-// What a scene has. Pipelines are compiled for it, without the code for what is not there. Twin: src/variant.rs.
+// Contents of a scene. Pipelines are compiled for it, without the code for what is not there. Twin:
+// src/variant.rs.
 
 override HAS_SCRATCHES: bool = true;
 override HAS_GRATINGS: bool = true;
 // Gratings whose grooves could be seen one by one.
 override HAS_SINGLE_GROOVES: bool = true;
-// And among these such that come nearer to one another along their way.
+// Those among them that come nearer to one another along their way.
 override HAS_BRANCHING_GROOVES: bool = true;
 // Gratings with pictures, or along texture coordinates.
 override HAS_GROOVE_MAPS: bool = true;
@@ -18,7 +19,7 @@ override HAS_TUBES: bool = true;
 override ONLY_TUBES: bool = false;
 override ONLY_PICTURES: bool = false;
 override HAS_ENVIRONMENT: bool = true;
-// The same of lights that do not shine on scratches alone.
+// Kinds of lights that do not shine on scratches alone.
 override BASE_HAS_SPHERES: bool = true;
 override BASE_HAS_POLYGONS: bool = true;
 override HAS_DOORS: bool = true;
@@ -26,7 +27,7 @@ override HAS_PICTURES: bool = true;
 override HAS_TEXTURES: bool = true;
 // Colours of vertices.
 override HAS_COLORS: bool = true;
-// Surfaces that are not everywhere on their triangles.
+// Surfaces with cutouts.
 override HAS_CUTOUTS: bool = true;
 // Materials that are not metal through and through: light falls on a body under the surface.
 override HAS_BODIES: bool = true;

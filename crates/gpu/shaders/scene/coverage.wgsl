@@ -1,14 +1,15 @@
-// Which of the surfaces that cover a part of what lies behind them a ray meets. Twin: index/src/coverage.rs.
+// Rule by which a ray meets surfaces that cover a part of what lies behind them. Twin:
+// index/src/coverage.rs.
 
-// What the threshold of a material is whose alpha is such a share. Twin: src/host.rs.
+// Threshold of a material whose alpha is such a share. Twin: src/host.rs.
 const ALPHA_IS_SHARE: f32 = 2.0;
 
-// For the sample of a pixel. Rounds of one key spread their numbers evenly.
+// Key of the sample of a pixel. Rounds of one key spread their numbers evenly.
 fn coverage_key_of_pixel(pixel: vec2u) -> u32 {
     return sobol_hash(pixel.x ^ sobol_hash(pixel.y));
 }
 
-// For a ray that is drawn by chance itself.
+// Key of a ray that is drawn by chance itself.
 fn coverage_key_of_ray(ray: TreeRay) -> u32 {
     let origin = bitcast<vec3u>(ray.origin_m);
     let direction = bitcast<vec3u>(ray.direction);

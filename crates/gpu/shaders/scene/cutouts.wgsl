@@ -1,4 +1,4 @@
-// Where surfaces are not. Twins: scene/src/texture_lookup.rs, index/src/cutouts.rs.
+// Cutouts: parts of triangles where their surface is not. Twins: scene/src/texture_lookup.rs, index/src/cutouts.rs.
 
 // Layers of cut-out surfaces that a ray goes through; at the next one it ends.
 const CUTOUT_LAYERS: u32 = 64u;
@@ -38,7 +38,7 @@ fn cutout_is_there(hit: TriangleHit, only: u32, key: u32) -> bool {
     return coverage_meets(alpha, triangle, key, 0u);
 }
 
-// As tree_hit, through what is cut out.
+// tree_hit() through the cutouts.
 fn cutout_hit(tree: texture_2d<u32>, ray: TreeRay, limit_m: f32, but: u32, first_met: bool, only: u32) -> TriangleHit {
     if !HAS_CUTOUTS {
         return tree_hit(tree, ray, limit_m, but, first_met);

@@ -50,7 +50,7 @@ fn drawn_sent(point: LitPoint, seen: SeenScratch, q: f32, cos_i: f32, filter_by:
     return rgb_luminance(filter_by * scratch_below(scratch_tables, point, seen, q, cos_i));
 }
 
-// Where a direction is looked for: a part of a line, with the cosine for the groove's depth.
+// Part of a line in which a direction is looked for, with the cosine for the groove's depth.
 struct DrawnFrom {
     line: BandLine,
     part: DrawnPart,
@@ -104,7 +104,7 @@ fn drawn_cos(seen: SeenScratch, line: BandLine, range: vec2f) -> f32 {
     return chord_cos(line, range.x, range.y, weighed_um(seen));
 }
 
-// By a sphere; u holds the numbers for the line, for the choice between lines, and for the chord.
+// Draws a direction to a sphere; u holds the numbers for the line, for the choice between lines, and for the chord.
 fn draw_sphere(point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: f32, u: vec3f) -> DrawnFrom {
     let light = sphere_cap(center_m, radius_m);
     let band = scratch_band(point, seen, light.axis, max(length(center_m), radius_m));
@@ -175,7 +175,7 @@ fn outline_next_root(view: OutlineView, line: BandLine, facing: f32, wraps: bool
 // Beyond any q.
 const DRAWN_NO_ROOT: f32 = 9.0;
 
-// What comes from an outline along a line.
+// Light of an outline along a line.
 fn outline_sent(point: LitPoint, seen: SeenScratch, view: OutlineView, line: BandLine, facing: f32, wraps: bool, cos_i: f32) -> vec3f {
     var sent = vec3f(0.0);
     var a: vec3f;
@@ -221,7 +221,7 @@ fn outline_part(point: LitPoint, seen: SeenScratch, view: OutlineView, line: Ban
     return part;
 }
 
-// By a polygon that faces the point.
+// Draws a direction to a polygon that faces the point.
 fn draw_outline(point: LitPoint, seen: SeenScratch, view: OutlineView, facing: f32, away: vec3f, center_m: vec3f, radius_m: f32, u: vec3f) -> DrawnFrom {
     let band = scratch_band(point, seen, sphere_cap(center_m, radius_m).axis, max(length(center_m), radius_m));
     let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
@@ -247,7 +247,8 @@ fn draw_outline(point: LitPoint, seen: SeenScratch, view: OutlineView, facing: f
     return taken;
 }
 
-// By light of radiance 1 from all around; the total is what comes of it. u holds the numbers for the choice between cells, and for the chord.
+// Draws a direction for light of radiance 1 from all around; the total is the light that is sent of it. u holds the numbers for the choice between
+// cells, and for the chord.
 fn draw_all_around(point: LitPoint, seen: SeenScratch, u: vec2f) -> DrawnFrom {
     var cell = draw_cell(point, seen, ENVIRONMENT_CELLS, mat3x3f(), false, u.x);
     cell.from_there.part.left = u.y * cell.luminance;
@@ -305,7 +306,7 @@ fn drawn_cell(i: u32, cells: u32, line: BandLine, seen: SeenScratch) -> Environm
     return environment_cell(i, line, seen.profile.width_um);
 }
 
-// What comes from a cell of the environment: the unit of the map.
+// Light of a cell of the environment, in the unit of the map.
 fn drawn_cell_light(seen: SeenScratch, map_from_surface: mat3x3f, cell: EnvironmentCell) -> vec3f {
     let direction = map_from_surface * surface_from_band(seen.tangent, cell.direction);
     return environment_prefiltered(levels_beside_windows, direction, environment_cell_roughness(cell));
@@ -344,9 +345,10 @@ fn draw_cell(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: m
     return taken;
 }
 
-// Where under the pixel a part lies that sees the scratch: standard deviations of the pixel's filter to the right and down. Of what is normal
-// over the pixel, the distance across the scratch is known, and what is along it lies between its ends. `normals` are three standard normal
-// numbers. Twin: BandPlace::drawn of optics/src/band/lines.rs.
+// Draws the place under the pixel of a part that sees the scratch: standard deviations of the pixel's filter to the right and down. Of what is
+// normal over the pixel, the distance across the scratch is known, and the place along it lies between its ends. Of what is normal over the pixel,
+// the distance across the scratch is known, and what is along it lies between its ends. `normals` are three standard normal numbers. Twin:
+// BandPlace::drawn of optics/src/band/lines.rs.
 fn place_drawn(point: LitPoint, seen: SeenScratch, start_um: vec2f, end_um: vec2f, blur_um: f32, normals: vec3f, u: f32) -> vec2f {
     let across = seen.across_um;
     let slopes = across / seen.variance_sq_um;

@@ -74,7 +74,7 @@ fn draw_light(pair: Pair, light: Light, u: vec3f) -> DrawnFrom {
     return drawn;
 }
 
-// How far a light is in a direction that goes to it, or past it by little. Below zero or not finite where it is not there.
+// Distance of a light in a direction that goes to it, or past it by little. Below zero or not finite where it is not there.
 fn light_reach_m(pair: Pair, light: Light, direction: vec3f) -> f32 {
     var reach_m = 0.0;
     if HAS_SPHERES && light.kind == LIGHT_SPHERE {

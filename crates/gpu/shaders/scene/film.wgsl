@@ -1,4 +1,4 @@
-// Where pixels and their samples lie in the arrays of a strip and in the film.
+// Places of pixels and their samples in the arrays of a strip and in the film.
 
 // Tiles are squares of so many pixels. Twin: src/strip.rs.
 const TILE_PX: u32 = 8u;
@@ -8,7 +8,7 @@ fn strip_index(pixel: vec2u) -> u32 {
     return (pixel.y + 1u - frame.rows.x) * frame.size_px.x + pixel.x;
 }
 
-// Where a pixel of the strip lies in the film.
+// Index in the film of a pixel of the strip.
 fn film_index(pixel: vec2u) -> u32 {
     return (pixel.y - frame.film_row) * frame.size_px.x + pixel.x;
 }
@@ -22,7 +22,7 @@ fn strip_tiles() -> vec2u {
 // edges, pixel after pixel.
 const GROUP: u32 = 64u;
 
-// Where lane `i` of a group finds its surface point; beyond the picture's border that of another pixel.
+// Index of the surface point of lane `i` of a group; beyond the picture's border that of another pixel.
 fn group_point(group: u32, i: u32) -> u32 {
     if frame.step > 0u {
         return GROUP * group + i;

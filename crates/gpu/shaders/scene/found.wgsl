@@ -1,4 +1,4 @@
-// What rays found of the layers of a sample's light: docs/model.md, section 11. Twins: image/src/found.rs, cpu/src/found.rs.
+// Light that rays found in the layers of a sample: docs/model.md, section 11. Twins: image/src/found.rs, cpu/src/found.rs.
 
 // The layers of a sample. Those by which rays leave it in a way begin with the way's; the base has two.
 const FOUND_SPECULAR: u32 = 0u;
@@ -10,7 +10,7 @@ fn found_layers() -> u32 {
     return select(3u, 4u, HAS_GRATINGS);
 }
 
-// Where a layer of a sample lies.
+// Index of a layer of a sample.
 fn found_at(at: u32, layer: u32) -> u32 {
     return found_layers() * at + layer;
 }
@@ -37,7 +37,7 @@ fn found_share(weight: vec3f, seen: vec3f) -> vec3f {
     return vec3f(found_ratio(seen.x, weight.x, of_all), found_ratio(seen.y, weight.y, of_all), found_ratio(seen.z, weight.z, of_all));
 }
 
-// What is left of a closed form by the shares of its channels. A channel below 0, where a colour lies outside of the gamut, goes with the
+// Multiplies a closed form by the shares of its channels. A channel below 0, where a colour lies outside of the gamut, goes with the
 // luminance of the others: what is left has no negative luminance.
 fn found_left(open: vec3f, share: vec3f) -> vec3f {
     let bright = max(open, vec3f(0.0));

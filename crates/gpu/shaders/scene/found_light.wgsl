@@ -1,6 +1,6 @@
-// What rays found of a pixel, as the host has it. Twin: image/src/found.rs.
+// Light that rays found in a pixel, as the host has it. Twin: image/src/found.rs.
 
-// Of the object: samples see several.
+// Number in the place of the object: samples see several.
 const FOUND_SEVERAL_OBJECTS: u32 = 0xffffffffu;
 
 fn found_rgb(rgb: array<f32, 3>) -> vec3f {

@@ -1,15 +1,15 @@
 // A sample with a grating that it sees. Twin: cpu/src/shade_gratings.rs.
 
-// Those of each object one after the other, each once for each material that it lies on.
+// Gratings of each object one after the other, each once for each material that it lies on.
 @group(3) @binding(2) var<storage, read> gratings: array<Grating>;
 
-// How the point moves by one standard deviation of the pixel's filter to the right and down.
+// Movements of the point by one standard deviation of the pixel's filter to the right and down.
 fn grating_steps_m(pixel: PixelPoint) -> mat2x3f {
     let axes = mat2x3f(pixel.axis_x, cross(pixel.normal, pixel.axis_x));
     return axes * mat2x2f(1e-6 * pixel.footprint_um.xy, 1e-6 * pixel.footprint_um.zw);
 }
 
-// Where the grooves of a grating go about a sample, on a triangle.
+// Course of the grooves of a grating about a sample, on a triangle.
 fn grating_course(pixel: PixelPoint, triangle: u32, grating: Grating) -> GrooveCourse {
     if HAS_GROOVE_MAPS && (grating.maps & (GROOVES_BY_U | GROOVES_BY_V)) != 0u {
         let steps_m = grating_steps_m(pixel);
@@ -33,7 +33,7 @@ fn grating_is_on(grating: Grating, paint: PixelPaint) -> bool {
     return grating.material == (vertices[3u * paint.triangle].material & ~VERTEX_BITANGENT_FLIPPED);
 }
 
-// How much of the surface all gratings of a sample would cover. They lie side by side: beyond 1 each gets its part.
+// Share of the surface that all gratings of a sample would cover. They lie side by side: beyond 1 each gets its part.
 fn gratings_cover(pixel: PixelPoint, paint: PixelPaint) -> f32 {
     let object = objects[pixel.object - 1u];
     var covered = 0.0;
@@ -65,14 +65,14 @@ fn grating_part(grating: Grating, place: GroovePlace, normal: vec3f, part: u32) 
     return groove_way(grating, place, normal, part - 1u);
 }
 
-// As a pair with a scratch. `covered` is what all gratings would cover.
+// The grating as a pair with a scratch. `covered` is the share that all gratings would cover.
 fn grating_pair(pixel: PixelPoint, triangle: u32, grating_and_part: u32, covered: f32) -> Pair {
     let grating = gratings[grating_and_part & 0xffffffu];
     let place = grating_place(pixel, triangle, grating);
     return grating_pair_at(pixel, triangle, grating, grating_part(grating, place, pixel.normal, grating_and_part >> 24u), covered);
 }
 
-// To a light part 1 stands for all that are in all directions.
+// Part that stands, towards a light, for all grooves that are in all directions.
 const GRATING_PART_ACROSS: u32 = 1u;
 
 // That pair, turned to a light.
@@ -88,7 +88,7 @@ fn grating_pair_across(pair: Pair, grating: Grating, place: GroovePlace, light_i
     return across;
 }
 
-// The same where its place is known.
+// grating_pair() where the place is known.
 fn grating_pair_at(pixel: PixelPoint, triangle: u32, grating: Grating, place: GroovePlace, covered: f32) -> Pair {
     let axis_y = cross(pixel.normal, pixel.axis_x);
     let along = vec2f(dot(place.tangent, pixel.axis_x), dot(place.tangent, axis_y));

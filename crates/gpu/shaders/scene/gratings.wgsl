@@ -1,23 +1,23 @@
-// Gratings: where on a surface their grooves run which way, and how a sample sees them. Twin: crates/scene/src/grating.rs.
+// Gratings: directions of their grooves on a surface, and how a sample sees them. Twin: crates/scene/src/grating.rs.
 
 const GROOVES_ALONG: u32 = 0u;
 const GROOVES_CIRCULAR: u32 = 1u;
 const GROOVES_RADIAL: u32 = 2u;
 const GROOVES_SPUN: u32 = 3u;
 
-// Of Grating.maps: the mask lies from three sides; grooves run along the first texture coordinate, along the second.
+// Bits of Grating.maps: the mask lies from three sides; grooves run along the first texture coordinate, along the second.
 const GROOVES_MASK_BY_SIDES: u32 = 1u;
 const GROOVES_BY_U: u32 = 2u;
 const GROOVES_BY_V: u32 = 4u;
 
 // Nearer than this to its axis a field has no direction.
 const GROOVES_NO_DIRECTION_M: f32 = 1e-8;
-// Where a surface stands across a direction, its projection is noise.
+// Least part of a direction in the plane of a surface: below it the projection is noise.
 const GROOVES_LEAST_PART: f32 = 1e-3;
 // Beyond so many standard deviations a normal distribution has nothing.
 const GROOVES_FAR_STD: f32 = 9.0;
 
-// Where grooves along a direction go, about a point.
+// Direction and numbering of grooves about a point.
 struct GrooveCourse {
     here: vec3f,                // the direction there, of any length
     level: f32,                 // what grooves by texture coordinates stay at, in turns of the texture
@@ -121,7 +121,7 @@ fn groove_place(grating: Grating, course: GrooveCourse, point_m: vec3f, normal: 
     return GroovePlace(tangent, turns, grating.angle_std_rad, share, mixed);
 }
 
-// In how many directions a pixel sees grooves besides those at the point.
+// Number of directions in which a pixel sees grooves besides those at the point.
 fn groove_ways(place: GroovePlace) -> u32 {
     return select(0u, SPOT_WAYS, place.mixed > 0.0);
 }
@@ -133,7 +133,7 @@ fn groove_of_one_spot(place: GroovePlace) -> GroovePlace {
     return own;
 }
 
-// Of the grooves in all directions those of one, for light from all around.
+// Grooves of one direction, of those in all directions, for light from all around.
 fn groove_way(grating: Grating, place: GroovePlace, normal: vec3f, i: u32) -> GroovePlace {
     let angle_rad = (f32(i) + 0.5) * SPOT_WAY_RAD;
     var way = place;

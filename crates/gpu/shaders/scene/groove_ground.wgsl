@@ -47,7 +47,7 @@ fn groove_picture(texture: vec2u, uv: vec2f, filter_side: f32) -> vec4f {
     return scene_texture(texture, uv, lod, filter_side);
 }
 
-// What a mask leaves of a grating: its mean over the pixel.
+// Share of a grating that a mask leaves: its mean over the pixel.
 fn groove_mask(grating: Grating, triangle: u32, position_m: vec3f, right_m: vec3f, down_m: vec3f) -> f32 {
     let ground = groove_ground(triangle, position_m, right_m, down_m);
     if (grating.maps & GROOVES_MASK_BY_SIDES) == 0u {
@@ -97,7 +97,7 @@ fn groove_along(grating: Grating, triangle: u32, weights: vec2f, uv: vec2f, filt
     return tangent * way.x + bitangent * way.y;
 }
 
-// Where grooves go that run by texture coordinates.
+// Course of grooves that run by texture coordinates.
 fn groove_course_by_uv(grating: Grating, triangle: u32, position_m: vec3f, normal: vec3f, right_m: vec3f, down_m: vec3f) -> GrooveCourse {
     let ground = groove_ground(triangle, position_m, right_m, down_m);
     var course: GrooveCourse;

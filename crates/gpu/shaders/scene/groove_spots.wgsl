@@ -3,17 +3,17 @@
 // Radius of a spot, in spacings. Every place is within 0.625 of a spot's middle.
 const SPOT_RADIUS: f32 = 0.75;
 
-// In so many directions spots that are smaller than a pixel meet light from all around.
+// Number of directions in which spots smaller than a pixel meet light from all around.
 const SPOT_WAYS: u32 = 8u;
 const SPOT_WAY_RAD: f32 = 0.3926991;
 // Standard deviation of angles for which a Gaussian of them has the density of all angles, 1/pi, at its middle.
 const SPOT_ALL_AROUND_STD_RAD: f32 = 1.2533141;
 // Wider in cosines no band is: below BAND_STD_MAX, so that its own width has room.
 const SPOT_WIDEST_XI: f32 = 0.28;
-// By more grooves of a spot do not turn within a pixel.
+// Largest turn of the grooves of a spot within a pixel.
 const SPOT_MOST_TURN_RAD: f32 = 0.12;
 
-// Which part of a pixel's grooves run in all directions.
+// Share of a pixel's grooves that run in all directions.
 fn spots_mixed(spacing_m: f32, right_m: vec3f, down_m: vec3f) -> f32 {
     return smoothstep(0.15, 0.4, max(length(right_m), length(down_m)) / spacing_m);
 }
@@ -51,7 +51,7 @@ fn spot_middle(at: vec2f) -> vec2f {
     return found;
 }
 
-// From what grooves lie about to a place so far from the middle of their field.
+// Vector from the middle that grooves lie about to a place, given that from the middle of their field.
 fn groove_arm(grating: Grating, arm_m: vec3f) -> vec3f {
     if !HAS_GROOVE_SPOTS || grating.spacing_m <= 0.0 {
         return arm_m;

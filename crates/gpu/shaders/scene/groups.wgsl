@@ -1,12 +1,12 @@
-// Which tile a group belongs to, and how the tile's list is cut into chunks.
+// Tile of a group, and the chunks of the tile's list.
 
-// For each tile its first group, in later steps; one more than tiles.
+// First group of each tile, in later steps; one more than tiles.
 @group(3) @binding(0) var<storage, read> group_starts: array<u32>;
 
 // Segments of a list that one workgroup of shade_scratches takes. Small enough that no software driver ends its loops. Twin: src/strip.rs.
 const CHUNK_SEGMENTS: u32 = 512u;
 
-// Where the list of a group begins and ends, as places in the array of starts: a list for each tile, or for each sample.
+// Start and end of the list of a group, as places in the array of starts: a list for each tile, or for each sample.
 fn group_list(group: u32) -> vec2u {
     if AT_HITS {
         return GROUP * vec2u(group, group + 1u);

@@ -1,6 +1,7 @@
-// From a triangle that a ray meets to the surface point: interpolation, normal map, textures. Twin: cpu/src/surface.rs.
+// Converts a triangle that a ray meets to the surface point: interpolation, normal map, textures. Twin:
+// cpu/src/surface.rs.
 
-// How a point is looked at.
+// View of a point.
 struct HitView {
     ray: vec3f,
     depth_m: f32,               // of the point, in lengths of the ray
@@ -14,7 +15,7 @@ fn hit_axis(view: HitView, normal: vec3f, change: vec3f) -> vec3f {
     return footprint_axis_from(view.ray, view.depth_m, normal, change, view.least_cos);
 }
 
-// Where textures are looked up: by either set of coordinates, with a filter so wide in texture space.
+// Place of a look-up in textures: by either set of coordinates, with a filter so wide in texture space.
 struct TexturePlace {
     uv: vec2f,
     filter_side: f32,
@@ -48,7 +49,7 @@ fn vertex_color(vertex: Vertex) -> vec4f {
     return vec4f(unpack2x16unorm(vertex.color.x), unpack2x16unorm(vertex.color.y));
 }
 
-// How the interpolated normal of a triangle turns along a step on its plane; `interpolated` is not yet a unit vector.
+// Turn of the interpolated normal of a triangle along a step on its plane; `interpolated` is not yet a unit vector.
 fn hit_normal_turn(a: Vertex, b: Vertex, c: Vertex, geometric: vec3f, interpolated: vec3f, step: vec3f) -> vec3f {
     let e1 = b.position_m - a.position_m;
     let e2 = c.position_m - a.position_m;
@@ -65,7 +66,7 @@ fn hit_normal_turn(a: Vertex, b: Vertex, c: Vertex, geometric: vec3f, interpolat
     return (change - interpolated * (dot(change, interpolated) / length2)) * inverseSqrt(length2);
 }
 
-// How a point's surface is turned to the viewer, and the footprint there.
+// Sets the frame of a point's surface towards the viewer, and the footprint there.
 fn hit_turn(point: ptr<function, SurfacePoint>, normal: vec3f, to_viewer: vec3f, view: HitView) {
     (*point).normal = normal;
     // The viewer in the x-z plane; any x will do where they look along the normal.
@@ -79,7 +80,7 @@ fn hit_turn(point: ptr<function, SurfacePoint>, normal: vec3f, to_viewer: vec3f,
     (*point).footprint_y_um = vec2f(dot(y_um, (*point).axis_x), dot(y_um, (*point).axis_y));
 }
 
-// What a point's surface is made of.
+// Sets the material of a point's surface.
 fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
     (*point).emission = material.emission;
     (*point).roughness = material.roughness;
@@ -103,7 +104,7 @@ fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
     }
 }
 
-// Where textures lie on a surface: unit vectors along u and across it.
+// Unit vectors on a surface along u and across it.
 struct HitTangents {
     along: vec3f,
     across: vec3f,
@@ -116,7 +117,7 @@ fn hit_tangents(a: Vertex, b: Vertex, c: Vertex, weights: vec3f, smooth_normal: 
     return HitTangents(along, cross(smooth_normal, along) * flip);
 }
 
-// What a normal map, if there is one, makes of a normal, and how far its slopes spread there.
+// Normal by a normal map, if there is one, and the spread of its slopes there.
 fn hit_normal(map: vec2u, scale: f32, a: Vertex, b: Vertex, c: Vertex, weights: vec3f, place: TexturePlace, smooth_normal: vec3f) -> vec4f {
     if !hit_has_texture(map) {
         return vec4f(smooth_normal, 0.0);
@@ -130,7 +131,7 @@ fn hit_normal(map: vec2u, scale: f32, a: Vertex, b: Vertex, c: Vertex, weights: 
     return vec4f(surface_normalize_or(slopes + smooth_normal * texel.z, smooth_normal), looked_up.w * abs(scale));
 }
 
-// Which way its facets lean most, and how far.
+// Sets the direction in which its facets lean most, and their alphas.
 fn hit_brush(point: ptr<function, SurfacePoint>, material: Material, place: TexturePlace, tangents: HitTangents) {
     var strength = material.anisotropy;
     var own = vec2f(1.0, 0.0);
@@ -149,7 +150,7 @@ fn hit_brush(point: ptr<function, SurfacePoint>, material: Material, place: Text
     (*point).long_alpha = alpha + (1.0 - alpha) * strength * strength;
 }
 
-// Its clear layer at a place of its textures, packed as its factors are.
+// Clear layer of a material at a place of its textures, packed as its factors are.
 fn hit_coat(material: Material, place: TexturePlace) -> u32 {
     var coat = unpack2x16unorm(material.coat);
     if hit_has_texture(material.coat_texture) {
@@ -161,7 +162,7 @@ fn hit_coat(material: Material, place: TexturePlace) -> u32 {
     return pack2x16unorm(coat);
 }
 
-// What a material is at a place of its textures.
+// Material at a place of its textures.
 fn hit_textured(material: Material, place: TexturePlace) -> Material {
     var there = material;
     if hit_has_texture(material.base_color_texture) {

@@ -184,10 +184,10 @@ struct PixelPoint {
     leaves: f32,                // how far the surface may be off the plane of shading for each length along it
 }
 
-// Of table_and_place: the surface may cover only a part of what lies behind it.
+// Bit of table_and_place: the surface may cover only a part of what lies behind it.
 const PIXEL_PARTIAL: u32 = 0x80000000u;
 
-// What its surface is made of, as the base needs it.
+// Material of a sample's surface, as the base needs it.
 struct PixelPaint {
     f0: vec3f,
     lobe: u32,                  // roughness and spread of slopes, in 16 bits each; with anisotropy see pixel_lobe_pack()
@@ -258,7 +258,7 @@ struct ShadowRay {
     offset_y: f32,              // and down
 }
 
-// What rays found of a layer of a sample: sums over rounds; then light, by shadow_found.wgsl.
+// Light that rays found in a layer of a sample: sums over rounds; then light, by shadow_found.wgsl.
 struct FoundRays {
     weight: vec3f,              // of rays to sources; its mean is the closed form
     round_weight: f32,          // luminances of the round in hand
@@ -272,7 +272,7 @@ struct FoundRays {
     bounced_moments: vec2f,     // the same of the luminance of what it brings
 }
 
-// As image/src/found.rs has it, which says what it is. Sums over the samples of a pixel.
+// See image/src/found.rs, which documents it. Sums over the samples of a pixel.
 struct FoundLight {
     open: array<f32, 3>,
     around: array<f32, 3>,
@@ -325,7 +325,7 @@ struct Film {
     pixels: array<FilmPixel>,
 }
 
-// Which digit of a tile's number a pass of the radix sort looks at.
+// Digit of a tile's number that a pass of the radix sort looks at.
 struct SortSettings {
     shift: u32,
     block_count: u32,
@@ -335,7 +335,7 @@ struct ScanSettings {
     count: u32,
 }
 
-// What a dispatch of the filter takes.
+// Settings of a dispatch of the filter.
 struct FilterSettings {
     size_px: vec2u,             // of the picture
     first_row: u32,             // of the band
@@ -356,7 +356,7 @@ struct FilterSettings {
     least_alike: f32,
 }
 
-// How a film is shown.
+// Settings for showing a film.
 struct DisplaySettings {
     size_px: vec2u,
     tone_map: u32,

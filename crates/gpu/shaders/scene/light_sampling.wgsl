@@ -8,7 +8,7 @@ struct DrawnToLight {
     whole: f32,                 // solid angle that is drawn from, overlaps counted; 0: nothing is seen
 }
 
-// Where a direction meets a light.
+// Hit of a direction on a light.
 struct MetLight {
     distance_m: f32,            // 0: it does not
     covers: f32,                // how often the drawn solid angle covers it
@@ -20,7 +20,7 @@ fn sphere_versine(center_m: vec3f, radius_m: f32) -> f32 {
     return select(2.0, sin2 / (1.0 + sqrt(max(1.0 - sin2, 0.0))), sin2 < 1.0);
 }
 
-// Where a direction meets a sphere first, or passes it nearest; below zero where it passes.
+// Distance at which a direction meets a sphere first, or passes it nearest; below zero where it passes.
 fn sphere_reach_m(center_m: vec3f, radius_m: f32, direction: vec3f) -> f32 {
     let along = dot(center_m, direction);
     // Not a difference of squares, which cancels for far spheres.

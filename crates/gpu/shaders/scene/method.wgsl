@@ -5,7 +5,7 @@ override PUBLISHED_LISTS: bool = false;
 // Whether a pixel averages its footprint, in place of the point in its middle.
 override PUBLISHED_ANTI_ALIASING: bool = true;
 override PUBLISHED_FAST_SI: bool = true;
-// By which mask the base pays. Twin: optics/src/mask.rs.
+// Mask by which the base loses energy. Twin: optics/src/mask.rs.
 override METHOD_MASK: u32 = 0u;
 const MASK_ENERGY: u32 = 0u;
 const MASK_LINEAR: u32 = 1u;

@@ -1,5 +1,5 @@
-// Which pixels see a segment: of those that its line comes near to, the ones under whose footprints it lies.
-// Twin: cpu/src/shade_scratches/lanes.rs.
+// Test of which pixels see a segment: of those that its line comes near to, the ones under whose footprints it lies. Twin:
+// cpu/src/shade_scratches/lanes.rs.
 
 // The ends of a segment, from the camera, and what smooths them.
 struct Ends {
@@ -8,7 +8,7 @@ struct Ends {
     blur_um: f32,
 }
 
-// What the test of segments needs to know of a pixel.
+// Values of a pixel for the test of segments.
 struct Nearness {
     position_m: vec3f,          // from the camera
     axis_x: vec3f,

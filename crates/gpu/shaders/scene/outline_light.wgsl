@@ -1,5 +1,5 @@
-// What one scratch sends to the viewer of a polygon with more than four vertices, or of a tube. Edges are visited one by one, several times, so that
-// no array holds their roots. Twin: cpu/src/shade_scratches/scratch_light.rs.
+// Light that one scratch sends to the viewer of a polygon with more than four vertices, or of a tube. Edges are visited one by one, several times,
+// so that no array holds their roots. Twin: cpu/src/shade_scratches/scratch_light.rs.
 
 // A polygon as one scratch sees it.
 struct OutlineView {
@@ -69,7 +69,7 @@ fn outline_range(view: OutlineView, line: BandLine, away: vec3f) -> OutlineRange
     return OutlineRange(select(range, arc, range.x > range.y), line_in_light(line, winding, away));
 }
 
-// By a polygon of radiance 1.
+// Light of a polygon of radiance 1.
 fn scratch_outline(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, view: OutlineView, facing: f32, away: vec3f, center_m: vec3f, radius_m: f32) -> vec3f {
     let band = scratch_band(point, seen, sphere_cap(center_m, radius_m).axis, max(length(center_m), radius_m));
     let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);

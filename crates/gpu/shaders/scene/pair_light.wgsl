@@ -1,6 +1,6 @@
-// What a pair sends of the light of one kind of area lights. Twin: cpu/src/shade_scratches/scratch_light.rs.
+// Light that a pair sends of one kind of area lights. Twin: cpu/src/shade_scratches/scratch_light.rs.
 
-// Which kind of light the pass is compiled for.
+// Kind of light for which the pass is compiled.
 override SCRATCH_LIGHTS: u32 = 0u;
 const SCRATCH_LIGHTS_SPHERES: u32 = 0u;
 const SCRATCH_LIGHTS_QUADS: u32 = 1u;
@@ -8,7 +8,8 @@ const SCRATCH_LIGHTS_OUTLINES: u32 = 2u;
 const SCRATCH_LIGHTS_TUBES: u32 = 3u;
 const SCRATCH_LIGHTS_PICTURES: u32 = 4u;
 const SCRATCH_LIGHTS_ENVIRONMENT: u32 = 5u;
-// None: scratches are picked by the energy that they take of the base. Light of other objects goes by way of them.
+// No kind: scratches are picked by the energy that they take of the base. Light of other objects goes by way of
+// them.
 const SCRATCH_LIGHTS_NONE: u32 = 6u;
 
 // Whether the pass is for light from all around.

@@ -1,4 +1,4 @@
-// Where under its pixel a pair lies.
+// Place of a pair under its pixel.
 
 // Standard deviations of the pixel's filter to the right and down: see place_drawn().
 fn pair_place(pair: Pair, pixel: PixelPoint, segment: Segment, normals: vec3f, u: f32) -> vec2f {

@@ -8,7 +8,8 @@ struct Pair {
     surface: mat3x3f,           // the surface's axes in world space
 }
 
-// What a segment takes of the base of a pixel, as it adds to the sums. The colourless density of Velinov et al. (2018) is twice the share.
+// Energy that a segment takes of the base of a pixel, as it adds to the sums. The colourless density of Velinov et al. (2018) is twice the
+// share.
 fn pair_energy(tables: texture_2d_array<u32>, pair: Pair) -> vec3f {
     var energy = vec3f(2.0);
     if METHOD_MASK != MASK_DENSITY {
@@ -31,7 +32,7 @@ fn pair_point(pixel: PixelPoint, table: u32) -> LitPoint {
     );
 }
 
-// How much wider the filter of a pixel is than that of its samples.
+// Ratio of the filter of a pixel to that of its samples.
 fn scratched_wider() -> f32 {
     return frame.list_std_px / frame.footprint_std_px;
 }

@@ -4,7 +4,7 @@
 //
 // One array holds, for each chunk and lane, a state, and behind the states of all chunks for each sample its picks.
 
-// How far the running sum of a chunk has come.
+// Progress of the running sum of a chunk.
 struct PickState {
     sum: f32,                   // luminance, that of the chunks before it included
     next: u32,                  // stratum
@@ -39,7 +39,7 @@ fn pick_is_due(state: PickState) -> bool {
     return state.next < state.end && pick_threshold(state.seed, state.next, state.step) <= state.sum * 1.000004;
 }
 
-// In which round the pick of the next stratum serves: any stratum in any round.
+// Round in which the pick of the next stratum serves: any stratum in any round.
 fn pick_slot(state: PickState) -> u32 {
     return (state.next + state.seed) % max(state.per_sample, 1u);
 }

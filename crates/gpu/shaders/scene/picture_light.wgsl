@@ -1,7 +1,7 @@
-// Pictures on lights as a point sees them, and what one scratch sends to the viewer of a light with one. Twins: cpu/src/picture.rs,
+// Pictures on lights as a point sees them, and the light that one scratch sends of a light with one. Twins: cpu/src/picture.rs,
 // cpu/src/shade_scratches/scratch_light.rs.
 
-// As scene_texture() takes it.
+// Texture of the picture, for scene_texture().
 fn light_picture(light: Light) -> vec2u {
     let doors = select(0u, 3u, (light.extras & LIGHT_DOORS) != 0u);
     let at = light.first_vertex + light.vertex_count + doors;
@@ -39,7 +39,7 @@ fn picture_at(picture: vec2u, look: PictureLook) -> vec3f {
     return picture_radiance(picture, look.uv, picture_lod(look.spread, vec2f(scene_texture_size(picture))), vec2f(0.0), 1.0);
 }
 
-// In part `i` of a picture, which is not looked up in others.
+// Looks up part `i` of a picture, which is not looked up in others.
 fn picture_part_at(picture: vec2u, look: PictureLook, i: u32) -> vec3f {
     let share = 1.0 / f32(PICTURE_PARTS);
     let lod = picture_lod(picture_part_spread(look.spread), vec2f(scene_texture_size(picture)));

@@ -115,7 +115,7 @@ fn pixel_place(pixel: PixelPoint) -> u32 {
     return (pixel.table_and_place >> 16u) & 63u;
 }
 
-// Of table_and_place: samples of a pixel that see the same surface share scratches; one of them has these for all.
+// Bit of table_and_place: samples of a pixel that see the same surface share scratches; one of them has these for all.
 const PIXEL_SHARES: u32 = 0x08000000u;
 
 // The sample that has them lies so many places behind this one.

@@ -1,6 +1,6 @@
-// Where rays of a sample start that must not meet the surface that they leave. Twin: cpu/src/shadows.rs.
+// Origins of rays of a sample that must not meet the surface that they leave. Twin: cpu/src/shadows.rs.
 
-// Where on the surface a ray starts.
+// Origin of a ray on the surface.
 struct RayStart {
     position_m: vec3f,
     triangle: u32,              // + 1
@@ -30,15 +30,15 @@ fn ray_start(triangle: u32, barycentric: vec2f, to_viewer: vec3f) -> RayStart {
     return RayStart(position_m, triangle + 1u);
 }
 
-// Where on its own triangle the camera's ray through a place meets the surface, if it does.
+// Place on its own triangle where the camera's ray through a place meets the surface, if it does.
 fn own_barycentric(triangle: u32, ray: vec3f) -> vec2f {
     let a = vertices[3u * triangle].position_m;
     return surface_barycentric(frame.camera_m, ray, a, vertices[3u * triangle + 1u].position_m, vertices[3u * triangle + 2u].position_m);
 }
 
-// What a pixel shows so many standard deviations of its filter to the right and down: what the camera's ray there meets, if it is the
-// pixel's own object. On the triangles themselves, since a step along the plane of the normal would end below them where they are hollow.
-// Not on the plane of the pixel's own triangle either: it goes on behind what stands on it.
+// Place that a pixel shows so many standard deviations of its filter to the right and down: the hit of the camera's ray there, if it is
+// the pixel's own object. On the triangles themselves, since a step along the plane of the normal would end below them where they are
+// hollow. Not on the plane of the pixel's own triangle either: it goes on behind what stands on it.
 fn under_the_pixel(tree: texture_2d<u32>, pixel: PixelPoint, own: u32, stds: vec2f) -> RayStart {
     let middle = (pixel.position_m - frame.camera_m) / pixel.depth_m;
     let ray = middle + frame.footprint_std_px * (frame.per_px_x * stds.x + frame.per_px_y * stds.y);
@@ -49,7 +49,7 @@ fn under_the_pixel(tree: texture_2d<u32>, pixel: PixelPoint, own: u32, stds: vec
     return ray_start(own, own_barycentric(own, middle), -middle);
 }
 
-// Where rays of a sample start: under its pixel, or, of what another ray has met, there.
+// Origin of the rays of a sample: under its pixel, or, for a hit of another ray, at the hit.
 fn sample_start(tree: texture_2d<u32>, pixel: PixelPoint, own: u32, stds: vec2f) -> RayStart {
     if AT_HITS {
         let a = vertices[3u * own].position_m;

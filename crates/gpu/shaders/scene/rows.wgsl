@@ -81,7 +81,7 @@ fn scratch_segment(i: u32) -> ScratchSegment {
 // Without its vertices.
 const LIGHT_TEXELS: u32 = 5u;
 
-// Of a light with corners.
+// Whether a light with corners is a tube.
 fn light_is_tube(light: Light) -> bool {
     return ONLY_TUBES || (HAS_TUBES && light.kind == LIGHT_TUBE);
 }

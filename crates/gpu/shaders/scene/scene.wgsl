@@ -1,6 +1,6 @@
-// Look-ups in what the scene binds.
+// Look-ups in the bindings of the scene.
 
-// What the camera sees of the environment along a unit direction away from it, world space.
+// Radiance of the environment that the camera sees along a unit direction away from it, world space.
 fn scene_background(direction: vec3f) -> vec3f {
     if !HAS_ENVIRONMENT || (frame.environment_flags & ENVIRONMENT_VISIBLE) == 0u {
         return vec3f(0.0);
@@ -15,7 +15,7 @@ fn scene_prefiltered(direction: vec3f, roughness: f32) -> vec3f {
     return texel * frame.environment_texel_radiance;
 }
 
-// The same without its windows: for scratches.
+// The environment without its windows, for scratches.
 fn scene_beside_windows(direction: vec3f, roughness: f32) -> vec3f {
     let texel = environment_prefiltered(levels_beside_windows, frame.environment_from_world * direction, roughness);
     return texel * frame.environment_texel_radiance;
@@ -70,7 +70,7 @@ struct FourTexels {
     t: vec2f,
 }
 
-// Of a row without an end, two neighbours.
+// Two neighbours in an endless row of texels.
 struct TwoTexels {
     low: i32,
     high: i32,
@@ -107,7 +107,7 @@ fn scene_two_texels(place: f32, size: i32, wrap: u32) -> TwoTexels {
     return TwoTexels(scene_wrapped(i32(corner), size, wrap), scene_wrapped(i32(corner) + 1, size, wrap), at - corner);
 }
 
-// By hand and not by a sampler, so that sizes of all kinds share an array and every device blends alike.
+// Blends four texels by hand and not by a sampler, so that sizes of all kinds share an array and every device blends alike.
 fn scene_four_texels(texture: vec2u, level: u32, uv: vec2f, filter_side: f32) -> FourTexels {
     let all = scene_texture_size(texture);
     let size = vec2i(max(all >> vec2u(level), vec2u(1u)));
@@ -132,7 +132,7 @@ fn scene_blend(texels: FourTexels) -> vec4f {
     return mix(mix(texels.top_left, texels.top_right, texels.t.x), mix(texels.low_left, texels.low_right, texels.t.x), texels.t.y);
 }
 
-// Of a normal map, where w is how far slopes spread: beyond the texels' own also over what the pixel sees of the map.
+// Looks up a normal map; w is the standard deviation of the slopes, over the texels and over the part of the map that the pixel sees.
 fn scene_normals(texture: vec2u, uv: vec2f, lod: f32, filter_side: f32) -> vec4f {
     let level = floor(lod);
     let near = scene_normals_level(texture, u32(level), uv, filter_side);

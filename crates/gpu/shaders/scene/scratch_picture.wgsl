@@ -1,4 +1,5 @@
-// What one scratch sends to the viewer of a rectangle with a picture: each chord in parts. Twin: cpu/src/shade_scratches/scratch_light.rs.
+// Light that one scratch sends to the viewer of a rectangle with a picture: each chord in parts. Twin:
+// cpu/src/shade_scratches/scratch_light.rs.
 
 // A rectangle with a picture as a scratch sees it.
 struct PictureLight {
@@ -34,7 +35,7 @@ fn picture_direction(seen: SeenScratch, line: BandLine, q: f32) -> vec3f {
     return surface_from_band(seen.tangent, vec3f(line.along, q - line.offset, band_cos_at(line, q)));
 }
 
-// Of a chord from q to q.
+// Light of a chord from q to q.
 fn picture_chord(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, light: PictureLight, line: BandLine, ends: vec2f, cos_i: f32, across_variance: vec2f) -> vec3f {
     var sum = vec3f(0.0);
     var low = ends.x;
@@ -70,7 +71,7 @@ fn picture_chords(corners: FourRoots, line: BandLine) -> PictureChords {
     return PictureChords(chord, chord, 1u);
 }
 
-// By a rectangle of radiance 1 with a picture. It is cheaper to ask scratch_meets() first.
+// Light of a rectangle of radiance 1 with a picture. It is cheaper to ask scratch_meets() first.
 fn scratch_picture(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, light: PictureLight) -> vec3f {
     let quad = light.quad;
     let facing = polygon_facing(quad.normal, quad.a_m, quad.two_sided);

@@ -8,8 +8,8 @@ struct Segment {
     blur_um: f32,
 }
 
-// To half floats and bytes: five parts in ten thousand of a width, a depth or a blur, a degree of a normal that is
-// only asked which side of a sheet it is on.
+// Unpacks a segment from half floats and bytes: five parts in ten thousand of a width, a depth or a blur, a degree
+// of a normal that is only asked which side of a sheet it is on.
 fn segment_from(packed: ScratchSegment) -> Segment {
     let normal_blur = packed.normal_blur;
     let octahedral = unpack4x8snorm(normal_blur).xy;

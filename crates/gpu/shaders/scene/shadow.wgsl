@@ -1,6 +1,6 @@
-// What the passes of shadows share: docs/model.md, section 11. Twin: cpu/src/shadows.rs.
+// Functions that the passes of shadows share: docs/model.md, section 11. Twin: cpu/src/shadows.rs.
 
-// What random numbers are for: each purpose is a pair. Those of the candidates for the environment follow the last.
+// Uses of random numbers: each use is a pair. Those of the candidates for the environment follow the last.
 const SHADOW_START: u32 = 0u;
 const SHADOW_CHOICE: u32 = 1u;
 const SHADOW_LIGHT: u32 = 2u;
@@ -15,7 +15,7 @@ const BOUNCE_DIRECTION: u32 = 19u;
 const BOUNCE_PLACE: u32 = 20u;
 const SHADOW_PURPOSES: u32 = 32u;
 
-// Of a sample: another one for each place on the surface.
+// Seed of a sample: another one for each place on the surface.
 fn shadow_seed(position_m: vec3f, which: ShadowRound) -> u32 {
     let word = bitcast<vec3u>(position_m);
     return sobol_hash(word.x ^ sobol_hash(word.y ^ sobol_hash(word.z))) + which.seed;
@@ -38,7 +38,8 @@ fn shadow_normals(u: vec2f) -> vec2f {
 // No ray is as long: what is all around has no distance. Its square is a single still.
 const SHADOW_FAR_M: f32 = 1e15;
 
-// What rounding may move a point on a surface by: vertices are singles, and this is some ten steps of theirs.
+// Distance by which rounding may move a point on a surface: vertices are in single precision, and this is some ten
+// of its steps.
 fn ray_step_m(at_m: vec3f, extent_m: f32) -> f32 {
     return 1e-6 * (extent_m + length(at_m));
 }

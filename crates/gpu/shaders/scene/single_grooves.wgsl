@@ -10,7 +10,7 @@ const GROOVES_BRANCHING_REACH: i32 = 8;
 const GROOVES_GROWTH: f32 = 0.015625;
 // Grooves that branch are counted up to two to this power.
 const GROOVES_MOST_BITS: u32 = 20u;
-// Where arcs lie nearer than this to along the circles about their axis, they have no numbers: the cosine of what is between.
+// Least cosine between arcs and the direction away from their axis: nearer to the circles about it, arcs have no numbers.
 const GROOVES_LEAST_COS: f32 = 0.02;
 
 // Grooves about a point.
@@ -41,7 +41,7 @@ fn grooves_across(grating: Grating, arm_m: vec3f, direction: vec3f) -> vec4f {
     return vec4f(radius_m, height_m, dot(direction, away_m) / max(radius_m, 1e-30), dot(direction, grating.axis));
 }
 
-// Of the planes or cones that cut grooves, eight to a half turn, the one nearest to a direction.
+// Direction nearest to another one of the planes or cones that cut grooves, eight to a half turn.
 fn grooves_cut(towards: vec2f) -> vec2f {
     let size = abs(towards);
     let slope = min(size.x, size.y) / max(max(size.x, size.y), 1e-30);
@@ -116,13 +116,13 @@ fn grooves_branching_at(grating: Grating, course: GrooveCourse, arm_m: vec3f, no
     return GroovesAt(i32(round(at)), (round(at) - at) * place_um, place_um, bits, exp2(fract(doublings)) - 1.0);
 }
 
-// How much of a groove there is that branches, by its number, of those of all turns.
+// Share of a branching groove that has grown, by its number among those of all turns.
 fn groove_grown(at: GroovesAt, own: u32, is_odd: bool, seed: u32) -> f32 {
     let begins = f32(sobol_hash(own ^ sobol_hash(~seed)) >> 8u) / 16777216.0 * (1.0 - GROOVES_GROWTH);
     return select(1.0, clamp((at.taken - begins) / GROOVES_GROWTH, 0.0, 1.0), is_odd);
 }
 
-// How far a groove is off its place: of mean 0 and variance 1.
+// Displacement of a groove from its place: mean 0, variance 1.
 fn groove_shift(number: u32, seed: u32) -> f32 {
     let first = sobol_hash(number ^ sobol_hash(seed));
     let second = sobol_hash(first ^ 0x9e3779b9u);

@@ -16,7 +16,7 @@ fn grating_sums(group: u32, lane: u32) -> Masked {
     return Masked(sum.radiance, sum.energy);
 }
 
-// What scratches leave of what gratings send, and both of the mirror's direction: scratches lie on top.
+// Light of gratings under scratches, and the energy that both take of the mirror's direction: scratches lie on top.
 fn under_scratches(gratings: Masked, taken: vec3f) -> Masked {
     return Masked((1.0 - taken) * gratings.scratches, 1.0 - (1.0 - taken) * (1.0 - gratings.taken));
 }
@@ -41,7 +41,7 @@ fn sample_sums(group: u32, lane: u32) -> SampleSums {
     return SampleSums(sums, cut);
 }
 
-// The same of the sample `by` that has the scratches of the sample `at`.
+// Sums of the sample `by` that has the scratches of the sample `at`.
 fn sample_sums_of(by: u32, at: u32, group: u32, lane: u32) -> SampleSums {
     let place = by - at + lane + GROUP * group;
     return sample_sums(place / GROUP, place % GROUP);

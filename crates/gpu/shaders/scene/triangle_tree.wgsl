@@ -20,7 +20,7 @@ struct TreeRay {
 
 // Slab tests divide by the direction.
 const TREE_LEAST_COS: f32 = 1e-20;
-// What rounding makes of the end of a box, relative to it: divisions are off by some steps of single precision.
+// Relative rounding error of the end of a box: divisions are off by some steps of single precision.
 const TREE_SLACK: f32 = 1.000001;
 
 fn tree_ray(origin_m: vec3f, direction: vec3f) -> TreeRay {
@@ -63,7 +63,8 @@ fn tree_nearer(tree: texture_2d<u32>, texel: u32, ray: TreeRay, but: u32, neares
     return nearest;
 }
 
-// What the ray meets before `limit_m`, either side of a triangle, but not the one of number `but` (+ 1): the nearest, or the first that is found.
+// Hit of the ray before `limit_m`, on either side of a triangle, but not on the one of number `but` (+ 1): the nearest, or the first that is
+// found.
 fn tree_hit(tree: texture_2d<u32>, ray: TreeRay, limit_m: f32, but: u32, first_met: bool) -> TriangleHit {
     var hit = TriangleHit(limit_m, 0u, 0u, vec2f(0.0));
     // The root's next is the end of all; 0 of a scene without triangles.
