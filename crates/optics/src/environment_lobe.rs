@@ -3,7 +3,7 @@
 //!
 //! Seen along the normal GGX reflects a round lobe; seen from aside the lobe is longer in the plane of view and normal than across it, and a
 //! rough one is cut by the horizon. One round look-up puts a seventh of the light where it does not belong at 45 degrees, a quarter at 60; it
-//! shows as highlights that are not drawn out, in a veil. Places, widths and shares are fitted to GGX and tabulated (`cargo xtask fit-lobes`).
+//! shows as highlights that are not drawn out, in a veil. Places, widths and shares are fitted to GGX and tabulated (`cargo lab fit-lobes`).
 
 use crate::ggx::ggx_g1;
 use crate::lobe_table::{environment_middle_table, environment_table};

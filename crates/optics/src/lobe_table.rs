@@ -1,4 +1,4 @@
-//! The fitted tables behind the area-light lobes, committed under `data/` and made again by `cargo xtask fit-lobes`.
+//! The fitted tables behind the area-light lobes, committed under `data/` and made again by `cargo lab fit-lobes`.
 //!
 //! All tables share one grid: roughness in equal steps along the rows, the square root of the viewer's cosine in equal
 //! steps along the columns. The square root resolves grazing views, where everything changes within cos ~ alpha.

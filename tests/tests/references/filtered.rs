@@ -27,7 +27,7 @@ fn contrast(found: &[f64], truth: &[f64]) -> f64 {
     covariance / variance
 }
 
-/// The scenes of `cargo xtask unbiased`. The light of a slit as narrow as few pixels is drawn over the dark beside it, where scratches see less of it.
+/// The scenes of `cargo lab unbiased`. The light of a slit as narrow as few pixels is drawn over the dark beside it, where scratches see less of it.
 #[test]
 fn means_stay() {
     let bounds = [

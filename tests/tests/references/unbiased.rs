@@ -1,4 +1,4 @@
-//! One of the scenes of `cargo xtask unbiased`, in fewer pixels: noise explains how far few rays are from the path tracer, and not what a
+//! One of the scenes of `cargo lab unbiased`, in fewer pixels: noise explains how far few rays are from the path tracer, and not what a
 //! wrong light or a missing object makes.
 
 use conformance::unbiased::{

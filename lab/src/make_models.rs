@@ -1,4 +1,4 @@
-//! `cargo xtask make-models`: the models of our own that `scenes/` shows, the sky over one of them, and a soft box. Everything in them is computed here, by
+//! `cargo lab make-models`: the models of our own that `scenes/` shows, the sky over one of them, and a soft box. Everything in them is computed here, by
 //! functions that give the same bits on every platform.
 
 mod glb;

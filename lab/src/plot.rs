@@ -19,30 +19,30 @@ const SIZE_PX: (u32, u32) = (560, 320);
 const DECADES_MAX: f64 = 5.0;
 
 /// One axis.
-pub struct Axis<'a> {
+pub(crate) struct Axis<'a> {
     /// Name of the quantity, with its unit.
-    pub name: &'a str,
+    pub(crate) name: &'a str,
     /// Whether places are logarithms.
-    pub log: bool,
+    pub(crate) log: bool,
 }
 
 /// One line.
-pub struct Series {
+pub(crate) struct Series {
     /// Name in the legend.
-    pub name: String,
+    pub(crate) name: String,
     /// x, y and y's standard error.
-    pub points: Vec<[f64; 3]>,
+    pub(crate) points: Vec<[f64; 3]>,
     /// One of four, counted from 0.
-    pub color: usize,
+    pub(crate) color: usize,
     /// A thin line without marks: for curves of many points.
-    pub plain: bool,
+    pub(crate) plain: bool,
     /// Whether the line is dashed.
-    pub dashed: bool,
+    pub(crate) dashed: bool,
 }
 
 impl Series {
     /// Marked points with their errors.
-    pub fn new(name: &str, color: usize, points: impl Iterator<Item = [f64; 3]>) -> Self {
+    pub(crate) fn new(name: &str, color: usize, points: impl Iterator<Item = [f64; 3]>) -> Self {
         Self {
             name: name.to_owned(),
             points: points.filter(|p| p.iter().all(|v| v.is_finite())).collect(),
@@ -53,7 +53,7 @@ impl Series {
     }
 
     /// Makes the line dashed.
-    pub fn dashed(self) -> Self {
+    pub(crate) fn dashed(self) -> Self {
         Self {
             dashed: true,
             ..self
@@ -61,7 +61,7 @@ impl Series {
     }
 
     /// Leaves out the marks.
-    pub fn plain(self) -> Self {
+    pub(crate) fn plain(self) -> Self {
         Self {
             plain: true,
             ..self
@@ -72,13 +72,13 @@ impl Series {
 /// A plot that could not be drawn.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot draw: {0}")]
-pub struct Error(String);
+pub(crate) struct Error(String);
 
 /// The text of an SVG file: series over an x axis and a y axis.
 ///
 /// # Errors
 /// Where the drawing library refuses.
-pub fn plot(axes: [Axis; 2], series: &[Series]) -> Result<String, Error> {
+pub(crate) fn plot(axes: [Axis; 2], series: &[Series]) -> Result<String, Error> {
     let mut svg = String::new();
     draw(&mut svg, &axes, series).map_err(|error| Error(error.to_string()))?;
     Ok(svg)

@@ -1,4 +1,4 @@
-//! `cargo xtask fit-lobes`: fits the transformed cosine, the pivot lobe and the look-ups of environments to GGX over the grid of
+//! `cargo lab fit-lobes`: fits the transformed cosine, the pivot lobe and the look-ups of environments to GGX over the grid of
 //! `optics::lobe_table`, integrates the albedos, and writes the tables.
 //!
 //! Each node is fitted alone, from fixed starts, on fixed sample points: the outcome does not depend on threads or

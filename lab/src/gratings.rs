@@ -1,4 +1,4 @@
-//! `cargo xtask gratings`: the table of a grating against rows of grooves with all their phases. Writes docs/accuracy/gratings.md.
+//! `cargo lab gratings`: the table of a grating against rows of grooves with all their phases. Writes docs/accuracy/gratings.md.
 //!
 //! A row of endless parallel grooves, each at a place and of a depth of its own, is summed as amplitudes over one coherence window; many rows
 //! are averaged. [`Grating`] is asked for its numbers there, and for its table on the other side. The same is done of grooves at places that do not depend on
@@ -251,7 +251,7 @@ fn off(found: &Sent, blocks: &[Sent], light: f64) -> [f64; 2] {
 fn head(rows: u32) -> String {
     format!(
         "# Gratings against the full wave\n\n\
-         Made by\n\n    cargo xtask gratings\n\n\
+         Made by\n\n    cargo lab gratings\n\n\
          Endless parallel grooves {DEPTH_NM} nm deep under a window of {COHERENCE_UM} µm, in white light; 0.35, 0.6, 3 and 5 µm wide. On the one side the table of a \
          grating (model.md, section 12), on the other the field of all grooves with their phases, |S|², averaged over {rows} rows of grooves at random places about theirs. \
          Lights stand at all places across the grooves from {Q_START} to {:.2} off the mirror's direction, in direction cosines. *Jitter* is how far grooves are off their places, in \

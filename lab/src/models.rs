@@ -1,4 +1,4 @@
-//! `cargo xtask models`: opens each glTF file below some folders as `hairline render FILE` does, and renders it small. Writes
+//! `cargo lab models`: opens each glTF file below some folders as `hairline render FILE` does, and renders it small. Writes
 //! docs/accuracy/models.md: what became of each file, and what it was told to lack.
 //!
 //! All files are opened in one process: they share the environment. A panic is an outcome as others are. Layers of wear are left away:

@@ -1,4 +1,4 @@
-//! `cargo xtask wear`: how much of an object shows its wear, in the light of `hairline render MODEL` and in that of a `[studio]`.
+//! `cargo lab wear`: how much of an object shows its wear, in the light of `hairline render MODEL` and in that of a `[studio]`.
 //!
 //! The share of the object's pixels that change by 5 of 255 or more when the wear is taken away, in pictures with default options.
 

@@ -1,4 +1,4 @@
-//! `cargo xtask fuzz N`: mutated inputs of all kinds go through the command line, each in a process of its own with limits of time and
+//! `cargo lab fuzz N`: mutated inputs of all kinds go through the command line, each in a process of its own with limits of time and
 //! memory. A case depends on the seed and its number alone.
 
 mod case;

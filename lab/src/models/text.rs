@@ -28,7 +28,7 @@ const INTRODUCTION: &str = "\
 Each glTF file of some public repositories, opened as `hairline render FILE` opens it and rendered 96 x 54 pixels large on the CPU, without shadows and without wear.
 The files are not part of Hairline. The table is made by
 
-    cargo xtask models FOLDER...
+    cargo lab models FOLDER...
 
 with a folder for each repository, called `OWNER+NAME`. Files and buffers of 4 MiB and more were not in the copies that were used.
 ";

@@ -1,4 +1,4 @@
-//! `cargo xtask unbiased`: shadows and bounces of `render` against the path tracer, at four numbers of samples. Writes docs/accuracy/shadows.md.
+//! `cargo lab unbiased`: shadows and bounces of `render` against the path tracer, at four numbers of samples. Writes docs/accuracy/shadows.md.
 //! The document is made of the rows in docs/accuracy/shadows.json: a run replaces those that it measures.
 
 use std::fmt::Write;
@@ -261,8 +261,8 @@ const HEAD: &str = "# Shadows and bounces against the path tracer
 
 Made by
 
-    cargo xtask unbiased --bounces 0,1,4          # the CPU renderer
-    cargo xtask unbiased --bounces 0,1 --gpu      # a graphics adapter, be it a software driver
+    cargo lab unbiased --bounces 0,1,4          # the CPU renderer
+    cargo lab unbiased --bounces 0,1 --gpu      # a graphics adapter, be it a software driver
 
 from six scenes of 48 x 32 pixels in `tests/shadows`, with the linear mask. It is what these commands do, scene by scene:
 

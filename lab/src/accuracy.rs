@@ -1,4 +1,4 @@
-//! `cargo xtask accuracy`: how far the closed forms are from their model, and the model from the waves. Measured with Hairline's
+//! `cargo lab accuracy`: how far the closed forms are from their model, and the model from the waves. Measured with Hairline's
 //! own tools and written to docs/accuracy.md, with plots.
 //!
 //! Each part measures into a file of figures; the document and the plots are made of these files alone. References are kept

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use crate::plot::{Axis, Series};
 use anyhow::{Context, Result};
 use hairline_image::output::write_atomically;
-use hairline_plot::{Axis, Series};
 
 use super::compared::{Compared, LayerFigures};
 use super::cost::Cost;
@@ -49,7 +49,7 @@ pub fn draw(folder: &Path, figures: &Figures) -> Result<()> {
 
 /// Writes `folder/name.svg`.
 fn plot(folder: &Path, name: &str, axes: [Axis; 2], series: &[Series]) -> Result<()> {
-    let svg = hairline_plot::plot(axes, series).with_context(|| name.to_owned())?;
+    let svg = crate::plot::plot(axes, series).with_context(|| name.to_owned())?;
     let path = folder.join(format!("{name}.svg"));
     write_atomically(&path, svg.as_bytes()).with_context(|| path.display().to_string())
 }

@@ -33,7 +33,7 @@ pub struct Uses {
 impl Default for Glb {
     fn default() -> Self {
         Self {
-            root: json!({ "asset": { "version": "2.0", "generator": "cargo xtask make-models" } }),
+            root: json!({ "asset": { "version": "2.0", "generator": "cargo lab make-models" } }),
             binary: Vec::new(),
             views: Vec::new(),
             accessors: Vec::new(),

@@ -1,0 +1,47 @@
+//! Measurements, fits and models that are made now and then. `cargo lab COMMAND`; each command is one file.
+
+mod accuracy;
+mod fit_lobes;
+mod fuzz;
+mod gratings;
+mod make_models;
+mod models;
+mod plot;
+mod unbiased;
+mod wear;
+
+use clap::Parser;
+
+#[derive(Parser)]
+#[command(name = "cargo lab", about)]
+enum Command {
+    /// Measure closed form, separable model and full one against each other, and write docs/accuracy.md.
+    Accuracy(accuracy::Accuracy),
+    /// Fit the tables of the area-light lobes and write them to crates/optics/data.
+    FitLobes(fit_lobes::FitLobes),
+    /// Run mutated inputs through the command line: no panic, no hang, no flood of memory.
+    Fuzz(fuzz::Fuzz),
+    /// Measure gratings against the full wave, and write docs/accuracy/gratings.md.
+    Gratings(gratings::Gratings),
+    /// Make the models and the sky of scenes/, and write them to scenes/models and scenes/maps.
+    MakeModels(make_models::MakeModels),
+    /// Open and render glTF files of public repositories, and write docs/accuracy/models.md.
+    Models(models::Models),
+    /// Measure shadows and bounces against the path tracer, and write docs/accuracy/shadows.md.
+    Unbiased(unbiased::Unbiased),
+    /// Measure how much of models shows their wear, in the light of `hairline render MODEL`.
+    Wear(wear::WearShown),
+}
+
+fn main() -> anyhow::Result<()> {
+    match Command::parse() {
+        Command::Accuracy(command) => command.run(),
+        Command::FitLobes(command) => command.run(),
+        Command::Fuzz(command) => command.run(),
+        Command::Gratings(command) => command.run(),
+        Command::MakeModels(command) => command.run(),
+        Command::Models(command) => command.run(),
+        Command::Unbiased(command) => command.run(),
+        Command::Wear(command) => command.run(),
+    }
+}
