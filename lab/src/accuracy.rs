@@ -36,12 +36,12 @@ pub struct Accuracy {
 
     /// Measure these parts alone, and take the others' figures from earlier runs. `text` measures nothing.
     #[arg(long, value_enum, value_delimiter = ',')]
-    only: Vec<Part>,
+    only: Vec<AccuracyPart>,
 }
 
 /// Parts that can be measured on their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Part {
+enum AccuracyPart {
     /// The scenes of scenes/ and the built-in one.
     Scenes,
     /// One knob of a plain scene at a time.
@@ -61,7 +61,7 @@ impl Accuracy {
     pub fn run(self) -> Result<()> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let renders = Renders::new(&root, self.quick)?;
-        let kept = Kept {
+        let kept = KeptFigures {
             folder: root.join(if self.quick {
                 "target/accuracy/quick"
             } else {
@@ -71,11 +71,13 @@ impl Accuracy {
         };
         fs::create_dir_all(&kept.folder).context("make target/accuracy")?;
         let figures = Figures {
-            cost: kept.part(Part::Cost, || cost::measure(self.quick))?,
-            interference: kept.part(Part::Interference, || interference::measure(self.quick))?,
-            scenes: kept.part(Part::Scenes, || scenes::measure(&renders, &root))?,
-            sweeps: kept.part(Part::Sweeps, || sweeps::measure(&renders))?,
-            masks: kept.part(Part::Masks, || masks::measure(&renders))?,
+            cost: kept.part(AccuracyPart::Cost, || cost::measure(self.quick))?,
+            interference: kept.part(AccuracyPart::Interference, || {
+                interference::measure(self.quick)
+            })?,
+            scenes: kept.part(AccuracyPart::Scenes, || scenes::measure(&renders, &root))?,
+            sweeps: kept.part(AccuracyPart::Sweeps, || sweeps::measure(&renders))?,
+            masks: kept.part(AccuracyPart::Masks, || masks::measure(&renders))?,
         };
         let docs = if self.quick {
             kept.folder.clone()
@@ -93,16 +95,16 @@ impl Accuracy {
 }
 
 /// Figures of parts, in files.
-struct Kept<'a> {
+struct KeptFigures<'a> {
     folder: PathBuf,
-    only: &'a [Part],
+    only: &'a [AccuracyPart],
 }
 
-impl Kept<'_> {
+impl KeptFigures<'_> {
     /// Measured if it is asked for, else as it was.
     fn part<T: Serialize + DeserializeOwned>(
         &self,
-        part: Part,
+        part: AccuracyPart,
         measure: impl FnOnce() -> Result<T>,
     ) -> Result<Option<T>> {
         let file = self

@@ -50,7 +50,7 @@ const REACH_SIGMA: f64 = 4.5;
 type Rgb = [f64; 3];
 
 /// Light that is sent to each step of q, times the step.
-type Sent = Vec<Rgb>;
+type SentLight = Vec<Rgb>;
 
 impl Gratings {
     /// Measures and writes.
@@ -127,7 +127,7 @@ fn at(table: &ScratchTable, u_um: f64, depth_nm: f64) -> Rgb {
 }
 
 /// Light that is sent, by an antiderivative over q.
-fn sent(rise: impl Fn(f64) -> Rgb) -> Sent {
+fn sent(rise: impl Fn(f64) -> Rgb) -> SentLight {
     let edge = |i: usize| rise(Q_START + i as f64 * Q_STEP);
     (0..Q_COUNT)
         .map(|i| {
@@ -159,13 +159,13 @@ fn independent_places_um(row: &Grating, _: f64, random: &mut Pcg64) -> Vec<f64> 
 }
 
 /// The mean of each of some blocks of random rows: how far they are apart is the noise.
-fn blocks(row: &Grating, places_um: Places, rows: u32) -> Vec<Sent> {
+fn blocks(row: &Grating, places_um: Places, rows: u32) -> Vec<SentLight> {
     let block = |number| full(row, places_um, rows / BLOCKS, number);
     (0..BLOCKS).map(block).collect()
 }
 
 /// The mean of random rows.
-fn full(row: &Grating, places_um: Places, rows: u32, block: u32) -> Sent {
+fn full(row: &Grating, places_um: Places, rows: u32, block: u32) -> SentLight {
     let all = (0..rows).into_par_iter().map(|number| {
         let mut random = Pcg64::seed_from_u64(u64::from(BLOCKS * number + block) + SEED);
         // Where the row lies: evenly over the rows.
@@ -185,7 +185,7 @@ fn full(row: &Grating, places_um: Places, rows: u32, block: u32) -> Sent {
 }
 
 /// Light of all grooves under the window, with their phases, at a wavelength of each step of the spectrum.
-fn one_row(row: &Grating, places_um: &[f64], random: &mut Pcg64) -> Sent {
+fn one_row(row: &Grating, places_um: &[f64], random: &mut Pcg64) -> SentLight {
     let mut sent = vec![[0.0; 3]; Q_COUNT];
     let samples = spectrum::samples();
     for pair in samples.windows(2) {
@@ -227,16 +227,16 @@ fn normal(random: &mut Pcg64) -> f64 {
 }
 
 /// Relative rms over lights of a radius at all places and over channels, without the noise of the rows; and that noise.
-fn off(found: &Sent, blocks: &[Sent], light: f64) -> [f64; 2] {
+fn off(found: &SentLight, blocks: &[SentLight], light: f64) -> [f64; 2] {
     let width = ((2.0 * light / Q_STEP).round() as usize).min(Q_COUNT);
     let count = blocks.len() as f64;
     let [mut errors, mut noise, mut values] = [0.0; 3];
     for first in (0..=Q_COUNT - width).step_by((width / 8).max(1)) {
         for c in 0..3 {
             let lit =
-                |sent: &Sent| -> f64 { sent[first..first + width].iter().map(|v| v[c]).sum() };
+                |sent: &SentLight| -> f64 { sent[first..first + width].iter().map(|v| v[c]).sum() };
             let mean = blocks.iter().map(lit).sum::<f64>() / count;
-            let spread = |block: &Sent| (lit(block) - mean).powi(2);
+            let spread = |block: &SentLight| (lit(block) - mean).powi(2);
             errors += (lit(found) - mean).powi(2);
             noise += blocks.iter().map(spread).sum::<f64>() / (count * (count - 1.0));
             values += mean * mean;

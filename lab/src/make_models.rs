@@ -16,7 +16,7 @@ use anyhow::{Context, Result, ensure};
 use glam::DQuat;
 use serde_json::json;
 
-use glb::{Glb, Uses};
+use glb::{Glb, PartContents};
 use spoon::Spoon;
 
 /// Options of `make-models`.
@@ -86,8 +86,8 @@ fn spoons() -> Result<Vec<u8>> {
         },
     ]);
     // The bowl has no normal map, so it needs no tangents: a reader must make do without.
-    let bowl = glb.primitive(&spoon.bowl(), 0, Uses { tangents: false });
-    let handle = glb.primitive(&spoon.handle(), 1, Uses { tangents: true });
+    let bowl = glb.primitive(&spoon.bowl(), 0, PartContents { tangents: false });
+    let handle = glb.primitive(&spoon.handle(), 1, PartContents { tangents: true });
     glb.root["meshes"] = json!([
         { "name": "bowl", "primitives": [bowl] },
         { "name": "handle", "primitives": [handle] },
@@ -156,7 +156,7 @@ fn cooks_knife() -> Result<Vec<u8>> {
     ];
     let primitives: Vec<_> = (0..)
         .zip(&parts)
-        .map(|(i, part)| glb.primitive(part, i, Uses { tangents: false }))
+        .map(|(i, part)| glb.primitive(part, i, PartContents { tangents: false }))
         .collect();
     glb.root["meshes"] = json!([{ "name": "knife", "primitives": primitives }]);
     let rotation = DQuat::from_rotation_x(-FRAC_PI_2).as_quat().to_array();

@@ -7,7 +7,7 @@ use hairline_image::{Image, Layer, Layers, Noise};
 use hairline_index::TriangleIndex;
 use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
-use hairline_reference::{BATCH_SAMPLES, Integrator, Parts, Settings};
+use hairline_reference::{BATCH_SAMPLES, Integrator, SceneIndex, Settings};
 use hairline_scene::{Scene, Transport};
 use hairline_work::Quiet;
 use hairline_work::backend::{Backend, Painter, Task};
@@ -101,7 +101,7 @@ pub fn rendered(
 ///
 /// `open` is F.
 pub fn expected(scene: &Scene, open: &Image, bounces: u32, samples: u32) -> Image {
-    let parts = Parts::new(scene);
+    let parts = SceneIndex::new(scene);
     let mut settings = vec![(false, 0), (true, 0), (true, bounces)];
     settings.dedup();
     let way = |(shadows, bounces)| {

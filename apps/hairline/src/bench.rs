@@ -20,7 +20,7 @@ use anyhow::anyhow;
 use hairline_image::output::{check_writable, write_atomically};
 use hairline_scene::Object;
 
-use crate::cli::{self, Part};
+use crate::cli::{self, BenchPart};
 use crate::console::{print, tell};
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
@@ -46,7 +46,7 @@ pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
             "--scratches is for the bench's own scene; a SCENE says itself how many it has"
         )));
     }
-    if arguments.scene.is_some() && arguments.part.iter().any(|part| *part != Part::Table) {
+    if arguments.scene.is_some() && arguments.part.iter().any(|part| *part != BenchPart::Table) {
         return Err(Failure::Input(anyhow!(
             "--part scratches, zoom, lights and pixels vary the bench's own scene; with a SCENE there is --part table alone"
         )));
@@ -127,15 +127,15 @@ fn measure(
         return Ok(figures);
     }
     let wanted = |part| arguments.part.is_empty() || arguments.part.contains(&part);
-    if wanted(Part::Table) {
+    if wanted(BenchPart::Table) {
         progress.restart("the table");
         figures.table = table::of_the_talk(worker, base, &thoroughness, &progress)?;
     }
     for (part, stages) in [
-        (Part::Scratches, curves::scratches as curves::Stages),
-        (Part::Zoom, curves::zoom),
-        (Part::Lights, curves::lights),
-        (Part::Pixels, curves::pixels),
+        (BenchPart::Scratches, curves::scratches as curves::Stages),
+        (BenchPart::Zoom, curves::zoom),
+        (BenchPart::Lights, curves::lights),
+        (BenchPart::Pixels, curves::pixels),
     ] {
         if wanted(part) {
             let curve = curves::measure(

@@ -328,7 +328,7 @@ pub struct Bench {
     pub quick: bool,
     /// Measure this part only. May be given several times.
     #[arg(long, value_enum, value_name = "PART")]
-    pub part: Vec<Part>,
+    pub part: Vec<BenchPart>,
     /// Repetitions of each cell, in place of as many as fit the time.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub repetitions: Option<u32>,
@@ -339,7 +339,7 @@ pub struct Bench {
 
 /// A part of `hairline bench`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Part {
+pub enum BenchPart {
     /// The talk's table: intersection only, sphere, triangle; three zooms; with anti-aliasing and without.
     Table,
     /// Curve from a thousand scratches to a million.

@@ -7,7 +7,7 @@ use crate::bin::TileLists;
 use crate::project::project;
 use crate::published::Published;
 use crate::shadows::Shadows;
-use crate::tile::{By, Picture};
+use crate::tile::{Picture, PictureMethod};
 use crate::visibility::Visibility;
 use hairline_image::Image;
 use hairline_scene::Scene;
@@ -116,9 +116,11 @@ impl Prepared<'_> {
                 counts.segments = projection.looked_at;
                 let lists = TileLists::new(projection.segments, size_px[0], &rows);
                 counts.entries = lists.len() as u64;
-                By::Tiles(lists)
+                PictureMethod::Tiles(lists)
             }
-            Some(published) => By::Published(Published::new(self, published, options.method.mask)),
+            Some(published) => {
+                PictureMethod::Published(Published::new(self, published, options.method.mask))
+            }
         };
         let picture = Picture {
             prepared: self,
@@ -127,7 +129,7 @@ impl Prepared<'_> {
             rows: rows.start as usize..rows.end as usize,
             only_edges: false,
             visibility: Visibility::new(&self.triangles, &camera, size_px, &rows, options.samples),
-            shadows: (options.shadows && matches!(by, By::Tiles(_)))
+            shadows: (options.shadows && matches!(by, PictureMethod::Tiles(_)))
                 .then(|| Shadows::new(self, options)),
             by,
         };

@@ -42,13 +42,13 @@ pub(crate) struct Picture<'a> {
     /// Pixels that one sample is enough for are left as they are.
     pub only_edges: bool,
     pub visibility: Visibility,
-    pub by: By<'a>,
+    pub by: PictureMethod<'a>,
     /// Rays for shadows, if there are any.
     pub shadows: Option<Shadows<'a>>,
 }
 
 /// Method of the picture.
-pub(crate) enum By<'a> {
+pub(crate) enum PictureMethod<'a> {
     /// Hairline's own.
     Tiles(TileLists),
     /// The method of 2018, pixel by pixel.
@@ -220,7 +220,7 @@ impl<'a> Tile<'a> {
             return;
         }
         let prepared = self.picture.prepared;
-        let is_tiled = matches!(self.picture.by, By::Tiles(_));
+        let is_tiled = matches!(self.picture.by, PictureMethod::Tiles(_));
         for (point, views) in self.batch.iter().zip(&mut self.views) {
             if let Seen::Surface { point: at, hit, .. } = &point.seen {
                 views.look_from(at);
@@ -237,7 +237,7 @@ impl<'a> Tile<'a> {
                 picks[i].clear(at.rounds.now.count, at.picks_seed());
             }
         }
-        if let By::Tiles(lists) = &self.picture.by {
+        if let PictureMethod::Tiles(lists) = &self.picture.by {
             let points: Vec<ScratchPoint> = self
                 .batch
                 .iter()
@@ -295,7 +295,7 @@ impl<'a> Tile<'a> {
                     };
                     let coherence = prepared.depth_coherence(hit.object);
                     let (kept, light) = match (&self.picture.by, &self.picture.shadows) {
-                        (By::Tiles(_), Some(shadows)) => {
+                        (PictureMethod::Tiles(_), Some(shadows)) => {
                             let Some(shadow_point) =
                                 point.shadow_point(&self.picture.camera, views)
                             else {
@@ -322,7 +322,7 @@ impl<'a> Tile<'a> {
                             }
                             (kept(&sums, mask, coherence), light)
                         }
-                        (By::Tiles(_), None) => {
+                        (PictureMethod::Tiles(_), None) => {
                             let gratings = has_gratings.then(|| {
                                 ShadedGratings::new(prepared, at, hit.object, views, None)
                             });
@@ -332,7 +332,7 @@ impl<'a> Tile<'a> {
                             light.scratches = light.scratches.times(DVec3::splat(samples));
                             (kept(&sums, mask, coherence), light)
                         }
-                        (By::Published(published), _) => {
+                        (PictureMethod::Published(published), _) => {
                             let masked = published.scratches(at, hit, views);
                             let base = Base::new(at);
                             let base = base.radiance(environment, views, Published::base_sphere);

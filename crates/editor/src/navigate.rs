@@ -24,15 +24,15 @@ const FRAMED_SHARE: f64 = 0.88;
 pub fn orbit(camera: &mut Camera, drag_px: DVec2, size_px: DVec2) {
     let per_px = TURN_PER_HEIGHT_RAD / size_px.y.max(1.0);
     turn(camera, -drag_px.x * per_px);
-    let place = Place::of(camera);
+    let place = TurntablePosition::of(camera);
     let polar_rad = place.polar_rad - drag_px.y * per_px;
-    Place { polar_rad, ..place }.give(camera);
+    TurntablePosition { polar_rad, ..place }.give(camera);
 }
 
 /// Turns the camera about the axis through its target along `up`, counter-clockwise seen from above, at the same height.
 pub fn turn(camera: &mut Camera, angle_rad: f64) {
-    let place = Place::of(camera);
-    Place {
+    let place = TurntablePosition::of(camera);
+    TurntablePosition {
         outwards: DQuat::from_axis_angle(place.up, angle_rad) * place.outwards,
         ..place
     }
@@ -202,7 +202,7 @@ pub fn look_from(camera: &mut Camera, viewpoint: Viewpoint) {
         Viewpoint::Bottom => (front, std::f64::consts::PI),
         Viewpoint::ThreeQuarter => ((front + 0.7 * right).normalize(), 1.0),
     };
-    Place {
+    TurntablePosition {
         up,
         outwards,
         polar_rad,
@@ -239,7 +239,7 @@ pub fn project(camera: &Camera, point_m: DVec3, size_px: DVec2) -> Option<DVec2>
 
 /// Position of the camera on the turntable.
 #[derive(Clone, Copy)]
-struct Place {
+struct TurntablePosition {
     /// Unit.
     up: DVec3,
     /// Unit, level: from the axis to the camera.
@@ -249,7 +249,7 @@ struct Place {
     distance_m: f64,
 }
 
-impl Place {
+impl TurntablePosition {
     fn of(camera: &Camera) -> Self {
         let axes = Axes::of(camera);
         let up = unit_up(camera);

@@ -82,7 +82,7 @@ impl Unit {
     }
 
     /// Display of numbers of this unit, of which the largest has this magnitude.
-    pub fn shown(self, magnitude: f64) -> Shown {
+    pub fn shown(self, magnitude: f64) -> ShownUnit {
         let (factor, symbol) = match self {
             Self::None => (1.0, ""),
             Self::Metre => {
@@ -104,7 +104,7 @@ impl Unit {
             Self::Pixel => (1.0, " px"),
             Self::Kelvin => (1.0, " K"),
         };
-        Shown {
+        ShownUnit {
             factor,
             symbol,
             decimals: None,
@@ -112,12 +112,12 @@ impl Unit {
     }
 
     /// Display of numbers side by side: in one unit, to three digits of the largest, for which there is room.
-    pub fn shown_together(self, values: &[f64]) -> Shown {
+    pub fn shown_together(self, values: &[f64]) -> ShownUnit {
         let largest = values.iter().fold(0.0, |m: f64, value| m.max(value.abs()));
         let shown = self.shown(largest);
         let magnitude = (largest / shown.factor).log10().floor();
         let is_usual = (-3.0..9.0).contains(&magnitude);
-        Shown {
+        ShownUnit {
             decimals: (self != Self::None && is_usual).then(|| (2.0 - magnitude).max(0.0) as usize),
             ..shown
         }
@@ -126,7 +126,7 @@ impl Unit {
 
 /// The unit in which a number is shown, and in which one without a unit is typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown {
+pub struct ShownUnit {
     /// Size of one unit shown, in the parameter's own unit.
     factor: f64,
     /// Symbol with the space that belongs before it.
@@ -135,7 +135,7 @@ pub struct Shown {
     decimals: Option<usize>,
 }
 
-impl Shown {
+impl ShownUnit {
     /// A number of the parameter's own unit.
     pub fn text(&self, value: f64) -> String {
         let number = value / self.factor;
@@ -177,7 +177,7 @@ fn trimmed(text: String) -> String {
 ///
 /// # Errors
 /// Why it means no such number.
-pub fn parse(typed: &str, unit: Unit, shown: Shown) -> Result<f64, QuantityError> {
+pub fn parse(typed: &str, unit: Unit, shown: ShownUnit) -> Result<f64, QuantityError> {
     let fail = |reason: String| QuantityError {
         typed: typed.trim().to_owned(),
         reason,

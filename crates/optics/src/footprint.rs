@@ -21,7 +21,7 @@ pub struct Footprint {
 /// A smooth interval that stands for the square of a finite scratch's longitudinal integral, E^2, with the exact
 /// integral and variance.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ends {
+pub struct SmoothInterval {
     /// Distance by which each free end moves inwards.
     pub shrink_um: f64,
     /// Standard deviation s of the Gaussian that smooths each end.
@@ -30,12 +30,12 @@ pub struct Ends {
 
 /// Ends of a scratch of the given whole length. With x = l/(2 sigma): M = integral of E^2, and the variance of E^2
 /// about the centre, both from moments of a Gaussian of variance 2 sigma^2 over [0, l].
-pub fn ends(length_um: f64, coherence_um: f64) -> Ends {
+pub fn ends(length_um: f64, coherence_um: f64) -> SmoothInterval {
     let (l, s) = (length_um, coherence_um);
     if l < 0.05 * s {
         // E^2 tends to a Gaussian of variance sigma^2/2 whose integral is l^2/(2 sqrt(pi) sigma).
         let m = l * l / (2.0 * PI.sqrt() * s);
-        return Ends {
+        return SmoothInterval {
             shrink_um: 0.5 * (l - m),
             blur_um: s * 0.5f64.sqrt(),
         };
@@ -50,7 +50,7 @@ pub fn ends(length_um: f64, coherence_um: f64) -> Ends {
     let m = 2.0 * (l * i0 - i1);
     let third = 2.0 * (l.powi(3) * i0 - 3.0 * l * l * i1 + 3.0 * l * i2 - i3);
     let variance = 0.5 * s * s + third / (12.0 * m);
-    Ends {
+    SmoothInterval {
         shrink_um: 0.5 * (l - m),
         blur_um: (variance - m * m / 12.0).max(0.0).sqrt(),
     }

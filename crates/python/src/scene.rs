@@ -9,7 +9,7 @@ use hairline_image::Display;
 use hairline_index::method::Method;
 use hairline_memory::budget_bytes;
 use hairline_optics::mask::Mask;
-use hairline_reference::{Integrator, Model, Parts, Settings};
+use hairline_reference::{Integrator, Model, SceneIndex, Settings};
 use hairline_scene::estimate::Estimate;
 use hairline_scene::{Description, Error, Loader, Scene, SceneBuilder, Stage, reading};
 use hairline_work::Listener;
@@ -120,7 +120,7 @@ fn table(py: Python<'_>, description: &Description) -> PyResult<toml::Table> {
 pub(crate) struct Builder {
     builder: Mutex<SceneBuilder>,
     /// Look-up structures of the last scene's references.
-    last: Mutex<Option<(Scene, Arc<OnceLock<Parts>>)>>,
+    last: Mutex<Option<(Scene, Arc<OnceLock<SceneIndex>>)>>,
 }
 
 #[pymethods]
@@ -192,11 +192,11 @@ impl Builder {
 
 impl Builder {
     /// Those of the last scene, if this one has its surfaces, scratches and materials.
-    fn parts(&self, scene: &Scene) -> Arc<OnceLock<Parts>> {
+    fn parts(&self, scene: &Scene) -> Arc<OnceLock<SceneIndex>> {
         let mut last = self.last.lock().unwrap_or_else(|left| left.into_inner());
         let kept = last
             .as_ref()
-            .filter(|(old, _)| Parts::are_alike(old, scene));
+            .filter(|(old, _)| SceneIndex::are_alike(old, scene));
         let parts = kept.map(|(_, parts)| parts.clone()).unwrap_or_default();
         *last = Some((scene.clone(), parts.clone()));
         parts
@@ -207,7 +207,7 @@ impl Builder {
 #[pyclass(frozen, module = "hairline._hairline")]
 pub(crate) struct Built {
     scene: Scene,
-    parts: Arc<OnceLock<Parts>>,
+    parts: Arc<OnceLock<SceneIndex>>,
     description: Description,
     folder: PathBuf,
     stock: Stock,
@@ -357,7 +357,10 @@ impl Built {
         told: &Told,
     ) -> Result<(hairline_image::Image, bool), Failure> {
         told.begin("sorting scratches");
-        let parts = self.parts.get_or_init(|| Parts::new(&self.scene)).clone();
+        let parts = self
+            .parts
+            .get_or_init(|| SceneIndex::new(&self.scene))
+            .clone();
         let mut integrator = Integrator::from_parts(&self.scene, settings, parts);
         if let Some(rows) = rows {
             integrator = integrator.of_rows(rows);

@@ -9,7 +9,7 @@ use glam::{DMat3, DVec2, DVec3};
 use hairline_optics::facets::Facets;
 use hairline_optics::ggx::ggx_alpha;
 
-use crate::reflectance::{Albedo, Ends, Reflectance};
+use crate::reflectance::{Albedo, Reflectance, ReflectanceEnds};
 use hairline_cpu::surface::SurfacePoint;
 
 /// The base at a point for its viewer. Directions are unit vectors in the point's local frame.
@@ -21,7 +21,7 @@ pub(crate) struct BaseLobes<'a> {
     under_coat: Option<DMat3>,
     facets: Facets,
     reflectance: &'a Reflectance,
-    ends: Ends,
+    ends: ReflectanceEnds,
     /// Relative light that multiple scattering adds to a white surface: the bracket of (27) less one, over F0.
     gain: f64,
     /// Share of the light that reaches the body, times the body's albedo.
@@ -54,7 +54,7 @@ impl<'a> BaseLobes<'a> {
         reflectance: &'a Reflectance,
         coat: Option<&'a Reflectance>,
     ) -> Self {
-        let ends = Ends::of(point);
+        let ends = ReflectanceEnds::of(point);
         let under_coat = point.under_coat();
         let wo = under_coat.map_or(point.wo, |it| it.wo);
         let bare = match point.facets.map(Facets::new) {
@@ -76,7 +76,7 @@ impl<'a> BaseLobes<'a> {
 
     fn coated(self, weight: f64, roughness: f64, wo: DVec3, reflectance: &'a Reflectance) -> Self {
         let of_lobe = reflectance.albedo(roughness, wo.z);
-        let albedo = of_lobe.reflected(Ends::COAT);
+        let albedo = of_lobe.reflected(ReflectanceEnds::COAT);
         let coat = CoatLobe {
             weight,
             wo,
@@ -96,7 +96,7 @@ impl<'a> BaseLobes<'a> {
     fn from_parts(
         wo: DVec3,
         reflectance: &'a Reflectance,
-        ends: Ends,
+        ends: ReflectanceEnds,
         diffuse: DVec3,
         roughness: f64,
     ) -> Self {
@@ -108,7 +108,7 @@ impl<'a> BaseLobes<'a> {
     fn from_lobe(
         wo: DVec3,
         reflectance: &'a Reflectance,
-        ends: Ends,
+        ends: ReflectanceEnds,
         diffuse: DVec3,
         facets: Facets,
         of_lobe: Albedo,
@@ -166,7 +166,7 @@ impl<'a> BaseLobes<'a> {
         let Some(coat) = &self.coat else {
             return (specular, diffuse);
         };
-        let (ends, facets) = (Ends::COAT, &coat.facets);
+        let (ends, facets) = (ReflectanceEnds::COAT, &coat.facets);
         let by_coat = reflected(coat.reflectance, ends, coat.gain, facets, wi, coat.wo);
         let bare = 1.0 - coat.weight;
         (

@@ -235,7 +235,7 @@ impl Band {
 }
 
 /// Result of [`FieldDirections::sample`].
-pub(super) enum Drawn {
+pub(super) enum DrawnDirection {
     /// A direction of the surface's frame; None if it lies below the horizon.
     Direction(Option<DVec3>),
     /// The caller is to draw; the number is left over from the choice, even in [0, 1).
@@ -243,7 +243,7 @@ pub(super) enum Drawn {
 }
 
 impl FieldDirections {
-    pub(crate) fn sample(&self, pick: f64, u: f64, v: f64) -> Drawn {
+    pub(crate) fn sample(&self, pick: f64, u: f64, v: f64) -> DrawnDirection {
         let mut left = pick;
         for (weight, component) in &self.components {
             if left < *weight {
@@ -253,14 +253,14 @@ impl FieldDirections {
                     Component::Band(band) => band.sample(pick, u, v),
                 };
                 let wi = xi - self.wo;
-                return Drawn::Direction(direction_from_cosines(wi.x, wi.y));
+                return DrawnDirection::Direction(direction_from_cosines(wi.x, wi.y));
             }
             left -= weight;
         }
         if self.elsewhere > 0.0 {
-            Drawn::Elsewhere((left / self.elsewhere).clamp(0.0, 1.0))
+            DrawnDirection::Elsewhere((left / self.elsewhere).clamp(0.0, 1.0))
         } else {
-            Drawn::Direction(None)
+            DrawnDirection::Direction(None)
         }
     }
 

@@ -37,7 +37,7 @@ pub struct Settings {
 
 /// Look-up structures for a scene's surfaces, scratches and materials. A clone shares them.
 #[derive(Clone)]
-pub struct Parts {
+pub struct SceneIndex {
     /// Triangles along a ray.
     pub triangles: Arc<TriangleIndex>,
     /// The scratches as they lie.
@@ -51,7 +51,7 @@ pub struct Parts {
     depth_coherence: Arc<Vec<f32>>,
 }
 
-impl Parts {
+impl SceneIndex {
     /// Builds the trees and the tables.
     pub fn new(scene: &Scene) -> Self {
         let (triangles, (grooves, tables)) = rayon::join(
@@ -124,12 +124,12 @@ pub struct Integrator<'a> {
 impl<'a> Integrator<'a> {
     /// Builds the trees and the tables.
     pub fn new(scene: &'a Scene, settings: Settings) -> Self {
-        Self::from_parts(scene, settings, Parts::new(scene))
+        Self::from_parts(scene, settings, SceneIndex::new(scene))
     }
 
     /// Takes trees and tables that were built before, of `scene` or of one with the same surfaces, scratches and materials.
-    pub fn from_parts(scene: &'a Scene, settings: Settings, parts: Parts) -> Self {
-        let Parts {
+    pub fn from_parts(scene: &'a Scene, settings: Settings, parts: SceneIndex) -> Self {
+        let SceneIndex {
             triangles,
             grooves,
             tables,

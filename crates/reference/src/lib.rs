@@ -45,6 +45,6 @@ mod run;
 mod separable;
 mod wavelengths;
 
-pub use integrator::{Integrator, Model, Parts, Settings};
+pub use integrator::{Integrator, Model, SceneIndex, Settings};
 pub use random::BATCH_SAMPLES;
 pub use run::REVISION;

@@ -1,7 +1,7 @@
 //! One path: from the camera to a surface, to the lights, and on to further surfaces.
 
 use super::base::BaseLobes;
-use super::coherent::{Drawn, Field, FieldDirections, FieldResponse};
+use super::coherent::{DrawnDirection, Field, FieldDirections, FieldResponse};
 use super::gratings::RowView;
 use super::grooves::{self, GrooveView, REACH_OF_AMPLITUDE, REACH_OF_ENERGY};
 use super::integrator::{Integrator, Model};
@@ -384,8 +384,8 @@ impl Integrator<'_> {
                     draw,
                 });
                 let wi = match directions.sample((f64::from(draw) + pick) / draws, u, v) {
-                    Drawn::Direction(wi) => wi,
-                    Drawn::Elsewhere(_) => self
+                    DrawnDirection::Direction(wi) => wi,
+                    DrawnDirection::Elsewhere(_) => self
                         .lights
                         .sample(light, from, DVec2::new(u, v))
                         .map(|to| point.surface_from_world(to.direction)),
@@ -447,8 +447,8 @@ impl Integrator<'_> {
         v: f64,
     ) -> Option<DVec3> {
         let wi = match directions.sample(pick, u, v) {
-            Drawn::Direction(wi) => wi,
-            Drawn::Elsewhere(pick) => match &self.environment {
+            DrawnDirection::Direction(wi) => wi,
+            DrawnDirection::Elsewhere(pick) => match &self.environment {
                 Some(sampler) if pick < 0.5 => {
                     Some(point.surface_from_world(sampler.sample(DVec2::new(u, v)).0))
                 }

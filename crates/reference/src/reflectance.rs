@@ -40,7 +40,7 @@ struct FacetParts {
 
 /// Reflectance of a surface at normal incidence, and that to which Schlick's curve rises: 1 for all other curves.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ends {
+pub(crate) struct ReflectanceEnds {
     pub f0: DVec3,
     pub f90: f64,
 }
@@ -63,7 +63,7 @@ const ALBEDO_STEPS_AT_A_POINT: usize = 24;
 /// Steps of roughness where a texture gives it.
 const ROUGHNESS_STEPS: usize = 32;
 
-impl Ends {
+impl ReflectanceEnds {
     pub(crate) const COAT: Self = Self {
         f0: DVec3::splat(COAT_F0),
         f90: 1.0,
@@ -150,7 +150,11 @@ impl Reflectance {
     }
 
     /// Reflectance of a facet.
-    pub(crate) fn eval(&self, cos_theta: f64, Ends { f0, f90 }: Ends) -> FacetReflectance {
+    pub(crate) fn eval(
+        &self,
+        cos_theta: f64,
+        ReflectanceEnds { f0, f90 }: ReflectanceEnds,
+    ) -> FacetReflectance {
         if self.metal.is_empty() {
             let FacetParts { t, s } = self.parts(cos_theta);
             let once = f0 * s + t * f90;
@@ -230,7 +234,7 @@ impl Albedo {
     }
 
     /// Reflectance of a surface's facets without its body, multiple scattering included.
-    pub(crate) fn reflected(self, Ends { f0, f90 }: Ends) -> DVec3 {
+    pub(crate) fn reflected(self, ReflectanceEnds { f0, f90 }: ReflectanceEnds) -> DVec3 {
         (f0 * self.parts.s + self.parts.t * f90) * (DVec3::ONE + f0 * self.gain())
     }
 }
@@ -254,8 +258,9 @@ mod tests {
             weight: 1.0,
             roughness: 0.9,
         });
-        let albedo =
-            |of: &Reflectance, roughness| of.albedo(roughness, 0.2).reflected(Ends::COAT).x;
+        let albedo = |of: &Reflectance, roughness| {
+            of.albedo(roughness, 0.2).reflected(ReflectanceEnds::COAT).x
+        };
         let one = Reflectance::of_coat(&material).unwrap();
         material.coat_textures[1] = Some(0);
         let all = Reflectance::of_coat(&material).unwrap();

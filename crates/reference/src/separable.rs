@@ -28,11 +28,11 @@ pub(super) struct Lobe {
     nm: Spectrum<f64>,
     band_std: Spectrum<f64>,
     drawn_std: f64,
-    of: Of,
+    of: LobeSource,
 }
 
 /// Source of a lobe.
-enum Of {
+enum LobeSource {
     Groove { width_um: f64, depth_nm: f64 },
     Row(Row),
 }
@@ -48,7 +48,7 @@ impl Lobe {
         let (width_um, depth_nm) = (groove.piece.width_um, groove.piece.depth_nm);
         Self::of(
             (groove.frame, groove.wo, groove.share.segment),
-            Of::Groove { width_um, depth_nm },
+            LobeSource::Groove { width_um, depth_nm },
             wavelengths,
             weight,
             coherence_um,
@@ -62,14 +62,14 @@ impl Lobe {
         weight: &Spectrum<DVec3>,
         coherence_um: f64,
     ) -> Self {
-        let of = Of::Row(view.row);
+        let of = LobeSource::Row(view.row);
         let place = (view.frame, view.wo, view.density);
         Self::of(place, of, wavelengths, weight, coherence_um)
     }
 
     fn of(
         (frame, wo, share): (BandFrame, DVec3, f64),
-        of: Of,
+        of: LobeSource,
         wavelengths: &Wavelengths,
         weight: &Spectrum<DVec3>,
         coherence_um: f64,
@@ -94,12 +94,12 @@ impl Lobe {
             .map(|j| {
                 let nm = self.nm[j];
                 let across = match &self.of {
-                    Of::Groove { width_um, depth_nm } => {
+                    LobeSource::Groove { width_um, depth_nm } => {
                         let slit = sinc(PI * width_um / (nm * 1e-3) * to.q);
                         let energy = phase_step_energy(depth_nm * depth_share, nm);
                         energy * width_um / (nm * 1e-3) * slit * slit
                     }
-                    Of::Row(row) => row.density(to.q, depth_share, nm, self.band_std[j]),
+                    LobeSource::Row(row) => row.density(to.q, depth_share, nm, self.band_std[j]),
                 };
                 self.strength[j] * (across * normal(to.xi_t, self.band_std[j]))
             })
@@ -115,10 +115,12 @@ impl Lobe {
     ) -> Option<LobeDirections> {
         let (low, high) = (self.wo.y + across.0, self.wo.y + across.1);
         let q = match &self.of {
-            Of::Groove { width_um, .. } => {
+            LobeSource::Groove { width_um, .. } => {
                 Across::Slit(CutCauchy::new(DRAWN_HALF_WIDTH_UM / width_um, low, high)?)
             }
-            Of::Row(row) => Across::Orders(Orders::new(row, &self.nm, &self.band_std, low, high)?),
+            LobeSource::Row(row) => {
+                Across::Orders(Orders::new(row, &self.nm, &self.band_std, low, high)?)
+            }
         };
         Some(LobeDirections {
             wo: self.wo,

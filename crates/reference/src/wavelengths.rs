@@ -1,6 +1,6 @@
 //! The wavelengths of one sample, spread evenly over the visible, and what a material makes of them.
 
-use super::reflectance::{Ends, Reflectance};
+use super::reflectance::{Reflectance, ReflectanceEnds};
 use glam::DVec3;
 use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::metal::Metal;
@@ -44,7 +44,7 @@ pub(super) struct SpectralFresnel<'a> {
     /// The metal's colour before textures; 1 without a metal.
     metal_f0: DVec3,
     reflectance: &'a Reflectance,
-    ends: Ends,
+    ends: ReflectanceEnds,
     cos_o: f64,
     /// Reflectance of a coat, and its share of the surface.
     coat: Option<(f64, &'a Reflectance)>,
@@ -67,7 +67,7 @@ impl<'a> SpectralFresnel<'a> {
             metal,
             metal_f0,
             reflectance,
-            ends: Ends::of(point),
+            ends: ReflectanceEnds::of(point),
             cos_o: point.wo.z,
             coat,
         }
@@ -76,7 +76,7 @@ impl<'a> SpectralFresnel<'a> {
     fn at(&self, cos_theta: f64) -> DVec3 {
         let base = self.reflectance.eval(cos_theta, self.ends).once;
         self.coat.map_or(base, |(weight, reflectance)| {
-            let coat = reflectance.eval(cos_theta, Ends::COAT).once;
+            let coat = reflectance.eval(cos_theta, ReflectanceEnds::COAT).once;
             base.lerp(coat, weight)
         })
     }

@@ -22,7 +22,7 @@ use crate::loader::{Loader, Stage};
 use crate::scene::{Object, Scene};
 use crate::studio::PhotoSet;
 use crate::texture::texture_bytes;
-use kept::{Kept, KeptPicture, KeptSurface, MapKey, Stamp, SurfaceKey};
+use kept::{BuildCache, KeptPicture, KeptSurface, MapKey, Stamp, SurfaceKey};
 use textures::NewTextures;
 
 /// Builds scenes one after the other. What of a scene is as it was in the one before is not made again, but shared with it:
@@ -35,7 +35,7 @@ use textures::NewTextures;
 /// was built from nothing. A clone shares what is kept, and costs next to nothing.
 #[derive(Clone, Default)]
 pub struct SceneBuilder {
-    kept: Kept,
+    kept: BuildCache,
 }
 
 impl fmt::Debug for SceneBuilder {
@@ -70,7 +70,7 @@ impl SceneBuilder {
             description,
             base_dir,
             old: &self.kept,
-            new: Kept::default(),
+            new: BuildCache::default(),
             estimate: Estimate::default(),
         };
         let scene = work.scene()?;
@@ -84,9 +84,9 @@ struct Work<'a> {
     loader: &'a Loader<'a>,
     description: &'a Description,
     base_dir: &'a Path,
-    old: &'a Kept,
+    old: &'a BuildCache,
     /// Results that the next build can reuse.
-    new: Kept,
+    new: BuildCache,
     /// Memory of the parts to be built, without textures and scratches.
     estimate: Estimate,
 }

@@ -43,7 +43,7 @@ pub use gratings::{Grating, GroovePattern, UvAxis};
 pub use light_kind::{LightKind, SUN_DEG};
 pub use lights::{Cone, Light};
 pub use overrides::Override;
-pub use place::Place;
+pub use place::LayerPlaces;
 pub(crate) use scratches::DEFAULT_SEED;
 pub use scratches::{
     Amount, Around, Brush, Brushed, Distribution, Laid, Layer, Listed, Pattern, Scratches, Stroke,

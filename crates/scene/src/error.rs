@@ -11,7 +11,7 @@ use crate::text::{printable, said};
 /// It prints as `file:line: key: what was found; what would be right`, leaving out what it does not know.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct Error {
-    place: Option<Place>,
+    place: Option<FilePosition>,
     key: String,
     found: String,
     right: String,
@@ -20,7 +20,7 @@ pub struct Error {
 
 /// A file and, if known, a line in it, counted from 1.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Place {
+struct FilePosition {
     file: PathBuf,
     line: Option<usize>,
 }
@@ -54,7 +54,7 @@ impl Error {
     /// Sets the place of the mistake, unless a more exact one is known already.
     #[must_use]
     pub fn at(mut self, file: &Path, line: Option<usize>) -> Self {
-        self.place.get_or_insert_with(|| Place {
+        self.place.get_or_insert_with(|| FilePosition {
             file: file.to_owned(),
             line,
         });

@@ -13,7 +13,7 @@ use crate::texture::texture_bytes;
 
 /// Something that takes memory.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct MemoryItem {
     /// The way to what asks for it in the scene file.
     pub key: String,
     /// Name with its number: `32768 triangles`.
@@ -27,7 +27,7 @@ pub struct Part {
 /// Memory that a scene takes without its scratches.
 #[derive(Clone, Debug, Default)]
 pub struct Estimate {
-    parts: Vec<Part>,
+    parts: Vec<MemoryItem>,
 }
 
 impl Estimate {
@@ -45,7 +45,7 @@ impl Estimate {
     }
 
     /// Parts of the estimate, in the order of the scene.
-    pub fn parts(&self) -> &[Part] {
+    pub fn parts(&self) -> &[MemoryItem] {
         &self.parts
     }
 
@@ -63,7 +63,7 @@ impl Estimate {
             .sum();
         if lights > 0 {
             let light = costs::LIGHT + rayon::current_num_threads() as f64 * costs::LIGHT_SEEN;
-            self.parts.push(Part {
+            self.parts.push(MemoryItem {
                 key: "light".to_owned(),
                 what: counted(lights as f64, "light"),
                 bytes: lights as f64 * light + vertices as f64 * costs::LIGHT_VERTEX,
@@ -78,11 +78,11 @@ impl Estimate {
             .scratches
             .iter()
             .any(|s| s.object == object.name);
-        let Size {
+        let ObjectCounts {
             triangles,
             vertices,
             file_bytes,
-        } = Size::of(object, base_dir);
+        } = ObjectCounts::of(object, base_dir);
         let (key, remedy) = match &object.surface {
             Surface::Mesh(_) => ("mesh", "take a model of fewer triangles"),
             Surface::Shape(Shape::Lathe { .. }) => {
@@ -95,7 +95,7 @@ impl Estimate {
         } else {
             0.0
         };
-        self.parts.push(Part {
+        self.parts.push(MemoryItem {
             key: format!("object[{i}].{key}"),
             what: counted(triangles, "triangle"),
             bytes: costs::OBJECT
@@ -118,7 +118,7 @@ impl Estimate {
         let Ok([width, height]) = size_px else {
             return;
         };
-        self.parts.push(Part {
+        self.parts.push(MemoryItem {
             key: format!("environment.{key}"),
             what: format!("a map of {width} x {height} pixels"),
             bytes: costs::MAP + f64::from(width) * f64::from(height) * costs::MAP_PIXEL,
@@ -128,7 +128,7 @@ impl Estimate {
 
     /// The picture that is to be rendered, which may have another size than the scene file says.
     pub fn add_picture(&mut self, [width, height]: [u32; 2]) {
-        self.parts.push(Part {
+        self.parts.push(MemoryItem {
             key: "render.size_px".to_owned(),
             what: format!("a picture of {width} x {height} pixels"),
             bytes: f64::from(width) * f64::from(height) * costs::PICTURE_PIXEL,
@@ -197,14 +197,14 @@ fn table_of(key: &str) -> &str {
 
 /// Numbers of an object before it is made.
 #[derive(Clone, Copy, Debug, Default)]
-struct Size {
+struct ObjectCounts {
     triangles: f64,
     vertices: f64,
     /// Memory for files that are held while the object is read.
     file_bytes: f64,
 }
 
-impl Size {
+impl ObjectCounts {
     fn of(object: &Object, base_dir: &Path) -> Self {
         match &object.surface {
             Surface::Shape(shape) => {

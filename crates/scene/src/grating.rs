@@ -9,7 +9,7 @@ use hairline_optics::gaussian::gaussian;
 use hairline_optics::grating::Grating as Row;
 
 use crate::picture_lie::PictureLie;
-use spots::Rows;
+use spots::SpotRows;
 use std::f64::consts::PI;
 
 pub use ground::GrooveGround;
@@ -306,8 +306,8 @@ impl Grating {
         let (spots, count) = match self.field {
             GrooveField::Spots {
                 axis, along_row, ..
-            } if seen.mixed > 0.0 => (Rows { axis, along_row }, spots::WAYS),
-            _ => (Rows::default(), 0),
+            } if seen.mixed > 0.0 => (SpotRows { axis, along_row }, spots::WAYS),
+            _ => (SpotRows::default(), 0),
         };
         (0..count).filter_map(move |i| {
             let angle_rad = (i as f64 + 0.5) * PI / spots::WAYS as f64;
@@ -332,7 +332,7 @@ impl Grating {
         else {
             return None;
         };
-        let density = spots::density(Rows { axis, along_row }.angle_rad(along));
+        let density = spots::density(SpotRows { axis, along_row }.angle_rad(along));
         let all_std_rad = spots::ALL_AROUND_STD_RAD / density;
         let std_rad = all_std_rad.min(spots::WIDEST_XI / along.length().max(1e-9));
         (seen.mixed > 0.0).then(|| GroovePlace {

@@ -44,8 +44,8 @@ use std::path::Path;
 use glam::DMat4;
 use gltf::Gltf;
 
-use crate::reading::{self, Kind};
-use crate::scene::{Mesh, Part};
+use crate::reading::{self, FileKind};
+use crate::scene::{Mesh, NodeTriangles};
 use crate::text::shown;
 pub(crate) use cameras::FileCamera;
 pub(crate) use flaw::Flaw;
@@ -53,15 +53,15 @@ use flaw::RIGHT;
 pub(crate) use head::{camera_names, counts, left_out, names};
 use images::Images;
 pub use left_out::LeftOut;
-pub(crate) use left_out::Wanted;
+pub(crate) use left_out::UsedContents;
 pub(crate) use lights::{Punctual, PunctualKind};
 use material::Materials;
 pub(crate) use placing::Placing;
-use root::Kept;
+use root::OptionalElements;
 use shapes::Shapes;
 use source::Buffers;
 use stock::FILE_SHARE;
-pub(crate) use stock::Stock;
+pub(crate) use stock::FileContents;
 
 /// Instances of meshes that one file may place; each is baked.
 const MOST_TRIANGLES: usize = 1 << 28;
@@ -72,15 +72,15 @@ pub(crate) fn read(
     material: Option<u32>,
     world_from_object: &DMat4,
     placing: &Placing,
-    stock: Stock,
+    stock: FileContents,
 ) -> Result<Mesh, Flaw> {
-    let kept = Kept {
+    let kept = OptionalElements {
         animations: placing.time_s.is_some(),
         cameras: false,
     };
     let gltf = parse(&file(path)?, kept)?;
     let base_dir = path.parent().unwrap_or(Path::new(""));
-    let Stock {
+    let FileContents {
         parts,
         materials,
         textures,
@@ -140,7 +140,7 @@ pub(crate) fn read(
             }
             surface.bake(&(world_from_file * *file_from_place), material, &mut mesh);
         }
-        parts.push(Part {
+        parts.push(NodeTriangles {
             nodes: shape.nodes.clone(),
             triangles: first..mesh.triangles.len(),
         });
@@ -190,7 +190,7 @@ pub(crate) fn camera(
     placing: &Placing,
     wanted: &str,
 ) -> Result<FileCamera, Flaw> {
-    let kept = Kept {
+    let kept = OptionalElements {
         animations: placing.time_s.is_some(),
         cameras: true,
     };
@@ -205,11 +205,11 @@ pub(crate) fn camera(
 
 /// The lights of a file, in its own frame.
 pub(crate) fn lights(path: &Path) -> Result<Vec<Punctual>, Flaw> {
-    lights::of(&parse(&file(path)?, Kept::default())?.document)
+    lights::of(&parse(&file(path)?, OptionalElements::default())?.document)
 }
 
 fn file(path: &Path) -> Result<Vec<u8>, Flaw> {
-    let mut bytes = reading::read(path, Kind::File, FILE_SHARE).map_err(|error| {
+    let mut bytes = reading::read(path, FileKind::File, FILE_SHARE).map_err(|error| {
         Flaw::new(
             format!("it cannot be read ({error})"),
             "give the path of a .gltf or .glb file, relative to the scene file",
@@ -219,7 +219,7 @@ fn file(path: &Path) -> Result<Vec<u8>, Flaw> {
     Ok(bytes)
 }
 
-fn parse(bytes: &[u8], kept: Kept) -> Result<Gltf, Flaw> {
+fn parse(bytes: &[u8], kept: OptionalElements) -> Result<Gltf, Flaw> {
     let right = RIGHT;
     if bytes.is_empty() {
         return Err(Flaw::new("it is empty", right));
@@ -280,10 +280,10 @@ fn parse(bytes: &[u8], kept: Kept) -> Result<Gltf, Flaw> {
 }
 
 /// The text of a file, and its binary chunk.
-type Parts<'a> = (Cow<'a, [u8]>, Option<Vec<u8>>);
+type GltfChunks<'a> = (Cow<'a, [u8]>, Option<Vec<u8>>);
 
 /// Takes a file apart.
-fn parts(bytes: &[u8]) -> Result<Parts<'_>, Flaw> {
+fn parts(bytes: &[u8]) -> Result<GltfChunks<'_>, Flaw> {
     if !bytes.starts_with(b"glTF") {
         return Ok((Cow::Borrowed(bytes), None));
     }

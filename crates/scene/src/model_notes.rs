@@ -3,19 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use crate::description::{Description, Object, Surface};
-use crate::mesh_file::{self, LeftOut, Wanted};
+use crate::mesh_file::{self, LeftOut, UsedContents};
 use crate::text::shown;
 
 impl Description {
     /// Lists the contents of its models that are not in the picture, file by file, each once. Files are looked for in `base_dir`;
     /// what cannot be read has nothing.
     pub fn left_out(&self, base_dir: &Path) -> Vec<(PathBuf, Vec<LeftOut>)> {
-        let mut models: Vec<(&PathBuf, Wanted)> = Vec::new();
+        let mut models: Vec<(&PathBuf, UsedContents)> = Vec::new();
         for object in &self.objects {
             let Surface::Mesh(file) = &object.surface else {
                 continue;
             };
-            let wanted = Wanted::of(object, self.lights_of.as_deref());
+            let wanted = UsedContents::of(object, self.lights_of.as_deref());
             match models.iter_mut().find(|(known, _)| *known == file) {
                 Some((_, known)) => {
                     known.own_materials |= wanted.own_materials;
@@ -24,7 +24,7 @@ impl Description {
                 None => models.push((file, wanted)),
             }
         }
-        let of_file = |(file, wanted): (&PathBuf, Wanted)| {
+        let of_file = |(file, wanted): (&PathBuf, UsedContents)| {
             let left_out = mesh_file::left_out(&base_dir.join(file), wanted);
             (file.clone(), left_out)
         };
@@ -40,7 +40,7 @@ impl Description {
     }
 }
 
-impl Wanted {
+impl UsedContents {
     /// `lights_of` as in [`Description::lights_of`].
     pub(crate) fn of(object: &Object, lights_of: Option<&Path>) -> Self {
         Self {

@@ -8,7 +8,7 @@ use hairline_memory::budget_bytes;
 use crate::description::Description;
 use crate::environment;
 use crate::error::Error;
-use crate::mesh_file::{self, Placing, Stock};
+use crate::mesh_file::{self, FileContents, Placing};
 use crate::reading;
 use crate::scene::{Base, Material, Mesh, Texture};
 
@@ -81,7 +81,7 @@ pub(crate) struct ProbedMesh {
 pub(crate) fn read_mesh(path: &Path) -> Result<ProbedMesh, Error> {
     let (mut materials, mut textures) = (Vec::new(), Vec::new());
     let mut moved_from = None;
-    let stock = Stock {
+    let stock = FileContents {
         moved_from: &mut moved_from,
         notes: &mut Vec::new(),
         parts: &mut Vec::new(),

@@ -11,7 +11,7 @@ use crate::error::Error;
 
 /// Kinds of files that may be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum FileKind {
     /// A file on a disk.
     File,
     /// A regular file, or a pipe that another program writes into.
@@ -22,12 +22,12 @@ pub(crate) enum Kind {
 ///
 /// # Errors
 /// Why it cannot be read, in words.
-pub(crate) fn read(path: &Path, kind: Kind, share: f64) -> Result<Vec<u8>, String> {
+pub(crate) fn read(path: &Path, kind: FileKind, share: f64) -> Result<Vec<u8>, String> {
     let most = (budget_bytes() as f64 * share) as u64;
     read_at_most(path, kind, most)
 }
 
-fn read_at_most(path: &Path, kind: Kind, most: u64) -> Result<Vec<u8>, String> {
+fn read_at_most(path: &Path, kind: FileKind, most: u64) -> Result<Vec<u8>, String> {
     let refuse = |length: u64| {
         format!(
             "it has {} or more, and at most {} of memory are free for it",
@@ -51,7 +51,7 @@ fn read_at_most(path: &Path, kind: Kind, most: u64) -> Result<Vec<u8>, String> {
 }
 
 /// Length of a file that may be read; a file on a disk may have become longer by the time it is read.
-fn length(path: &Path, kind: Kind) -> Result<u64, String> {
+fn length(path: &Path, kind: FileKind) -> Result<u64, String> {
     if let Some(held) = held::bytes(path) {
         return Ok(held.len() as u64);
     }
@@ -60,11 +60,11 @@ fn length(path: &Path, kind: Kind) -> Result<u64, String> {
     Ok(metadata.len())
 }
 
-fn check_kind(metadata: &Metadata, kind: Kind) -> Result<(), String> {
+fn check_kind(metadata: &Metadata, kind: FileKind) -> Result<(), String> {
     if metadata.is_dir() {
         return Err("it is a folder".to_owned());
     }
-    let is_pipe = kind == Kind::FileOrPipe && is_pipe(metadata);
+    let is_pipe = kind == FileKind::FileOrPipe && is_pipe(metadata);
     match metadata.is_file() || is_pipe {
         true => Ok(()),
         false => Err("it is no regular file, but a device or the like".to_owned()),
@@ -80,7 +80,7 @@ pub(crate) fn check_regular(path: &Path) -> io::Result<()> {
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
     }
-    check_kind(&metadata, Kind::File).map_err(io::Error::other)
+    check_kind(&metadata, FileKind::File).map_err(io::Error::other)
 }
 
 #[cfg(unix)]
@@ -104,7 +104,7 @@ const TEXT_BYTES: f64 = 64.0;
 /// # Errors
 /// Why it cannot be read.
 pub fn scene_text(path: &Path) -> Result<String, Error> {
-    let bytes = read(path, Kind::FileOrPipe, TEXT_SHARE).map_err(|reason| {
+    let bytes = read(path, FileKind::FileOrPipe, TEXT_SHARE).map_err(|reason| {
         let found = format!("cannot be read ({reason})");
         Error::new("", found, "give the path of a scene file (TOML)").at(path, None)
     })?;
@@ -160,23 +160,23 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a");
         std::fs::write(&path, [7; 100]).unwrap();
-        assert_eq!(read_at_most(&path, Kind::File, 100).unwrap().len(), 100);
-        let error = read_at_most(&path, Kind::File, 99).unwrap_err();
+        assert_eq!(read_at_most(&path, FileKind::File, 100).unwrap().len(), 100);
+        let error = read_at_most(&path, FileKind::File, 99).unwrap_err();
         assert!(error.contains("100 bytes or more"), "{error}");
-        let error = read_at_most(folder.path(), Kind::File, 99).unwrap_err();
+        let error = read_at_most(folder.path(), FileKind::File, 99).unwrap_err();
         assert!(error.contains("folder"), "{error}");
     }
 
     #[cfg(unix)]
     #[test]
     fn devices_are_refused() {
-        for kind in [Kind::File, Kind::FileOrPipe] {
+        for kind in [FileKind::File, FileKind::FileOrPipe] {
             let error = read(Path::new("/dev/zero"), kind, 0.1).unwrap_err();
             assert!(error.contains("no regular file"), "{error}");
         }
         // The system's own files have no length, and can be read.
         assert!(
-            !read(Path::new("/proc/self/status"), Kind::File, 0.1)
+            !read(Path::new("/proc/self/status"), FileKind::File, 0.1)
                 .unwrap()
                 .is_empty()
         );

@@ -369,7 +369,7 @@ pub struct Object {
     /// Straight pieces, one triangle each, those of one scratch side by side in the order of its walk.
     pub segments: Arc<Vec<Segment>>,
     /// Parts of the object that its file names; none of a shape.
-    pub parts: Arc<Vec<Part>>,
+    pub parts: Arc<Vec<NodeTriangles>>,
     /// Grooves that are finer than a pixel.
     pub gratings: Vec<Grating>,
     /// Whether it is the shape of a light that the camera sees: black but for its emission, met by no ray but the camera's, and by that on its
@@ -379,7 +379,7 @@ pub struct Object {
 
 /// The triangles of one node of a model's file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Part {
+pub struct NodeTriangles {
     /// The names of the node and of those above it, from the innermost on.
     pub nodes: Arc<[String]>,
     /// Range of the part in [`Mesh::triangles`].

@@ -40,8 +40,8 @@ use listed::Listed;
 pub use listed::write_scratches;
 use memory::{Demand, SEGMENT_BYTES};
 use painted::Painted;
-pub(crate) use place::Means;
-use place::Place;
+use place::GroundPlaces;
+pub(crate) use place::PlaceInputs;
 use random::Stream;
 use strewn::Strewn;
 use walk::{Course, Walker};
@@ -72,7 +72,7 @@ pub(crate) struct Table<'a> {
     pub number: u64,
     pub ground: &'a Ground,
     /// Places of the surface on which it lies.
-    pub means: Means<'a>,
+    pub means: PlaceInputs<'a>,
 }
 
 /// The scratches of one layer; their `layer` is 0.
@@ -110,7 +110,7 @@ struct Plan<'a> {
     table: &'a Table<'a>,
     laying: Box<dyn Laying + 'a>,
     eraser: Option<Eraser>,
-    place: Option<Place<'a>>,
+    place: Option<GroundPlaces<'a>>,
     count: u64,
     /// The first scratches, and how many: they told how much memory all of them take.
     pilot: (Laid, u64),
@@ -244,7 +244,7 @@ impl<'a> Plan<'a> {
             table,
             laying,
             eraser: Eraser::new(loader, table.strokes, ground)?,
-            place: Place::new(&table.means, ground, &table.key)?,
+            place: GroundPlaces::new(&table.means, ground, &table.key)?,
             count,
             pilot: Default::default(),
         })

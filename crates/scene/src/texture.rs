@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::jpeg_end;
 use crate::ktx2;
-use crate::reading::{self, Kind};
+use crate::reading::{self, FileKind};
 use crate::scene::{Sampling, Texture, Wrap};
 use crate::text::shown;
 
@@ -68,7 +68,7 @@ const SHARE: f64 = 0.25;
 /// What was found in the place of a picture.
 pub(crate) fn read(path: &Path, free_bytes: f64) -> Result<Texels, String> {
     let named = |why: String| format!("{}: {why}", shown(&path.to_string_lossy()));
-    let bytes = reading::read(path, Kind::File, SHARE).map_err(|why| named(why.to_string()))?;
+    let bytes = reading::read(path, FileKind::File, SHARE).map_err(|why| named(why.to_string()))?;
     let decoded = decode_turned(&bytes, free_bytes, true);
     decoded.map_err(|why| named(why.to_string()))
 }

@@ -28,7 +28,7 @@ pub enum Wear {
 
 /// The kinds of scratches that wear is made of.
 #[derive(Clone, Copy)]
-enum Kind {
+enum WearKind {
     Hairlines,
     Swirls,
     Marks,
@@ -41,7 +41,7 @@ enum Kind {
     Digs,
 }
 
-impl Kind {
+impl WearKind {
     const ALL: [Self; 10] = [
         Self::Hairlines,
         Self::Swirls,
@@ -199,7 +199,7 @@ impl Wear {
     /// The layers for an object whose bounding box has this diagonal.
     pub fn layers(self, object: &str, diagonal_m: f64) -> Vec<Scratches> {
         let d = fitting(diagonal_m);
-        let layers = Kind::ALL.map(|kind| kind.layer(self, object, d));
+        let layers = WearKind::ALL.map(|kind| kind.layer(self, object, d));
         layers.into_iter().flatten().collect()
     }
 }
@@ -207,7 +207,7 @@ impl Wear {
 /// Whether a layer is one of wear, by its name.
 pub fn is_wear(layer: &Scratches) -> bool {
     let name = layer.name.as_deref();
-    Kind::ALL.iter().any(|kind| name == Some(kind.name()))
+    WearKind::ALL.iter().any(|kind| name == Some(kind.name()))
 }
 
 /// The number of scratches that cover a share of an object: its area is taken to be half its diagonal's square, between a

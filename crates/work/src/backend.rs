@@ -124,12 +124,12 @@ pub struct Painter<'a> {
     scene: &'a Scene,
     task: Task,
     listener: &'a dyn Listener,
-    on: On<'a>,
+    on: OpenRenderer<'a>,
     /// Triangles for the alpha channel where a GPU renders; built when first needed.
     triangles: OnceCell<TriangleIndex>,
 }
 
-enum On<'a> {
+enum OpenRenderer<'a> {
     Cpu(Box<Prepared<'a>>),
     Gpu(Box<OnGpu>),
 }
@@ -142,13 +142,13 @@ impl<'a> Painter<'a> {
     /// [`Failure::Work`] where the GPU that was asked for fails.
     pub fn open(scene: &'a Scene, task: Task, listener: &'a dyn Listener) -> Result<Self, Failure> {
         let on = match task.backend {
-            Backend::Cpu => On::on_cpu(scene, &task.method, "as asked", listener),
+            Backend::Cpu => OpenRenderer::on_cpu(scene, &task.method, "as asked", listener),
             Backend::Gpu => {
                 let gpu = open().map_err(advise)?;
                 announce_gpu(&gpu, "as asked", listener);
-                On::on_gpu(&gpu, scene, &task, listener).map_err(advise)?
+                OpenRenderer::on_gpu(&gpu, scene, &task, listener).map_err(advise)?
             }
-            Backend::Auto => On::best(scene, &task, listener),
+            Backend::Auto => OpenRenderer::best(scene, &task, listener),
         };
         Ok(Self {
             scene,
@@ -187,8 +187,10 @@ impl<'a> Painter<'a> {
 
     fn triangles(&self) -> &TriangleIndex {
         match &self.on {
-            On::Cpu(prepared) => prepared.triangles(),
-            On::Gpu(_) => (self.triangles).get_or_init(|| TriangleIndex::build(self.scene)),
+            OpenRenderer::Cpu(prepared) => prepared.triangles(),
+            OpenRenderer::Gpu(_) => {
+                (self.triangles).get_or_init(|| TriangleIndex::build(self.scene))
+            }
         }
     }
 
@@ -310,24 +312,25 @@ impl<'a> Painter<'a> {
         on_gpu: impl FnOnce(&mut OnGpu) -> Result<T, hairline_gpu::Error>,
         on_cpu: impl FnOnce(&Prepared) -> T,
     ) -> Result<T, Failure> {
-        if let On::Gpu(ready) = &mut self.on {
+        if let OpenRenderer::Gpu(ready) = &mut self.on {
             match on_gpu(ready) {
                 Ok(done) => return Ok(done),
                 Err(error) if self.task.backend == Backend::Gpu => return Err(advise(error)),
                 Err(error) => {
                     warn_of(ready.gpu(), &error, self.listener);
-                    self.on = On::Cpu(prepared(self.scene, &self.task.method, self.listener));
+                    self.on =
+                        OpenRenderer::Cpu(prepared(self.scene, &self.task.method, self.listener));
                 }
             }
         }
         match &self.on {
-            On::Cpu(prepared) => Ok(on_cpu(prepared)),
-            On::Gpu(_) => unreachable!("a GPU has returned or was left"),
+            OpenRenderer::Cpu(prepared) => Ok(on_cpu(prepared)),
+            OpenRenderer::Gpu(_) => unreachable!("a GPU has returned or was left"),
         }
     }
 }
 
-impl<'a> On<'a> {
+impl<'a> OpenRenderer<'a> {
     fn on_cpu(scene: &'a Scene, method: &Method, why: &str, listener: &dyn Listener) -> Self {
         announce_cpu(why, listener);
         Self::Cpu(prepared(scene, method, listener))

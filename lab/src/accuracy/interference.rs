@@ -83,7 +83,7 @@ pub fn measure(quick: bool) -> Result<Interference> {
     for random in [false, true] {
         for spacing_um in SPACINGS_UM {
             let way_um = shorter * f64::max(WAY_UM, WAY_GROOVES * spacing_um);
-            let seen = Seen::of(&Row::new(spacing_um, random, way_um), nm_step);
+            let seen = SeenResponses::of(&GrooveRow::new(spacing_um, random, way_um), nm_step);
             by_spacing.push(seen.errors(spacing_um, PIXEL_UM, random));
             if spacing_um == SHOWN_UM {
                 profiles.push(seen.profile(random));
@@ -92,7 +92,7 @@ pub fn measure(quick: bool) -> Result<Interference> {
         println!("interference: spacings, random {random}");
     }
     let long_um = if quick { 1000.0 } else { 12_000.0 };
-    let seen = Seen::of(&Row::new(SHOWN_UM, true, long_um), 4 * nm_step);
+    let seen = SeenResponses::of(&GrooveRow::new(SHOWN_UM, true, long_um), 4 * nm_step);
     let by_pixel = PIXELS_UM
         .iter()
         .filter(|pixel_um| **pixel_um * 3.0 < long_um)
@@ -111,14 +111,14 @@ pub fn measure(quick: bool) -> Result<Interference> {
 }
 
 /// Parallel grooves, and the places that they are seen from.
-struct Row {
+struct GrooveRow {
     grooves_um: Vec<f64>,
     places_um: Vec<f64>,
     /// Whether places repeat, so that their average is any pixel's.
     periodic: bool,
 }
 
-impl Row {
+impl GrooveRow {
     fn new(spacing_um: f64, random: bool, way_um: f64) -> Self {
         if !random {
             // One period stands for all.
@@ -154,8 +154,8 @@ impl Row {
 }
 
 /// Responses by place and direction.
-struct Seen {
-    /// See [`Row`].
+struct SeenResponses {
+    /// See [`GrooveRow`].
     periodic: bool,
     places: Vec<Vec<Response>>,
 }
@@ -176,8 +176,8 @@ impl Response {
     }
 }
 
-impl Seen {
-    fn of(row: &Row, nm_step: usize) -> Self {
+impl SeenResponses {
+    fn of(row: &GrooveRow, nm_step: usize) -> Self {
         let places: Vec<Vec<Response>> = row
             .places_um
             .par_iter()
@@ -335,8 +335,8 @@ mod tests {
 
     #[test]
     fn a_row_is_a_grating_that_a_large_light_hides() {
-        let row = Row::new(10.0, false, 100.0);
-        let errors = Seen::of(&row, 8).errors(10.0, 30.0, false);
+        let row = GrooveRow::new(10.0, false, 100.0);
+        let errors = SeenResponses::of(&row, 8).errors(10.0, 30.0, false);
         let [small, .., large] = errors.by_light[..] else {
             panic!("three lights")
         };

@@ -7,7 +7,7 @@ use glam::DVec3;
 use image::{ImageFormat, RgbImage};
 use serde_json::{Value, json};
 
-use super::spoon::Part;
+use super::spoon::MeshPart;
 
 const FLOAT: u32 = 5126;
 const UNSIGNED_SHORT: u32 = 5123;
@@ -25,7 +25,7 @@ pub struct Glb {
 }
 
 /// Optional contents of a part in the file.
-pub struct Uses {
+pub struct PartContents {
     /// Whether its tangents are written.
     pub tangents: bool,
 }
@@ -56,7 +56,7 @@ impl Glb {
     }
 
     /// Stores a part's vertices and triangles; returns the primitive for a mesh.
-    pub fn primitive(&mut self, part: &Part, material: usize, uses: Uses) -> Value {
+    pub fn primitive(&mut self, part: &MeshPart, material: usize, uses: PartContents) -> Value {
         let positions: Vec<[f32; 3]> = part
             .positions_mm
             .iter()

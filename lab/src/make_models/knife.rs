@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3};
 
 use super::spline::smooth_step;
-use super::spoon::Part;
+use super::spoon::MeshPart;
 
 /// Length of the blade, from its heel.
 const BLADE_MM: f64 = 196.0;
@@ -24,8 +24,8 @@ const RIVETS_AT_MM: [f64; 3] = [-112.0, -74.0, -36.0];
 const DIFFERENCE: f64 = 1e-6;
 
 /// The blade's two sides and its back.
-pub fn blade() -> Part {
-    let mut part = Part::default();
+pub fn blade() -> MeshPart {
+    let mut part = MeshPart::default();
     for side in [1.0, -1.0] {
         // u along, v from the spine to the bevel.
         add_face(&mut part, [120, 8], side > 0.0, |u, v| {
@@ -43,8 +43,8 @@ pub fn blade() -> Part {
 }
 
 /// The ground edge.
-pub fn edge_bevel() -> Part {
-    let mut part = Part::default();
+pub fn edge_bevel() -> MeshPart {
+    let mut part = MeshPart::default();
     for side in [1.0, -1.0] {
         add_face(&mut part, [120, 2], side > 0.0, |u, v| {
             let x = along(u);
@@ -56,8 +56,8 @@ pub fn edge_bevel() -> Part {
 }
 
 /// The bolster, from the handle to the heel of the blade.
-pub fn bolster() -> Part {
-    let mut part = Part::default();
+pub fn bolster() -> MeshPart {
+    let mut part = MeshPart::default();
     add_face(&mut part, [24, 64], true, |u, v| {
         let x = BOLSTER_MM * (1.0 - u);
         let t = smooth_step(BOLSTER_MM, 0.0, x);
@@ -74,8 +74,8 @@ pub fn bolster() -> Part {
 }
 
 /// The handle, round at its end.
-pub fn handle() -> Part {
-    let mut part = Part::default();
+pub fn handle() -> MeshPart {
+    let mut part = MeshPart::default();
     add_face(&mut part, [72, 64], true, |u, v| {
         // More stations where it closes.
         let x = END_MM + (BOLSTER_MM - END_MM) * (1.0 - libm::cos(u * PI / 2.0));
@@ -85,8 +85,8 @@ pub fn handle() -> Part {
 }
 
 /// The heads of the rivets on both sides of the handle.
-pub fn rivets() -> Part {
-    let mut part = Part::default();
+pub fn rivets() -> MeshPart {
+    let mut part = MeshPart::default();
     for x in RIVETS_AT_MM {
         let [middle, _, half] = section(x);
         for side in [1.0, -1.0] {
@@ -159,7 +159,7 @@ fn around(x: f64, [middle, across, half]: [f64; 3], v: f64) -> DVec3 {
 
 /// A face of so many cells, whose outside is where u turns to v, or the other side.
 fn add_face(
-    part: &mut Part,
+    part: &mut MeshPart,
     [cells_u, cells_v]: [usize; 2],
     is_turned: bool,
     point: impl Fn(f64, f64) -> DVec3,

@@ -32,7 +32,7 @@ const DIFFERENCE: f64 = 1e-5;
 
 /// Vertices and triangles of one primitive.
 #[derive(Default)]
-pub struct Part {
+pub struct MeshPart {
     /// Positions in the part's own frame, mm.
     pub positions_mm: Vec<DVec3>,
     /// Unit.
@@ -96,7 +96,7 @@ impl Spoon {
     }
 
     /// The bowl with its tip, in the spoon's frame.
-    pub fn bowl(&self) -> Part {
+    pub fn bowl(&self) -> MeshPart {
         // Stations crowd where the tip closes.
         self.part(ALONG_BOWL, 0.0, |t| {
             JOINT_MM * (1.0 - libm::cos(t * PI / 2.0))
@@ -104,7 +104,7 @@ impl Spoon {
     }
 
     /// The handle with its end, in a frame that starts at the joint.
-    pub fn handle(&self) -> Part {
+    pub fn handle(&self) -> MeshPart {
         let length = LENGTH_MM - JOINT_MM;
         self.part(ALONG_HANDLE, JOINT_MM, |t| {
             JOINT_MM + length * libm::sin(t * PI / 2.0)
@@ -163,8 +163,8 @@ impl Spoon {
 
     /// Rings of vertices at the places that `x_at` gives for 0 to 1, and a pole where the section closes. The upper and
     /// the lower face are two sheets of texture, so the vertices of the edges are there twice.
-    fn part(&self, stations: usize, origin_x: f64, x_at: impl Fn(f64) -> f64) -> Part {
-        let mut part = Part::default();
+    fn part(&self, stations: usize, origin_x: f64, x_at: impl Fn(f64) -> f64) -> MeshPart {
+        let mut part = MeshPart::default();
         let row = AROUND / 2 + 1;
         for face in 0..2 {
             for i in 0..=stations {
@@ -195,7 +195,7 @@ impl Spoon {
         part
     }
 
-    fn vertex(&self, part: &mut Part, x: f64, angle: f64, is_upper: bool, origin_x: f64) {
+    fn vertex(&self, part: &mut MeshPart, x: f64, angle: f64, is_upper: bool, origin_x: f64) {
         let position = self.point(x, angle.rem_euclid(TAU));
         let normal = match is_pole(x) {
             false => self.normal(x, angle),
@@ -227,7 +227,7 @@ fn is_pole(x: f64) -> bool {
     !(1e-9..=LENGTH_MM - 1e-9).contains(&x)
 }
 
-impl Part {
+impl MeshPart {
     /// A pole has as many vertices as a ring, for the texture, but one position, so that rounding opens no slit.
     fn weld_pole(&mut self, row: usize, stations: usize, at_start: bool) {
         let ring = if at_start { 0 } else { stations };

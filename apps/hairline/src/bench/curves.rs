@@ -7,7 +7,7 @@ use super::figures::{Curve, Point};
 use super::stage::{Lamps, Stage, TALK_SCRATCHES};
 use super::thoroughness::Thoroughness;
 use super::timing::by_turns;
-use super::way::Way;
+use super::way::BenchMethod;
 use super::worker::{Ready, Worker, counted};
 use crate::progress::Progress;
 use hairline_work::failure::Failure;
@@ -18,7 +18,7 @@ pub type Stages = fn(Stage, bool) -> Plan;
 /// Measurements along a curve.
 pub struct Plan {
     along: &'static str,
-    ways: &'static [Way],
+    ways: &'static [BenchMethod],
     stages: Vec<(f64, Stage)>,
 }
 
@@ -26,7 +26,7 @@ pub struct Plan {
 /// one array of any adapter.
 const SHORT_M: f64 = 0.00236;
 
-const BOTH: &[Way] = &[Way::Filtered, Way::Ours];
+const BOTH: &[BenchMethod] = &[BenchMethod::Filtered, BenchMethod::Ours];
 
 /// Curve from a thousand scratches to a million, under a sphere.
 pub fn scratches(base: Stage, quick: bool) -> Plan {
@@ -74,7 +74,7 @@ pub fn zoom(base: Stage, quick: bool) -> Plan {
     };
     Plan {
         along: "zoom",
-        ways: &[Way::Ours],
+        ways: &[BenchMethod::Ours],
         stages: zooms.iter().map(stage).collect(),
     }
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::counts::Counts;
 use super::machine::Machine;
-use super::way::Way;
+use super::way::BenchMethod;
 
 /// All figures of a benchmark.
 #[derive(Serialize)]
@@ -25,7 +25,7 @@ pub struct Figures {
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Row {
+pub enum TableRow {
     /// No light.
     Intersection,
     Sphere,
@@ -34,7 +34,7 @@ pub enum Row {
     Scene,
 }
 
-impl Row {
+impl TableRow {
     /// The rows of the talk.
     pub const TALK: [Self; 3] = [Self::Intersection, Self::Sphere, Self::Triangle];
     pub const ALL: [Self; 4] = [
@@ -57,9 +57,9 @@ impl Row {
 /// One cell of the table by one method.
 #[derive(Serialize)]
 pub struct Cell {
-    pub row: Row,
+    pub row: TableRow,
     pub zoom: f64,
-    pub way: Way,
+    pub way: BenchMethod,
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Error of the picture; none where nothing is lit.
@@ -161,7 +161,7 @@ pub struct Curve {
 pub struct Point {
     /// Scratches, zoom, lights, or pixels.
     pub x: f64,
-    pub way: Way,
+    pub way: BenchMethod,
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Counts of the work for the picture; of our method alone.

@@ -5,12 +5,12 @@ use hairline_gpu::Error;
 use hairline_scene::Scene;
 
 use super::error::{brightest, crop, errors, rim_of_reflection};
-use super::figures::{Cell, Row};
+use super::figures::{Cell, TableRow};
 use super::stage::{Lamps, Stage};
 use super::talk::{ZOOMS, talk_ms};
 use super::thoroughness::Thoroughness;
 use super::timing::by_turns;
-use super::way::Way;
+use super::way::BenchMethod;
 use super::worker::{Ready, Worker, counted};
 use crate::progress::Progress;
 use hairline_work::failure::Failure;
@@ -25,13 +25,13 @@ pub fn of_the_talk(
     // Laid once: the cells differ in camera and lamps.
     let worn = base.build()?;
     let mut cells = Vec::new();
-    let groups = Row::TALK.len() * ZOOMS.len();
-    for (r, row) in Row::TALK.into_iter().enumerate() {
+    let groups = TableRow::TALK.len() * ZOOMS.len();
+    for (r, row) in TableRow::TALK.into_iter().enumerate() {
         for (z, zoom) in ZOOMS.into_iter().enumerate() {
             let lamps = match row {
-                Row::Sphere => Lamps::Sphere,
-                Row::Triangle => Lamps::Triangle,
-                Row::Intersection | Row::Scene => Lamps::None,
+                TableRow::Sphere => Lamps::Sphere,
+                TableRow::Triangle => Lamps::Triangle,
+                TableRow::Intersection | TableRow::Scene => Lamps::None,
             };
             let stage = Stage {
                 lamps,
@@ -39,7 +39,7 @@ pub fn of_the_talk(
                 ..base
             };
             let scene = stage.of(&worn)?;
-            let middle = (row != Row::Intersection).then(|| rim_of_reflection(&scene));
+            let middle = (row != TableRow::Intersection).then(|| rim_of_reflection(&scene));
             let group = Group {
                 row,
                 zoom,
@@ -62,7 +62,7 @@ pub fn of_scene(
 ) -> Result<Vec<Cell>, Failure> {
     let middle = brightest(scene, thoroughness.accuracy.crop_of(scene));
     let group = Group {
-        row: Row::Scene,
+        row: TableRow::Scene,
         zoom: 1.0,
         scene,
         middle: Some(middle),
@@ -74,7 +74,7 @@ pub fn of_scene(
 
 /// The cells of one scene.
 struct Group<'a> {
-    row: Row,
+    row: TableRow,
     zoom: f64,
     scene: &'a Scene,
     /// Middle of the crop that errors are judged on; none where nothing is lit.
@@ -91,12 +91,12 @@ impl Group<'_> {
             row, zoom, scene, ..
         } = *self;
         let prepared = Prepared::new(scene);
-        let ready: Vec<Result<Ready, Error>> = Way::ALL
+        let ready: Vec<Result<Ready, Error>> = BenchMethod::ALL
             .iter()
             .map(|way| worker.ready(scene, &prepared, &way.method()))
             .collect();
         let outcomes = by_turns(worker, scene, &prepared, &ready, &thoroughness.effort)?;
-        let mut cells: Vec<Cell> = Way::ALL
+        let mut cells: Vec<Cell> = BenchMethod::ALL
             .into_iter()
             .zip(outcomes)
             .map(|(way, outcome)| Cell {
@@ -112,7 +112,7 @@ impl Group<'_> {
         for antialiasing in [false, true] {
             let Some(middle) = self.middle else { break };
             let judged: Vec<usize> = (0..cells.len())
-                .filter(|i| Way::ALL[*i].antialiasing() == antialiasing)
+                .filter(|i| BenchMethod::ALL[*i].antialiasing() == antialiasing)
                 .collect();
             let crop_px = thoroughness.accuracy.crop_of(scene);
             let crop = crop(scene, middle, crop_px, antialiasing);

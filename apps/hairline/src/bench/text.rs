@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use super::counts::Counts;
-use super::figures::{Cell, Curve, Figures, Outcome, Row};
+use super::figures::{Cell, Curve, Figures, Outcome, TableRow};
 use super::stage::TALK_SCRATCHES;
-use super::way::Way;
+use super::way::BenchMethod;
 
 /// Text of a cell where nothing was measured.
 const NOTHING: &str = "–";
@@ -53,22 +53,22 @@ fn head(text: &mut String, figures: &Figures) -> std::fmt::Result {
 }
 
 fn table(text: &mut String, figures: &Figures) -> std::fmt::Result {
-    for row in Row::ALL {
+    for row in TableRow::ALL {
         let cells: Vec<&Cell> = figures.table.iter().filter(|c| c.row == row).collect();
         if cells.is_empty() {
             continue;
         }
-        let cell = |way: Way, zoom: f64| {
+        let cell = |way: BenchMethod, zoom: f64| {
             let mut cells = cells.iter();
             cells.find(|c| c.way == way && c.zoom == zoom)
         };
         let mut zooms: Vec<f64> = cells.iter().map(|c| c.zoom).collect();
         zooms.dedup_by(|a, b| a == b);
-        zooms.truncate(cells.len() / Way::ALL.len());
+        zooms.truncate(cells.len() / BenchMethod::ALL.len());
         let is_lit = cells.iter().any(|c| c.error.is_some());
         let ms = |way, zoom| Some(cell(way, zoom)?.outcome.ms()?.median);
         let time = |way, zoom| cell(way, zoom).map(|c| time(&c.outcome));
-        let ratio = |way, zoom| Some(digits(ms(way, zoom)? / ms(Way::Ours, zoom)?));
+        let ratio = |way, zoom| Some(digits(ms(way, zoom)? / ms(BenchMethod::Ours, zoom)?));
         let error = |way, zoom| {
             let error = cell(way, zoom)?.error.as_ref()?;
             let [rms, noise] =
@@ -88,8 +88,8 @@ fn table(text: &mut String, figures: &Figures) -> std::fmt::Result {
                 .flat_map(|name| zooms.iter().map(move |zoom| format!("{name}, {zoom}x"))),
         );
         let mut lines = Vec::new();
-        for way in Way::ALL {
-            let of = |figure: &dyn Fn(Way, f64) -> Option<String>| -> Vec<String> {
+        for way in BenchMethod::ALL {
+            let of = |figure: &dyn Fn(BenchMethod, f64) -> Option<String>| -> Vec<String> {
                 let texts = zooms.iter().map(|zoom| figure(way, *zoom));
                 texts
                     .map(|text| text.unwrap_or_else(|| NOTHING.to_owned()))
@@ -183,23 +183,23 @@ fn curves(text: &mut String, figures: &Figures) -> std::fmt::Result {
 }
 
 fn lines(curve: &Curve) -> (Vec<String>, Vec<Vec<String>>) {
-    let there = |way: &Way| curve.points.iter().any(|point| point.way == *way);
-    let ways: Vec<Way> = Way::ALL.into_iter().filter(there).collect();
+    let there = |way: &BenchMethod| curve.points.iter().any(|point| point.way == *way);
+    let ways: Vec<BenchMethod> = BenchMethod::ALL.into_iter().filter(there).collect();
     let mut header = vec![curve.along.to_owned()];
     header.extend(ways.iter().map(|way| format!("{}, ms", way.name())));
-    let is_compared = ways.contains(&Way::Filtered);
+    let is_compared = ways.contains(&BenchMethod::Filtered);
     header.extend(is_compared.then(|| "published over ours".to_owned()));
     header.push("pairs".to_owned());
     header.push("ns a pair".to_owned());
     let mut xs: Vec<f64> = curve.points.iter().map(|point| point.x).collect();
     xs.dedup();
     let lines = xs.into_iter().map(|x| {
-        let at = |way: Way| {
+        let at = |way: BenchMethod| {
             let mut points = curve.points.iter();
             points.find(|point| point.x == x && point.way == way)
         };
         let ms = |way| Some(at(way)?.outcome.ms()?.median);
-        let ours = || Some((ms(Way::Ours)?, at(Way::Ours)?.counts?.pairs));
+        let ours = || Some((ms(BenchMethod::Ours)?, at(BenchMethod::Ours)?.counts?.pairs));
         let or_nothing = |text: Option<String>| text.unwrap_or_else(|| NOTHING.to_owned());
         let mut line = vec![format!("{x}")];
         line.extend(
@@ -207,7 +207,7 @@ fn lines(curve: &Curve) -> (Vec<String>, Vec<Vec<String>>) {
                 .map(|way| or_nothing(at(*way).map(|p| time(&p.outcome)))),
         );
         if is_compared {
-            let ratio = ms(Way::Filtered).zip(ms(Way::Ours));
+            let ratio = ms(BenchMethod::Filtered).zip(ms(BenchMethod::Ours));
             line.push(or_nothing(ratio.map(|(a, b)| digits(a / b))));
         }
         line.push(or_nothing(ours().map(|(_, pairs)| pairs.to_string())));

@@ -13,7 +13,7 @@ use hairline_gpu::Error;
 use hairline_scene::Scene;
 
 use super::figures::{Outcome, Spread, Timing};
-use super::worker::{Elapsed, Ready, Rows, Worker};
+use super::worker::{Elapsed, PictureRows, Ready, Worker};
 use hairline_work::failure::Failure;
 
 /// Time that a measurement may take.
@@ -63,8 +63,8 @@ pub fn by_turns(
 ) -> Result<Vec<Outcome>, Failure> {
     let height = scene.render.size_px[1];
     let mut runs: Vec<Runs> = ready.iter().map(|_| Runs::default()).collect();
-    let mut rows = Rows::Whole;
-    let mut time = |ready: &Ready, rows: &Rows| worker.time(scene, prepared, ready, rows);
+    let mut rows = PictureRows::Whole;
+    let mut time = |ready: &Ready, rows: &PictureRows| worker.time(scene, prepared, ready, rows);
     for (ready, runs) in ready.iter().zip(&mut runs) {
         let strip = match ready {
             Err(error) => Err(refusal(error)?),
@@ -125,7 +125,7 @@ fn refusal(error: &Error) -> Result<String, Failure> {
 /// Makes the driver compile, and measures a strip in the middle. Some drivers compile a pass once it has something to do, which may be
 /// at the picture's edge: all of it is rendered where half the effort suffices.
 fn warm_up(
-    wall: &mut impl FnMut(&Rows) -> Result<Duration, Error>,
+    wall: &mut impl FnMut(&PictureRows) -> Result<Duration, Error>,
     height: u32,
     effort: &Effort,
 ) -> Result<Duration, Error> {
@@ -133,7 +133,7 @@ fn warm_up(
     wall(&strip)?;
     let mut least = wall(&strip)?;
     if least * height.div_ceil(strip_rows()) <= effort.cell / 2 {
-        wall(&Rows::Whole)?;
+        wall(&PictureRows::Whole)?;
         least = wall(&strip)?;
     }
     for _ in 1..TRIES {
@@ -145,21 +145,21 @@ fn warm_up(
 }
 
 /// The smaller of what was wanted so far and `count` strips.
-fn fewer(rows: &Rows, height: u32, count: u32) -> Rows {
+fn fewer(rows: &PictureRows, height: u32, count: u32) -> PictureRows {
     match rows {
-        Rows::Strips(so_far) if so_far.len() as u32 <= count => rows.clone(),
+        PictureRows::Strips(so_far) if so_far.len() as u32 <= count => rows.clone(),
         _ => strips(height, count),
     }
 }
 
 /// Strips of this number, spread evenly; the whole picture where they would cover it.
-fn strips(height: u32, count: u32) -> Rows {
+fn strips(height: u32, count: u32) -> PictureRows {
     strips_of(strip_rows(), height, count)
 }
 
-fn strips_of(strip_rows: u32, height: u32, count: u32) -> Rows {
+fn strips_of(strip_rows: u32, height: u32, count: u32) -> PictureRows {
     if count * strip_rows >= height {
-        return Rows::Whole;
+        return PictureRows::Whole;
     }
     let strip = |i: u32| -> Range<u32> {
         let middle = f64::from(height) * (f64::from(i) + 0.5) / f64::from(count);
@@ -168,13 +168,13 @@ fn strips_of(strip_rows: u32, height: u32, count: u32) -> Rows {
         let first = first - first % TILE_PX;
         first..(first + strip_rows).min(height)
     };
-    Rows::Strips((0..count).map(strip).collect())
+    PictureRows::Strips((0..count).map(strip).collect())
 }
 
-fn rows_of(rows: &Rows, height: u32) -> u32 {
+fn rows_of(rows: &PictureRows, height: u32) -> u32 {
     match rows {
-        Rows::Whole => height,
-        Rows::Strips(strips) => strips.iter().map(|rows| rows.end - rows.start).sum(),
+        PictureRows::Whole => height,
+        PictureRows::Strips(strips) => strips.iter().map(|rows| rows.end - rows.start).sum(),
     }
 }
 
@@ -238,8 +238,8 @@ mod tests {
         for (height, rows) in [(1, 8), (36, 8), (54, 16), (720, 32), (1080, 64)] {
             for count in 1..200 {
                 match strips_of(rows, height, count) {
-                    Rows::Whole => assert!(count * rows >= height),
-                    Rows::Strips(strips) => {
+                    PictureRows::Whole => assert!(count * rows >= height),
+                    PictureRows::Strips(strips) => {
                         assert_eq!(strips.len() as u32, count);
                         assert!(strips.windows(2).all(|w| w[0].end <= w[1].start));
                         assert!(strips.iter().all(|s| s.end <= height));

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// A method with its switches: the talk's columns, the talk's exact sine integral, and ours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Way {
+pub enum BenchMethod {
     /// Published, without anti-aliasing, by the hierarchy.
     PointBvh,
     /// Published, without anti-aliasing, by lists for each triangle.
@@ -19,7 +19,7 @@ pub enum Way {
     Ours,
 }
 
-impl Way {
+impl BenchMethod {
     pub const ALL: [Self; 5] = [
         Self::PointBvh,
         Self::PointLists,

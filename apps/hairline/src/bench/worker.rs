@@ -12,7 +12,7 @@ use hairline_index::method::Method;
 use hairline_scene::Scene;
 
 use super::counts::Counts;
-use super::way::Way;
+use super::way::BenchMethod;
 use crate::cli::Backend;
 use crate::console::tell;
 use hairline_work::failure::Failure;
@@ -39,13 +39,13 @@ pub struct Ready {
 }
 
 /// Counts of the work that `way` does for a picture, on the CPU; none for the published method.
-pub fn counted(scene: &Scene, prepared: &Prepared, way: Way) -> Option<Counts> {
+pub fn counted(scene: &Scene, prepared: &Prepared, way: BenchMethod) -> Option<Counts> {
     let options = closed_form::RenderOptions {
         samples: 1,
         method: way.method(),
         ..Default::default()
     };
-    (way == Way::Ours).then(|| {
+    (way == BenchMethod::Ours).then(|| {
         let rows = 0..scene.render.size_px[1];
         prepared.render_counted(&options, rows, &|_| {}).1.into()
     })
@@ -53,7 +53,7 @@ pub fn counted(scene: &Scene, prepared: &Prepared, way: Way) -> Option<Counts> {
 
 /// Rows of a picture.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Rows {
+pub enum PictureRows {
     Whole,
     Strips(Vec<Range<u32>>),
 }
@@ -123,7 +123,7 @@ impl Worker {
         scene: &Scene,
         prepared: &Prepared,
         ready: &Ready,
-        rows: &Rows,
+        rows: &PictureRows,
     ) -> Result<Elapsed, Error> {
         match (self, &ready.uploaded) {
             (Self::Gpu(worker), Some(uploaded)) => worker.time(scene, uploaded, rows),
@@ -131,8 +131,8 @@ impl Worker {
                 let options = options(ready);
                 let start = Instant::now();
                 match rows {
-                    Rows::Whole => drop(prepared.render(&options, &|_| {})),
-                    Rows::Strips(strips) => {
+                    PictureRows::Whole => drop(prepared.render(&options, &|_| {})),
+                    PictureRows::Strips(strips) => {
                         for rows in strips {
                             drop(prepared.render_rows(&options, rows.clone(), &|_| {}));
                         }
@@ -192,7 +192,12 @@ impl GpuWorker {
         })
     }
 
-    fn time(&mut self, scene: &Scene, uploaded: &GpuScene, rows: &Rows) -> Result<Elapsed, Error> {
+    fn time(
+        &mut self,
+        scene: &Scene,
+        uploaded: &GpuScene,
+        rows: &PictureRows,
+    ) -> Result<Elapsed, Error> {
         let Self {
             gpu,
             renderer,
@@ -210,7 +215,7 @@ impl GpuWorker {
             gpu.finished().await?;
             let start = Instant::now();
             match rows {
-                Rows::Whole => {
+                PictureRows::Whole => {
                     for band in 0..canvas.bands() {
                         renderer
                             .accumulate(scene, uploaded, canvas, band, 0, &Default::default())
@@ -218,7 +223,7 @@ impl GpuWorker {
                     }
                     gpu.finished().await?;
                 }
-                Rows::Strips(strips) => {
+                PictureRows::Strips(strips) => {
                     for rows in strips {
                         let options = Default::default();
                         renderer

@@ -32,13 +32,13 @@ const EDITED: f64 = 0.001;
 
 /// Counts of pictures on the screen.
 #[derive(Debug)]
-struct Seen {
+struct SeenPictures {
     pictures: usize,
     first: Option<Duration>,
     longest_pause: Duration,
 }
 
-impl Seen {
+impl SeenPictures {
     fn a_second(&self) -> f64 {
         self.pictures as f64 / DURATION.as_secs_f64()
     }
@@ -101,7 +101,7 @@ impl<'d> Watch<'d> {
 }
 
 /// Drags to and fro from a point by as much, and watches for changes of such a share of the picture at least.
-fn drag(watch: &mut Watch, from: Pos2, reach: egui::Vec2, least: f64) -> Seen {
+fn drag(watch: &mut Watch, from: Pos2, reach: egui::Vec2, least: f64) -> SeenPictures {
     let display = watch.display;
     display.press(from);
     // A press alone shows nothing but may change the interface.
@@ -109,7 +109,7 @@ fn drag(watch: &mut Watch, from: Pos2, reach: egui::Vec2, least: f64) -> Seen {
     watch.has_changed(0.0);
     let start = Instant::now();
     let (mut events, mut last) = (0, start);
-    let mut seen = Seen {
+    let mut seen = SeenPictures {
         pictures: 0,
         first: None,
         longest_pause: Duration::ZERO,

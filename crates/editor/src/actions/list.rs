@@ -8,7 +8,7 @@ use crate::Selection;
 use crate::selection::{after_removal, after_swap};
 
 /// A part of a description that stands in a list.
-pub(super) trait Part: Clone + 'static {
+pub(super) trait ListedPart: Clone + 'static {
     /// Name of the kind in errors.
     const WHAT: &'static str;
     /// [`Self::WHAT`] with its article.
@@ -33,13 +33,16 @@ pub(super) trait Part: Clone + 'static {
 }
 
 /// The part at a place.
-pub(super) fn get<P: Part>(description: &Description, index: usize) -> Result<&P, ActionError> {
+pub(super) fn get<P: ListedPart>(
+    description: &Description,
+    index: usize,
+) -> Result<&P, ActionError> {
     let part = P::list(description).get(index);
     part.ok_or(ActionError::Missing(P::WHAT))
 }
 
 /// The part at a place, to change.
-pub(super) fn get_mut<P: Part>(
+pub(super) fn get_mut<P: ListedPart>(
     description: &mut Description,
     index: usize,
 ) -> Result<&mut P, ActionError> {
@@ -48,7 +51,7 @@ pub(super) fn get_mut<P: Part>(
 }
 
 /// Puts a part in its list, under another name if its own is taken.
-pub(super) fn insert<P: Part>(
+pub(super) fn insert<P: ListedPart>(
     description: &mut Description,
     place: usize,
     mut part: P,
@@ -63,7 +66,7 @@ pub(super) fn insert<P: Part>(
 }
 
 /// Takes a part out of its list. Where it was selected, the one that took its place is, or the last.
-pub(super) fn remove<P: Part>(
+pub(super) fn remove<P: ListedPart>(
     description: &mut Description,
     index: usize,
     selection: Selection,
@@ -80,7 +83,7 @@ pub(super) fn remove<P: Part>(
 }
 
 /// Changes places with the next part up (`by` -1) or down (1) that it is listed with; at the end nothing happens.
-pub(super) fn shift<P: Part>(
+pub(super) fn shift<P: ListedPart>(
     description: &mut Description,
     index: usize,
     by: isize,
@@ -105,7 +108,7 @@ pub(super) fn shift<P: Part>(
 }
 
 /// Renames a part that may go without a name: an empty one takes it away.
-pub(super) fn rename_freely<P: Part>(
+pub(super) fn rename_freely<P: ListedPart>(
     description: &mut Description,
     index: usize,
     name: &str,
@@ -116,7 +119,7 @@ pub(super) fn rename_freely<P: Part>(
 }
 
 /// Renames a part that others know by its name. Returns the old name and the new one, for them.
-pub(super) fn rename_known<P: Part>(
+pub(super) fn rename_known<P: ListedPart>(
     description: &mut Description,
     index: usize,
     name: &str,
@@ -136,7 +139,10 @@ pub(super) fn rename_known<P: Part>(
 }
 
 /// The places of the parts that are so.
-pub(super) fn places<P: Part>(description: &Description, is_so: impl Fn(&P) -> bool) -> Vec<usize> {
+pub(super) fn places<P: ListedPart>(
+    description: &Description,
+    is_so: impl Fn(&P) -> bool,
+) -> Vec<usize> {
     let parts = P::list(description).iter().enumerate();
     parts
         .filter(|(_, part)| is_so(part))
@@ -146,7 +152,7 @@ pub(super) fn places<P: Part>(description: &Description, is_so: impl Fn(&P) -> b
 
 macro_rules! part {
     ($part:ty, $what:literal, $a_what:literal, $list:ident, $selection:ident, { $($own:item)* }) => {
-        impl Part for $part {
+        impl ListedPart for $part {
             const WHAT: &'static str = $what;
             const A_WHAT: &'static str = $a_what;
 

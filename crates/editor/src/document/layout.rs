@@ -101,8 +101,8 @@ fn merge_parts(text: &mut ArrayOfTables, before: &ArrayOfTables, after: &ArrayOf
 fn matches(before: &ArrayOfTables, after: &ArrayOfTables) -> Vec<Option<usize>> {
     let mut found: Vec<Option<usize>> = vec![None; after.len()];
     let mut taken = vec![false; before.len()];
-    type Place<'a> = (usize, &'a Table);
-    let alike: [fn(Place<'_>, Place<'_>) -> bool; 3] = [
+    type IndexedTable<'a> = (usize, &'a Table);
+    let alike: [fn(IndexedTable<'_>, IndexedTable<'_>) -> bool; 3] = [
         |(_, a), (_, b)| a.to_string() == b.to_string(),
         |(_, a), (_, b)| name(a).is_some() && name(a) == name(b),
         |(i, _), (j, _)| i == j,

@@ -16,15 +16,15 @@ const ASYMPTOTIC: [f64; 6] = [1.0, 0.5, 0.75, 1.875, 6.5625, 29.53125];
 
 /// An interval of a line: the whole Gaussian or nothing, with its ends' tails taken off or added.
 #[derive(Clone, Debug)]
-pub(super) struct Ends {
+pub(super) struct IntervalEnds {
     whole: bool,
-    ends: [Option<End>; 2],
+    ends: [Option<IntervalEnd>; 2],
     coherence_um: f64,
 }
 
 /// One end that the window reaches. Its tail goes on to infinity, away from the middle.
 #[derive(Clone, Copy, Debug)]
-struct End {
+struct IntervalEnd {
     place_um: f64,
     /// Distance from the middle in units of sqrt(2) sigma, 0 or more.
     x: f64,
@@ -34,12 +34,12 @@ struct End {
     amplitude: f64,
 }
 
-impl Ends {
+impl IntervalEnds {
     pub(crate) fn new(low_um: f64, high_um: f64, coherence_um: f64) -> Self {
         let end = |place_um: f64, side: f64, sign: f64| {
             let x = place_um.abs() * FRAC_1_SQRT_2 / coherence_um;
             let amplitude = 0.5 * sign * (-x * x).exp();
-            (x < REACH && amplitude.abs() > TOLERANCE).then_some(End {
+            (x < REACH && amplitude.abs() > TOLERANCE).then_some(IntervalEnd {
                 place_um,
                 x,
                 side,

@@ -2,7 +2,7 @@
 
 use super::cell::{Cell, Span};
 use super::crossings::{Hidden, hidden_parts};
-use super::ends::Ends;
+use super::ends::IntervalEnds;
 use super::lanes::{Complexes, Lanes};
 use super::{CoherentResponse, GroovePiece, TOLERANCE};
 use super::{base_amplitude, groove_amplitude, groove_overlap, phase_step};
@@ -41,7 +41,7 @@ struct Strip {
 #[derive(Clone, Debug)]
 enum Along {
     Short(Span),
-    Long(Ends),
+    Long(IntervalEnds),
 }
 
 impl GrooveField {
@@ -229,7 +229,11 @@ impl Strip {
             }
             Along::Short(span)
         } else {
-            Along::Long(Ends::new(piece.start_um, piece.end_um, coherence_um))
+            Along::Long(IntervalEnds::new(
+                piece.start_um,
+                piece.end_um,
+                coherence_um,
+            ))
         };
         Some(Self {
             tangent: piece.tangent,

@@ -103,7 +103,7 @@ pub fn published_share(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::footprint::{Ends, Footprint, ends, scratch_share};
+    use crate::footprint::{Footprint, SmoothInterval, ends, scratch_share};
     use crate::scratch::{window_overlap_um2, window_share};
     use glam::DMat2;
     use rand::{RngExt, SeedableRng};
@@ -191,7 +191,7 @@ mod tests {
             nodes.iter().map(row).sum()
         }
 
-        fn effective(&self) -> (f64, f64, Ends) {
+        fn effective(&self) -> (f64, f64, SmoothInterval) {
             let ends = ends(self.end_um - self.start_um, SIGMA_UM);
             (
                 self.start_um + ends.shrink_um,

@@ -6,7 +6,7 @@ use hairline_optics::metal::Metal;
 use hairline_scene::Reflector;
 
 use super::BaseLobes;
-use crate::reflectance::{Ends, Reflectance};
+use crate::reflectance::{Reflectance, ReflectanceEnds};
 use hairline_fixtures::statistics::{Draw, chi_square, jittered};
 
 const ALPHAS: [f64; 6] = [0.002, 0.01, 0.05, 0.2, 0.5, 1.0];
@@ -36,7 +36,7 @@ fn reflectance(reflector: Reflector, alpha: f64) -> &'static Reflectance {
 
 fn gold(cos: f64, alpha: f64) -> BaseLobes<'static> {
     let reflectance = reflectance(Reflector::Metal(Metal::Gold), alpha);
-    let ends = Ends {
+    let ends = ReflectanceEnds {
         f0: Metal::Gold.reflectance_rgb(1.0).into(),
         f90: 1.0,
     };
@@ -47,7 +47,7 @@ fn plastic(cos: f64, alpha: f64) -> BaseLobes<'static> {
     BaseLobes::from_parts(
         viewer(cos),
         reflectance(Reflector::Dielectric(1.5), alpha),
-        Ends::COAT,
+        ReflectanceEnds::COAT,
         DVec3::new(0.8, 0.5, 0.1),
         alpha.sqrt(),
     )

@@ -8,7 +8,7 @@ use super::Work;
 use super::kept::{KeptLayer, KeptSurface, Stamp};
 use super::parts::{OnPart, PartGround};
 use crate::description::references::find;
-use crate::description::{self, Layer, Place};
+use crate::description::{self, Layer, LayerPlaces};
 use crate::error::Error;
 use crate::grey_map::GreyMap;
 use crate::scene::Scene;
@@ -152,11 +152,11 @@ impl<'a> Work<'a> {
     /// Reads what the `where` of a layer names; `key` is the path to it in the scene file.
     fn means(
         &mut self,
-        place: &'a Place,
+        place: &'a LayerPlaces,
         surface: &KeptSurface,
         key: &str,
         used_bytes: f64,
-    ) -> Result<scratches::Means<'a>, Error> {
+    ) -> Result<scratches::PlaceInputs<'a>, Error> {
         let mut picture = |name: &str, file: &Option<PathBuf>| {
             let way = format!("{key}.where.{name}");
             let read = file
@@ -167,7 +167,7 @@ impl<'a> Work<'a> {
         let mask = picture("mask", &place.mask)?;
         let density = picture("density", &place.density)?;
         let whole = (place.edges > 0.0).then(|| surface.ground(&OnPart::default(), key));
-        Ok(scratches::Means {
+        Ok(scratches::PlaceInputs {
             described: place,
             mask,
             density,

@@ -8,20 +8,20 @@ use glam::{DMat4, DVec3};
 use hairline_image::held;
 
 use super::parts::{OnPart, PartGround, Surroundings};
-use crate::description::{self, Layer, LightKind, Map, Place, Stroke, Surface};
+use crate::description::{self, Layer, LayerPlaces, LightKind, Map, Stroke, Surface};
 use crate::environment::BuiltInMap;
 use crate::error::Error;
 use crate::grey_map::GreyMap;
 use crate::loader::Loader;
-use crate::mesh_file::{self, Placing, Stock, Wanted};
-use crate::scene::{Material, Mesh, Part, Scratch, Segment, Texture};
+use crate::mesh_file::{self, FileContents, Placing, UsedContents};
+use crate::scene::{Material, Mesh, NodeTriangles, Scratch, Segment, Texture};
 use crate::scratches::{self, Ground, Laid};
 use crate::text::shown;
 use crate::{Environment, model_notes, shape};
 
 /// Results of the last build.
 #[derive(Clone, Default)]
-pub(super) struct Kept {
+pub(super) struct BuildCache {
     pub surfaces: Vec<Arc<KeptSurface>>,
     pub textures: Textures,
     pub pictures: Vec<KeptPicture>,
@@ -31,7 +31,7 @@ pub(super) struct Kept {
     /// The map with no rotation, intensity 1.
     pub map: Option<(MapKey, Environment)>,
     pub layers: Vec<Arc<KeptLayer>>,
-    pub objects: Vec<Together>,
+    pub objects: Vec<ObjectScratches>,
     /// Shapes of lights, with the numbers of their materials.
     pub lamps: Vec<(LightKind, u32, Arc<Mesh>)>,
 }
@@ -84,7 +84,7 @@ impl MapKey {
 pub(super) struct SurfaceKey {
     surface: Surface,
     /// Contents of the file that are shown.
-    wanted: Wanted,
+    wanted: UsedContents,
     world_from_object: DMat4,
     /// The file, if it is one.
     file: Option<Stamp>,
@@ -108,7 +108,7 @@ impl SurfaceKey {
         };
         Self {
             surface: object.surface.clone(),
-            wanted: Wanted::of(object, lights_of),
+            wanted: UsedContents::of(object, lights_of),
             world_from_object: object.world_from_object(),
             file,
             placing,
@@ -133,7 +133,7 @@ pub(super) struct KeptSurface {
     /// Notes on the file for the scene's author.
     pub notes: Arc<Vec<String>>,
     /// Parts of the object that its file names.
-    pub parts: Arc<Vec<Part>>,
+    pub parts: Arc<Vec<NodeTriangles>>,
     /// Laying does not look at the numbers of materials, so one serves all of them.
     grounds: Arc<Mutex<Grounds>>,
 }
@@ -165,7 +165,7 @@ impl KeptSurface {
             }
             (Surface::Mesh(file), Some(stamp)) => {
                 let mut found = Vec::new();
-                let stock = Stock {
+                let stock = FileContents {
                     notes: &mut found,
                     moved_from: &mut None,
                     parts: &mut parts,
@@ -311,7 +311,7 @@ pub(super) struct Textures {
 pub(super) struct KeptLayer {
     pub layer: Layer,
     pub strokes: Vec<Stroke>,
-    pub place: Place,
+    pub place: LayerPlaces,
     pub number: u64,
     pub ground: Arc<Ground>,
     /// The files that it was read from.
@@ -321,14 +321,14 @@ pub(super) struct KeptLayer {
 
 /// The scratches of all layers of an object.
 #[derive(Clone)]
-pub(super) struct Together {
+pub(super) struct ObjectScratches {
     /// The layers with their places in the scene file.
     layers: Vec<(u32, Arc<KeptLayer>)>,
     pub scratches: Arc<Vec<Scratch>>,
     pub segments: Arc<Vec<Segment>>,
 }
 
-impl Kept {
+impl BuildCache {
     pub(super) fn surface(&self, key: &SurfaceKey) -> Option<Arc<KeptSurface>> {
         let alike = |kept: &&Arc<KeptSurface>| {
             kept.key == *key && kept.others.iter().all(Stamp::is_current)
@@ -401,8 +401,11 @@ impl Kept {
     }
 
     /// The scratches of all layers of one object, each with its place in the scene file.
-    pub(super) fn together(&self, layers: Vec<(u32, Arc<KeptLayer>)>) -> Result<Together, Error> {
-        let alike = |kept: &&Together| {
+    pub(super) fn together(
+        &self,
+        layers: Vec<(u32, Arc<KeptLayer>)>,
+    ) -> Result<ObjectScratches, Error> {
+        let alike = |kept: &&ObjectScratches| {
             same(&kept.layers, &layers, |a, b| {
                 a.0 == b.0 && Arc::ptr_eq(&a.1, &b.1)
             })
@@ -411,7 +414,7 @@ impl Kept {
             return Ok(kept.clone());
         }
         let laid = scratches::put_together(layers.iter().map(|(i, kept)| (*i, &kept.laid)))?;
-        Ok(Together {
+        Ok(ObjectScratches {
             layers,
             scratches: Arc::new(laid.scratches),
             segments: Arc::new(laid.segments),

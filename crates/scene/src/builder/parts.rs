@@ -8,7 +8,7 @@ use glam::DMat4;
 use crate::description::hint::nearest;
 use crate::description::{Override, Scratches};
 use crate::error::Error;
-use crate::scene::{Material, Mesh, Part};
+use crate::scene::{Material, Mesh, NodeTriangles};
 use crate::scratches::{Ground, Laid};
 use crate::text::shown;
 
@@ -25,7 +25,7 @@ pub(super) struct Surroundings<'a> {
     pub first_material: u32,
     /// The file's own.
     pub materials: &'a [Material],
-    pub parts: &'a [Part],
+    pub parts: &'a [NodeTriangles],
     /// The way to the layer in the scene file.
     pub key: &'a str,
 }

@@ -7,8 +7,8 @@ use super::ranges::{
 };
 use super::sizes;
 use super::{
-    Amount, Around, Brush, Camera, Description, Distribution, Grating, Laid, Layer, Light,
-    Material, MaterialKind, MetalColor, Object, Override, Pattern, Place, Render, Scratches,
+    Amount, Around, Brush, Camera, Description, Distribution, Grating, Laid, Layer, LayerPlaces,
+    Light, Material, MaterialKind, MetalColor, Object, Override, Pattern, Render, Scratches,
     Stroke, Surface,
 };
 use crate::error::Error;
@@ -250,7 +250,7 @@ fn scratches(scratches: &Scratches, key: &str) -> Check {
 }
 
 /// Refuses values out of range, and keys that need another one.
-fn place(place: &Place, key: &str) -> Check {
+fn place(place: &LayerPlaces, key: &str) -> Check {
     let way = |name: &str| format!("{key}.{name}");
     let alone = |name: &str, right: &str| {
         let found = "found it without what it belongs to";

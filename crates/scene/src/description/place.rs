@@ -10,7 +10,7 @@ use crate::error::Error;
 
 /// `where`: places of an object, and how thickly they are scratched.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Place {
+pub struct LayerPlaces {
     /// A picture: scratches lie where it is lighter than half of white, and end where it is darker. `.png`, `.jpg` or `.webp`, relative
     /// to the scene file. Default: everywhere.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -38,7 +38,7 @@ pub struct Place {
     pub center_m: Option<[f64; 3]>,
 }
 
-impl Place {
+impl LayerPlaces {
     /// Whether it leaves nothing out.
     pub fn is_everywhere(&self) -> bool {
         *self == Self::default()
@@ -50,7 +50,7 @@ impl Place {
     }
 }
 
-impl Read for Place {
+impl Read for LayerPlaces {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         let table = Table::read(
             value,

@@ -7,8 +7,8 @@ use super::sizes;
 use super::table::{Read, Table, Value, number, wrong_type};
 use super::{
     Amount, Around, Brush, Brushed, Camera, Description, Distribution, Environment, Laid, Layer,
-    Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Place, Render, Scratches,
-    Stroke, Studio, Surface, Up,
+    LayerPlaces, Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render,
+    Scratches, Stroke, Studio, Surface, Up,
 };
 use crate::error::Error;
 use crate::scene::{Anisotropy, Coat, Specular};
@@ -326,7 +326,7 @@ impl Read for Scratches {
             object: table.required("object")?,
             material: table.optional("material")?,
             node: table.optional("node")?,
-            place: table.or("where", Place::default())?,
+            place: table.or("where", LayerPlaces::default())?,
             name: table.optional("name")?,
             hidden: table.or("hidden", false)?,
             solo: table.or("solo", false)?,

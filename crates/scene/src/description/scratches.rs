@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde::{Serialize, Serializer};
 
-use super::place::Place;
+use super::place::LayerPlaces;
 
 /// `[[scratches]]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -18,8 +18,8 @@ pub struct Scratches {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<String>,
     /// `where`: on which places they lie, and how thickly. Default: everywhere alike.
-    #[serde(rename = "where", skip_serializing_if = "Place::is_everywhere")]
-    pub place: Place,
+    #[serde(rename = "where", skip_serializing_if = "LayerPlaces::is_everywhere")]
+    pub place: LayerPlaces,
     /// Free text, for lists that people read. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
@@ -44,7 +44,7 @@ impl Scratches {
             object: object.into(),
             material: None,
             node: None,
-            place: Place::default(),
+            place: LayerPlaces::default(),
             name: None,
             hidden: false,
             solo: false,

@@ -70,7 +70,7 @@ pub(super) fn part(map: &mut Picture) -> Parted {
         let mut looked_at = Vec::new();
         let found = RIMS.into_iter().find_map(|rim| {
             let threshold = brightness.threshold(rim, value(map.rgb[peak]));
-            let spot = Spot::around(map, peak, threshold, &mut seen);
+            let spot = BrightSpot::around(map, peak, threshold, &mut seen);
             let around = spot.around_it(map);
             let sun = spot.sun(map, around, brightness.total);
             if sun.is_some() || looked_at.is_empty() {
@@ -143,14 +143,14 @@ impl Brightness {
 }
 
 /// Texels that hang together and are bright.
-struct Spot {
+struct BrightSpot {
     texels: Vec<usize>,
     /// Texels about the spot, if it is no larger than a sun may be.
     ring: Vec<usize>,
     is_small: bool,
 }
 
-impl Spot {
+impl BrightSpot {
     /// Connected texels about `peak` that are brighter than `threshold`, without those that were seen before.
     fn around(map: &Picture, peak: usize, threshold: f64, seen: &mut [bool]) -> Self {
         let middle = direction(map, peak);

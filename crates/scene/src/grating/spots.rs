@@ -32,12 +32,12 @@ pub(super) fn mixed(spacing_m: f64, axes_m: [DVec3; 2]) -> f64 {
 
 /// Directions of the rows of spots.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Rows {
+pub(super) struct SpotRows {
     pub(super) axis: DVec3,
     pub(super) along_row: DVec3,
 }
 
-impl Rows {
+impl SpotRows {
     /// The unit vector at an angle to the rows.
     pub(super) fn arm(self, angle_rad: f64) -> DVec3 {
         self.along_row * angle_rad.cos() + self.axis.cross(self.along_row) * angle_rad.sin()

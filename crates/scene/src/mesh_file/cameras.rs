@@ -4,7 +4,7 @@ use glam::{DMat4, DVec3};
 use gltf::camera::Projection;
 
 use super::flaw::Flaw;
-use super::nodes::Placed;
+use super::nodes::PlacedNode;
 use crate::text::shown;
 
 /// Position and directions of a file's camera, in a frame of its own or in the world's.
@@ -30,12 +30,12 @@ impl FileCamera {
 }
 
 /// The camera of a name, its own or its node's, or of a number.
-pub(super) fn of<'p>(placed: &'p [Placed<'p>], wanted: &str) -> Result<FileCamera, Flaw> {
+pub(super) fn of<'p>(placed: &'p [PlacedNode<'p>], wanted: &str) -> Result<FileCamera, Flaw> {
     let cameras = || {
-        let of_node = |it: &'p Placed<'p>| Some((it, it.node.camera()?));
+        let of_node = |it: &'p PlacedNode<'p>| Some((it, it.node.camera()?));
         placed.iter().filter_map(of_node)
     };
-    let is_wanted = |(it, camera): &(&Placed, gltf::Camera)| {
+    let is_wanted = |(it, camera): &(&PlacedNode, gltf::Camera)| {
         let names = [camera.name(), it.node.name()];
         names.contains(&Some(wanted)) || wanted.parse() == Ok(camera.index())
     };

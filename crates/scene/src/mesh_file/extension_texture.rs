@@ -4,14 +4,14 @@ use gltf::Document;
 use gltf::json::Value;
 
 use super::flaw::{Flaw, RIGHT};
-use super::uv::{self, Way};
+use super::uv::{self, UvMapping};
 
 /// The texture of a use, and how it lies; `of` is what it belongs to.
 pub(super) fn used<'a>(
     document: &'a Document,
     used: Option<&Value>,
     of: &str,
-) -> Result<Option<(gltf::Texture<'a>, Way)>, Flaw> {
+) -> Result<Option<(gltf::Texture<'a>, UvMapping)>, Flaw> {
     let Some((used, way)) = used.and_then(|used| Some((used, uv::of_json(used)?))) else {
         return Ok(None);
     };

@@ -10,9 +10,9 @@ use gltf::json::{Index, Root, mesh::Primitive, mesh::Semantic};
 use hairline_image::held;
 
 use super::instances;
-use super::left_out::{self, LeftOut, Wanted};
+use super::left_out::{self, LeftOut, UsedContents};
 use super::leniency::drop_order_mark;
-use super::root::{self, Kept};
+use super::root::{self, OptionalElements};
 use super::source::percent_decoded;
 use crate::reading::check_regular;
 
@@ -23,7 +23,7 @@ const TEXT_BYTES: f64 = 8.0;
 
 /// Numbers of triangles and vertices that a file places, and the memory for reading it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Counts {
+pub(crate) struct FileCounts {
     pub triangles: f64,
     pub vertices: f64,
     /// Memory of its text and its buffers.
@@ -31,11 +31,11 @@ pub(crate) struct Counts {
 }
 
 /// Counts the triangles and vertices that a glTF file places; `None` where it cannot be read.
-pub(crate) fn counts(path: &Path) -> Option<Counts> {
+pub(crate) fn counts(path: &Path) -> Option<FileCounts> {
     let (root, text_bytes) = head(path)?;
-    let mut counts = Counts {
+    let mut counts = FileCounts {
         bytes: text_bytes * TEXT_BYTES,
-        ..Counts::default()
+        ..FileCounts::default()
     };
     for buffer in &root.buffers {
         // A binary chunk is there twice while it is read.
@@ -63,7 +63,7 @@ fn instances(root: &Root, node: &gltf::json::Node) -> f64 {
     count().unwrap_or(1.0)
 }
 
-impl Counts {
+impl FileCounts {
     fn add(&mut self, root: &Root, primitive: &Primitive, instances: f64) {
         let count = |index: Index<gltf::json::Accessor>| {
             let accessor = root.accessors.get(index.value());
@@ -122,7 +122,7 @@ pub(crate) fn camera_names(path: &Path) -> Vec<String> {
 }
 
 /// Lists the contents of a glTF file that the picture does not have; empty where it cannot be read.
-pub(crate) fn left_out(path: &Path, wanted: Wanted) -> Vec<LeftOut> {
+pub(crate) fn left_out(path: &Path, wanted: UsedContents) -> Vec<LeftOut> {
     let root = text(path).and_then(|text| from_slice(&text).ok());
     root.map_or_else(Vec::new, |root| left_out::of(&root, wanted))
 }
@@ -130,7 +130,10 @@ pub(crate) fn left_out(path: &Path, wanted: Wanted) -> Vec<LeftOut> {
 /// Reads the text, and returns its length too.
 fn head(path: &Path) -> Option<(Root, f64)> {
     let text = text(path)?;
-    Some((root::read(&text, Kept::default()).ok()?, text.len() as f64))
+    Some((
+        root::read(&text, OptionalElements::default()).ok()?,
+        text.len() as f64,
+    ))
 }
 
 /// The text of a .gltf file, or the first chunk of a .glb file.

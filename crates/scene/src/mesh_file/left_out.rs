@@ -30,7 +30,7 @@ pub struct LeftOut {
 
 /// Counts by kind, name, effect and whether it matters; the key's order is that of the report.
 #[derive(Default)]
-struct Found(BTreeMap<(u8, String, String, bool), usize>);
+struct LeftOutCounts(BTreeMap<(u8, String, String, bool), usize>);
 
 /// Kinds in the order in which they are told.
 const EXTENSION: u8 = 0;
@@ -39,7 +39,7 @@ const PROPERTY: u8 = 2;
 
 /// Parts of a file that are used.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Wanted {
+pub(crate) struct UsedContents {
     /// Whether its own materials are used; if not, their contents do not count.
     pub own_materials: bool,
     /// Whether one of its animations is shown, at a time.
@@ -49,8 +49,8 @@ pub(crate) struct Wanted {
 }
 
 /// Lists the contents that are left out of a file with this text.
-pub(super) fn of(root: &Value, wanted: Wanted) -> Vec<LeftOut> {
-    let mut found = Found::default();
+pub(super) fn of(root: &Value, wanted: UsedContents) -> Vec<LeftOut> {
+    let mut found = LeftOutCounts::default();
     found.extensions(root, Scope::File, wanted);
     found.properties(root, wanted);
     found.lights(root, wanted.lights);
@@ -77,7 +77,7 @@ pub(super) fn of(root: &Value, wanted: Wanted) -> Vec<LeftOut> {
     found.0.into_iter().map(told).collect()
 }
 
-impl Found {
+impl LeftOutCounts {
     fn add(&mut self, kind: u8, what: &str, count: usize, meaning: &str, matters: bool) {
         if count > 0 {
             let key = (kind, shown(what), meaning.to_owned(), matters);
@@ -86,7 +86,7 @@ impl Found {
     }
 
     /// Counts all extensions below a value, wherever the specification lets one be.
-    fn extensions(&mut self, value: &Value, scope: Scope, wanted: Wanted) {
+    fn extensions(&mut self, value: &Value, scope: Scope, wanted: UsedContents) {
         match value {
             Value::Array(elements) => {
                 for element in elements {
@@ -112,7 +112,7 @@ impl Found {
         }
     }
 
-    fn extension(&mut self, name: &str, scope: Scope, wanted: Wanted) {
+    fn extension(&mut self, name: &str, scope: Scope, wanted: UsedContents) {
         let is_unused = match name {
             // Told with the channels.
             ANIMATION_POINTER => wanted.animation,
@@ -125,13 +125,13 @@ impl Found {
         self.add(EXTENSION, name, 1, meaning, matters);
     }
 
-    fn looks(&mut self, told: Vec<looks::Told>) {
+    fn looks(&mut self, told: Vec<looks::Omission>) {
         for (what, count, meaning) in told {
             self.add(PROPERTY, what, count, meaning, true);
         }
     }
 
-    fn properties(&mut self, root: &Value, wanted: Wanted) {
+    fn properties(&mut self, root: &Value, wanted: UsedContents) {
         let count = |name: &str| list(root, name).len();
         let (told, meaning) = match wanted.animation {
             true => (

@@ -13,7 +13,7 @@ use super::flaw::Flaw;
 use super::images::Images;
 use super::spec_gloss::{self, SpecGloss};
 use super::specular;
-use super::uv::{self, Way, Ways};
+use super::uv::{self, UvMapping, UvMappings};
 use crate::description::DEFAULT_COHERENCE_UM;
 use crate::scene::{Base, GLTF_DIELECTRIC_F0, Material, Mesh, Specular};
 use crate::texture::Channels;
@@ -90,8 +90,8 @@ impl Own<'_> {
         let is_older = material.extension_value(spec_gloss::NAME).is_some();
         let [of_color, of_metal] = [pbr.base_color_texture(), pbr.metallic_roughness_texture()]
             .map(|texture| used(texture.filter(|_| !is_older)));
-        let ways = Ways::of(material);
-        let mut look = |texture: Option<(gltf::Texture, Way)>, channels| match texture {
+        let ways = UvMappings::of(material);
+        let mut look = |texture: Option<(gltf::Texture, UvMapping)>, channels| match texture {
             Some((texture, way)) => {
                 let by_other_uvs = ways.is_second(way);
                 self.images
@@ -201,7 +201,7 @@ impl Own<'_> {
         let way = spec_gloss::TEXTURES
             .into_iter()
             .find_map(|name| uv::of_json(extension.get(name)?));
-        let by_other_uvs = way.is_some_and(|way| Ways::of(material).is_second(way));
+        let by_other_uvs = way.is_some_and(|way| UvMappings::of(material).is_second(way));
         let images =
             self.images
                 .spec_gloss(&factors, diffuse.as_ref(), specular.as_ref(), by_other_uvs)?;
@@ -217,8 +217,8 @@ impl Own<'_> {
 }
 
 /// A texture, and how it lies.
-fn used<'a>(info: Option<gltf::texture::Info<'a>>) -> Option<(gltf::Texture<'a>, Way)> {
-    info.map(|info| (info.texture(), Way::of(&info)))
+fn used<'a>(info: Option<gltf::texture::Info<'a>>) -> Option<(gltf::Texture<'a>, UvMapping)> {
+    info.map(|info| (info.texture(), UvMapping::of(&info)))
 }
 
 /// KHR_materials_emissive_strength: a factor on the emission, which is bounded by 1 without it.

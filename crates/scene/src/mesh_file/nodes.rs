@@ -11,7 +11,7 @@ use super::pose::Pose;
 const DEEPEST: usize = 256;
 
 /// A node of the file's scene.
-pub(super) struct Placed<'a> {
+pub(super) struct PlacedNode<'a> {
     pub node: gltf::Node<'a>,
     /// Names of the node and of the nodes above it.
     pub names: Arc<[String]>,
@@ -24,7 +24,7 @@ pub(super) struct Placed<'a> {
 pub(super) fn placed_nodes<'a>(
     document: &'a gltf::Document,
     pose: &Pose,
-) -> Result<Vec<Placed<'a>>, Flaw> {
+) -> Result<Vec<PlacedNode<'a>>, Flaw> {
     let scene = document
         .default_scene()
         .or_else(|| document.scenes().next());
@@ -82,7 +82,7 @@ pub(super) fn placed_nodes<'a>(
         for child in node.children().collect::<Vec<_>>().into_iter().rev() {
             stack.push((child, file_from_node, Arc::clone(&names), depth + 1));
         }
-        placed.push(Placed {
+        placed.push(PlacedNode {
             weights: pose.weights(&node),
             node,
             names,

@@ -30,7 +30,7 @@ pub(crate) struct Placing {
 const FAR_EXTENTS: f64 = 1000.0;
 
 /// Transform of an object before its own placement.
-pub(super) struct Start {
+pub(super) struct FileTransform {
     pub object_from_file: DMat4,
     /// The middle of a file that stood too far off, in its own frame: it was put at the origin.
     pub moved_from: Option<DVec3>,
@@ -67,14 +67,18 @@ impl Placing {
 
     /// The turn, the factor and the move that the object begins with, all in double precision. A model that no camera of a scene could come
     /// near to, as those in coordinates of the Earth, begins at the origin.
-    pub(super) fn start(&self, shapes: &Shapes, world_from_object: &DMat4) -> Result<Start, Flaw> {
+    pub(super) fn start(
+        &self,
+        shapes: &Shapes,
+        world_from_object: &DMat4,
+    ) -> Result<FileTransform, Flaw> {
         let turn = DMat4::from_mat3(quarter_turn(self.up.axis(), self.world_up));
         let is_near = || {
             let world_from_file = *world_from_object * turn;
             !shapes.may_reach(&world_from_file, LARGEST_M)
         };
         if self.fit_m.is_none() && !self.stands_alone && is_near() {
-            return Ok(Start {
+            return Ok(FileTransform {
                 object_from_file: turn,
                 moved_from: None,
             });
@@ -100,7 +104,7 @@ impl Placing {
             }
         };
         let moved_from = (has_extent && is_far).then_some(middle);
-        Ok(Start {
+        Ok(FileTransform {
             object_from_file: match moved_from {
                 Some(middle) => fitted * DMat4::from_translation(-middle),
                 None => fitted,

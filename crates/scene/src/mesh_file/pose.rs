@@ -27,7 +27,7 @@ struct NodePose {
 
 impl Pose {
     pub(super) fn at_rest(document: &gltf::Document) -> Self {
-        let parts = document.nodes().map(|node| Parts::of(&node).pose());
+        let parts = document.nodes().map(|node| NodeTransform::of(&node).pose());
         Self(parts.collect())
     }
 
@@ -38,7 +38,10 @@ impl Pose {
         buffers: &Buffers,
         Moment { time_s, animation }: Moment,
     ) -> Result<Self, Flaw> {
-        let mut parts: Vec<Parts> = document.nodes().map(|node| Parts::of(&node)).collect();
+        let mut parts: Vec<NodeTransform> = document
+            .nodes()
+            .map(|node| NodeTransform::of(&node))
+            .collect();
         let animation = match animation {
             Some(wanted) => Some(named(document, wanted)?),
             None => document.animations().next(),
@@ -57,7 +60,7 @@ impl Pose {
                 node.animate(&channel, buffers, time_s)?;
             }
         }
-        Ok(Self(parts.into_iter().map(Parts::pose).collect()))
+        Ok(Self(parts.into_iter().map(NodeTransform::pose).collect()))
     }
 
     pub(super) fn parent_from_node(&self, node: &gltf::Node) -> DMat4 {
@@ -90,7 +93,7 @@ fn named<'d>(document: &'d gltf::Document, wanted: &str) -> Result<gltf::Animati
 }
 
 /// A node's transform taken apart. A file that animates a node gives it no matrix.
-struct Parts {
+struct NodeTransform {
     matrix: Option<DMat4>,
     translation: DVec3,
     rotation: DQuat,
@@ -98,7 +101,7 @@ struct Parts {
     weights: Option<Vec<f64>>,
 }
 
-impl Parts {
+impl NodeTransform {
     fn of(node: &gltf::Node) -> Self {
         let mut parts = Self {
             matrix: None,

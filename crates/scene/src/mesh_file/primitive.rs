@@ -11,7 +11,7 @@ use super::flaw::Flaw;
 use super::skin::Motion;
 use super::source::Buffers;
 use super::tangents;
-use super::uv::{Way, Ways};
+use super::uv::{UvMapping, UvMappings};
 use crate::surface::{Surface, Vertex};
 
 /// A primitive as it stands, before what it lacks is made up.
@@ -51,9 +51,9 @@ pub(super) fn read(
         Some(_) => attributes.matching::<4>(&Semantic::Tangents, count)?,
         None => None,
     };
-    let ways = Ways::of(&primitive.material());
+    let ways = UvMappings::of(&primitive.material());
     // Of a surface without images those that another material may use.
-    let first = ways.first.unwrap_or(Way::new(0, None));
+    let first = ways.first.unwrap_or(UvMapping::new(0, None));
     let [uvs, other_uvs] = [Some(first), ways.second].map(|way| match way {
         Some(way) => {
             let uvs = attributes.matching::<2>(&Semantic::TexCoords(way.set), count)?;

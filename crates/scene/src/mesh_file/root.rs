@@ -12,7 +12,7 @@ use super::leniency;
 use crate::text::shown;
 
 /// Reads the text of a file, of which what is not kept may be broken.
-pub(super) fn read(text: &[u8], kept: Kept) -> Result<Root, Flaw> {
+pub(super) fn read(text: &[u8], kept: OptionalElements) -> Result<Root, Flaw> {
     let invalid = |error: &dyn std::fmt::Display| {
         Flaw::new(
             format!("it is no valid glTF ({})", shown(&error.to_string())),
@@ -81,13 +81,13 @@ pub(super) fn wrong_version(version: &str) -> Flaw {
 
 /// Parts of a file that are kept because they are wanted: broken, they make a file unusable.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Kept {
+pub(super) struct OptionalElements {
     pub animations: bool,
     pub cameras: bool,
 }
 
 /// Removes the animations and cameras that are not kept.
-pub(super) fn leave_out_what_is_ignored(root: &mut Root, kept: Kept) {
+pub(super) fn leave_out_what_is_ignored(root: &mut Root, kept: OptionalElements) {
     if !kept.animations {
         root.animations.clear();
     }

@@ -9,7 +9,7 @@ use gltf::{Document, Primitive, Semantic};
 use super::cameras::{self, FileCamera};
 use super::flaw::Flaw;
 use super::instances::node_from_instances;
-use super::nodes::{Placed, placed_nodes};
+use super::nodes::{PlacedNode, placed_nodes};
 use super::pose::{Moment, Pose};
 use super::primitive::{self, Rough};
 use super::skin::Motion;
@@ -19,7 +19,7 @@ use super::source::Buffers;
 pub(super) struct Shapes<'a> {
     document: &'a Document,
     buffers: &'a Buffers,
-    placed: Vec<Placed<'a>>,
+    placed: Vec<PlacedNode<'a>>,
 }
 
 /// A primitive of a file.

@@ -6,7 +6,7 @@ use gltf::{Accessor, Primitive, Semantic};
 use super::accessor::read_numbers;
 use super::attributes::Attributes;
 use super::flaw::Flaw;
-use super::nodes::Placed;
+use super::nodes::PlacedNode;
 use super::source::Buffers;
 use crate::surface::{Vertex, cofactor};
 
@@ -19,7 +19,11 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    pub(super) fn of(node: &Placed, all: &[Placed], buffers: &Buffers) -> Result<Self, Flaw> {
+    pub(super) fn of(
+        node: &PlacedNode,
+        all: &[PlacedNode],
+        buffers: &Buffers,
+    ) -> Result<Self, Flaw> {
         let file_from_rest = match node.node.skin() {
             Some(skin) => Some(joints(&skin, all, buffers)?),
             None => None,
@@ -79,7 +83,7 @@ impl Motion {
 }
 
 /// Transforms of the joints from rest to the file's frame.
-fn joints(skin: &gltf::Skin, all: &[Placed], buffers: &Buffers) -> Result<Vec<DMat4>, Flaw> {
+fn joints(skin: &gltf::Skin, all: &[PlacedNode], buffers: &Buffers) -> Result<Vec<DMat4>, Flaw> {
     let inverse = match skin.inverse_bind_matrices() {
         Some(accessor) => read_numbers::<16>(&accessor, buffers)?,
         None => Vec::new(),

@@ -9,7 +9,7 @@ use gltf::buffer::View;
 use super::flaw::Flaw;
 use super::meshopt;
 use super::stock::FILE_SHARE;
-use crate::reading::{self, Kind};
+use crate::reading::{self, FileKind};
 use crate::text::shown;
 
 /// The file's buffers, each at least as long as the file says.
@@ -129,7 +129,7 @@ pub(super) fn resource(
     }
     let path = base_dir.join(name);
     files.push(path.clone());
-    reading::read(&path, Kind::File, FILE_SHARE).map_err(|error| {
+    reading::read(&path, FileKind::File, FILE_SHARE).map_err(|error| {
         let found = format!(
             "its {what}, \"{}\", cannot be read ({error})",
             path.display()

@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 
-use crate::scene::{Material, Part, Texture};
+use crate::scene::{Material, NodeTriangles, Texture};
 
 /// Largest share of the free memory that one file may take.
 pub(super) const FILE_SHARE: f64 = 1.0 / 4.0;
 
 /// Destination of a file's parts and its own materials.
-pub(crate) struct Stock<'a> {
-    pub parts: &'a mut Vec<Part>,
+pub(crate) struct FileContents<'a> {
+    pub parts: &'a mut Vec<NodeTriangles>,
     pub materials: &'a mut Vec<Material>,
     pub textures: &'a mut Vec<Texture>,
     /// The files that it refers to and that were read.

@@ -10,7 +10,7 @@ const NAME: &str = "KHR_texture_transform";
 
 /// Mapping from a vertex's texture coordinates to a place of the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Way {
+pub(super) struct UvMapping {
     /// Index of the set of texture coordinates.
     pub set: u32,
     offset: [f64; 2],
@@ -18,7 +18,7 @@ pub(super) struct Way {
     scale: [f64; 2],
 }
 
-impl Way {
+impl UvMapping {
     pub(super) fn new(set: u32, transform: Option<&Value>) -> Self {
         let number = |value: &Value| value.as_f64().filter(|x| x.is_finite());
         let pair = |name: &str, or: f64| {
@@ -55,12 +55,12 @@ impl Way {
 /// The ways of a material's images, the first that of the normal map, or of its coat's where it has none: tangents go by it. A vertex keeps two
 /// places; where there are more ways, those beyond are taken for the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Ways {
-    pub first: Option<Way>,
-    pub second: Option<Way>,
+pub(super) struct UvMappings {
+    pub first: Option<UvMapping>,
+    pub second: Option<UvMapping>,
 }
 
-impl Ways {
+impl UvMappings {
     pub(super) fn of(material: &Material) -> Self {
         let mut ways = Self::default();
         for way in all(material) {
@@ -69,7 +69,7 @@ impl Ways {
         ways
     }
 
-    fn add(&mut self, way: Way) {
+    fn add(&mut self, way: UvMapping) {
         if self.first.is_none() {
             self.first = Some(way);
         } else if self.second.is_none() && self.first != Some(way) {
@@ -78,23 +78,23 @@ impl Ways {
     }
 
     /// Whether an image lies by the second of the places.
-    pub(super) fn is_second(&self, way: Way) -> bool {
+    pub(super) fn is_second(&self, way: UvMapping) -> bool {
         self.second == Some(way)
     }
 }
 
 /// Mappings of all images that are read.
-fn all(material: &Material) -> Vec<Way> {
+fn all(material: &Material) -> Vec<UvMapping> {
     let pbr = material.pbr_metallic_roughness();
     let normal = material
         .normal_texture()
-        .map(|it| Way::new(it.tex_coord(), it.extension_value(NAME)));
+        .map(|it| UvMapping::new(it.tex_coord(), it.extension_value(NAME)));
     let rest = [
         pbr.base_color_texture(),
         pbr.metallic_roughness_texture(),
         material.emissive_texture(),
     ];
-    let rest = rest.iter().flatten().map(Way::of);
+    let rest = rest.iter().flatten().map(UvMapping::of);
     let occlusion = material.occlusion_texture();
     let rest = rest.chain(occlusion.as_ref().map(of_occlusion));
     let older = material.extension_value(spec_gloss::NAME);
@@ -117,24 +117,24 @@ fn all(material: &Material) -> Vec<Way> {
 }
 
 /// Mapping of a use of a texture within an extension.
-pub(super) fn of_json(texture: &Value) -> Option<Way> {
+pub(super) fn of_json(texture: &Value) -> Option<UvMapping> {
     texture.get("index")?;
     let set = texture.get("texCoord").and_then(Value::as_u64);
     let transform = texture.get("extensions").and_then(|it| it.get(NAME));
-    Some(Way::new(
+    Some(UvMapping::new(
         set.and_then(|set| set.try_into().ok()).unwrap_or(0),
         transform,
     ))
 }
 
 /// The way of an occlusion map.
-pub(super) fn of_occlusion(texture: &gltf::material::OcclusionTexture) -> Way {
-    Way::new(texture.tex_coord(), texture.extension_value(NAME))
+pub(super) fn of_occlusion(texture: &gltf::material::OcclusionTexture) -> UvMapping {
+    UvMapping::new(texture.tex_coord(), texture.extension_value(NAME))
 }
 
 /// The way of a normal map.
-pub(super) fn of_normals(texture: &gltf::material::NormalTexture) -> Way {
-    Way::new(texture.tex_coord(), texture.extension_value(NAME))
+pub(super) fn of_normals(texture: &gltf::material::NormalTexture) -> UvMapping {
+    UvMapping::new(texture.tex_coord(), texture.extension_value(NAME))
 }
 
 #[cfg(test)]
@@ -145,7 +145,7 @@ mod tests {
     fn a_place_is_scaled_then_turned_then_moved() {
         let transform = r#"{"offset":[0.5,0.25],"rotation":1.5707963267948966,"scale":[2,4]}"#;
         let transform: Value = gltf::json::deserialize::from_str(transform).unwrap();
-        let way = Way::new(0, Some(&transform));
+        let way = UvMapping::new(0, Some(&transform));
         // A quarter turn takes u to -v and v to u.
         for (uv, place) in [
             ([0.0, 0.0], [0.5, 0.25]),
@@ -154,6 +154,9 @@ mod tests {
         ] {
             assert!(way.place(uv).abs_diff_eq(place.into(), 1e-6), "{uv:?}");
         }
-        assert_eq!(Way::new(3, None).place([0.25, 7.0]), Vec2::new(0.25, 7.0));
+        assert_eq!(
+            UvMapping::new(3, None).place([0.25, 7.0]),
+            Vec2::new(0.25, 7.0)
+        );
     }
 }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use super::walk::Spot;
+use super::walk::MeshPoint;
 use crate::scene::Mesh;
 
 /// Triangles in a leaf.
@@ -80,12 +80,12 @@ impl Bounds {
 
 /// Bounds and number of the items on one side of a cut.
 #[derive(Clone, Copy)]
-struct Side {
+struct CutSide {
     bounds: Bounds,
     count: f32,
 }
 
-impl Side {
+impl CutSide {
     const EMPTY: Self = Self {
         bounds: Bounds::EMPTY,
         count: 0.0,
@@ -134,9 +134,9 @@ impl Closest {
     }
 
     /// The nearest place on the mesh, and its distance in metres.
-    pub(super) fn find(&self, point_m: DVec3) -> (Spot, f64) {
+    pub(super) fn find(&self, point_m: DVec3) -> (MeshPoint, f64) {
         self.nearest(point_m, f64::INFINITY).unwrap_or_else(|| {
-            let spot = Spot {
+            let spot = MeshPoint {
                 triangle: 0,
                 point_m: self.mesh.corners_m(0)[0],
             };
@@ -145,13 +145,13 @@ impl Closest {
     }
 
     /// Finds the nearest point within a distance; a place far from the mesh costs no time.
-    pub(super) fn find_within(&self, point_m: DVec3, most_m: f64) -> Option<(Spot, f64)> {
+    pub(super) fn find_within(&self, point_m: DVec3, most_m: f64) -> Option<(MeshPoint, f64)> {
         // A little more, for what rounds.
         self.nearest(point_m, most_m * most_m * (1.0 + 1e-9))
     }
 
     /// The nearest place whose squared distance is below `most`.
-    fn nearest(&self, point: DVec3, most: f64) -> Option<(Spot, f64)> {
+    fn nearest(&self, point: DVec3, most: f64) -> Option<(MeshPoint, f64)> {
         let (mut found, mut least) = (None, most);
         let mut left = [(0, 0.0); MOST_UNEVEN + 32];
         let mut count = 1;
@@ -172,7 +172,7 @@ impl Closest {
                     };
                     let distance = point_m.distance_squared(point);
                     if distance < least {
-                        (found, least) = (Some(Spot { triangle, point_m }), distance);
+                        (found, least) = (Some(MeshPoint { triangle, point_m }), distance);
                     }
                 }
                 continue;
@@ -249,19 +249,19 @@ fn split(items: &mut [Item], depth: usize) -> usize {
     };
     let mut best: Option<(f32, usize, usize)> = None;
     for axis in (0..3).filter(|&axis| depth < MOST_UNEVEN && size[axis] > 0.0) {
-        let mut bins = [Side::EMPTY; BINS];
+        let mut bins = [CutSide::EMPTY; BINS];
         for item in items.iter() {
             let bin = &mut bins[bin(item, axis)];
-            *bin = bin.with(Side {
+            *bin = bin.with(CutSide {
                 bounds: item.bounds,
                 count: 1.0,
             });
         }
-        let mut right = [Side::EMPTY; BINS + 1];
+        let mut right = [CutSide::EMPTY; BINS + 1];
         for cut in (0..BINS).rev() {
             right[cut] = right[cut + 1].with(bins[cut]);
         }
-        let mut left = Side::EMPTY;
+        let mut left = CutSide::EMPTY;
         for cut in 1..BINS {
             left = left.with(bins[cut - 1]);
             let cost = left.cost() + right[cut].cost();

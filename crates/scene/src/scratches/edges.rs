@@ -24,12 +24,12 @@ const BEHIND_COS: f64 = -0.01;
 pub(super) struct Edges {
     reach_m: f64,
     /// Pieces of edges in cubes as wide as the reach.
-    cells: HashMap<[i32; 3], Vec<Piece>>,
+    cells: HashMap<[i32; 3], Vec<EdgePiece>>,
 }
 
 /// A piece of an edge, or several nearby.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+struct EdgePiece {
     middle_m: DVec3,
     /// Unit vector between the normals of the triangles at the edge; or zero.
     normal: DVec3,
@@ -38,7 +38,7 @@ struct Piece {
 }
 
 /// Key by which pieces are taken together: a cube, and the signs of their normals.
-type Place = ([i32; 3], [bool; 3]);
+type PieceKey = ([i32; 3], [bool; 3]);
 
 fn cube(point_m: DVec3, width_m: f64) -> [i32; 3] {
     (point_m / width_m).floor().as_ivec3().to_array()
@@ -49,7 +49,7 @@ impl Edges {
     pub(super) fn new(mesh: &Mesh, reach_m: f64) -> Self {
         let piece_m = PIECE * reach_m;
         // Sums, weighted by the sizes of bends.
-        let mut together: HashMap<Place, (f64, Piece)> = HashMap::new();
+        let mut together: HashMap<PieceKey, (f64, EdgePiece)> = HashMap::new();
         each_bend(mesh, |bend| {
             let [from_m, to_m] = bend.ends_m(mesh);
             let angle_rad = angle_rad(bend.normals, to_m - from_m);
@@ -67,7 +67,7 @@ impl Edges {
                 let place = (cube(middle_m, piece_m), signs);
                 let (weight, sum) = together.entry(place).or_insert((
                     0.0,
-                    Piece {
+                    EdgePiece {
                         middle_m: DVec3::ZERO,
                         normal: DVec3::ZERO,
                         bend_m: 0.0,
@@ -79,7 +79,7 @@ impl Edges {
                 sum.bend_m += bend_m;
             }
         });
-        let mut cells: HashMap<[i32; 3], Vec<Piece>> = HashMap::new();
+        let mut cells: HashMap<[i32; 3], Vec<EdgePiece>> = HashMap::new();
         let mut together: Vec<_> = together.into_iter().collect();
         // Sums in a fixed order, so that scratches are the same each time.
         together.sort_unstable_by_key(|(place, _)| *place);
@@ -88,7 +88,7 @@ impl Edges {
             cells
                 .entry(cube(middle_m, reach_m))
                 .or_default()
-                .push(Piece {
+                .push(EdgePiece {
                     middle_m,
                     normal: sum.normal.normalize_or_zero(),
                     ..sum

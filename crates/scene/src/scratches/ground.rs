@@ -8,7 +8,7 @@ use super::closest::Closest;
 use super::facet::Facet;
 use super::neighbours::Neighbours;
 use super::random::Stream;
-use super::walk::{Spot, Walker, shortest_piece_m};
+use super::walk::{MeshPoint, Walker, shortest_piece_m};
 use crate::description::Distribution;
 use crate::scene::Mesh;
 
@@ -79,7 +79,7 @@ impl Ground {
     }
 
     /// A place on the surface, each area alike.
-    pub(super) fn random_spot(&self, stream: &mut Stream) -> Spot {
+    pub(super) fn random_spot(&self, stream: &mut Stream) -> MeshPoint {
         let wanted = stream.uniform() * self.area_m2();
         let triangle = self.areas_m2.partition_point(|area| *area <= wanted);
         // Rounding may carry the product up to the whole area.
@@ -88,7 +88,7 @@ impl Ground {
         // The square root makes the density even over the triangle.
         let from_a = libm::sqrt(stream.uniform());
         let to_c = stream.uniform();
-        Spot {
+        MeshPoint {
             triangle,
             point_m: a.lerp(b.lerp(c, to_c), from_a),
         }

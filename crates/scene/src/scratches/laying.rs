@@ -1,6 +1,6 @@
 //! Interface of all kinds of layers for laying a scratch.
 
-use super::walk::{Course, Spot, Walker};
+use super::walk::{Course, MeshPoint, Walker};
 use crate::description::Distribution;
 use crate::error::Error;
 use crate::scene::{Profile, Segment};
@@ -11,7 +11,7 @@ const WIDTHS_UM: (f64, f64) = (0.05, 100.0);
 const DEPTHS_NM: (f64, f64) = (0.0, 2000.0);
 
 /// A size of a groove that lists tell of each scratch.
-pub(crate) struct Size {
+pub(crate) struct ListedSize {
     /// Name of its column in a file, of its array in memory.
     pub key: &'static str,
     range: (f64, f64),
@@ -19,20 +19,20 @@ pub(crate) struct Size {
 }
 
 /// Sizes in the order of the columns.
-pub(crate) const LISTED_SIZES: [Size; 2] = [
-    Size {
+pub(crate) const LISTED_SIZES: [ListedSize; 2] = [
+    ListedSize {
         key: "width_um",
         range: WIDTHS_UM,
         of: |profile| &mut profile.width_um,
     },
-    Size {
+    ListedSize {
         key: "depth_nm",
         range: DEPTHS_NM,
         of: |profile| &mut profile.depth_nm,
     },
 ];
 
-impl Size {
+impl ListedSize {
     /// # Errors
     /// At `key`: a number that is out of range, or none at all.
     pub(crate) fn check(&self, key: impl FnOnce() -> String, value: f64) -> Result<(), Error> {
@@ -63,7 +63,7 @@ pub(super) trait Laying: Sync {
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove;
 
     /// Middle of a scratch, if it has one, where [`Laying::lay`] lays it.
-    fn middle(&self, index: u64) -> Option<Spot>;
+    fn middle(&self, index: u64) -> Option<MeshPoint>;
 
     /// Number of the layer's strokes before a scratch, its own included.
     fn strokes_before(&self, _index: u64) -> usize {

@@ -10,11 +10,11 @@ use rayon::prelude::*;
 use super::ground::Ground;
 use super::guide::Guide;
 use super::laying::{Groove, LISTED_SIZES, Laying};
-use super::walk::{Course, Spot, Walker};
+use super::walk::{Course, MeshPoint, Walker};
 use crate::arrays::ScratchArrays;
 use crate::error::Error;
 use crate::loader::Loader;
-use crate::reading::{self, Kind};
+use crate::reading::{self, FileKind};
 use crate::scene::{Object, Profile, Scratch, Segment};
 use crate::text::shown;
 
@@ -30,7 +30,7 @@ const LONGEST_WAY: f64 = 4.0;
 
 /// A row of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Row {
+pub(super) struct ListedRow {
     /// Counted from 1.
     line: usize,
     ends_m: [[f64; 3]; 2],
@@ -44,9 +44,9 @@ fn columns() -> Vec<&'static str> {
 }
 
 /// Reads all rows. `key` is the way to the layer's table in the scene file.
-pub(super) fn read(path: &Path, key: &str) -> Result<Vec<Row>, Error> {
+pub(super) fn read(path: &Path, key: &str) -> Result<Vec<ListedRow>, Error> {
     // The rows take about as much as the text, twice.
-    let text = reading::read(path, Kind::File, 1.0 / 6.0).map_err(|error| {
+    let text = reading::read(path, FileKind::File, 1.0 / 6.0).map_err(|error| {
         Error::new(
             format!("{key}.file"),
             format!("\"{}\" cannot be read ({error})", path.display()),
@@ -61,7 +61,7 @@ pub(super) fn read(path: &Path, key: &str) -> Result<Vec<Row>, Error> {
 }
 
 /// An error goes with its line in the file of this path.
-fn parse(text: &str, path: &Path) -> Result<Vec<Row>, Error> {
+fn parse(text: &str, path: &Path) -> Result<Vec<ListedRow>, Error> {
     // A byte order mark is no part of the first name.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = text
@@ -87,7 +87,7 @@ fn parse(text: &str, path: &Path) -> Result<Vec<Row>, Error> {
     rows.into_iter().collect()
 }
 
-fn parse_row(line: usize, row: &str) -> Result<Row, Error> {
+fn parse_row(line: usize, row: &str) -> Result<ListedRow, Error> {
     let cells: Vec<_> = row.split(',').map(str::trim).collect();
     if cells.len() != COUNT {
         let found = format!("found {} cells", cells.len());
@@ -118,7 +118,7 @@ fn parse_row(line: usize, row: &str) -> Result<Row, Error> {
             "must be two points",
         ));
     }
-    Ok(Row {
+    Ok(ListedRow {
         line,
         ends_m: [[x0, y0, z0], [x1, y1, z1]],
         profile,
@@ -153,15 +153,15 @@ pub fn write_scratches<'a>(
 }
 
 /// A scratch with its ends on the surface.
-struct Placed {
-    start: Spot,
+struct PlacedScratch {
+    start: MeshPoint,
     end_m: DVec3,
     profile: Profile,
 }
 
 /// Scratches on the ground that they go on.
 pub(super) struct Listed<'a> {
-    scratches: Vec<Placed>,
+    scratches: Vec<PlacedScratch>,
     ground: &'a Ground,
 }
 
@@ -169,7 +169,7 @@ impl<'a> Listed<'a> {
     /// Refuses rows that do not lie on the surface.
     pub(super) fn new(
         loader: &Loader,
-        rows: &[Row],
+        rows: &[ListedRow],
         path: &Path,
         ground: &'a Ground,
     ) -> Result<Self, Error> {
@@ -216,7 +216,7 @@ impl<'a> Listed<'a> {
                 let (spot, _) = found.unwrap_or_else(|| {
                     wrong.fetch_min(2 * i + end, Ordering::Relaxed);
                     (
-                        Spot {
+                        MeshPoint {
                             triangle: 0,
                             point_m,
                         },
@@ -225,7 +225,7 @@ impl<'a> Listed<'a> {
                 });
                 spot
             });
-            Placed {
+            PlacedScratch {
                 start,
                 end_m: end.point_m,
                 profile,
@@ -270,7 +270,7 @@ impl Laying for Listed<'_> {
         }
     }
 
-    fn middle(&self, index: u64) -> Option<Spot> {
+    fn middle(&self, index: u64) -> Option<MeshPoint> {
         let placed = &self.scratches[index as usize];
         let middle_m = placed.start.point_m.lerp(placed.end_m, 0.5);
         Some(self.ground.closest().find(middle_m).0)

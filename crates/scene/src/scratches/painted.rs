@@ -12,7 +12,7 @@ use super::ground::Ground;
 use super::guide::Guide;
 use super::laying::{Groove, Laying, scratch_profile};
 use super::random::Stream;
-use super::walk::{Course, Spot, Walker};
+use super::walk::{Course, MeshPoint, Walker};
 use crate::description::{Brush, Brushed, Stroke};
 use crate::error::Error;
 use crate::scene::Segment;
@@ -98,7 +98,7 @@ impl<'a> Painted<'a> {
     }
 
     /// Draws the middle of a scratch, and where the brush was for it, by the first two numbers of its stream.
-    fn seed(&self, index: u64, stream: &mut Stream) -> Option<(Spot, Touch)> {
+    fn seed(&self, index: u64, stream: &mut Stream) -> Option<(MeshPoint, Touch)> {
         let path = &self.paths[self.path(index)];
         let [along, across] = std::array::from_fn(|_| stream.uniform());
         let touch = path.touch(self.ground, index - path.first, along, across)?;
@@ -106,7 +106,7 @@ impl<'a> Painted<'a> {
     }
 
     /// The nearest place on the side of the surface that the brush is on; `None` where it hangs over the rim.
-    fn land(&self, touch: &Touch, radius_m: f64) -> Option<Spot> {
+    fn land(&self, touch: &Touch, radius_m: f64) -> Option<MeshPoint> {
         let most_m = REACH * radius_m;
         let (spot, distance_m) = self.ground.closest().find_within(touch.point_m, most_m)?;
         let facet = Facet::new(&self.ground.mesh, spot.triangle);
@@ -146,7 +146,7 @@ impl Laying for Painted<'_> {
         }
     }
 
-    fn middle(&self, index: u64) -> Option<Spot> {
+    fn middle(&self, index: u64) -> Option<MeshPoint> {
         let (seed, _) = self.seed(index, &mut self.stream(index))?;
         Some(seed)
     }

@@ -8,7 +8,7 @@ use super::cut::{Parts, ball};
 use super::edges::Edges;
 use super::facet::{self, Facet};
 use super::ground::Ground;
-use super::walk::Spot;
+use super::walk::MeshPoint;
 use crate::description;
 use crate::error::Error;
 use crate::grey_map::GreyMap;
@@ -16,8 +16,8 @@ use crate::picture_lie::{PictureLie, three_sides};
 use crate::scene::Segment;
 
 /// A `where` with the files and surfaces that were read for it.
-pub(crate) struct Means<'a> {
-    pub described: &'a description::Place,
+pub(crate) struct PlaceInputs<'a> {
+    pub described: &'a description::LayerPlaces,
     pub mask: Option<Arc<GreyMap>>,
     pub density: Option<Arc<GreyMap>>,
     /// The whole object's surface, for edges: the border of a part is no edge.
@@ -34,7 +34,7 @@ const MOST_LOOKS: f64 = 4096.0;
 const HALVINGS: u32 = 20;
 
 /// Places of a ground.
-pub(super) struct Place<'a> {
+pub(super) struct GroundPlaces<'a> {
     ground: &'a Ground,
     mask: Option<Arc<GreyMap>>,
     density: Option<Arc<GreyMap>>,
@@ -52,12 +52,16 @@ struct LookUp {
     shares: [f64; 3],
 }
 
-impl<'a> Place<'a> {
+impl<'a> GroundPlaces<'a> {
     /// `None` where it leaves nothing out. `key` is the way to the layer.
     ///
     /// # Errors
     /// Pictures on an object without texture coordinates, edges that are too narrow for it.
-    pub(super) fn new(means: &Means, ground: &'a Ground, key: &str) -> Result<Option<Self>, Error> {
+    pub(super) fn new(
+        means: &PlaceInputs,
+        ground: &'a Ground,
+        key: &str,
+    ) -> Result<Option<Self>, Error> {
         let described = means.described;
         if described.is_everywhere() {
             return Ok(None);
@@ -97,7 +101,7 @@ impl<'a> Place<'a> {
     }
 
     /// The probability that a scratch whose middle is there is laid.
-    pub(super) fn chance(&self, middle: Spot) -> f64 {
+    pub(super) fn chance(&self, middle: MeshPoint) -> f64 {
         let of_picture = self.density.as_ref().map_or(1.0, |map| {
             self.look_up(middle.triangle, middle.point_m).value(map)
         });
@@ -167,7 +171,7 @@ impl LookUp {
 }
 
 /// Edges that scratches are to keep to, if any.
-fn edges(means: &Means, key: &str) -> Result<Option<Edges>, Error> {
+fn edges(means: &PlaceInputs, key: &str) -> Result<Option<Edges>, Error> {
     let Some(whole) = &means.whole else {
         return Ok(None);
     };

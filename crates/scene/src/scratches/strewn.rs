@@ -8,7 +8,7 @@ use super::guide::Guide;
 use super::laying::{Groove, Laying, scratch_profile};
 use super::random::Stream;
 use super::swirl::Lattice;
-use super::walk::{Spot, Walker};
+use super::walk::{MeshPoint, Walker};
 use crate::description::{Around, Laid, Pattern};
 use crate::grating::Bearing;
 use crate::scene::Segment;
@@ -38,7 +38,7 @@ impl Laying for Strewn<'_> {
         }
     }
 
-    fn middle(&self, index: u64) -> Option<Spot> {
+    fn middle(&self, index: u64) -> Option<MeshPoint> {
         Some(self.ground.random_spot(&mut self.stream(index)))
     }
 }
@@ -49,7 +49,7 @@ impl Strewn<'_> {
     }
 
     /// `curvature` and `jitter` are standard normal draws.
-    fn guide(&self, seed: Spot, seed_angle_rad: f64, curvature: f64, jitter: f64) -> Guide {
+    fn guide(&self, seed: MeshPoint, seed_angle_rad: f64, curvature: f64, jitter: f64) -> Guide {
         let around = |around: &Around, bearing| Guide::Around {
             axis: self.ground.direction_in_world(around.axis),
             center_m: self.ground.point_in_world_m(around.center_m),
@@ -90,7 +90,7 @@ impl Strewn<'_> {
         }
     }
 
-    fn swirl(&self, seed: Spot, seed_angle_rad: f64, cell_m: f64, wanted_per_m: f64) -> Guide {
+    fn swirl(&self, seed: MeshPoint, seed_angle_rad: f64, cell_m: f64, wanted_per_m: f64) -> Guide {
         let facet = Facet::new(&self.ground.mesh, seed.triangle);
         let lattice = Lattice {
             seed: self.laid.seed,

@@ -17,14 +17,14 @@ const TURN_BACK_COS: f64 = 0.5;
 
 /// A place on the surface.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spot {
+pub(super) struct MeshPoint {
     pub triangle: u32,
     pub point_m: DVec3,
 }
 
 /// A straight piece within one triangle.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+struct StraightPiece {
     start_m: DVec3,
     end_m: DVec3,
     triangle: u32,
@@ -66,7 +66,7 @@ impl<'a> Walker<'a> {
     /// Lays a scratch with its middle at the seed and appends its segments: none if the guide has no direction there.
     pub(super) fn lay(
         &self,
-        seed: Spot,
+        seed: MeshPoint,
         guide: &Guide,
         length_m: f64,
         segments: &mut Vec<Segment>,
@@ -79,7 +79,11 @@ impl<'a> Walker<'a> {
         }
         let (ahead, _) = self.walk(seed, guide, false, length_m / 2.0);
         let (behind, _) = self.walk(seed, guide, true, length_m / 2.0);
-        let mut pieces: Vec<_> = behind.into_iter().rev().map(Piece::reversed).collect();
+        let mut pieces: Vec<_> = behind
+            .into_iter()
+            .rev()
+            .map(StraightPiece::reversed)
+            .collect();
         let mut ahead = ahead.into_iter();
         // A straight scratch has no joint at its seed.
         if let (Some(last), Some(first)) = (pieces.last_mut(), ahead.as_slice().first())
@@ -95,7 +99,7 @@ impl<'a> Walker<'a> {
     /// Lays a scratch from `start` on, as far as its guide leads.
     pub(super) fn lay_from(
         &self,
-        start: Spot,
+        start: MeshPoint,
         guide: &Guide,
         length_m: f64,
         segments: &mut Vec<Segment>,
@@ -106,11 +110,11 @@ impl<'a> Walker<'a> {
 
     fn walk(
         &self,
-        start: Spot,
+        start: MeshPoint,
         guide: &Guide,
         reversed: bool,
         length_m: f64,
-    ) -> (Vec<Piece>, Course) {
+    ) -> (Vec<StraightPiece>, Course) {
         let mut pieces = Vec::new();
         let mut spot = start;
         let mut heading = None;
@@ -166,7 +170,7 @@ impl<'a> Walker<'a> {
             let next = Facet::new(self.mesh, triangle);
             let share = 1.0 - facet.share_of_edge(edge, point_m);
             heading = Some(facet.unfold(direction, edge, &next, next_edge));
-            spot = Spot {
+            spot = MeshPoint {
                 triangle,
                 point_m: next.point_on_edge(next_edge, share),
             };
@@ -181,7 +185,7 @@ impl<'a> Walker<'a> {
         &self,
         guide: &Guide,
         facet: &Facet,
-        spot: Spot,
+        spot: MeshPoint,
         heading: Option<DVec3>,
         entry: Option<usize>,
         reversed: bool,
@@ -202,7 +206,12 @@ impl<'a> Walker<'a> {
     }
 
     /// Rounds pieces to segments and appends them, without those too short to matter.
-    fn append(&self, pieces: Vec<Piece>, course: Course, segments: &mut Vec<Segment>) -> Course {
+    fn append(
+        &self,
+        pieces: Vec<StraightPiece>,
+        course: Course,
+        segments: &mut Vec<Segment>,
+    ) -> Course {
         let Some(first) = pieces.first() else {
             return Course::Open;
         };
@@ -248,7 +257,7 @@ impl<'a> Walker<'a> {
 /// The length along an arc of `reach_m` at which a scratch is back where it started, with the direction in which it started.
 fn closes(
     arc: &Arc,
-    start: Spot,
+    start: MeshPoint,
     start_direction: DVec3,
     walked_m: f64,
     reach_m: f64,
@@ -265,7 +274,7 @@ fn closes(
 }
 
 /// Cuts an arc into chords of equal length.
-fn push_chords(pieces: &mut Vec<Piece>, triangle: u32, arc: &Arc, length_m: f64) {
+fn push_chords(pieces: &mut Vec<StraightPiece>, triangle: u32, arc: &Arc, length_m: f64) {
     let chords = match arc.curvature_per_m == 0.0 {
         true => 1,
         false => (length_m / chord_length_m(arc.curvature_per_m))
@@ -275,7 +284,7 @@ fn push_chords(pieces: &mut Vec<Piece>, triangle: u32, arc: &Arc, length_m: f64)
     let mut start_m = arc.start_m;
     for i in 1..=chords {
         let (end_m, _) = arc.at(length_m * i as f64 / chords as f64);
-        pieces.push(Piece {
+        pieces.push(StraightPiece {
             start_m,
             end_m,
             triangle,
@@ -284,7 +293,7 @@ fn push_chords(pieces: &mut Vec<Piece>, triangle: u32, arc: &Arc, length_m: f64)
     }
 }
 
-impl Piece {
+impl StraightPiece {
     fn reversed(self) -> Self {
         Self {
             start_m: self.end_m,
@@ -294,7 +303,7 @@ impl Piece {
     }
 
     /// Whether the next piece goes on in the same triangle and the same direction.
-    fn continues_straight(&self, next: &Piece) -> bool {
+    fn continues_straight(&self, next: &StraightPiece) -> bool {
         let (way, next_way) = (self.end_m - self.start_m, next.end_m - next.start_m);
         let turn = way.cross(next_way).length();
         self.triangle == next.triangle && turn <= 1e-9 * way.length() * next_way.length()

@@ -19,9 +19,9 @@ const SIDES: [[DVec3; 2]; 6] = [
 const EDGE_FACETS: u32 = ROUNDING_FACETS / 2;
 
 /// A place along one edge of a side: on the smaller box, and from there to the box without roundings, in radii.
-type Place = (f64, f64);
+type EdgePlace = (f64, f64);
 
-fn places(inner_m: f64, rounding_m: f64) -> Vec<Place> {
+fn places(inner_m: f64, rounding_m: f64) -> Vec<EdgePlace> {
     if rounding_m == 0.0 {
         return vec![(-inner_m, -1.0), (inner_m, 1.0)];
     }
@@ -44,7 +44,7 @@ pub(super) fn surface(size_m: DVec3, rounding_m: f64) -> Surface {
         let along = |axis: DVec3, size_m: DVec3| axis.abs().dot(size_m);
         let [columns, rows] = [right, up].map(|axis| places(along(axis, inner_m), rounding_m));
         // From 0 to 1 over the box without roundings.
-        let part = |(at, slope): Place, axis: DVec3| {
+        let part = |(at, slope): EdgePlace, axis: DVec3| {
             0.5 * (1.0 + (at + rounding_m * slope) / along(axis, half_m))
         };
         let first = surface.vertices.len() as u32;

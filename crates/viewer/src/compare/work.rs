@@ -8,7 +8,7 @@ use egui::{Color32, ColorImage};
 use hairline_image::metrics::{ErrorMap, error_map};
 use hairline_image::{Display, Image, Layer, Picture, ToneMap, png};
 use hairline_index::{Groove, ScratchIndex, SegmentTree, groove_index};
-use hairline_reference::{BATCH_SAMPLES, Integrator, Parts, Settings};
+use hairline_reference::{BATCH_SAMPLES, Integrator, SceneIndex, Settings};
 use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
@@ -169,7 +169,7 @@ pub(super) fn run(wanted: &Wanted, stop: &Stop, report: &Report, kept: &Mutex<Ke
     let grooves = earlier.unwrap_or_else(|| Arc::new(groove_index::build(&built.scene)));
     lock(kept).0 = Some((Arc::downgrade(&built.scratches), Arc::clone(&grooves)));
     let (triangles, tables) = (Arc::clone(&built.triangles), Arc::clone(&built.tables));
-    let parts = Parts::of(&built.scene, triangles, grooves, tables);
+    let parts = SceneIndex::of(&built.scene, triangles, grooves, tables);
     let first = wanted.scene(FIRST_PX);
     let start = Instant::now();
     let Some(coarse) = one_round(&first, wanted.settings(), &parts, stop) else {
@@ -193,7 +193,7 @@ pub(super) fn run(wanted: &Wanted, stop: &Stop, report: &Report, kept: &Mutex<Ke
 fn refine(
     wanted: &Wanted,
     scene: &Scene,
-    parts: &Parts,
+    parts: &SceneIndex,
     coarse: &Image,
     stop: &Stop,
     report: &Report,
@@ -239,7 +239,7 @@ fn refine(
 }
 
 /// A reference with a batch for each pixel. None if `stop` was asked.
-fn one_round(scene: &Scene, settings: Settings, parts: &Parts, stop: &Stop) -> Option<Image> {
+fn one_round(scene: &Scene, settings: Settings, parts: &SceneIndex, stop: &Stop) -> Option<Image> {
     let integrator = Integrator::from_parts(scene, settings, parts.clone());
     let observe = |_| {
         if stop.is_asked() {

@@ -9,7 +9,7 @@ use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{Align, Context, Id, Layout, Response, Slider, SliderClamping, TextEdit, Ui};
 use hairline_editor::DragKey;
-use hairline_editor::quantity::Shown;
+use hairline_editor::quantity::ShownUnit;
 use hairline_editor::ranges::{Parameter, Range};
 use hairline_scene::description::Distribution;
 
@@ -323,7 +323,7 @@ fn small_box(
     width: f32,
     label: &str,
     name: &str,
-    (range, shown): (&Range, Shown),
+    (range, shown): (&Range, ShownUnit),
     value: &mut f64,
 ) -> bool {
     let prefix = format!("{name} ");

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use hairline_editor::ranges::Parameter;
-use hairline_scene::description::{Place, Scratches};
+use hairline_scene::description::{LayerPlaces, Scratches};
 
 use super::form::Form;
 use crate::parts::Names;
@@ -59,7 +59,7 @@ fn one_of(
     form.choice(label, tooltip, std::iter::once(all).chain(named), chosen);
 }
 
-fn places(form: &mut Form, place: &mut Place) {
+fn places(form: &mut Form, place: &mut LayerPlaces) {
     form.number(Parameter::Edges, &mut place.edges);
     match place.edges > 0.0 {
         true => {
@@ -97,7 +97,7 @@ pub(super) fn picture(form: &mut Form, label: &str, tooltip: &str, chosen: &mut 
 }
 
 /// Control for the mapping of the pictures.
-fn tiles(form: &mut Form, place: &mut Place) {
+fn tiles(form: &mut Form, place: &mut LayerPlaces) {
     if place.files().next().is_none() {
         place.tile_m = None;
         return;
@@ -123,7 +123,7 @@ pub(super) fn tile(form: &mut Form, tile_m: &mut Option<f64>) {
 /// Width of the narrowest shell, in the object's size.
 const LEAST_SHELL: f64 = 1e-4;
 
-fn radii(form: &mut Form, place: &mut Place) {
+fn radii(form: &mut Form, place: &mut LayerPlaces) {
     let everywhere_m = form.diagonal_m;
     let mut is_bounded = place.radius_m.is_some();
     form.toggle(

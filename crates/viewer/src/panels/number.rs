@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use egui::{Context, DragValue, Id, Key, Response, Stroke, StrokeKind, Ui};
-use hairline_editor::quantity::{Shown, parse};
+use hairline_editor::quantity::{ShownUnit, parse};
 use hairline_editor::ranges::Range;
 
 /// Display of one number.
@@ -12,7 +12,7 @@ pub(super) struct NumberBox<'a> {
     /// Text before the number, in one of several boxes.
     pub prefix: &'a str,
     pub range: &'a Range,
-    pub shown: Shown,
+    pub shown: ShownUnit,
     pub width: f32,
 }
 

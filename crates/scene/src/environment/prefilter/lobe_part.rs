@@ -61,7 +61,7 @@ impl LobePart {
     }
 
     /// The mean of its density over a texel, and the texel's solid angle times that.
-    fn weight(&self, at: &Pair<'_>, turn_rad: f64) -> f64 {
+    fn weight(&self, at: &RowPair<'_>, turn_rad: f64) -> f64 {
         let middle = at.rows.half_sine2(turn_rad);
         let angle_rad = middle.sqrt() * 2.0;
         let steps = (6.0 * self.texel_rad / angle_rad.max(self.alpha))
@@ -75,7 +75,7 @@ impl LobePart {
         let mut sum = 0.0;
         for y in 0..n {
             let polar_rad = at.rows.polar_rad + place(y) * at.texel_rad;
-            let rows = Rows::new(at.middle_rad, polar_rad);
+            let rows = RowAngles::new(at.middle_rad, polar_rad);
             for x in 0..n {
                 sum += self.density(rows.half_sine2(turn_rad + place(x) * at.texel_rad));
             }
@@ -85,18 +85,18 @@ impl LobePart {
 }
 
 /// A row of texels that is made and one that is looked at.
-struct Pair<'a> {
+struct RowPair<'a> {
     lobe: &'a LobePart,
     /// Polar angle of the row that is made, from the map's top.
     middle_rad: f64,
-    rows: Rows,
+    rows: RowAngles,
     /// Angle of a texel, across and down: a map is twice as wide as high.
     texel_rad: f64,
     texel_solid_angle: f64,
 }
 
 /// Positions of two rows relative to each other.
-struct Rows {
+struct RowAngles {
     /// Polar angle of the row that is looked at, from the map's top.
     polar_rad: f64,
     /// The square of the sine of half the angle between them.
@@ -105,7 +105,7 @@ struct Rows {
     sines: f64,
 }
 
-impl Rows {
+impl RowAngles {
     fn new(middle_rad: f64, polar_rad: f64) -> Self {
         Self {
             polar_rad,
@@ -120,7 +120,7 @@ impl Rows {
     }
 }
 
-impl Pair<'_> {
+impl RowPair<'_> {
     /// Returns the longitude up to which the lobe may reach into the row on either side. None if it does not reach
     /// it.
     fn turn_rad(&self) -> Option<f64> {
@@ -148,10 +148,10 @@ pub(super) fn row_taps(
     rows.filter_map(|row| {
         let solid_angle = row_solid_angle(row as u32, height as u32);
         let middle_rad = v * PI;
-        let pair = Pair {
+        let pair = RowPair {
             lobe,
             middle_rad,
-            rows: Rows::new(middle_rad, (row as f64 + 0.5) * texel_rad),
+            rows: RowAngles::new(middle_rad, (row as f64 + 0.5) * texel_rad),
             texel_rad,
             texel_solid_angle: solid_angle / width as f64,
         };

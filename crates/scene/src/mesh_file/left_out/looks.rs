@@ -2,14 +2,14 @@
 
 use gltf::json::Value;
 
-use crate::mesh_file::uv::{self, Way};
+use crate::mesh_file::uv::{self, UvMapping};
 use crate::mesh_file::{anisotropy, coat, spec_gloss, specular};
 
 /// Contents that are left out, the number of times, and the effect.
-pub(super) type Told = (&'static str, usize, &'static str);
+pub(super) type Omission = (&'static str, usize, &'static str);
 
 /// Contents of a material that are left out.
-pub(super) fn of_material(root: &Value, material: &Value) -> Vec<Told> {
+pub(super) fn of_material(root: &Value, material: &Value) -> Vec<Omission> {
     let meaning = "a third way to place images on one surface; they lie as the first one";
     // A vertex has places for two.
     let mut told = vec![("texCoord", ways(material).len().saturating_sub(2), meaning)];
@@ -27,7 +27,7 @@ pub(super) fn of_material(root: &Value, material: &Value) -> Vec<Told> {
 }
 
 /// Directions of a primitive that its file does not give and that follow the texture coordinates of another image.
-pub(super) fn of_primitive(root: &Value, primitive: &Value) -> Vec<Told> {
+pub(super) fn of_primitive(root: &Value, primitive: &Value) -> Vec<Omission> {
     let has = |name: &str| {
         let attributes = primitive.get("attributes");
         attributes.is_some_and(|it| it.get(name).is_some())
@@ -65,8 +65,8 @@ pub(super) fn of_primitive(root: &Value, primitive: &Value) -> Vec<Told> {
     told
 }
 
-/// The different ways of the images that are read, in the order of [`uv::Ways`].
-fn ways(material: &Value) -> Vec<Way> {
+/// The different ways of the images that are read, in the order of [`uv::UvMappings`].
+fn ways(material: &Value) -> Vec<UvMapping> {
     let pbr = material.get("pbrMetallicRoughness");
     let of_pbr = ["baseColorTexture", "metallicRoughnessTexture"].map(|name| pbr?.get(name));
     let own = ["emissiveTexture", "occlusionTexture"].map(|name| material.get(name));

@@ -32,8 +32,8 @@ pub(super) fn unpacked(packed: &[u8], count: usize, stride: usize) -> Result<Vec
     let end = end.filter(|end| *end >= 1).ok_or("it is cut off")?;
     let (mut last, ways) = packed[packed.len() - tail..].split_at(stride);
     let ways = match is_newer {
-        true => ways.iter().map(|way| Way::of(*way)).collect(),
-        false => Some(vec![Way::Bytes; stride / 4]),
+        true => ways.iter().map(|way| DeltaCoding::of(*way)).collect(),
+        false => Some(vec![DeltaCoding::Bytes; stride / 4]),
     };
     let ways = ways.ok_or("its differences are of an unknown kind")?;
     let mut stream = Stream(&packed[1..end]);
@@ -73,14 +73,14 @@ pub(super) fn unpacked(packed: &[u8], count: usize, stride: usize) -> Result<Vec
 
 /// Coding of the difference of four bytes to those of the element before.
 #[derive(Clone, Copy)]
-enum Way {
+enum DeltaCoding {
     Bytes,
     Pairs,
     /// Bits, rotated by this count.
     Bits(u32),
 }
 
-impl Way {
+impl DeltaCoding {
     fn of(byte: u8) -> Option<Self> {
         match (byte & 15, u32::from(byte >> 4)) {
             (0, 0) => Some(Self::Bytes),
