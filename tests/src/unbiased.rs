@@ -1,5 +1,4 @@
-//! Shadows and bounces against the path tracer: the scenes of `tests/shadows`, their pictures, what these should be, and how far they are from
-//! that.
+//! Shadows and bounces against the path tracer: the scenes of `tests/shadows`, their pictures, the expected pictures, and the errors.
 
 use glam::DVec2;
 use hairline_image::metrics::ZTest;
@@ -203,7 +202,7 @@ pub struct Found {
     pub off: f64,
     /// One standard deviation of that, by how much the pixels' errors scatter.
     pub off_std: f64,
-    /// Rms error of a pixel over the same, without the noise of what it should be.
+    /// Rms error of a pixel over the same, without the noise of the expected picture.
     pub rms: f64,
     /// Z-test of the values by the noise that both pictures state.
     pub z: ZTest,

@@ -118,7 +118,8 @@ fn copy(from: &Path, to: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The licence files of what is linked into the program, a folder for each crate, and a list of all with the names of their licences.
+/// Copies the licence files of the crates that are linked into the program, a folder for each crate, and a list of all with the names
+/// of their licences.
 fn copy_licences(root: &Path, metadata: &Value, to: &Path) -> anyhow::Result<()> {
     let linked = linked(root)?;
     let mut list = String::new();

@@ -17,7 +17,7 @@ pub struct Shaders {
 
 #[derive(Serialize)]
 struct Texts {
-    /// Each with what it needs.
+    /// Modules, each with those that it needs.
     modules: Vec<Module>,
     passes: Vec<Pass>,
 }
@@ -28,7 +28,7 @@ struct Module {
     text: String,
 }
 
-/// An entry point and what its overrides are set to.
+/// An entry point and the values of its overrides.
 #[derive(Serialize)]
 struct Pass {
     name: String,

@@ -18,7 +18,7 @@ pub struct Touches;
 struct Thing {
     what: &'static str,
     most: usize,
-    /// The names of what there is, in each way that files write them.
+    /// The names of the existing variants, in each way that files write them.
     names: &'static [&'static [&'static str]],
 }
 

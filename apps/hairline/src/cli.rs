@@ -36,15 +36,15 @@ pub enum Command {
     Render(Render),
     /// Compare a picture with a reference: figures, and a report to look at.
     Compare(Compare),
-    /// Render a scene by Monte Carlo, slowly: what the closed forms of `render` must converge to, with its variance.
+    /// Render a scene by Monte Carlo, slowly, with its variance: the reference to which the closed forms of `render` must converge.
     Reference(Reference),
     /// Measure how long the default method and the published one take, and how far they are from the truth.
     Bench(Bench),
-    /// Show the version, the graphics adapters and what they can do, and the backends available; or what is in a scene.
+    /// Show the version, the graphics adapters and their properties, and the backends available; or the contents of a scene.
     Info(Info),
     /// Write the laid scratches of an object as a list (CSV), for other programs: three.js, game engines, Blender.
     Scratches(Scratches),
-    /// Print what a shell needs to complete this command line.
+    /// Print a shell's completions of this command line.
     Completions(Completions),
     /// Print the manual page (roff): `hairline man | man -l -`.
     Man,
@@ -132,8 +132,8 @@ pub struct Render {
     /// Objects that light may go by on its way besides the one that is seen, with shadows. [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64))]
     pub bounces: Option<u32>,
-    /// Whether what rays found of shadows and of other objects' light is filtered over each surface: less grain. Scratches, textures and highlights
-    /// stay as sharp as they are, and more samples leave less to filter.
+    /// Whether the light that rays found, shadows and other objects' light, is filtered over each surface: less grain. Scratches, textures and
+    /// highlights stay as sharp as they are, and more samples leave less to filter.
     #[arg(long, value_enum, default_value_t = Switch::On)]
     pub filter: Switch,
     /// Render before a transparent background: the picture's alpha is the share of each pixel that surfaces cover. The environment lights them and
@@ -310,7 +310,7 @@ pub struct Bench {
     /// Write the figures as JSON.
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
-    /// Write what is printed, Markdown tables, to a file.
+    /// Write the printed Markdown tables to a file.
     #[arg(short, long, value_name = "REPORT.md")]
     pub output: Option<PathBuf>,
     /// Renderer. auto: a graphics adapter, be it a software driver, if there is one.
@@ -322,8 +322,7 @@ pub struct Bench {
     /// Scratches of the bench's own scene. [default: 10000, the talk's]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub scratches: Option<u32>,
-    /// A quarter of the pixels, few repetitions, short references, fewer places along each curve: to see in a minute or so
-    /// what it is like.
+    /// A quarter of the pixels, few repetitions, short references, fewer places along each curve: a first impression in a minute or so.
     #[arg(long)]
     pub quick: bool,
     /// Measure this part only. May be given several times.

@@ -39,7 +39,7 @@ pub fn parse(text: &str) -> Result<Highlight, String> {
     }
 }
 
-/// Moves the light in the description; `scene` is what it was built to.
+/// Moves the light in the description; `scene` is the built scene.
 pub fn place(
     wanted: &Highlight,
     description: &mut Description,

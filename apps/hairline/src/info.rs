@@ -1,4 +1,4 @@
-//! `hairline info`: what there is on this machine, or in a scene.
+//! `hairline info`: the adapters of this machine, or the contents of a scene.
 
 mod scene;
 

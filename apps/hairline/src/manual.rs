@@ -9,7 +9,7 @@ use crate::cli::Cli;
 use crate::console::print;
 use hairline_work::failure::Failure;
 
-/// Prints what a shell needs to complete the command line.
+/// Prints a shell's completions of the command line.
 pub fn completions(shell: Shell) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Cli::command(), "hairline", &mut script);

@@ -22,7 +22,8 @@ impl Progress {
         Self::start_from(what, 0.0)
     }
 
-    /// Begins where earlier work has come to: the time left is guessed from what follows alone.
+    /// Begins where earlier work has come to: the time left is guessed from the work that follows
+    /// alone.
     pub fn start_from(what: &'static str, share: f64) -> Self {
         // Hidden by itself where stderr is no terminal.
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::stderr());

@@ -139,7 +139,7 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
     Ok(Output::check(&path)?)
 }
 
-/// The ways of light: what is asked for, else the default.
+/// The transport that is asked for, else the default.
 pub fn transport(
     shadows: Option<Switch>,
     bounces: Option<u32>,

@@ -39,7 +39,7 @@ pub struct Overrides<'a> {
     pub is_lit_for_scratches: bool,
 }
 
-/// A scene with what it was made from.
+/// A scene with its description and its files.
 pub struct Loaded {
     /// The scene itself.
     pub scene: Scene,
@@ -189,7 +189,7 @@ pub fn picture_path(scene: Option<&Path>, ending: &str) -> PathBuf {
     name.into()
 }
 
-/// A scene's text and what it is relative to.
+/// A scene's text and the folder to which its paths are relative.
 struct Source {
     text: String,
     name: PathBuf,

@@ -1,4 +1,5 @@
-//! The viewer in a browser's page: what the page's own script, `page/page.js`, calls. `cargo xtask web` makes a folder of static files of it.
+//! The viewer in a browser's page: the functions that the page's own script, `page/page.js`, calls. `cargo xtask web` makes a folder of
+//! static files of it.
 #![cfg(target_arch = "wasm32")]
 
 use std::path::Path;

@@ -1,5 +1,6 @@
-//! Light that goes from one object to another: what a ray meets is shaded by the closed forms, and may go on from there (docs/model.md,
-//! section 11). One source lights its base, and one pair of a scratch and a source stands for all its scratches: there is one ray anyway.
+//! Light that goes from one object to another: the hit of a ray is shaded by the closed forms, and further rays may leave it
+//! (docs/model.md, section 11). One source lights its base, and one pair of a scratch and a source stands for all its scratches: there is
+//! one ray anyway.
 
 use crate::light_view::LightViews;
 use crate::resolve::{PointLight, Sample, kept};
@@ -92,8 +93,9 @@ impl<'a> Shadows<'a> {
 /// Rays that graze a surface see no more of it than this cosine lets them.
 const MIN_COS: f64 = 0.25;
 
-/// One standard deviation of what a pixel sees by way of a mirror, across a ray: as wide as on the mirror, wider by the way, by how the
-/// mirror's normals turn, and by the solid angle that the ray stands for (as path differentials: F. Suykens and Y. Willems, 2001).
+/// Standard deviation of a pixel's footprint at a hit by way of a mirror, across the ray: as wide as on the mirror, wider by the
+/// distance, by how the mirror's normals turn, and by the solid angle that the ray stands for (as path differentials: F. Suykens and Y.
+/// Willems, 2001).
 fn width_m(point: &SurfacePoint, distance_m: f64, direction: DVec3, solid_angle_sr: f64) -> f64 {
     let [right, down] = point.footprint_axes_m;
     let here_m = (right.cross(down).dot(direction)).abs().sqrt();

@@ -17,9 +17,8 @@ pub(crate) struct CameraBeam {
 const BLOCK_PX: f64 = 16.0;
 
 impl CameraBeam {
-    /// The nearest hit of the ray through a point of the picture; `direction` is the unit direction of it, and `coverage` says which
-    /// surfaces it meets that cover a part of what lies behind. Scene and camera are the
-    /// same for all calls.
+    /// Returns the nearest hit of the ray through a point of the picture; `direction` is its unit direction, and `coverage` the rule
+    /// for surfaces that cover a part of what lies behind them. Scene and camera are the same for all calls.
     pub fn intersect(
         &mut self,
         triangles: &TriangleIndex,

@@ -21,7 +21,7 @@ pub struct DraftLayer {
     pub is_random: bool,
 }
 
-/// Some scratches of each layer of a scene, with what they count for.
+/// Some scratches of each layer of a scene, with their weights.
 #[derive(Clone, Debug, Default)]
 pub struct Draft {
     /// Object by object.

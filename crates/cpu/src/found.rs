@@ -9,7 +9,7 @@ use std::ops::AddAssign;
 /// One layer: of a sample, or summed over several.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LayerLight {
-    /// The closed form: what is sent where nothing hides a source.
+    /// Closed form: the light that is sent where nothing hides a source.
     pub open: DVec3,
     /// Light that would be sent if radiance 1 came from all around.
     pub around: DVec3,
@@ -19,7 +19,7 @@ pub(crate) struct LayerLight {
     pub seen: DVec3,
     /// Light of other objects.
     pub bounced: DVec3,
-    /// The sums over rounds of what a round tells of the share that is seen, and of its square.
+    /// Sums over rounds of a round's share that is seen, and of its square.
     share_moments: DVec2,
     /// Sums over rounds of the luminance of `bounced` over that of `around`, and of its square.
     bounced_moments: DVec2,

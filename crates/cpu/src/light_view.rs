@@ -282,7 +282,7 @@ impl<'a> LightViews<'a> {
         own.filter(|_| self.has_own_under_coat).unwrap_or(self)
     }
 
-    /// The scene's lights that shine on the base too, seen by the coat or by what is under it.
+    /// Lights of the scene that shine on the base too, seen by the coat or by the surface under it.
     pub fn on_base(&self) -> impl Iterator<Item = u32> {
         let under_coat = self.under_coat();
         (0..self.on_base as u32).filter(move |light| {
@@ -297,7 +297,7 @@ impl<'a> LightViews<'a> {
         self.view_of(light).map(|place| &self.views[place])
     }
 
-    /// Finds what all scratches at the point share; only once there are any.
+    /// Computes the values that all scratches at the point share; only once there are any.
     pub fn ready_for_scratches(&mut self, point: &SurfacePoint) {
         let axes_m = point
             .footprint_axes_m

@@ -13,8 +13,8 @@ use hairline_scene::Texture;
 pub(crate) struct PictureView<'a> {
     texture: &'a Texture,
     plane: PicturePlane,
-    /// Variance of the band about a chord, in direction cosines, at q = 0 and for each q²: it blurs what a line in the band's middle
-    /// sees.
+    /// Variance of the band about a chord, in direction cosines, at q = 0 and for each q²: the picture on a line in the band's
+    /// middle is blurred by it.
     across_variance: [f64; 2],
 }
 

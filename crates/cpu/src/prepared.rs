@@ -1,4 +1,4 @@
-//! A scene with what the stages look up: trees and tables. It knows no stage.
+//! A scene with the trees and tables that the stages look up. It knows no stage.
 
 use crate::draft::Draft;
 use crate::sampling::environment::EnvironmentSampler;

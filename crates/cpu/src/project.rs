@@ -11,16 +11,16 @@ use hairline_scene::CameraFrame;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Reaches in the picture are longer by this factor than on a plane that the viewer sees without perspective: for shading normals
-/// that are not those of the surface, and for what perspective and curvature add within a footprint.
+/// Factor on reaches in the picture over those on a plane that the viewer sees without perspective: for shading normals that are not
+/// those of the surface, and for perspective and curvature within a footprint.
 ///
 /// By a look at all segments of an object (`margins_of_scenes`), the farthest pair with a share needs 1.57 in the built-in scene at
 /// 1280 x 720, 1.20 in the spoon, 1.23 in the pan, 1.44 in the dish of the tests, 1.00 on the flat plate. A factor of 1.25 loses
 /// 4e-5 of the built-in scene's shares. At 160 x 90, where footprints go around limbs, 1.6 loses 2e-4 there and 2e-3 in the spoon.
 pub(crate) const REACH_MARGIN: f64 = 1.6;
 
-/// Bounds both of what smooths a scratch besides the pixel, in coherence lengths: the window's 0.7071 across and the 0.825 of its
-/// ends ([`hairline_optics::footprint::ends`]).
+/// Bound of the blurs of a scratch besides the pixel's, in coherence lengths: the window's 0.7071 across and the 0.825 of its ends
+/// ([`hairline_optics::footprint::ends`]).
 const WINDOW_STD: f64 = 0.84;
 
 /// A segment whose normal turns away from the viewer by more than this cosine at both ends is not seen: no shading normal that faces

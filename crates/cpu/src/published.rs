@@ -1,4 +1,4 @@
-//! The method of 2018 (docs/model.md, section 9): what [`crate::shade_scratches`] and [`crate::shade_base`] do for Hairline's own.
+//! The method of 2018 (docs/model.md, section 9), in the place of [`crate::shade_scratches`] and [`crate::shade_base`].
 //!
 //! The way of a scratch is the same: what the pixel sees of it (`segment`), the light on it (`lights`), and what the base pays.
 
@@ -54,7 +54,7 @@ impl<'a> Published<'a> {
         }
     }
 
-    /// Radiance of all scratches under the point's footprint, and what they take from the base.
+    /// Radiance of all scratches under the point's footprint, and the energy that they take from the base.
     pub fn scratches(&self, point: &SurfacePoint, hit: &Hit, views: &LightViews) -> Masked {
         // Without anti-aliasing a pixel is the point in its middle.
         let alone = (!self.method.anti_aliasing).then(|| point.without_footprint());

@@ -1,4 +1,4 @@
-//! One pixel by itself, with what is under it.
+//! Reading of one pixel and of the surface under it.
 
 use crate::counts::Counts;
 use crate::options::RenderOptions;

@@ -12,7 +12,7 @@ use hairline_optics::mask::{Mask, Masked, ScratchSums};
 /// Light and guides that one sample adds to the film, or the sum of several.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sample {
-    /// The background, and what surfaces emit.
+    /// Radiance of the background, and of surfaces that emit.
     pub rest: DVec3,
     pub diffuse: LayerLight,
     pub specular: LayerLight,

@@ -1,4 +1,4 @@
-//! A sample point: what the ray of one sample of a pixel sees, and where its own rays start.
+//! A sample point: the hit of one sample's ray, and the origin of its own rays.
 
 use crate::light_view::LightViews;
 use crate::shadows::{PixelFilter, Rounds, ShadowPoint};

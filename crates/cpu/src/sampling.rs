@@ -1,4 +1,4 @@
-//! Directions towards lights and into an environment, drawn at random: what shadow rays and the Monte Carlo renderer go along.
+//! Random directions towards lights and into an environment, for shadow rays and for the Monte Carlo renderer.
 
 pub mod environment;
 pub mod lights;

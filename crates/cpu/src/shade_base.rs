@@ -198,13 +198,13 @@ impl<'p, 'a> Base<'p, 'a> {
         }
     }
 
-    /// The point in the frame of what is under the coat.
+    /// The point in the frame of the surface under the coat.
     pub fn under_coat(&self) -> &SurfacePoint<'a> {
         self.under_coat.as_ref().unwrap_or(self.point)
     }
 
-    /// The base under its coat: what the coat does not reflect goes through it (docs/model.md, (29a)). Scratches take from what it
-    /// reflects, and where it is not from what the base does.
+    /// Radiance of the base under its coat: the light that the coat does not reflect goes through it (docs/model.md, (29a)).
+    /// Scratches take from the coat's reflection, and where there is no coat from the base's.
     pub fn coated(
         &self,
         base: BaseRadiance,

@@ -1,4 +1,4 @@
-//! Shade gratings: what the grooves under a point send that are finer than a pixel, and what they take from the mirror's direction (docs/model.md,
+//! Shade gratings: the light of grooves that are finer than a pixel, and the energy that they take from the mirror's direction (docs/model.md,
 //! section 12). A grating meets lights by the chords of a scratch, with a table of its own.
 
 use crate::light_view::LightViews;

@@ -67,7 +67,8 @@ impl ScratchShader {
         }
     }
 
-    /// Adds up what the points see of the segments of a list, in its order. `picks` are those of all points that may be shaded, or none.
+    /// Adds up the light of the segments of a list at the points, in the list's order. `picks` are those of all points that may be shaded, or
+    /// none.
     pub fn shade<'l>(
         &mut self,
         prepared: &Prepared,

@@ -103,7 +103,7 @@ pub(crate) struct PixelFilter<'p> {
     pub camera: &'p CameraFrame,
     pub at_px: DVec2,
     pub std_px: f64,
-    /// Whether there is no edge near the pixel: nothing else hides what it averages.
+    /// Whether there is no edge near the pixel: no other object hides the surface that it averages.
     pub is_smooth: bool,
 }
 
@@ -183,8 +183,8 @@ impl<'a> Shadows<'a> {
         wi.z > 0.0 && self.sees(point, point.raised_m, direction, end)
     }
 
-    /// Whether nothing hides, from a place on the surface, what the point sees in a direction. The ray goes to that very place:
-    /// a parallel one would blur the shadow of what is near a lamp by more than the pixel's filter does.
+    /// Whether nothing hides, from a place on the surface, the point that a direction leads to. The ray goes to that very point: a parallel one
+    /// would blur the shadow of an object near a lamp by more than the pixel's filter does.
     fn sees(
         &self,
         point: &SurfacePoint,
@@ -294,7 +294,7 @@ impl ShadowPoint<'_, '_> {
     }
 }
 
-/// Standard deviations at which a Gaussian is cut off: rays from farther would start beyond what the pixel shows.
+/// Standard deviations at which a Gaussian is cut off: rays from farther would start outside the surface that the pixel shows.
 const REACH_STD: f64 = 3.0;
 
 /// Two independent standard normal numbers from two even ones.

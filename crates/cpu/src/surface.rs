@@ -1,4 +1,4 @@
-//! Stage 2, surface: what lies under a sample: position, frame, footprint, material with its textures. Twin: surface.wgsl.
+//! Stage 2, surface: the surface under a sample: position, frame, footprint, material with its textures. Twin: surface.wgsl.
 
 use glam::{DMat3, DVec2, DVec3};
 use hairline_index::Hit;

@@ -33,7 +33,7 @@ const SAMPLES_AT_ONCE: usize = 16;
 /// Pixels to a side.
 const SIDE: usize = TILE_PX as usize;
 
-/// A picture that is being rendered: what all of its tiles share.
+/// A picture that is being rendered, shared by all of its tiles.
 pub(crate) struct Picture<'a> {
     pub prepared: &'a Prepared<'a>,
     pub camera: CameraFrame,
@@ -167,7 +167,7 @@ impl<'a> Tile<'a> {
         }
     }
 
-    /// Adds one of `samples` samples of a pixel, given what its ray meets.
+    /// Adds one of `samples` samples of a pixel, given the hit of its ray.
     fn add(
         &mut self,
         column: usize,

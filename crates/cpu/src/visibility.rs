@@ -1,4 +1,4 @@
-//! Stage 1, visibility: what the ray through the centre of each pixel meets. Twin: the raster pass of the GPU.
+//! Stage 1, visibility: the hit of the ray through the centre of each pixel. Twin: the raster pass of the GPU.
 
 use crate::camera_beam::CameraBeam;
 use glam::DVec2;

@@ -40,7 +40,7 @@ pub enum Tick {
     Nothing,
     /// The document was written.
     Written,
-    /// The document needs no autosave any more: it was saved, or undone to what its file holds.
+    /// The document needs no autosave any more: it was saved, or undone to the contents of its file.
     Removed,
 }
 

@@ -264,7 +264,7 @@ fn two_digits(x: f64) -> f64 {
     rounded(x, decimal_step(0.1 * x))
 }
 
-/// The largest power of ten that is no larger, as its exponent, down to what metres need.
+/// Exponent of the largest power of ten that is no larger, but not below the smallest step in metres.
 fn decimal_step(largest: f64) -> i32 {
     let exponent = largest.log10().floor();
     match exponent.is_finite() {

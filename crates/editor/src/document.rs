@@ -1,4 +1,4 @@
-//! A scene that is being edited: its description, where it came from, what was done to it.
+//! A scene that is being edited: its description, its file, and the history of its edits.
 
 mod file;
 mod layout;
@@ -20,7 +20,7 @@ pub struct Document {
     state: State,
     history: History,
     drag: Option<Drag>,
-    /// Contents of the file; none if no file holds what this document began with.
+    /// Contents of the file; none if no file holds the scene with which this document began.
     saved: Option<Arc<Description>>,
     is_modified: bool,
     path: Option<PathBuf>,
@@ -64,8 +64,8 @@ impl Document {
         }
     }
 
-    /// A scene that no file holds as it is, though it belongs to one at `path`, if it has one: what an autosave kept. It
-    /// counts as modified until it is saved.
+    /// Makes a document of an autosave: a scene that no file holds as it is, though it belongs to one at `path`, if it
+    /// has one. It counts as modified until it is saved.
     pub(crate) fn recovered(
         description: Description,
         path: Option<PathBuf>,
@@ -108,7 +108,7 @@ impl Document {
         self.revision
     }
 
-    /// Whether the description differs from what was last saved or opened.
+    /// Whether the description differs from the one that was last saved or opened.
     pub fn is_modified(&self) -> bool {
         self.is_modified
     }
@@ -133,8 +133,8 @@ impl Document {
         debug_assert!(done.is_ok());
     }
 
-    /// Does an action of [`actions`](crate::actions) as one step: it is given the description and the selection, and says
-    /// what is selected after it.
+    /// Applies an action of [`actions`](crate::actions) as one step: it is given the description and the selection, and
+    /// returns the selection after it.
     ///
     /// # Errors
     /// The action's; then nothing has changed.
@@ -194,7 +194,7 @@ impl Document {
         self.drag = Some(drag);
     }
 
-    /// The description from which the drag that goes on began: what a gizmo applies its whole way to.
+    /// Description at the beginning of the current drag, to which a gizmo applies its whole motion.
     pub fn before_drag(&self) -> Option<&Arc<Description>> {
         self.drag.as_ref().map(|drag| &drag.before.description)
     }
@@ -204,7 +204,7 @@ impl Document {
         self.drag = None;
     }
 
-    /// Takes back what the drag that goes on has done, as for the Escape key.
+    /// Takes back the changes of the current drag, as for the Escape key.
     pub fn cancel_drag(&mut self) {
         if let Some(drag) = self.drag.take()
             && drag.is_step

@@ -23,7 +23,7 @@ impl DragKey {
     }
 }
 
-/// A description and what was selected in it.
+/// A description and its selection.
 #[derive(Clone, Debug)]
 pub(crate) struct State {
     pub description: Arc<Description>,
@@ -74,7 +74,7 @@ impl History {
         }
     }
 
-    /// Adds a step from `before` to what is now; what was undone is forgotten.
+    /// Adds a step from `before` to the present state; steps that were undone are forgotten.
     pub(crate) fn push(&mut self, label: &str, before: State, selection_now: Selection) {
         self.redo.clear();
         self.undo.push_back(Step {
@@ -158,8 +158,8 @@ fn turn(step: Step, now: State) -> (String, State, Step) {
     (step.label, step.other, back)
 }
 
-/// About what a description takes in memory: the points of strokes and polygons as they are, all else as one flat sum for
-/// each table.
+/// Estimated memory of a description: the points of strokes and polygons as they are, all else as one flat sum for each
+/// table.
 fn estimated_bytes(description: &Description) -> usize {
     const TABLE_BYTES: usize = 512;
     let tables = description.materials.len()

@@ -39,7 +39,7 @@ pub fn turn(camera: &mut Camera, angle_rad: f64) {
     .give(camera);
 }
 
-/// Moves camera and target by a drag: what lies at the target's depth follows the pointer exactly.
+/// Moves camera and target by a drag: points at the target's depth follow the pointer exactly.
 pub fn pan(camera: &mut Camera, drag_px: DVec2, size_px: DVec2) {
     let axes = Axes::of(camera);
     let m_per_px = 2.0 * half_fov_tan(camera) * axes.distance_m / size_px.y.max(1.0);

@@ -195,7 +195,7 @@ pub fn delete_vertex(light: &mut Light, index: usize) -> Result<(), ActionError>
     })
 }
 
-/// Changes the vertices of a polygon, unless what comes out is no light.
+/// Changes the vertices of a polygon, unless the result is no light.
 fn reshape(
     light: &mut Light,
     change: impl FnOnce(&mut Vec<DVec3>) -> Result<(), ActionError>,

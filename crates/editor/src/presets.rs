@@ -174,7 +174,7 @@ pub enum MaterialPreset {
     CarPaint,
     /// A clear coat over metal flakes.
     FlakePaint,
-    /// Dark and dull, for what stands around.
+    /// Dark and dull, for surroundings.
     DarkTable,
     /// Reflects all.
     Mirror,

@@ -65,7 +65,7 @@ impl Unit {
         }
     }
 
-    /// Words for a message: what may be typed.
+    /// Examples of inputs, in words for a message.
     fn examples(self) -> &'static str {
         match self {
             Self::None => "it has no unit",
@@ -173,7 +173,7 @@ fn trimmed(text: String) -> String {
     }
 }
 
-/// Reads what was typed for a number of this unit, such as `4 um`, `7/2` or `6,5`; the result is in the parameter's own unit.
+/// Reads an input for a number of this unit, such as `4 um`, `7/2` or `6,5`; the result is in the parameter's own unit.
 ///
 /// # Errors
 /// Why it means no such number.
@@ -203,7 +203,7 @@ pub fn parse(typed: &str, unit: Unit, shown: ShownUnit) -> Result<f64, QuantityE
     }
 }
 
-/// Reason why what was typed is no number; it reads as a sentence.
+/// Reason why an input is no number; it reads as a sentence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct QuantityError {
     typed: String,

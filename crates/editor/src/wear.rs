@@ -38,7 +38,7 @@ fn length_m(layer: Option<&Scratches>) -> Option<f64> {
     }
 }
 
-/// Whether two layers are the same but for the rounding of what scales with their object's size.
+/// Whether two layers are the same but for the rounding of numbers that scale with their object's size.
 fn is_alike(a: &Layer, b: &Layer) -> bool {
     let (Layer::Laid(a), Layer::Laid(b)) = (a, b) else {
         return false;

@@ -28,7 +28,7 @@ impl BounceRoom {
         })
     }
 
-    /// Makes room for so many samples in so many groups, and for what so many rays of each meet one after the other.
+    /// Makes room for so many samples in so many groups, and for the hits of so many rays of each, one after the other.
     pub(crate) async fn make_room(
         &mut self,
         gpu: &Gpu,
@@ -59,7 +59,7 @@ impl BounceRoom {
         Ok(())
     }
 
-    /// Whether the device can hold what so many samples need.
+    /// Whether the device can hold the arrays of so many samples.
     pub(crate) fn fit(gpu: &Gpu, points: u64) -> bool {
         points * RAY_BYTES <= gpu.largest_array()
     }
@@ -72,8 +72,8 @@ impl BounceRoom {
 }
 
 impl StripRoom {
-    /// Room for what rays from the samples of so many groups meet. No picture is drawn in it, and each sample has a list of its own in place of
-    /// each tile.
+    /// Room for the hits of rays from the samples of so many groups. No picture is drawn in it, and each sample has a list of its own in place
+    /// of each tile.
     async fn of_hits(gpu: &Gpu, scans: &ScanPasses, groups: u32) -> Result<Self, Error> {
         let starts = GROUP * groups + 1;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;

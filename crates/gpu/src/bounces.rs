@@ -1,8 +1,8 @@
-//! Light that goes from one object to another: rays from each sample, what they meet, and what that sends (docs/model.md, section 11). Twin:
+//! Light that goes from one object to another: rays from each sample, their hits, and the light that these send (docs/model.md, section 11). Twin:
 //! cpu/src/bounces.rs.
 //!
-//! What the rays of one round meet are samples again, in the same order: the passes that shade what the camera sees, and its shadows, shade them as
-//! well. Only their scratches have another list: of each sample its own, by the tree over the scratches of the scene.
+//! The hits of the rays of one round are samples in the order of the rays: the passes that shade the camera's samples, and its shadows, shade them
+//! as well. Only their scratches have another list: of each sample its own, by the tree over the scratches of the scene.
 
 use wgpu::BindingResource;
 
@@ -30,11 +30,11 @@ pub(crate) struct Bounces {
     /// Largest number of objects on a path of light, besides the one that the camera sees.
     pub count: u32,
     base_rays: ComputePass,
-    /// Passes for rays from the camera's samples, and from what rays have met.
+    /// Passes for rays from the camera's samples, and from hits.
     trace: [ComputePass; 2],
     surface: ComputePass,
     light: ComputePass,
-    /// Shadows of what rays have met.
+    /// Shadows of hits.
     pub shadows: Shadows,
     /// Passes by way of scratches; none where the scene has no scratches.
     pub scratches: Option<BounceScratches>,
@@ -44,7 +44,7 @@ pub(crate) struct Bounces {
 
 pub(crate) struct BounceScratches {
     begin: ComputePass,
-    /// Picks for the camera's samples, and for what rays have met.
+    /// Picks for the camera's samples, and for hits.
     pick: [PickByEnergyPass; 2],
     rays: ComputePass,
     count: ComputePass,
@@ -127,7 +127,7 @@ impl Bounces {
         }
     }
 
-    /// Whether rays may leave what the camera sees in a way.
+    /// Whether rays may leave the camera's samples in a way.
     pub(crate) fn has(&self, way: Way) -> bool {
         match way {
             Way::Base => true,
@@ -136,7 +136,7 @@ impl Bounces {
         }
     }
 
-    /// A ray of each sample, and what it meets.
+    /// Draws a ray of each sample, and follows it to its hit.
     pub(crate) fn record_rays(&self, gpu: &Gpu, recording: &mut Recording, by: &Bounce) {
         let Bounce { from, to, rays, .. } = *by;
         let groups = in_a_row(by.groups);
@@ -215,7 +215,7 @@ impl Bounces {
     }
 }
 
-/// The rays of one round, from samples to what they meet.
+/// Rays of one round, from samples to their hits.
 #[derive(Clone, Copy)]
 pub(crate) struct Bounce<'a> {
     /// Light that rays found for the camera's samples.

@@ -15,8 +15,7 @@ use crate::error::Error;
 use crate::shaders::{self, Module};
 
 /// Code that runs for each row: the inputs are `x[0]`, `x[1]`, ..., the outputs `y[0]`, `y[1]`, ... (zero unless set),
-/// both f32, and the tables are `table_0`, `table_1`, ... (zero unless set), both f32, and the tables are `table_0`,
-/// `table_1`, ...
+/// both f32, and the tables are `table_0`, `table_1`, ...
 #[derive(Clone, Copy, Debug)]
 pub struct Call<'a> {
     /// Modules that hold the function.

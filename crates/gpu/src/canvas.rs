@@ -1,5 +1,5 @@
-//! A picture of any size that comes together step by step, band by band, and can be shown or read at any moment: what a window
-//! paints on.
+//! A picture of any size for a window, which comes together step by step, band by band, and can be shown or read at any
+//! moment.
 
 use std::ops::Range;
 

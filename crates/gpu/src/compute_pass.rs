@@ -1,4 +1,4 @@
-//! A compute pass over a scene: its pipeline, what it binds of its own, and how it is dispatched.
+//! A compute pass over a scene: its pipeline, its own bindings, and its dispatch.
 
 use wgpu::{BindingResource, ShaderStages};
 

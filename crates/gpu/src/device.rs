@@ -24,7 +24,7 @@ pub enum AdapterKind {
     Software,
 }
 
-/// An adapter and what it can do.
+/// An adapter and its properties.
 #[derive(Clone, Debug)]
 pub struct Adapter {
     /// The driver's name for it.

@@ -36,7 +36,7 @@ pub enum Error {
     /// Something is larger than the adapter can ever hold in one piece.
     #[error("{what}: {needed} {unit}, but {adapter} allows {allowed}")]
     TooLarge {
-        /// Name of what is too large.
+        /// Name of the thing that is too large.
         what: String,
         /// Size that is needed.
         needed: u64,

@@ -58,7 +58,7 @@ impl Film {
         })
     }
 
-    /// Makes room for what so many rounds of rays find; none without rays.
+    /// Makes room for the light that so many rounds of rays find; none without rays.
     pub(crate) async fn hold_found(&mut self, gpu: &Gpu, rounds: Option<u32>) -> Result<(), Error> {
         let Some(rounds) = rounds else {
             self.found = None;
@@ -87,7 +87,7 @@ impl Film {
         encoder.clear_buffer(&self.buffer, 0, Some(FILM_PIXELS_OFFSET));
     }
 
-    /// Writes what the film holds, each pixel's mean over its samples, to `rows` of `image`.
+    /// Writes each pixel's mean over its samples to `rows` of `image`.
     ///
     /// # Errors
     /// [`Error::IterationBudget`] if the device cut loops short.
@@ -161,7 +161,7 @@ impl FilmFound {
     }
 }
 
-/// The rows of which the device can hold what rays found: whole tiles.
+/// Largest number of rows of which the device can hold the light that rays found: whole tiles.
 fn found_rows_max(gpu: &Gpu, width_px: u32) -> u32 {
     let row_bytes = u64::from(width_px.max(1)) * size_of::<FoundPixel>() as u64;
     let rows = (gpu.largest_array() / row_bytes) as u32;

@@ -1,6 +1,7 @@
-//! Passes: the filter of what rays found, before a canvas is shown. Twin: image/src/filter.rs.
+//! Passes: the filter of the light that rays found, before a canvas is shown. Twin: image/src/filter.rs.
 //!
-//! Inputs: the films of a canvas. Output: base and scratches there. What was found stays: more samples may come.
+//! Inputs: the films of a canvas. Output: base and scratches there. The light that rays found stays: more
+//! samples may come.
 
 use hairline_image::filter::{
     LEAST_ALIKE, LEAST_AROUND, MIRROR_STEP_PX, NOISE_STD, NORMAL_POWER, OFF_PLANE, OUTLIER_STD,
@@ -72,7 +73,7 @@ impl FilterPasses {
         .await
     }
 
-    /// Filters what the films of a canvas hold; nothing where none has rays.
+    /// Filters the light on the films of a canvas; nothing where none has rays.
     pub(crate) async fn record(
         &mut self,
         gpu: &Gpu,
@@ -193,7 +194,7 @@ impl Pass {
         }
     }
 
-    /// Records one dispatch; what it is set to is added to the settings of all.
+    /// Records one dispatch; its settings are added to those of all.
     fn run(
         &self,
         gpu: &Gpu,

@@ -1,4 +1,4 @@
-//! The kinds of lights on the device: what tells them apart, and how each is packed.
+//! The kinds of lights on the device: how they are told apart, and how each is packed.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! The passes over a scene: which ones a method and what a scene has ask for.
+//! The passes over a scene, by the method and the scene's contents.
 
 use crate::bin::BinPasses;
 use crate::bindings::Layouts;
@@ -16,7 +16,7 @@ use crate::share_scratches::ShareScratchesPass;
 use crate::surface::SurfacePass;
 use crate::variant::{Seen, ShadeVariant};
 
-/// The passes that are compiled for a method and for what a scene has.
+/// Passes that are compiled for a method and a scene's contents.
 pub(crate) struct ScenePasses {
     pub edges: EdgesPass,
     pub surface: SurfacePass,
@@ -64,7 +64,7 @@ impl ScenePasses {
         }
     }
 
-    /// Compiles what the device has not had.
+    /// Compiles the passes that the device does not have yet.
     pub(crate) async fn new(
         gpu: &Gpu,
         layouts: &Layouts,

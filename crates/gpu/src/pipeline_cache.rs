@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Pipelines by what they were compiled of. Clones are the same.
+/// Pipelines by the source and constants that they were compiled of. Clones are the same cache.
 #[derive(Clone, Default)]
 pub(crate) struct PipelineCache(Arc<Mutex<HashMap<String, wgpu::ComputePipeline>>>);
 

@@ -164,7 +164,7 @@ pub(crate) async fn compiled<T>(gpu: &Gpu, create: impl FnOnce() -> T) -> Result
     Ok(created)
 }
 
-/// Hears what is refused on this thread.
+/// Listener to errors of pipelines on this thread.
 struct Ears<'a> {
     gpu: &'a Gpu,
     library: wgpu::ErrorScopeGuard,

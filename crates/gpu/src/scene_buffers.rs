@@ -49,7 +49,7 @@ impl SceneBuffers {
         host::nodes(&self.index, self.vertices.origin_m)
     }
 
-    /// Writes what `last` does not have.
+    /// Uploads the arrays that `last` does not have.
     pub(crate) async fn upload(
         transfer: &mut Transfer<'_>,
         layouts: &Layouts,
@@ -164,7 +164,7 @@ async fn storage_buffer<T: Pod>(
     Ok(buffer)
 }
 
-/// Refuses what no binding of the device can hold, before memory is spent on it.
+/// Refuses arrays that no binding of the device can hold, before memory is spent on them.
 pub(crate) fn check_size(gpu: &Gpu, source: &Source<'_>) -> Result<(), Error> {
     let Source {
         scene,

@@ -46,7 +46,8 @@ fn cutouts(scene: &Scene) -> Vec<bool> {
 }
 
 impl SceneData {
-    /// Uploads what `last` does not have. Nothing of `last` is written to: it stays as good as it was.
+    /// Uploads the data that `last` does not have. Nothing of `last` is written to: it stays as good as
+    /// it was.
     ///
     /// # Errors
     /// [`Error::TooLarge`] before anything is allocated, [`Error::OutOfMemory`].

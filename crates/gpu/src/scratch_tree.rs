@@ -1,5 +1,5 @@
-//! An object's scratches as texels for engines that find them at a point: what `shaders/engine/scratch_tree.wgsl` walks through, which says
-//! where they lie. Twin: packages/hairline-shaders/src/tree.js, which grows another tree.
+//! An object's scratches as texels for engines that find them at a point. `shaders/engine/scratch_tree.wgsl` walks through them, and
+//! documents their places. Twin: packages/hairline-shaders/src/tree.js, which grows another tree.
 //!
 //! Hairline's own passes do not need it: they bring segments to the tiles of the picture.
 

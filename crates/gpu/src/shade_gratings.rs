@@ -1,4 +1,4 @@
-//! Pass: the light of gratings, and what they take of the mirror's direction.
+//! Pass: the light of gratings, and the energy that they take of the mirror's direction.
 //!
 //! Inputs: frame, scene, tables, gratings, surface points and materials. Output: for each group of samples one more chunk of sums, behind those of
 //! all lists. One workgroup a group; one dispatch for each kind of light, and for as many lights as there is room for.
@@ -37,7 +37,7 @@ impl ShadeGratingsPass {
         Self(KindPasses::new(orders, name, module, &uses, constants))
     }
 
-    /// The samples of so many groups; `output` is what the pass writes.
+    /// Records the pass over the samples of so many groups, which writes to `output`.
     pub(crate) fn record(
         &self,
         gpu: &Gpu,

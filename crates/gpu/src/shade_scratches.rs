@@ -14,7 +14,7 @@ use crate::shaders;
 use crate::strip::{StripRoom, whole};
 use crate::variant::{Constant, Seen};
 
-/// The pass, and what it needs to know before.
+/// The pass, and the pass that it needs before.
 pub(crate) struct ShadeScratchesPass {
     chunks: ComputePass,
     kinds: KindPasses,
@@ -116,7 +116,7 @@ pub(crate) fn kinds(orders: &mut Orders, name: &'static str, more: &[Constant]) 
     KindPasses::new(orders, name, MODULE, &USES, more)
 }
 
-/// `output` is what the pass writes.
+/// Bindings of the pass, which writes to `output`.
 pub(crate) fn resources<'r>(
     room: &'r StripRoom,
     output: &'r wgpu::Buffer,

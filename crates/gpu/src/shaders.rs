@@ -141,7 +141,7 @@ modules! {
     CONTENTS = "scene/contents" needs [];
     /// The switches of the method of 2018 and the mask: pipelines are compiled for them.
     METHOD = "scene/method" needs [];
-    /// Look-ups in what the scene binds.
+    /// Look-ups in the bindings of the scene.
     SCENE = "scene/scene" needs [ROWS, CONTENTS, ENVIRONMENT, TONE_MAP];
     /// The segments of scratches, unpacked.
     SEGMENTS = "scene/segments" needs [LAYOUT, SCRATCH];
@@ -207,7 +207,7 @@ modules! {
     SORT = "passes/sort" needs [BINDINGS];
     /// Pass: where each tile's list begins.
     TILE_LISTS = "passes/tile_lists" needs [FILM];
-    /// Whether samples are what rays have met: pipelines are compiled for it.
+    /// Whether samples are hits of rays: pipelines are compiled for it.
     AT_HITS = "scene/at_hits" needs [];
     /// Tile of a group of samples.
     GROUPS = "scene/groups" needs [FILM, AT_HITS];
@@ -247,7 +247,7 @@ modules! {
     FOUND_LIGHT = "scene/found_light" needs [FOUND];
     /// Pass: whether each ray sees its source.
     SHADOW_TRACE = "passes/shadow_trace" needs [RAY_START, FOUND, FILM];
-    /// Pass: what rays found, as light.
+    /// Pass: the light that rays found.
     SHADOW_FOUND = "passes/shadow_found" needs [FOUND, SUMS, PIXEL_POINT];
     /// Pass: and on the film.
     FOUND_FILM = "passes/found_film" needs [FOUND_LIGHT, SCENE, PIXEL_POINT, FILM];
@@ -273,9 +273,9 @@ modules! {
     BOUNCE_SCRATCH_RAYS = "passes/bounce_scratch_rays" needs [BOUNCE, PAIR_PLACE, PICKS, SUMS, COAT];
     /// Pass: the same by a grating.
     BOUNCE_GRATING_RAYS = "passes/bounce_grating_rays" needs [BOUNCE, GRATING_PAIRS, DRAWN_LIGHT, SUMS, COAT];
-    /// Pass: what each of these rays meets.
+    /// Pass: the hit of each of these rays.
     BOUNCE_TRACE = "passes/bounce_trace" needs [RAY_START, FILM];
-    /// Pass: the surface points of what they met.
+    /// Pass: the surface points of these hits.
     BOUNCE_SURFACE = "passes/bounce_surface" needs [HIT, FILM, PIXEL_POINT, GGX];
     /// Passes: the scratches that are seen there.
     BOUNCE_GATHER = "passes/bounce_gather" needs [ROWS, FILM, PIXEL_POINT];
@@ -283,9 +283,9 @@ modules! {
     BOUNCE_LIGHT = "passes/bounce_light" needs [FOUND, FILM];
     /// Pass: base and scratches by the method of 2018.
     SHADE_PUBLISHED = "published/shade_published" needs [PUBLISHED_GATHER, PUBLISHED_BASE, FILM, PIXEL_POINT];
-    /// Pass: what a pixel adds to the film.
+    /// Pass: a pixel's contribution to the film.
     RESOLVE = "passes/resolve" needs [SCENE, SUMS, PIXEL_POINT];
-    /// Passes: the filter of what rays found.
+    /// Passes: the filter of the light that rays found.
     FILTER = "passes/filter" needs [FOUND_LIGHT];
     /// Pass: the film on a display.
     DISPLAY = "passes/display" needs [LAYOUT, TONE_MAP];
@@ -327,7 +327,7 @@ pub fn compose(modules: &[&Module]) -> String {
     with_needs(modules).into_iter().map(text).collect()
 }
 
-/// Parses and validates what a module has become.
+/// Parses and validates the text of a module.
 #[cfg(test)]
 pub(crate) fn assert_valid(module: &Module, text: &str) {
     let parsed = naga::front::wgsl::parse_str(text)

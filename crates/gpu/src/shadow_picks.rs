@@ -94,7 +94,7 @@ impl PickedRaysPasses {
     }
 }
 
-/// The passes about what is picked.
+/// Interface of the passes that pick.
 pub(crate) trait ByPicks {
     /// Number of states of the picks so far.
     fn lanes(&self, on: &Scratched) -> u64;

@@ -47,7 +47,7 @@ impl ShadowRoom {
         })
     }
 
-    /// Whether the device can hold what so many samples of so many layers need.
+    /// Whether the device can hold the arrays of so many samples of so many layers.
     pub(crate) fn fit(gpu: &Gpu, points: u64, layers: u64) -> bool {
         points * layers * FOUND_BYTES <= gpu.largest_array()
     }
@@ -105,7 +105,7 @@ impl ShadowRoom {
         Ok(count as u32)
     }
 
-    /// Forgets what rays found.
+    /// Clears the light that rays found.
     pub(crate) fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.clear_buffer(&self.found, 0, None);
     }

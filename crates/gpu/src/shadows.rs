@@ -1,4 +1,4 @@
-//! Shadows: rays from each sample to the sources of its light, and what is hidden of each (docs/model.md, section 11). Twin:
+//! Shadows: rays from each sample to the sources of its light, and the share of each source that is hidden (docs/model.md, section 11). Twin:
 //! cpu/src/shadows.rs.
 //!
 //! Round by round a ray of each sample goes to each source of the base, one by way of its scratches and one by way of its gratings: one pass draws
@@ -63,7 +63,7 @@ impl Shadows {
         Ok(shadows)
     }
 
-    /// Makes the passes for what rays have met.
+    /// Makes the passes for hits.
     pub(crate) fn of_hits(&self, orders: &mut Orders) -> Self {
         Self::over(orders, self.tree.clone(), self.extent_m, Seen::ByRays)
     }
@@ -114,7 +114,7 @@ impl Shadows {
         }
     }
 
-    /// A ray of each sample to a source of the base, which is of some kind, and what it meets.
+    /// Draws a ray of each sample to a source of the base, which is of some kind, and follows it.
     #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
     pub(crate) fn record_base_round(
         &self,

@@ -1,4 +1,4 @@
-//! A scene with what was made of it: what is to lie on the device.
+//! A scene with its trees and tables, as it is to be uploaded.
 
 use std::sync::Arc;
 

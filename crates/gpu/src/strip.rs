@@ -54,7 +54,7 @@ pub(crate) struct StripRoom {
     pub bounces: Option<Box<BounceRoom>>,
 }
 
-/// The arrays over samples that the passes of bounces leave for one another, and what their rays have met. They grow to the size that is needed.
+/// The arrays over samples that the passes of bounces leave for one another, and the rooms for their hits. They grow to the size that is needed.
 pub(crate) struct BounceRoom {
     pub round: wgpu::Buffer,
     pub rays: wgpu::Buffer,

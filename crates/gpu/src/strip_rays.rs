@@ -104,7 +104,7 @@ impl StripShader {
         Ok(())
     }
 
-    /// Makes light of what so many rounds found.
+    /// Converts the sums of so many rounds to light.
     pub(crate) fn finish_found(
         &self,
         view: &View<'_>,
@@ -127,7 +127,7 @@ impl StripShader {
         });
     }
 
-    /// Finds the light of other objects that the samples send; false if what their rays meet does not fit on the device.
+    /// Finds the light of other objects that the samples send; false if the hits of their rays do not fit on the device.
     pub(crate) async fn shade_bounces(
         &self,
         view: &View<'_>,
@@ -193,7 +193,7 @@ impl StripShader {
         Ok(fits)
     }
 
-    /// A ray of each sample, one from what it meets, and so on.
+    /// Follows a ray of each sample, one from its hit, and so on.
     #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
     async fn go_on(
         &self,
@@ -257,7 +257,7 @@ impl StripShader {
         Ok(true)
     }
 
-    /// Shades what rays have met, with shadows. Says in how many chunks their scratches are; nothing if these do not fit on the device.
+    /// Shades hits, with shadows. Returns the number of chunks of their scratches; nothing if these do not fit on the device.
     #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
     async fn shade_hits(
         &self,
@@ -348,7 +348,7 @@ fn bounce<'a>(
     })
 }
 
-/// Seed of the random numbers of what the rays of a round meet: a place may be met again in other rounds.
+/// Seed of the random numbers for the hits of a round: a place may be met again in other rounds.
 fn seed(first: &ShadowRound, depth: u32) -> u32 {
     let chain = 3 * (first.first_round + first.round) + first.way;
     let mixed = chain.wrapping_mul(0x9e37_79b9) ^ depth.wrapping_mul(0x85eb_ca6b);

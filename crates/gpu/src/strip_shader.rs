@@ -309,7 +309,7 @@ impl StripShader {
         queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
     }
 
-    /// Submits what `record` records.
+    /// Submits the commands that `record` records.
     pub(crate) fn submit(&self, view: &View, record: impl FnOnce(&mut Recording)) {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         record(&mut self.recording(&mut encoder, view));

@@ -16,7 +16,8 @@ pub(crate) struct TextureArray {
     packed: Vec<[u32; 2]>,
 }
 
-/// Larger arrays start their largest textures at a coarser level: what a picture rarely resolves is not worth more.
+/// Largest size of an array. Larger ones start their largest textures at a coarser level: details that a picture rarely
+/// resolves are not worth more.
 const ARRAY_MAX_BYTES: u64 = 1 << 30;
 /// Largest side of a texture on every WebGPU device.
 const TEXTURE_MAX_PX: u32 = 8192;

@@ -40,7 +40,7 @@ pub(crate) struct SceneTextures {
 }
 
 impl SceneTextures {
-    /// Writes what `last` does not have.
+    /// Uploads the tables and textures that `last` does not have.
     pub(crate) async fn upload(
         transfer: &mut Transfer<'_>,
         layouts: &Layouts,

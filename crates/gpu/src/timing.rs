@@ -20,7 +20,7 @@ pub struct PassTime {
     pub time: Duration,
 }
 
-/// Runs of passes between two readings: the size of the query set is what WebGPU allows, and each run takes two.
+/// Largest number of runs of passes between two readings: that of WebGPU's query sets, of which each run takes two.
 const RUNS_MAX: usize = 2048;
 const STAMP_BYTES: u64 = size_of::<u64>() as u64;
 

@@ -1,4 +1,4 @@
-//! Writes to the device, counted by what is written.
+//! Writes to the device, counted by array and texture.
 
 use wgpu::{TextureFormat, TextureUsages};
 

@@ -22,7 +22,7 @@ const FIRST_BITS: u32 = 28;
 /// Largest number of texels of a tree.
 const TEXELS_MAX: usize = 1 << FIRST_BITS;
 
-/// A tree on the device, and what it was made of.
+/// A tree on the device, and the meshes that it was made of.
 #[derive(Clone)]
 pub(crate) struct TriangleTree {
     pub view: wgpu::TextureView,

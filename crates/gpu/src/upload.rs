@@ -28,7 +28,8 @@ pub struct GpuScene {
 }
 
 impl GpuScene {
-    /// Compiles what the device has not compiled, and uploads what `last` does not have. Nothing of `last` is written to.
+    /// Compiles the passes that the device does not have yet, and uploads the data that `last` does not have. Nothing of
+    /// `last` is written to.
     ///
     /// # Errors
     /// [`Error::Refused`] if the driver cannot compile a pass, [`Error::TooLarge`] before anything is allocated,

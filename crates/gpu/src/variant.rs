@@ -45,7 +45,7 @@ pub(crate) struct Contents {
     pub specular: bool,
     /// The curve of coats, if there are any.
     pub coats: Option<u32>,
-    /// Coats whose normals are not those of what is under them.
+    /// Coats whose normals differ from those of the surface under them.
     pub coat_normals: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The triangles of all objects in one buffer, and what their positions are relative to.
+//! The triangles of all objects in one buffer, and the origin of their positions.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use crate::host;
 use crate::layout::Vertex;
 use crate::transfer::Transfer;
 
-/// The buffer, and what lies where in it.
+/// The buffer, and the places of meshes in it.
 #[derive(Clone)]
 pub(crate) struct Vertices {
     pub buffer: wgpu::Buffer,

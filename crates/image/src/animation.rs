@@ -125,7 +125,7 @@ fn refused(path: &Path, error: &png::EncodingError) -> Error {
     }
 }
 
-/// Bytes that the encoder writes and that can be had back when it is done: it keeps what it writes to.
+/// Bytes that the encoder writes, shared so that they can be had back when it is done: it keeps its writer.
 #[derive(Clone, Default)]
 struct Shared(std::sync::Arc<std::sync::Mutex<Vec<u8>>>);
 

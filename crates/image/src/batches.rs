@@ -7,7 +7,7 @@ use crate::{Image, Noise, filter_found};
 
 /// Samples in a batch of [`Batches`] whose pictures are averaged.
 pub const BATCH_SAMPLES: u32 = 4;
-/// Samples at most in a batch of what rays find: their closed forms are computed once for each batch.
+/// Largest number of rounds of rays in a batch: the closed forms are computed once for each batch.
 pub const BATCH_ROUNDS: u32 = 16;
 
 /// Rounds of the first batch while somebody looks: as few as tell how they vary.
@@ -84,7 +84,7 @@ pub struct Batches {
     done: u32,
     /// Batches.
     added: u32,
-    /// Whether what rays found adds up; else pictures are averaged.
+    /// Whether the light that rays found adds up; else pictures are averaged.
     adds_found: bool,
     is_filtered: bool,
 }
@@ -242,7 +242,7 @@ fn add_tones(image: &mut Image, batch: &Image, share: f32) {
     }
 }
 
-/// Takes in what a batch sees of surfaces; `before` batches came before.
+/// Adds the surfaces of a batch; `before` batches came before.
 fn add_surfaces(image: &mut Image, batch: &Image, before: u32) {
     for i in 0..batch.depth_m.len() {
         // Only batches that see a surface know of its depth.

@@ -10,8 +10,7 @@ use crate::tones::Tones;
 pub struct Image {
     /// Width and height.
     pub size_px: [u32; 2],
-    /// Light by way of the base and the background, with what the scratches take from it already taken.
-    /// Linear Rec.709 radiance.
+    /// Light by way of the base and the background, less the energy that the scratches take from it. Linear Rec.709 radiance.
     pub base: Vec<[f32; 3]>,
     /// Light by way of the scratches. Linear Rec.709 radiance.
     pub scratches: Vec<[f32; 3]>,
@@ -201,7 +200,7 @@ impl Image {
         })
     }
 
-    /// The picture as a display is to have it: edges of what is far brighter than white are averaged as they look ([`Tones`]).
+    /// Returns the picture for a display: edges of parts far brighter than white are averaged as they look ([`Tones`]).
     pub fn shown(&self) -> Picture {
         let mut picture = self.beauty();
         if let Some(tones) = &self.tones {

@@ -1,5 +1,5 @@
-//! The filter of what rays found: H. Dammertz, D. Sewtz, J. Hanika, H. Lensch, *Edge-Avoiding A-Trous Wavelet Transform for fast Global Illumination
-//! Filtering*, 2010, with variances as in C. Schied et al., *Spatiotemporal Variance-Guided Filtering*, 2017.
+//! The filter of the light that rays found: H. Dammertz, D. Sewtz, J. Hanika, H. Lensch, *Edge-Avoiding A-Trous Wavelet Transform for fast Global
+//! Illumination Filtering*, 2010, with variances as in C. Schied et al., *Spatiotemporal Variance-Guided Filtering*, 2017.
 //!
 //! It works on two signals of each layer: the share of the closed form that is seen, and the mean light of other objects. The closed form, its
 //! textures and its scratches are as sharp after it as before. Pixels are averaged where they see the same surface and where their difference is
@@ -399,7 +399,7 @@ fn smooth_variances(
     })
 }
 
-/// Weighted sums of what a signal is in pixels around.
+/// Weighted sums of a signal over the pixels around.
 #[derive(Clone, Copy, Default)]
 struct Around {
     weights: f32,

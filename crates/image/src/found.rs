@@ -36,7 +36,7 @@ pub struct FoundPixel {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct FoundLight {
-    /// The closed form: what is sent where nothing hides a source.
+    /// Closed form: the light that is sent where nothing hides a source.
     pub open: [f32; 3],
     /// Light that would be sent if radiance 1 came from all around.
     pub around: [f32; 3],
@@ -44,7 +44,7 @@ pub struct FoundLight {
     pub weight: [f32; 3],
     /// The part of `weight` whose rays see their source.
     pub seen: [f32; 3],
-    /// The light of other objects: the mean of what rays brought.
+    /// Light of other objects: the mean of the rays.
     pub bounced: [f32; 3],
     /// Sums over the rounds of the share of luminance that is seen, and of its square.
     pub share_moments: [f32; 2],
@@ -66,7 +66,7 @@ impl FoundLight {
         std::array::from_fn(|c| left[c] + self.bounced[c])
     }
 
-    /// Adds what further rounds found: `share` is their share of all.
+    /// Adds the light of further rounds: `share` is their share of all.
     fn add(&mut self, other: &Self, share: f32) {
         let mix = |a: &mut [f32; 3], b: &[f32; 3]| {
             for c in 0..3 {
@@ -163,7 +163,7 @@ impl FoundPixel {
 }
 
 impl Found {
-    /// Adds what further rounds found of the same picture.
+    /// Adds the light of further rounds of the same picture.
     pub fn add(&mut self, other: &Self) {
         self.rounds += other.rounds;
         let share = other.rounds as f32 / self.rounds.max(1) as f32;

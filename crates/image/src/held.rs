@@ -1,5 +1,5 @@
-//! Files that are held in memory under their paths: what a browser's page was given, and what it is to hand out. A browser has no disk.
-//! Elsewhere nothing is held, and every file is one on a disk.
+//! Files that are held in memory under their paths: those that a browser's page was given, and those that it is to hand out. A browser
+//! has no disk. Elsewhere nothing is held, and every file is one on a disk.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -7,7 +7,7 @@ use std::io::{self, BufRead, BufReader, Cursor, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Whether what is written is held, to be handed out by [`take_written`], and not put on a disk.
+/// Whether files that are written are held, to be handed out by [`take_written`], and not put on a disk.
 pub(crate) const HOLDS_WHAT_IS_WRITTEN: bool = cfg!(target_arch = "wasm32");
 
 /// The contents of a file, as they are read.
@@ -69,7 +69,7 @@ pub fn open(path: &Path) -> io::Result<Box<dyn Source + Send>> {
     }
 }
 
-/// Holds what was written, until somebody hands it out.
+/// Holds a written file until somebody hands it out.
 pub(crate) fn write(path: &Path, bytes: &[u8]) {
     hold(path, bytes.to_owned());
     files().written.push(path.to_owned());

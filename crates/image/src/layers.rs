@@ -1,4 +1,4 @@
-//! Whichever layers of a render a file holds: what a comparison works on.
+//! Layers of a render in a file, as a comparison works on them.
 
 use std::fs::File;
 use std::io::Read;
@@ -17,7 +17,7 @@ pub enum Referred {
     Display,
 }
 
-/// One layer with what is known of its noise.
+/// One layer with the variances of its noise, where they are known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeldLayer {
     /// Kind of the layer.

@@ -75,7 +75,7 @@ impl Output {
         self.write_image_with_notes(image, display, &Notes::new())
     }
 
-    /// Writes a render with what it should remember about its making. A PNG holds neither notes nor noise.
+    /// Writes a render with notes on its making. A PNG holds neither notes nor noise.
     ///
     /// # Errors
     /// [`Error::CannotWrite`].

@@ -1,4 +1,4 @@
-//! PNG: what a display shows, 8 bits a channel, sRGB.
+//! PNG: pictures as a display shows them, 8 bits a channel, sRGB.
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};

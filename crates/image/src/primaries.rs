@@ -101,7 +101,7 @@ impl ToRec709 {
     }
 }
 
-/// A colour of the same luminance that no channel has less than nothing of: what a light can be.
+/// A colour of the same luminance with no channel below zero, as a light needs it.
 pub fn in_gamut(rgb: [f32; 3]) -> [f32; 3] {
     let [r, g, b] = rgb;
     let least = r.min(g).min(b);

@@ -82,7 +82,7 @@ pub fn tone_map(curve: ToneMap, rgb: [f32; 3]) -> [f32; 3] {
     mapped.map(|c| c.clamp(0.0, 1.0))
 }
 
-/// Replaces what is no number, and bounds what is too large.
+/// Replaces values that are no numbers, and bounds those that are too large.
 pub fn tone_sanitize(c: f32) -> f32 {
     if c.is_nan() {
         0.0

@@ -1,4 +1,5 @@
-//! Building what finds the scratches under a pixel: trees, and lists for each triangle of a finely cut mesh.
+//! Building of the structures that find the scratches under a pixel: trees, and lists for each triangle of a
+//! finely cut mesh.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hairline_index::{ScratchIndex, TriangleLists};

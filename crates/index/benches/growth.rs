@@ -88,7 +88,7 @@ fn cpu_time() -> Duration {
 }
 
 const STEPS: [&str; 2] = ["laid", "tree"];
-/// The shortest of so many counts: what else the machine does makes it longer only.
+/// Runs of which the shortest counts: other work of the machine only makes it longer.
 const RUNS: usize = 3;
 
 struct Row {

@@ -1,5 +1,5 @@
-//! The scratches of one layer on one object, which stand in a row, and which layers share a tree: what is known again in the next
-//! scene of an editor.
+//! The scratches of one layer on one object, which stand in a row, and the layers that share a tree, so that the next scene of an
+//! editor can reuse it.
 
 use hairline_optics::footprint;
 use hairline_scene::{Object, Scene, Scratch, Segment};
@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use crate::indexed_segment::IndexedSegment;
 
-/// Pieces that turn by less are one: a tenth of what the narrowest bands are wide, and a micrometre off in the middle of a
-/// centimetre.
+/// Largest turn between pieces that count as one: a tenth of the width of the narrowest bands, and a micrometre off in the middle of
+/// a centimetre.
 const STRAIGHT_RAD: f32 = 2e-4;
 /// Normals of both, which tell sides of a sheet apart, agree to this cosine.
 const SAME_SIDE_COS: f32 = 0.9999;

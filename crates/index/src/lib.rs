@@ -1,4 +1,4 @@
-//! Finding what lies where: scratches under a footprint, triangles along a ray. Trees are built by obvhs; the walk over
+//! Spatial look-ups: scratches under a footprint, triangles along a ray. Trees are built by obvhs; the walk over
 //! scratches is stackless, the same on the CPU and in a shader.
 //!
 //! ```

@@ -1,6 +1,5 @@
-//! Scratches as the closed form wants them under a footprint: free ends are moved inwards here, once, by what
-//! docs/model.md section 6 says of the whole scratch; where pieces are joined nothing moves, and pieces that an end's shift
-//! swallows are gone.
+//! Scratches as the closed form needs them under a footprint: free ends are moved inwards here, once, by the lengths of
+//! docs/model.md, section 6, for the whole scratch; joined ends do not move, and pieces shorter than an end's shift are left out.
 
 use crate::depth_spread::object_coherence;
 use crate::indexed_segment::IndexedSegment;
@@ -87,8 +86,8 @@ impl ScratchIndex {
         scene.objects.iter().map(object_coherence).collect()
     }
 
-    /// The pieces of some scratches of an object, their free ends moved inwards, one scratch after the other: what a tree would be
-    /// grown over. For pictures that show a few of all scratches.
+    /// Returns the pieces of some scratches of an object, their free ends moved inwards, one scratch after the other, as a tree is
+    /// grown over them. For pictures that show a few of all scratches.
     pub fn pieces(scene: &Scene, object: &Object, scratches: &[Scratch]) -> Vec<IndexedSegment> {
         let run = LayerRun::new(scene, object, scratches);
         let mut pieces = Vec::with_capacity(run.piece_count());

@@ -1,5 +1,4 @@
-//! Triangles along many rays of one origin: the tree is walked once for a narrow pyramid, and each ray within it tries what was
-//! found.
+//! Triangles along many rays of one origin: the tree is walked once for a narrow pyramid, and each ray within it tries the triangles found.
 
 use crate::coverage::Coverage;
 use crate::hit::Hit;
@@ -79,8 +78,8 @@ impl TriangleBeam {
         }
     }
 
-    /// Finds what the pyramid from `origin` with edges along `corners` may meet: in their order around it, either way round, less
-    /// than 90 degrees from one another.
+    /// Finds the triangles that the pyramid from `origin` with edges along `corners` may meet: in their order around it, either way round,
+    /// less than 90 degrees from one another.
     pub fn aim(&mut self, triangles: &TriangleIndex, origin: DVec3, corners: [DVec3; 4]) {
         self.candidates.clear();
         self.stack.clear();

@@ -186,7 +186,7 @@ impl TriangleIndex {
         self.nearest(origin, direction, coverage, |object, _| object < self.lamps)
     }
 
-    /// The nearest hit of a ray that looks for an object: lamps and what covers it only in part are not in its way.
+    /// Nearest hit of a ray that looks for an object: lamps and surfaces that cover it only in part are not in its way.
     pub fn intersect_object(&self, object: u32, origin: DVec3, direction: DVec3) -> Option<Hit> {
         let coverage = Coverage::Only(object);
         let hit = self.nearest(origin, direction, coverage, |object, _| object < self.lamps);

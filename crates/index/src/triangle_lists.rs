@@ -1,8 +1,6 @@
 //! Lists, for each triangle, of the segments that any of its points can see without a footprint: the per-triangle arrays of Z.
 //! Velinov, S. Werner and M. Hullin, *Real-Time Rendering of Wave-Optical Effects on Scratched Surfaces* (2018), reached from the
-//! visibility buffer without a walk. Velinov, S. Werner and M. Hullin, *Real-Time Rendering of Wave-Optical Effects on Scratched
-//! Surfaces* (2018), reached from the visibility buffer without a walk. Scratches of neighbouring triangles within the coherence
-//! window are in a list too.
+//! visibility buffer without a walk. Scratches of neighbouring triangles within the coherence window are in a list too.
 //!
 //! A footprint reaches further than the window, so lists serve points without one only.
 
@@ -133,7 +131,7 @@ impl TriangleReach {
         DVec3::new(v.dot(self.axis_x), v.dot(self.axis_y), v.dot(self.normal))
     }
 
-    /// Appends what the triangle's points can see.
+    /// Appends the segments that the triangle's points can see.
     fn list(&self, index: &ScratchIndex, object: usize, list: &mut Vec<u32>) {
         let [a, b, c] = self.corners_m;
         let reach = Vec3::splat((self.walk_um * 1e-6) as f32);

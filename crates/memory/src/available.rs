@@ -25,7 +25,7 @@ fn left_of_limits() -> Option<u64> {
     [all, data].into_iter().flatten().min()
 }
 
-/// WebAssembly has addresses for 4 GiB, and what a page once took it keeps.
+/// Memory that the limits leave. WebAssembly has addresses for 4 GiB, and a page keeps all that it once took.
 #[cfg(target_arch = "wasm32")]
 fn left_of_limits() -> Option<u64> {
     const PAGE_BYTES: u64 = 1 << 16;

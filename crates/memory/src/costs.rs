@@ -18,11 +18,11 @@ pub const LIGHT: f64 = 7168.0;
 pub const LIGHT_SEEN: f64 = 65_000.0;
 /// A vertex of a polygon light.
 pub const LIGHT_VERTEX: f64 = 512.0;
-/// An environment map besides its pixels: blurred levels of one size for all maps, and what they are made of.
+/// An environment map besides its pixels: blurred levels of one size for all maps, and the maps that they are made of.
 pub const MAP: f64 = 2.2e8;
 /// A pixel of an environment map with its blurred levels.
 pub const MAP_PIXEL: f64 = 32.0;
 /// A texel with its mip chain while it is made.
 pub const TEXEL: f64 = 40.0;
-/// A pixel of the picture with all its layers, what rays found of it, and what the filter makes of that.
+/// A pixel of the picture with all its layers, the light that rays found, and the result of the filter.
 pub const PICTURE_PIXEL: f64 = 480.0;

@@ -15,7 +15,7 @@ pub mod costs;
 
 pub use available::available_bytes;
 
-/// Three quarters of what the process may still have; where that is not known, 8 GiB.
+/// Three quarters of the memory that the process may still have; where that is not known, 8 GiB.
 pub fn budget_bytes() -> u64 {
     const UNKNOWN_BUDGET_BYTES: u64 = 8 << 30;
     available_bytes().map_or(UNKNOWN_BUDGET_BYTES, |bytes| bytes / 4 * 3)

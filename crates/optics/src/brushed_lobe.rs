@@ -91,7 +91,7 @@ struct Moments {
     /// Signed count of the crossings above the middle: each stands for a whole slice, from which `share` takes the tail, so that small tails keep their
     /// digits.
     whole: f64,
-    /// Integrals of the density of slopes, less what `whole` tells; and of it times the sine and its square.
+    /// Integrals of the density of slopes, less those counted in `whole`; and of the density times the sine and its square.
     share: f64,
     first: f64,
     second: f64,
@@ -162,7 +162,7 @@ impl Moments {
 }
 
 impl SlicePart {
-    /// The tangent of a slope, within what is above the horizon.
+    /// Tangent of a slope, within the part above the horizon.
     fn tan(&self, slope: f64) -> f64 {
         ((slope - self.middle) / self.alpha).clamp(self.from, self.to)
     }
@@ -261,7 +261,7 @@ impl BrushedLobe {
         Some(Slice { slope, parts })
     }
 
-    /// Two look-ups of what a part of a slice reflects of what its moments tell of.
+    /// Two look-ups of the light that part `k` of a slice reflects, from its moments.
     fn reflected(
         &self,
         slice: &Slice,
@@ -355,7 +355,8 @@ impl BrushedLobe {
         sum.map(|channel| channel.max(0.0))
     }
 
-    /// Computes what the surface reflects of light from all around, single scattering. It counts the surface's own facets, whatever the pixel shows.
+    /// Albedo of the surface: light that it reflects of radiance 1 from all around, single scattering. It counts the surface's own facets, whatever the
+    /// pixel shows.
     pub fn albedo(&self, of: &FresnelRgb) -> [f64; 3] {
         let [from, to] = self.visible([-1.0, 1.0]);
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
@@ -379,7 +380,7 @@ impl BrushedLobe {
         sum
     }
 
-    /// Look-ups that together are what the lobe of the pixel reflects of light from all around, but for a factor.
+    /// Look-ups whose sum is the light that the pixel's lobe reflects from all around, but for a factor.
     pub fn around(&self, of: &FresnelRgb) -> [BrushedTap; BRUSHED_TAPS] {
         let [from, to] = self.visible([-1.0, 1.0]);
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
@@ -583,7 +584,7 @@ fn turned(along: DVec2, v: DVec2) -> DVec2 {
     DVec2::new(v.dot(along), along.perp_dot(v))
 }
 
-/// An edge in two parts, what lies below the horizon raised to it.
+/// Visits an edge in two parts, with the points below the horizon raised to it.
 fn for_each_raised(a: DVec3, b: DVec3, visit: &mut dyn FnMut(DVec3, DVec3)) {
     let raised = |w: DVec3| DVec3::new(w.x, w.y, w.z.max(0.0));
     if (a.z > 0.0) == (b.z > 0.0) {

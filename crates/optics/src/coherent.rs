@@ -63,7 +63,7 @@ impl GroovePiece {
 /// a mirror; as d(xi) = cos(theta_i) d(omega_i), f is a BRDF with the cosine inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CoherentResponse {
-    /// |B|^2: what the base would reflect alone.
+    /// |B|^2: the response of the base alone.
     pub base: f64,
     /// -2 Re(B S*): interference of base and grooves, mostly negative.
     pub cross: f64,
@@ -121,7 +121,7 @@ pub fn groove_amplitude(
     2.0 * PI * coherence_um * coherence_um / wavelength_um * along * across
 }
 
-/// D = 1 - exp(-i k d (cos theta_i + cos theta_o)): what a groove's floor takes from the reflection coefficient, (3).
+/// D = 1 - exp(-i k d (cos theta_i + cos theta_o)): the change of the reflection coefficient by a groove's floor, (3).
 /// `cos_sum` is the sum of the cosines, 2 at normal incidence, where this is (3).
 pub fn phase_step(depth_nm: f64, cos_sum: f64, wavelength_nm: f64) -> Complex64 {
     let half_phase = PI * depth_nm * cos_sum / wavelength_nm;

@@ -90,9 +90,9 @@ pub fn environment_lobe(lobe: &LtcLobe) -> EnvironmentLobe {
 const MIN_COSINE_OVER_ALPHA: f64 = 20.0;
 /// Relative difference of squared axes below which a lobe is round.
 const ROUND: f64 = 1e-4;
-/// Masking is taken no lower: what is below the horizon counts next to nothing.
+/// Least cosine of masking: facets below the horizon count next to nothing.
 const MASKING_MIN_COS: f64 = 1e-5;
-/// No look-up counts more than so many times what it does on a surface of equal normals.
+/// Largest weight of a look-up over its weight on a surface of equal normals.
 const SHOWN_MAX: f64 = 4.0;
 
 impl EnvironmentLobe {

@@ -129,7 +129,6 @@ impl Facets {
     }
 
     /// Draws a visible normal as [`crate::ggx`] does: J. Dupuy and A. Benyoub, "Sampling visible GGX normals with spherical caps" (HPG 2023).
-    /// Dupuy and A. Benyoub, "Sampling visible GGX normals with spherical caps" (HPG 2023).
     fn sample_normal(&self, wo: DVec3, u: DVec2) -> DVec3 {
         let wo_std = self.stretched(wo).normalize_or(DVec3::Z);
         let z = (1.0 - u.y) * (1.0 + wo_std.z) - wo_std.z;

@@ -151,8 +151,8 @@ pub fn ggx_multiple_scattering(f0: f64, e0: f64) -> f64 {
     1.0 + f0 * (1.0 / e0.clamp(1e-3, 1.0) - 1.0)
 }
 
-/// Adds multiple scattering to what a rough surface reflects by single scattering, over a light or over the hemisphere. `f0` is the reflectance at
-/// normal incidence, `e0` the lobe's albedo for F = 1.
+/// Adds multiple scattering to the reflection of a rough surface by single scattering, over a light or over the hemisphere. `f0` is the
+/// reflectance at normal incidence, `e0` the lobe's albedo for F = 1.
 pub fn ggx_area_reflectance(single: [f64; 3], f0: [f64; 3], e0: f64) -> [f64; 3] {
     std::array::from_fn(|ch| single[ch] * ggx_multiple_scattering(f0[ch], e0))
 }

@@ -41,8 +41,8 @@ impl Grating {
         self.width_um / self.pitch_um
     }
 
-    /// E D: the mean over the grooves of what a floor takes from the reflection coefficient, (3). `depth_share` is the factor on depths
-    /// by which an oblique path is shorter: half the sum of the cosines.
+    /// E D: the mean over the grooves of the change of the reflection coefficient by a floor, (3). `depth_share` is the factor on depths by which
+    /// an oblique path is shorter: half the sum of the cosines.
     pub fn mean_phase_step(&self, depth_share: f64, wavelength_nm: f64) -> Complex64 {
         let phase = 4.0 * PI * self.depth_nm * depth_share / wavelength_nm;
         let std = phase * self.depth_spread;
@@ -64,7 +64,7 @@ impl Grating {
         self.envelope(f64::from(order) / self.pitch_um)[0] * self.order_kept(order)
     }
 
-    /// J: what the places of the grooves leave of an order. It belongs to the order as a whole, and not to places within it.
+    /// J: the share of an order that the displacements of the grooves leave. It belongs to the order as a whole, and not to places within it.
     fn order_kept(&self, order: i32) -> f64 {
         let displaced = 2.0 * PI * self.jitter_um * f64::from(order) / self.pitch_um;
         (-displaced * displaced).exp()
@@ -84,8 +84,8 @@ impl Grating {
         [fill2 * slit * slit, fill2 * rise]
     }
 
-    /// (42), integrated over xi_t: what the row sends to q, order 0 aside, for each unit of q and of the surface that it covers. `band_std` is (5)
-    /// of the wavelength.
+    /// (42), integrated over xi_t: the light that the row sends to q, order 0 aside, for each unit of q and of the surface that it covers.
+    /// `band_std` is (5) of the wavelength.
     pub fn density(&self, q: f64, depth_share: f64, wavelength_nm: f64, band_std: f64) -> f64 {
         let per_um = 1e3 / wavelength_nm;
         let slit = sinc(PI * self.width_um * per_um * q);
@@ -116,7 +116,7 @@ impl Grating {
         }
     }
 
-    /// An upper bound of what the row takes of the mirror's direction, 1 - eta_0 of (43), over all wavelengths and angles.
+    /// An upper bound of the share of the mirror's direction that the row takes, 1 - eta_0 of (43), over all wavelengths and angles.
     pub fn most_taken(&self) -> f64 {
         let fill = self.fill();
         // Spread depths take the most within the first turn of the phase.

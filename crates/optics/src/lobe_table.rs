@@ -64,7 +64,7 @@ impl LobeTable {
             .collect()
     }
 
-    /// The nodes, row by row: what is uploaded as a [`LOBE_TABLE_SIZE`]-square rgba32float texture.
+    /// The nodes, row by row, as texels of a [`LOBE_TABLE_SIZE`]-square rgba32float texture.
     pub fn texels(&self) -> &[[f32; 4]] {
         &self.texels
     }

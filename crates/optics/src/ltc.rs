@@ -37,17 +37,17 @@ pub struct LtcShape {
     pub lean: f64,
 }
 
-/// The lobe seen from one direction on one surface, F = 1: what every light on that point shares.
+/// The lobe seen from one direction on one surface, F = 1, shared by all lights on that point.
 ///
-/// In the frame whose x is towards the viewer a direction w maps to
-/// (u, y / (2 alpha width_y) - shear u, z) with u = cos_peak (cos_peak x + sin_peak z) / (2 alpha width_x).
+/// In the frame whose x is towards the viewer a direction w maps to (u, y / (2 alpha width_y) - shear u, z) with u = cos_peak (cos_peak x + sin_peak z) / (2
+/// alpha width_x).
 #[derive(Clone, Copy, Debug)]
 pub struct LtcLobe {
     /// Viewer in its own frame: y = 0, x >= 0.
     pub wo: DVec3,
     /// The x axis of that frame in the local one.
     pub x_axis: DVec2,
-    /// GGX alpha of the surface: what masks and shadows.
+    /// GGX alpha of the surface, for masking and shadowing.
     pub alpha: f64,
     /// GGX alphas of the normals, wider where a pixel's normals differ: in the plane of view and normal, and across it for normals of one slope in that
     /// plane.
@@ -57,7 +57,7 @@ pub struct LtcLobe {
     /// Share, 0 to 1, by which the lobe's core is too bent for the correction. Normals that spread across the plane of view and normal reflect to an arc; the
     /// fit draws its chord, and where the two are further apart than they are wide the correction would find next to nothing.
     pub bent: f64,
-    /// The share of the normals' spread that is the pixel's: its normals count by what the picture shows of them, and not as facets do.
+    /// The share of the normals' spread that is the pixel's: its normals are weighted as the picture shows them, and not as facets are.
     pub turned: f64,
     /// Sine and cosine of the peak's angle from the normal; the peak is on the side away from the viewer.
     pub peak: DVec2,
@@ -284,8 +284,7 @@ pub fn ltc_sphere_vector(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> DVec3 {
     }
 }
 
-/// A cone of directions in the cosine's space: what is within the rim c + u cos t + v sin t. In the frame of u, v (perpendicular)
-/// and n, c is `centre`.
+/// A cone of directions in the cosine's space, within the rim c + u cos t + v sin t. In the frame of u, v (perpendicular) and n, c is `centre`.
 struct LtcCone {
     /// Unit vectors of u, v and n, right-handed.
     frame: [DVec3; 3],

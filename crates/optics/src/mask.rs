@@ -221,7 +221,7 @@ mod tests {
         }
     }
 
-    /// Wide grooves in a close-up, and colours out of gamut: light and loss stay equal, and within what there is.
+    /// Wide grooves in a close-up, and colours out of gamut: light and loss stay equal, and no energy is created.
     #[test]
     fn no_scratch_creates_energy() {
         for (share, energy) in [

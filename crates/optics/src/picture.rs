@@ -172,7 +172,7 @@ pub fn picture_place(share: f64, low: f64, high: f64, width_um: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Corners and the middle are where they are, seen from anywhere; what is beside is at an edge.
+    /// Corners and the middle are found from anywhere; directions beside the picture find an edge.
     #[test]
     fn directions_find_their_places() {
         let plane = PicturePlane {

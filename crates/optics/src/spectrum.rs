@@ -111,8 +111,8 @@ pub fn black_body_rgb(temperature_k: f64) -> [f64; 3] {
     rgb.map(|c: f64| (c / luminance).max(0.0))
 }
 
-/// The weights at any wavelength, as a density per nm: what a Monte Carlo estimate over wavelength divides by its pdf.
-/// Zero outside 380 to 780 nm.
+/// The weights at any wavelength, as a density per nm, which a Monte Carlo estimate over wavelength divides by its pdf. Zero outside 380 to 780
+/// nm.
 pub fn weight_per_nm(wavelength_nm: f64) -> [f64; 3] {
     let position = (wavelength_nm - WAVELENGTH_MIN_NM) / WAVELENGTH_STEP_NM;
     let last = (WAVELENGTH_COUNT - 1) as f64;

@@ -37,7 +37,7 @@ fn restore(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
     py.import("hairline._arrays")?.getattr("restored")
 }
 
-/// The class, and what [`MeshArray::new`] takes.
+/// The class, and the arguments of [`MeshArray::new`].
 type Parts<'py> = (
     Bound<'py, PyType>,
     Bound<'py, PyArray2<f64>>,

@@ -23,7 +23,7 @@ fn layers(picture: &Bound<'_, PyAny>) -> PyResult<Layers> {
     read.map_err(|error| errors::of_image(py, &error))
 }
 
-/// The figures of each layer, and what keeps the comparison from being complete.
+/// The figures of each layer, and the problems that keep the comparison from being complete.
 #[pyfunction]
 pub(crate) fn compare<'py>(
     a: &Bound<'py, PyAny>,

@@ -158,13 +158,13 @@ impl Image {
         notes_dict(py, &self.notes)
     }
 
-    /// Stops, for what is displayed.
+    /// Exposure of the displayed picture in stops.
     #[getter]
     fn exposure_ev(&self) -> f64 {
         self.display.exposure_ev
     }
 
-    /// The curve of what is displayed.
+    /// Tone curve of the displayed picture.
     #[getter]
     fn tone_map(&self) -> &'static str {
         self.display.tone_map.name()

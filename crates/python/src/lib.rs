@@ -1,5 +1,5 @@
-//! `hairline._hairline`: what the Python package of hairline calls. The package's Python part gives it names, defaults and
-//! documentation; this part turns values and arrays into what the libraries take, and calls them.
+//! `hairline._hairline`: the functions that the Python package of hairline calls. The package's Python part gives it
+//! names, defaults and documentation; this part converts values and arrays to the libraries' types, and calls them.
 
 mod arrays;
 mod compare;

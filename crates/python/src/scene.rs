@@ -1,4 +1,4 @@
-//! Scenes: from tables of Python's to descriptions, checked as scene files are, and to what is rendered.
+//! Scenes: conversion of Python's tables to descriptions, checked as scene files are, and their building.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -54,8 +54,8 @@ pub(crate) fn read<'py>(
     Ok((dict, text, [description.notes, models].concat()))
 }
 
-/// The table of a whole scene with its defaults filled in, or what is wrong with it. `alone` where a part of it is asked for, and
-/// what it names is elsewhere.
+/// Returns the table of a whole scene with its defaults filled in, or its error. `alone` where a part of it is asked for, and the things that it
+/// names are elsewhere.
 #[pyfunction]
 #[pyo3(signature = (table, alone=false))]
 pub(crate) fn check<'py>(table: &Bound<'py, PyDict>, alone: bool) -> PyResult<Bound<'py, PyDict>> {
@@ -93,7 +93,7 @@ pub(crate) fn inputs(table: &Bound<'_, PyDict>, folder: PathBuf) -> PyResult<Vec
     Ok(inputs.filter(is_file).collect())
 }
 
-/// A name for all that a scene says, in whatever types and order: arrays by their numbers, what lies in memory by its contents, and files by their
+/// A name for all that a scene says, in whatever types and order: arrays by their numbers, arrays in memory by their contents, and files by their
 /// names.
 #[pyfunction]
 pub(crate) fn digest(table: &Bound<'_, PyDict>) -> PyResult<String> {
@@ -114,7 +114,7 @@ fn table(py: Python<'_>, description: &Description) -> PyResult<toml::Table> {
     table.map_err(|error| errors::of_work(py, &error.to_string()))
 }
 
-/// Builds scenes one after the other, and keeps what has not changed.
+/// Builds scenes one after the other, and keeps unchanged parts.
 #[pyclass(frozen, module = "hairline._hairline")]
 #[derive(Default)]
 pub(crate) struct Builder {

@@ -1,4 +1,4 @@
-//! Pictures in parts: strips put together, and what travels between processes.
+//! Pictures in parts: strips put together, and their transfer between processes.
 
 use hairline_image::{Display, Image, Noise, Notes, Tones};
 use pyo3::prelude::*;

@@ -66,7 +66,7 @@ impl Told {
         waited.is_ok_and(|(is_done, _)| *is_done)
     }
 
-    /// Tells the host what there is to tell.
+    /// Passes messages and progress to the host.
     fn hand_over(&self, host: &Bound<'_, PyAny>) -> PyResult<()> {
         let (what, lines) = self.with_rest(|rest| (rest.what, std::mem::take(&mut rest.lines)));
         for (method, line) in lines {

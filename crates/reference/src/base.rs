@@ -139,7 +139,7 @@ impl<'a> BaseLobes<'a> {
         self.under_coat.map_or(wi, |turn| turn * wi)
     }
 
-    /// Whether light from there falls on the coat or on what is under it.
+    /// Whether light from a direction falls on the coat or on the surface under it.
     pub(crate) fn are_above(&self, wi: DVec3) -> bool {
         wi.z > 0.0 || self.under_coat(wi).z > 0.0
     }

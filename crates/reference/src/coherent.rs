@@ -99,7 +99,7 @@ impl<'a> Field<'a> {
         sum
     }
 
-    /// Directions whose components along axes of the surface's frame lie within what `extent` tells.
+    /// Directions whose components along axes of the surface's frame lie within the ranges of `extent`.
     pub(crate) fn directions(&self, extent: impl Fn(DVec2) -> (f64, f64)) -> FieldDirections {
         let wo = self.point.wo;
         let std = band_std(self.point.coherence_um, WIDEST_NM);

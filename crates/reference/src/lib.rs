@@ -1,4 +1,4 @@
-//! Pictures by Monte Carlo: what the closed forms must converge to, and what they leave out.
+//! Pictures by Monte Carlo, to which the closed forms must converge, with the effects that they leave out.
 //!
 //! A path tracer in f64. Each pixel is an average over points of its filter, wavelengths, directions to the lights and the
 //! environment and, if asked for, bounces. Nothing is shared with the closed forms but the scene, its trees, and the

@@ -39,7 +39,7 @@ const FIELD_DRAWS: u32 = 2;
 const GROOVE_DRAWS: u32 = 2;
 const ENVIRONMENT_DRAWS: u32 = 4;
 
-/// A place on a path, with what it does to light.
+/// A place on a path, with its lobes.
 struct Vertex<'a> {
     point: &'a SurfacePoint<'a>,
     lobes: BaseLobes<'a>,
@@ -461,7 +461,7 @@ impl Integrator<'_> {
         wi.filter(|wi| wi.z > MIN_COS)
     }
 
-    /// Density, per d xi, of what [`Self::draw_all_around`] draws elsewhere.
+    /// Density, per d xi, of directions that [`Self::draw_all_around`] draws elsewhere.
     fn all_around_pdf(&self, direction: DVec3, wi: DVec3) -> f64 {
         match &self.environment {
             Some(sampler) => 0.5 * sampler.pdf(direction) / wi.z + 0.5 / PI,
@@ -494,7 +494,7 @@ impl Integrator<'_> {
     }
 
     /// The surface that hides the environment in a direction: with shadows any, else one that the path goes on from, whose
-    /// light stands in for what it hides.
+    /// light takes the place of the hidden part.
     fn next_surface(&self, vertex: &Vertex, direction: DVec3) -> Option<Hit> {
         if !self.settings.shadows && vertex.depth >= self.settings.bounces {
             return None;

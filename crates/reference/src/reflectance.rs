@@ -134,7 +134,7 @@ impl Reflectance {
         }
     }
 
-    /// Metals have no body: nothing asks for their albedo, and what is here is white's.
+    /// Reflectance parts of a facet. Metals have no body: nothing asks for their albedo, and the value here is white's.
     fn parts(&self, cos_theta: f64) -> FacetParts {
         match self.reflector {
             Reflector::Dielectric(ior) => FacetParts {

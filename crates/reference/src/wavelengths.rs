@@ -1,4 +1,4 @@
-//! The wavelengths of one sample, spread evenly over the visible, and what a material makes of them.
+//! The wavelengths of one sample, spread evenly over the visible, and the spectra of a material at them.
 
 use super::reflectance::{Reflectance, ReflectanceEnds};
 use glam::DVec3;
@@ -34,7 +34,7 @@ impl Wavelengths {
     }
 }
 
-/// The widest band, that of the longest wavelength, as its wavelength: what directions are drawn by.
+/// Wavelength of the widest band, by which directions are drawn.
 pub(super) const WIDEST_NM: f64 = LAST_NM;
 
 /// Reflection off the floor of a groove and off the smooth base.

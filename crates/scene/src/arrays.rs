@@ -1,4 +1,4 @@
-//! Meshes and scratches that lie in memory: what a program has computed, and no file holds.
+//! Meshes and scratches in memory, which a program has computed and no file holds.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};

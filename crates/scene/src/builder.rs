@@ -1,4 +1,4 @@
-//! Builds scenes one after the other and keeps what has not changed: what an editor needs.
+//! Builds scenes one after the other and keeps unchanged parts, as an editor needs it.
 
 mod coats;
 mod gratings;
@@ -50,7 +50,7 @@ impl SceneBuilder {
         Self::default()
     }
 
-    /// Builds what is described. Files are looked for in `base_dir`.
+    /// Builds the scene of a description. Files are looked for in `base_dir`.
     ///
     /// Where it fails, the builder keeps what it had before.
     ///
@@ -105,7 +105,7 @@ impl<'a> Work<'a> {
         Ok(scene)
     }
 
-    /// Refuses what would not fit into memory, before it is built.
+    /// Refuses a scene that would not fit into memory, before it is built.
     fn check_memory(&self) -> Result<Estimate, Error> {
         let mut estimate = Estimate::default();
         estimate.add_lights(self.description);

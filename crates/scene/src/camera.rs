@@ -56,7 +56,7 @@ impl Camera {
         }
     }
 
-    /// Whether it has a lens, and no pinhole: what is out of focus needs many batches of samples.
+    /// Whether it has a lens, and no pinhole: points out of focus need many batches of samples.
     pub fn has_lens(&self) -> bool {
         self.lens.radius_m > 0.0
     }
@@ -147,7 +147,7 @@ pub fn lens_point_at(on_square: DVec2) -> DVec2 {
 }
 
 impl CameraFrame {
-    /// The camera seen through a point of its lens, in its radii to the right and up: what is in focus stays where it is in the picture.
+    /// The camera seen through a point of its lens, in its radii to the right and up: points in focus stay where they are in the picture.
     pub fn through_lens(&self, lens: &Lens, point: DVec2) -> Self {
         let per_px = self.per_px_x.length();
         let px_at_focus = lens.radius_m / (lens.focus_m * per_px);

@@ -223,7 +223,7 @@ pub enum MaterialKind {
         base_color: [f64; 3],
         /// Share of metal from 0, dielectric, to 1, metal. Default: 1.
         metallic: f64,
-        /// `specular` and `specular_color`: factors on what it reflects as far as it is no metal. Default: 1 and white.
+        /// `specular` and `specular_color`: factors on the reflection of its part that is no metal. Default: 1 and white.
         #[serde(flatten)]
         specular: Specular,
     },

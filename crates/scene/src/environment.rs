@@ -40,7 +40,7 @@ use lookup::{
     environment_prefiltered_lod, environment_radiance,
 };
 
-/// An environment map and what is made from it. Clones share the texels.
+/// An environment map and the maps that are made from it. Clones share the texels.
 ///
 /// Texels are bounded and rounded so that half floats (`rgba16float`) hold them exactly: a renderer that uploads them
 /// shows what one that reads them here shows. A map with radiances above 65504 is stored divided by a power of two, which
@@ -99,7 +99,7 @@ impl Environment {
     }
 
     /// Makes an environment of an equirectangular map in memory, rows from the top; see [`Environment::load`] for the rest. The map stays whole: no sun or
-    /// window becomes a light of its own. It stays whole: nothing of it becomes a light of its own.
+    /// window becomes a light of its own.
     ///
     /// # Panics
     /// If the map is empty.
@@ -190,8 +190,7 @@ impl Environment {
         Arc::ptr_eq(&self.maps, &other.maps)
     }
 
-    /// The radiance that arrives from a direction: what the camera sees of the map. `dir` is a unit vector in world
-    /// space, away from the viewer.
+    /// The radiance that arrives from a direction, as the camera sees the map. `dir` is a unit vector in world space, away from the viewer.
     pub fn radiance(&self, dir: DVec3) -> DVec3 {
         environment_radiance(&self.maps.background, self.map_from_world * dir)
             * self.texel_radiance()
@@ -215,7 +214,7 @@ impl Environment {
         radiance.map(|radiance| radiance * self.texel_radiance())
     }
 
-    /// [`Environment::prefiltered_all`] of what is left of the map without its [windows](Environment::windows).
+    /// [`Environment::prefiltered_all`] of the map without its [windows](Environment::windows).
     #[inline(always)]
     pub fn beside_windows_all<const N: usize>(
         &self,
@@ -227,7 +226,7 @@ impl Environment {
         radiance.map(|radiance| radiance * self.texel_radiance())
     }
 
-    /// [`Environment::prefiltered`] of what is left of the map without its [windows](Environment::windows).
+    /// [`Environment::prefiltered`] of the map without its [windows](Environment::windows).
     pub fn beside_windows(&self, dir: DVec3, roughness: f64) -> DVec3 {
         let (levels, dir) = (self.levels_beside_windows(), self.map_from_world * dir);
         environment_prefiltered_lod(levels, dir, environment_lod(roughness)) * self.texel_radiance()
@@ -285,8 +284,8 @@ impl Environment {
         &self.suns
     }
 
-    /// Windows and soft boxes: what is bright and has a sharp outline, larger than a sun, as lights as far away as suns. Scratches have
-    /// them beside the rest of the map ([`Environment::beside_windows`]); for all others they are in the map.
+    /// Windows and soft boxes: bright parts of the map with a sharp outline, larger than a sun, as lights as far away as suns. Scratches have them beside
+    /// the rest of the map ([`Environment::beside_windows`]); for all others they are in the map.
     pub fn windows(&self) -> &[Light] {
         &self.windows
     }

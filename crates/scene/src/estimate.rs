@@ -14,7 +14,7 @@ use crate::texture::texture_bytes;
 /// Something that takes memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MemoryItem {
-    /// The way to what asks for it in the scene file.
+    /// Path in the scene file of the key that asks for it.
     pub key: String,
     /// Name with its number: `32768 triangles`.
     pub what: String,
@@ -136,7 +136,7 @@ impl Estimate {
         });
     }
 
-    /// Refuses what does not fit.
+    /// Refuses an estimate that does not fit.
     ///
     /// # Errors
     /// The largest part, and what all parts take.

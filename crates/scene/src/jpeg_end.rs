@@ -1,4 +1,5 @@
-//! Whether a JPEG file has all of its picture: decoders fill what is missing with grey, and say nothing.
+//! Checks whether a JPEG file has all of its picture: decoders fill missing parts with grey, and say
+//! nothing.
 //!
 //! ITU-T T.81, annex B: segments with their lengths, scans of coded data, and a mark at the end.
 

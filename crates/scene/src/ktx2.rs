@@ -130,7 +130,7 @@ mod tests {
     use rand::SeedableRng;
     use rand_pcg::Pcg64;
 
-    /// Images that Basis Universal's own program packed, and what it unpacks of them.
+    /// Images that Basis Universal's own program packed, and the texels that it unpacks of them.
     macro_rules! images {
         ($($name:literal)*) => {
             [$((

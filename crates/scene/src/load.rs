@@ -24,7 +24,7 @@ impl Scene {
         Loader::default().from_toml(text, name, base_dir)
     }
 
-    /// Builds what is described. Files are looked for in `base_dir`.
+    /// Builds the scene of a description. Files are looked for in `base_dir`.
     pub fn build(description: &Description, base_dir: impl AsRef<Path>) -> Result<Self, Error> {
         Loader::default().build(description, base_dir)
     }

@@ -30,7 +30,7 @@ pub enum Stage {
 /// Loads scenes within limits.
 #[derive(Clone, Copy)]
 pub struct Loader<'a> {
-    /// Scenes that would take more memory, here and in what renderers make of them, are refused before they are built.
+    /// Largest memory of a scene, here and in renderers; larger ones are refused before they are built.
     pub memory_budget_bytes: u64,
     /// Arrays in memory, where a scene names no file.
     pub arrays: &'a Arrays,

@@ -179,7 +179,8 @@ impl ScratchTables {
     }
 }
 
-/// The table of scratches in a metal, or in what has no spectrum. Each is made once a process: it is the same in every scene.
+/// The table of scratches in a metal, or in a material without a spectrum. Each is made once a process: it is the same in
+/// every scene.
 fn scratch_table(metal: Option<Metal>) -> Arc<ScratchTable> {
     static MADE: [OnceLock<Arc<ScratchTable>>; Metal::ALL.len() + 1] =
         [const { OnceLock::new() }; Metal::ALL.len() + 1];

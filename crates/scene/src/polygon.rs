@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-/// Vertices may lie this far off the plane, relative to the polygon's extent: twice what writing down four digits costs.
+/// Largest distance of vertices from the plane, relative to the polygon's extent: twice the rounding to four digits.
 const FLATNESS: f64 = 1e-3;
 /// Smaller areas than this share of the squared extent have no direction to face.
 const LEAST_AREA: f64 = 1e-9;
@@ -67,7 +67,7 @@ pub(crate) fn disk_corners_m(center_m: DVec3, x_m: DVec3, y_m: DVec3) -> Vec<DVe
     (0..DISK_CORNERS).map(corner).collect()
 }
 
-/// Refuses what is not a planar, simple polygon.
+/// Refuses vertices that make no planar, simple polygon.
 pub(crate) fn check(vertices_m: &[DVec3]) -> Result<(), Flaw> {
     let n = vertices_m.len();
     if !(3..=MOST_VERTICES).contains(&n) {

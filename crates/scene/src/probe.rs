@@ -45,7 +45,7 @@ impl MeshSummary {
     }
 }
 
-/// The size of what a scene shows: the distance of its camera times twice the tangent of half its field of view, cut to a half.
+/// Size of the visible scene: the distance of its camera times twice the tangent of half its field of view, cut to a half.
 pub fn scene_extent_m(description: &Description) -> f64 {
     let camera = &description.camera;
     let [position, target] = [camera.position_m, camera.target_m].map(glam::DVec3::from);

@@ -71,7 +71,7 @@ fn check_kind(metadata: &Metadata, kind: FileKind) -> Result<(), String> {
     }
 }
 
-/// Refuses what [`read`] refuses, for files that others read.
+/// Refuses the files that [`read`] refuses, for files that others read.
 pub(crate) fn check_regular(path: &Path) -> io::Result<()> {
     if held::edition(path).is_some() {
         return Ok(());

@@ -1,5 +1,5 @@
-//! The validated scene in canonical units: what every renderer reads. Positions are world space, metres;
-//! scratches keep the units of the physics (width in micrometres, depth in nanometres).
+//! The validated scene in canonical units, which every renderer reads. Positions are world space, metres; scratches keep the units of the physics
+//! (width in micrometres, depth in nanometres).
 //!
 //! A [`Scene`] holds no choice and no default: whatever a scene file left out was filled in, and whatever was wrong
 //! was refused, before one of these exists.
@@ -82,7 +82,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The area lights, then the environment's [suns](Environment::suns): what shines on surfaces beside the environment itself.
+    /// The area lights, then the environment's [suns](Environment::suns): all that shine on surfaces besides the environment itself.
     pub fn all_lights(&self) -> impl Iterator<Item = &Light> + Clone {
         let suns = self.environment.iter().flat_map(Environment::suns);
         self.lights.iter().chain(suns)
@@ -127,7 +127,7 @@ pub struct Camera {
 pub struct Lens {
     /// Radius of its opening. Without one the camera is a pinhole: everything is in focus.
     pub radius_m: f64,
-    /// Depth along the view of what is in focus.
+    /// Depth of focus along the view.
     pub focus_m: f64,
 }
 
@@ -163,7 +163,7 @@ pub struct Material {
     pub normal_texture: Option<(usize, f64)>,
     /// Emission texture (sRGB encoded), multiplied with the emission.
     pub emission_texture: Option<usize>,
-    /// Texture whose red (linear) is what of the environment's light reaches the base, and how much of that counts, in [0, 1].
+    /// Texture whose red (linear) is the share of the environment's light that reaches the base, and the strength of that, in [0, 1].
     pub occlusion_texture: Option<(usize, f64)>,
     /// Reflectance at normal incidence of the dielectric part of [`Base::MetallicRoughness`], by its refractive index (KHR_materials_ior).
     pub dielectric_f0: f64,
@@ -209,7 +209,7 @@ impl Default for Specular {
 }
 
 impl Material {
-    /// Whether its coat has other normals than what is under it.
+    /// Whether its coat has other normals than the surface under it.
     pub fn has_coat_normals(&self) -> bool {
         self.coat.is_some() && self.coat_normal_texture != self.normal_texture
     }

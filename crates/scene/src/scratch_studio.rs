@@ -1,4 +1,4 @@
-//! Light in which scratches show: small hard lamps whose highlights lie where the colours around them fill most of what the camera sees, strips
+//! Light in which scratches show: small hard lamps whose highlights lie where the colours around them fill most of the visible surface, strips
 //! that draw the form, and a dark room.
 
 use glam::DVec3;
@@ -10,7 +10,7 @@ use crate::studio::{PhotoSet, SoftBox};
 
 /// Lamps at most: each takes time, and three highlights fill most shapes.
 const LAMPS_MAX: usize = 3;
-/// A lamp that adds less of what is seen is not worth its time.
+/// Least share of the visible points that a lamp must add to be worth its time.
 const LEAST_GAIN: f64 = 0.02;
 /// Scratches are bright where normals are this near to that of a highlight.
 const FAN_DEG: f64 = 10.0;

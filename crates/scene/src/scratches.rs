@@ -83,7 +83,7 @@ pub(crate) struct Laid {
 }
 
 impl Laid {
-    /// Memory of the scratches, here and in what renderers make of them.
+    /// Memory of the scratches, here and in renderers.
     pub(crate) fn bytes(&self) -> f64 {
         bytes(self.scratches.len(), self.segments.len())
     }
@@ -100,7 +100,7 @@ impl Laid {
     }
 }
 
-/// Memory of laid scratches, here and in what renderers make of them.
+/// Memory of laid scratches, here and in renderers.
 pub(crate) fn bytes(scratches: usize, segments: usize) -> f64 {
     (scratches * size_of::<Scratch>()) as f64 + (segments as u64 * SEGMENT_BYTES) as f64
 }
@@ -250,7 +250,7 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// Refuses a layer that would not fit; returns what it takes.
+    /// Refuses a layer that would not fit; returns its memory.
     fn check_memory(&mut self, loader: &Loader, free_bytes: f64) -> Result<f64, Error> {
         // Few at first, lest scratches of a million segments fill the memory themselves.
         let (mut pilot, mut pilots) = (Laid::default(), 0);
@@ -288,7 +288,7 @@ impl<'a> Plan<'a> {
             .collect()
     }
 
-    /// Puts parts behind what is laid.
+    /// Appends parts to the laid scratches.
     fn take(&self, parts: Vec<Laid>, laid: &mut Laid) -> Result<(), Error> {
         for part in parts {
             // The estimate may have been short.

@@ -1,4 +1,4 @@
-//! A studio for products, made by code: where its lights stand about what the camera looks at, and the ground under it.
+//! A studio for products, made by code: the positions of its lights about the camera's subject, and the ground under it.
 
 use glam::DVec3;
 
@@ -14,7 +14,7 @@ const ROOM_INTENSITY: f64 = 0.25;
 const GROUND_RADII: f64 = 40.0;
 /// Distance of the ground below the lowest point, over the set's radius: a sheet that lies lowest is not cut by it.
 const GAP: f64 = 2e-4;
-/// A set that reaches farther than so many times what the camera sees is a room: the studio then stands about the camera's target.
+/// Size of a set, over the visible extent, from which on it is a room: the studio then stands about the camera's target.
 const ROOM: f64 = 3.0;
 /// The lamp's height as it is seen from the set.
 const LAMP_ELEVATION_DEG: std::ops::RangeInclusive<f64> = 25.0..=60.0;
@@ -33,7 +33,7 @@ pub(crate) struct PhotoSet {
     elevation_rad: f64,
 }
 
-/// A rectangle that shines on what a set is about. Lengths are in the set's radii, axes to the right, behind and up.
+/// A rectangle that shines on the subject of a set. Lengths are in the set's radii, axes to the right, behind and up.
 pub(crate) struct SoftBox {
     pub name: &'static str,
     /// Middle of the box.
@@ -181,7 +181,7 @@ impl PhotoSet {
         }
     }
 
-    /// The ground and what it is made of.
+    /// The ground and its material.
     pub(crate) fn ground(&self, ground: &description::Ground) -> (Object, Material) {
         let level = self.base_m.dot(self.up);
         let height_m = ground.height_m.unwrap_or(level - GAP * self.radius_m);

@@ -192,8 +192,8 @@ impl Mesh {
         self.triangles[triangle].map(|v| self.positions_m[v as usize].as_dvec3())
     }
 
-    /// The vertices that stand farthest out, one for each of some directions: what frames them frames the mesh, to a few hundredths
-    /// of its size.
+    /// The vertices that stand farthest out, one for each of some directions: a frame around them is one around the mesh, to a few
+    /// hundredths of its size.
     pub fn extreme_points_m(&self) -> Vec<Vec3> {
         const DIRECTIONS: usize = 128;
         // Spread evenly over the sphere, by the golden angle.

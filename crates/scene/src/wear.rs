@@ -156,7 +156,7 @@ impl WearKind {
 }
 
 impl Wear {
-    /// Every grade from new to old, then what finishing and other use leave.
+    /// Every grade from new to old, then the marks of finishing and other use.
     pub const ALL: [Self; 8] = [
         Self::New,
         Self::Used,

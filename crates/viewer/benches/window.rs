@@ -143,7 +143,7 @@ impl Probe {
         }
     }
 
-    /// The number of the newest picture and whether it is the last of what it shows.
+    /// The number of the newest picture, and whether it is the last one of its view.
     fn picture(&self) -> (u64, bool) {
         let frame = self.viewer.engine().latest();
         frame.map_or((0, false), |frame| {

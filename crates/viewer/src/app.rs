@@ -340,7 +340,7 @@ impl Viewer {
         ctx.send_viewport_cmd(egui::ViewportCommand::Close);
     }
 
-    /// A drag of a widget is over when no button is held: what comes next is a step of its own.
+    /// Ends a drag of a widget when no button is held: the next change is a step of its own.
     fn end_drag_where_nothing_is_held(&mut self, ctx: &egui::Context) {
         if !ctx.input(|input| input.pointer.any_down()) && !self.viewport.is_wheeling(ctx) {
             self.work.document.end_drag();

@@ -244,7 +244,7 @@ impl Command {
         TABLE.iter().find(|entry| entry.command == self)
     }
 
-    /// Whether this platform has what it needs: then it is in the menus and has its key.
+    /// Whether the command works on this platform: then it is in the menus and has its key.
     pub fn is_here(self) -> bool {
         match self {
             Self::Reload | Self::Quit => HAS_DISK,

@@ -1,4 +1,4 @@
-//! The reference of the view beside the picture: what the closed forms must converge to, sampled for as long as one looks.
+//! The reference of the view beside the picture, to which the closed forms must converge, sampled for as long as one looks.
 //!
 //! Left of a divider is the picture as ever; right of it the reference, or where the two differ. A change of the view or of
 //! the scene begins anew, once it is over.
@@ -90,7 +90,7 @@ impl Compare {
         self.texture.forget();
     }
 
-    /// Samples what is wanted once it has stood still. `now` is in seconds.
+    /// Samples the wanted comparison once it has stood still. `now` is in seconds.
     fn follow(&mut self, ctx: &egui::Context, wanted: Wanted, now: f64) {
         let since = match &self.wanted {
             Some((last, since)) if last.is_same(&wanted) => *since,
@@ -140,7 +140,7 @@ impl Compare {
         sampling.is_some_and(|sampling| sampling.job.is_over()) && !enough()
     }
 
-    /// The figures of what is shown.
+    /// Figures of the shown comparison.
     pub fn figures(&self) -> Option<Figures> {
         let shown = self.shown()?;
         Some(shown.compared.as_ref()?.figures.clone())

@@ -35,7 +35,7 @@ pub(crate) enum Question {
     SaveOver,
     /// The file that the scene is to be saved as is there already.
     Replace(PathBuf),
-    /// A model that is to be added is much larger or smaller than what the scene shows.
+    /// A model that is to be added is much larger or smaller than the visible scene.
     Fit {
         path: PathBuf,
         /// Size of the model in its file.

@@ -54,7 +54,7 @@ pub(crate) use steps::SHADOW_SAMPLES;
 use in_turn::InTurn;
 use request::Shared;
 
-/// The two threads, or what does their work in turn. Dropping it stops them, at once or after the pixels that they are at.
+/// The two threads, or the work in turn that takes their place. Dropping it stops them, at once or after the pixels that they are at.
 pub struct Engine {
     shared: Arc<Shared>,
     workers: Workers,

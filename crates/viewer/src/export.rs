@@ -107,7 +107,8 @@ impl Export {
         }
     }
 
-    /// Begins what has waited for its scene, tells what has ended, and shows the progress. `area` is the picture's.
+    /// Begins an export that has waited for its scene, tells of those that have ended, and shows the progress. `area` is
+    /// the picture's.
     pub fn show(&mut self, ctx: &egui::Context, work: &mut Workspace, area: Rect) {
         self.start(ctx, work);
         self.end(&mut work.notices);
@@ -146,7 +147,7 @@ impl Export {
         None
     }
 
-    /// Refuses at once what could not be written in the end.
+    /// Begins an export; refuses at once files that could not be written in the end.
     fn begin(&mut self, work: &mut Workspace, mut form: Form) {
         let mut description = Arc::clone(work.document.description());
         if form.is_as_seen {

@@ -106,7 +106,7 @@ pub(crate) struct Files {
     autosaves: Option<PathBuf>,
     autosave: Option<Autosave>,
     started: Instant,
-    /// The scene file and what it names.
+    /// Watch of the scene file and the files that it names.
     watch: Watch,
     /// The scene file was written by another program, and nothing has come of that yet.
     pub scene_changed: bool,
@@ -150,7 +150,7 @@ impl Files {
         self.watch.changed()
     }
 
-    /// Begins to keep what this run does; returns what earlier ones left.
+    /// Begins to autosave this run's work; returns the autosaves of earlier runs.
     pub fn start(&mut self) -> Vec<Pending> {
         let Some(folder) = &self.autosaves else {
             return Vec::new();
@@ -248,14 +248,14 @@ impl Files {
         self.recent.list()
     }
 
-    /// Keeps what is not saved, if it is time. Why it could not, where it could not.
+    /// Autosaves unsaved work, if it is time. Returns the reason where it could not.
     pub fn autosave(&mut self, document: &Document) -> Option<String> {
         let autosave = self.autosave.as_mut()?;
         let failed = autosave.tick(self.started.elapsed(), document).err()?;
         Some(failed.to_string())
     }
 
-    /// Keeps what is not saved, whether it is time or not.
+    /// Autosaves unsaved work, whether it is time or not.
     pub fn autosave_now(&mut self, document: &Document) -> Option<String> {
         let autosave = self.autosave.as_mut()?;
         Some(autosave.keep(document).err()?.to_string())

@@ -46,7 +46,7 @@ impl FreeView {
         std::mem::take(&mut self.turns)
     }
 
-    /// Whether a switch is on; none for what is no switch.
+    /// Whether a switch is on; none for commands that are no switch.
     pub fn is_on(&self, command: ViewCommand) -> Option<bool> {
         match command {
             ViewCommand::LookThroughCamera => Some(!self.is_free()),

@@ -1,4 +1,4 @@
-//! Small pictures of what can be chosen: presets, materials, lights, shapes, environments, grades of wear.
+//! Small pictures of the choices: presets, materials, lights, shapes, environments, grades of wear.
 //!
 //! Each is rendered once by the CPU renderer, in the background and only when a menu that shows it is open; until then its place
 //! is empty.
@@ -86,8 +86,8 @@ impl Gallery {
     }
 }
 
-/// Renders what is wanted until nothing is, or nobody is there for it: on one thread, since a menu can wait and the picture in the
-/// window cannot.
+/// Renders the wanted pictures until there are none, or the gallery is gone: on one thread, since a menu can wait and the picture
+/// in the window cannot.
 fn work(desk: &Weak<Mutex<Desk>>, wake: &egui::Context) {
     crate::priority::lower();
     let pool = rayon::ThreadPoolBuilder::new()

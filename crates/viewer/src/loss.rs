@@ -1,5 +1,5 @@
-//! The loss of the device that draws the window: nothing more can be shown in it, so that what is not saved is kept for the next
-//! start, and whoever opened the window is told.
+//! The loss of the device that draws the window: nothing more can be shown in it, so that unsaved work is kept for the next
+//! start, and the opener of the window is told.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};

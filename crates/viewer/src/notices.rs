@@ -1,4 +1,4 @@
-//! Messages in the window: what went wrong, and what was done. An error stays until it is dismissed.
+//! Messages in the window: errors and notes. An error stays until it is dismissed.
 //!
 //! Not egui-notify: it paints its messages without widgets, so that neither a screen reader nor the keyboard finds them, and cannot
 //! replace one message by the next of its topic.

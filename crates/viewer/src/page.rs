@@ -1,4 +1,4 @@
-//! The window in a page of a browser, and what the page does to it.
+//! The window in a page of a browser, and the page's calls to it.
 
 use std::path::Path;
 use std::sync::Arc;

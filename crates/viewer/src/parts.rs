@@ -1,4 +1,4 @@
-//! The parts of a model, by what its file calls them.
+//! The parts of a model, by their names in its file.
 
 use std::collections::BTreeSet;
 

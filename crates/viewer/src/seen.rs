@@ -3,8 +3,9 @@
 use hairline_scene::Description;
 use hairline_scene::description::{Grating, Light, Material, Object, Scratches};
 
-/// Whether only what does not need a new scene differs: the view, the exposure and the way of showing, of which the painter is
-/// told; names, and materials that no object has. The camera's up is left to the builder: it turns the environment.
+/// Whether two descriptions make the same scene: they differ only in the view, the exposure and the display, of which the
+/// painter is told; in names; and in materials that no object has. The camera's up is left to the builder: it turns the
+/// environment.
 pub(crate) fn makes_same_scene(a: &Description, b: &Description) -> bool {
     let Description {
         camera,

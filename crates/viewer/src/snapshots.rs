@@ -109,7 +109,7 @@ impl Snapshots {
         self.is_shown = false;
     }
 
-    /// Whether what is shown is not where the picture would be.
+    /// Whether the snapshot is shown outside the place of the picture.
     pub fn cover(&self) -> bool {
         self.is_shown && self.way != Way::Slider
     }

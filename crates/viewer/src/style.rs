@@ -2,7 +2,7 @@
 
 use egui::{Color32, Rect, RectAlign, Response, ThemePreference, Tooltip, Visuals};
 
-/// Text of what went wrong.
+/// Text of errors.
 pub(crate) const ERROR: Color32 = Color32::from_rgb(255, 140, 120);
 
 /// Background of words on a picture: light ones are read on white.

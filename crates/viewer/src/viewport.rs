@@ -1,4 +1,4 @@
-//! The picture, and what the mouse does in it.
+//! The picture, and the mouse in it.
 
 mod area;
 pub(crate) mod canvas;
@@ -89,7 +89,7 @@ impl Viewport {
         Some(pick::surface(work, &area, pos)?.point_m)
     }
 
-    /// Escape takes back what a handle or the brush is doing. To be asked before the commands: else it means to select nothing.
+    /// Cancels the drag of a handle or the brush by Escape. To be asked before the commands: else it means to select nothing.
     pub fn cancel_on_escape(&mut self, ctx: &egui::Context, work: &mut Workspace) {
         if !ctx.input(|input| input.key_pressed(egui::Key::Escape)) {
             return;

@@ -1,4 +1,4 @@
-//! The window on a screen: which device draws it and what paints in it.
+//! The window on a screen: its device and its renderer.
 
 mod ready;
 mod software;
@@ -114,7 +114,7 @@ fn watch(state: Option<&RenderState>, backend: &Backend, loss: &WindowLoss) {
     }
 }
 
-/// The window's own device where it is a GPU; else what was asked for.
+/// The window's own device where it is a GPU; else the renderer that was asked for.
 fn backend(
     state: Option<&RenderState>,
     renderer: Renderer,

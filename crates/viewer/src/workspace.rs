@@ -1,4 +1,4 @@
-//! Workspace of all panels: the scene that is edited, what paints it, how it is seen, and messages about it.
+//! Workspace of all panels: the edited scene, its renderer, its view, and messages about it.
 
 mod fit;
 mod view;
@@ -64,8 +64,8 @@ impl Workspace {
         }
     }
 
-    /// Changes the scene as part of a drag, as [`Document::drag`] does; or tells which of it a scene file could not hold, and changes nothing:
-    /// what is edited can be saved and loaded.
+    /// Changes the scene as part of a drag, as [`Document::drag`] does; or tells which number a scene file could not hold, and changes
+    /// nothing: an edited scene can be saved and loaded.
     pub fn drag(&mut self, label: &str, key: DragKey, change: impl FnOnce(&mut Description)) {
         let before = self.document.description();
         let mut changed = Description::clone(before);
@@ -186,7 +186,7 @@ impl Workspace {
         }
     }
 
-    /// Whether a switch is on; none for what is no switch.
+    /// Whether a switch is on; none for commands that are no switch.
     pub fn is_on(&self, command: Command) -> Option<bool> {
         match command {
             Command::Read(command) => self.reading.is_on(command),

@@ -1,5 +1,5 @@
-//! A window whose own device is lost, on a display without a screen: it closes, says why, and what was not saved is offered at the
-//! next start. Windows want a process's first thread, so that this is a program of its own (`harness = false`).
+//! A window whose own device is lost, on a display without a screen: it closes, says why, and unsaved work is offered at the next
+//! start. Windows want a process's first thread, so that this is a program of its own (`harness = false`).
 
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};

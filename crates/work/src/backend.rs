@@ -43,7 +43,7 @@ pub struct Task {
     pub samples: u32,
     /// The ways of light.
     pub transport: Transport,
-    /// Whether what rays found is filtered ([`filter_found`]).
+    /// Whether the light that rays found is filtered ([`filter_found`]).
     pub is_filtered: bool,
     /// Whether the picture has [`Image::alpha`]: nothing is seen behind surfaces then, the environment neither.
     pub is_transparent: bool,
@@ -135,8 +135,8 @@ enum OpenRenderer<'a> {
 }
 
 impl<'a> Painter<'a> {
-    /// Builds what rendering looks up, chooses what renders, and tells in one line on what and why. `Auto` takes a GPU if there
-    /// is one, else the CPU renderer.
+    /// Builds the structures for rendering, chooses the renderer, and tells in one line which and why. `Auto` takes a GPU if there is one, else the CPU
+    /// renderer.
     ///
     /// # Errors
     /// [`Failure::Work`] where the GPU that was asked for fails.
@@ -376,7 +376,7 @@ impl<'a> OpenRenderer<'a> {
     }
 }
 
-/// Trees and tables, and what only some methods look up: now, and not again for each picture.
+/// Trees and tables, also those that only some methods look up: built now, and not again for each picture.
 fn prepared<'a>(scene: &'a Scene, method: &Method, listener: &dyn Listener) -> Box<Prepared<'a>> {
     let prepared = sorted(listener, |watch| Prepared::watched(scene, watch));
     if method

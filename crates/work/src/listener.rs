@@ -1,8 +1,8 @@
 //! Who is told how work goes.
 
-/// Hears what long work says of itself, from any thread.
+/// Listener to long work, from any thread.
 pub trait Listener: Sync {
-    /// A sentence that is said once: what renders and why.
+    /// Tells a sentence once: the renderer and the reason for it.
     fn tell(&self, line: &str);
 
     /// Something is not as it should be, and the work goes on.

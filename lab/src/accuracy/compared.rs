@@ -77,7 +77,7 @@ pub fn compared(image: &Image, reference: &Image, display: &Display) -> Compared
     }
 }
 
-/// The standard error of a layer's rms: what more samples make smaller. Infinite where the variance is not known yet.
+/// The standard error of a layer's rms, which more samples make smaller. Infinite where the variance is not known yet.
 pub fn uncertainty(image: &Image, reference: &Image, layer: Layer) -> f64 {
     let mask = away_from_silhouettes(image, reference, SILHOUETTE_DEPTH);
     let (a, b) = (Layers::from(image), Layers::from(reference));

@@ -16,7 +16,7 @@ use super::stage::Stage;
 const SIZE_PX: u32 = 48;
 const FULL_PX: u32 = 24;
 const FULL_QUICK_PX: u32 = 12;
-/// Runs of one thread and of all take turns, so that what else the machine does meets both.
+/// Rounds in which runs of one thread and of all take turns, so that other work of the machine affects both alike.
 const ROUNDS: u32 = 3;
 
 /// Results of the measurement.

@@ -38,7 +38,7 @@ fn mirror() -> Stage {
     }
 }
 
-/// Errors of the reflected light, in parts of what the bare mirror sends.
+/// Errors of the reflected light, in parts of the bare mirror's light.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 pub struct MaskErrors {
     /// Light that the full model reflects, mean of the three channels.

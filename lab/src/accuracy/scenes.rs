@@ -34,7 +34,8 @@ const WHOLE_BUDGET: Budget = Budget {
     goal: (Layer::Scratches, 0.01),
 };
 
-/// A scene file and what to look at: where scratches are lit, but not in the middle of a light's reflection.
+/// A scene file and the part of it to look at: where scratches are lit, but not in the middle of a light's
+/// reflection.
 struct View {
     name: &'static str,
     file: &'static str,
@@ -203,7 +204,7 @@ fn crop(scene: &Scene, middle: DVec2, size_px: [u32; 2]) -> Scene {
     crop
 }
 
-/// The median side of a pixel at the depth of what it sees.
+/// The median side of a pixel at the depth of its surface.
 fn pixel_um(scene: &Scene, image: &Image) -> f64 {
     let frame = scene.camera.frame(scene.render.size_px);
     let mut depths: Vec<f32> = image.depth_m.iter().copied().filter(|z| *z > 0.0).collect();

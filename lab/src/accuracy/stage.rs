@@ -128,7 +128,7 @@ impl Stage {
         }
     }
 
-    /// Lays scratches at random on what the camera sees and a margin around it.
+    /// Lays scratches at random on the visible part of the plate and a margin around it.
     fn scratch(&self, scene: &mut Scene) {
         if self.covered <= 0.0 {
             return;

@@ -167,7 +167,7 @@ fn largest(figures: impl Iterator<Item = Figure>) -> Figure {
         .unwrap_or(none)
 }
 
-/// A [`Figure`] as the template has it; a dash for what is not there.
+/// A [`Figure`] as the template has it; a dash where there is none.
 fn with_error(figure: &Value, scale: f64, decimals: f64) -> Result<String, minijinja::Error> {
     if figure.is_none() || figure.is_undefined() {
         return Ok("–".to_owned());

@@ -24,7 +24,7 @@ const PLACES_HELD: f64 = 2e-5;
 /// Bounds of the logarithms. Narrower look-ups would fit narrow lobes better, as a row of dots.
 const NARROWEST: f64 = -1.5;
 const WIDEST: f64 = 1.0;
-/// A dielectric's reflectance along the normal: what the second set is weighed by.
+/// A dielectric's reflectance along the normal, which weights the second set.
 const NORMAL_REFLECTANCE: f64 = 0.04;
 
 /// A fitted node: (slope, alpha ratio, share, share of (1 - cos)^5) of each look-up.
@@ -258,7 +258,7 @@ impl RoundLobe {
     }
 }
 
-/// Shares of at least 0 whose sum is 1, and the square of what is left over the target's.
+/// Shares of at least 0 whose sum is 1, and the square of the residual over the target's.
 fn shares(products: &[[f64; N]; N], target: &[f64; N], target2: f64) -> ([f64; N], f64) {
     let held = SHARES_HELD * target2;
     let whole = 10.0 * target2;

@@ -1,4 +1,4 @@
-//! Runs a case and says what is wrong with how it ended.
+//! Runs a case and judges how it ended.
 
 use std::fs::File;
 use std::path::Path;
@@ -14,7 +14,7 @@ const PATIENCE: u64 = 10;
 /// A message of one line is no longer than this.
 const LONGEST_MESSAGE: usize = 4096;
 
-/// The program itself, and what its estimate of a scene may leave out, in MiB.
+/// Memory of the program itself, and of what its estimate of a scene may leave out, in MiB.
 const UNCOUNTED_MEBIBYTES: u64 = 192;
 
 /// Limits of time and memory of a case.

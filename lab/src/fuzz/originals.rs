@@ -240,7 +240,7 @@ fn repacked(original: &Packed, random: &mut Pcg64) -> Vec<u8> {
     glb(&mutate::text(&text, random), &chunk)
 }
 
-/// A scene with what is given, for cases that were found.
+/// A scene with the given tables, for cases that were found.
 pub fn scene_with(more: &str) -> String {
     format!("{HEAD}{more}")
 }

@@ -12,7 +12,7 @@ use meshopt_rs::index::sequence::encode_index_sequence;
 use meshopt_rs::vertex::VertexEncodingVersion;
 use meshopt_rs::vertex::buffer::encode_vertex_buffer;
 
-/// The text of a model and what is packed in its binary chunk.
+/// The text of a model and the packed data in its binary chunk.
 #[derive(Clone)]
 pub struct Packed {
     /// One behind the other in the chunk.

@@ -1,4 +1,4 @@
-//! One file: opened, rendered, and asked what of it is left out.
+//! One file: opened, rendered, and asked which of its contents are left out.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -55,7 +55,7 @@ impl fmt::Display for Outcome {
 }
 
 impl Opened {
-    /// Opens a file; `picture` is where what is rendered goes.
+    /// Opens a file; `picture` is the path of its picture.
     pub fn new(
         name: String,
         path: &Path,

@@ -1,4 +1,4 @@
-//! The document of what became of the files.
+//! The document of the files' outcomes.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;

@@ -21,7 +21,7 @@ fn agrees(found: &Compared, limit: f64) -> bool {
 /// and one direction to the lights for a whole pixel.
 const SCRATCHES: f64 = 0.01;
 
-/// The fitted lobes are off by 0.2 % of the brightest highlight in the mean, which is more of what their tails send.
+/// The fitted lobes are off by 0.2 % of the brightest highlight in the mean, which is more of their tails' light.
 const BASE: f64 = 0.05;
 
 /// Light of 0.1 rad and more from three sides of the mirror's direction: scratches of most orientations are lit.
@@ -96,7 +96,8 @@ fn coated_plates() {
     }
 }
 
-/// Clear layers with other normals than what is under them: smooth, and leaning another way. One lamp is setting behind the plate.
+/// Clear layers with other normals than the surface under them: smooth, and leaning another way. One lamp is setting behind the
+/// plate.
 #[test]
 fn plates_under_coats_of_other_normals() {
     let view = View {

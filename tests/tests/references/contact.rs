@@ -1,4 +1,5 @@
-//! Rays that begin on a surface: no light through what is thin, no shadow of what faces the light, no gap at the foot of what stands.
+//! Rays that begin on a surface: no light through thin objects, no shadow on surfaces that face the light, no gap at the foot of
+//! standing ones.
 
 use super::pictures::sampled;
 use super::scenes::{off_the_mirror, plate, sphere};
@@ -200,8 +201,8 @@ fn no_light_comes_from_beyond_a_wall() {
     }
 }
 
-/// Balls of 16 and of 4,096 triangles: what faces the lamp on a facet that faces it has all of its light, and of what the shading normal
-/// shows lit beyond, most is left.
+/// Balls of 16 and of 4,096 triangles: a point that faces the lamp on a facet that faces it has all of its light, and of the light that
+/// the shading normal shows beyond, most is left.
 #[test]
 fn balls_do_not_shade_themselves() {
     for (slices, stacks) in [(4, 3), (64, 33)] {

@@ -1,4 +1,4 @@
-//! Energy: in a white environment a mirror sends back what falls on it, with scratches and without.
+//! Energy: in a white environment a mirror sends back all light, with scratches and without.
 
 use super::pictures::{mean, sampled};
 use super::scenes::{View, plate, scratch};
@@ -79,7 +79,7 @@ fn a_scratched_mirror_returns_what_falls_on_it() {
     }
 }
 
-/// The field |B - S|^2 integrates to one, but for what goes beyond the horizon, and for a phase that changes with the angle.
+/// The field |B - S|^2 integrates to one, but for the light beyond the horizon, and for a phase that changes with the angle.
 #[test]
 fn the_full_field_returns_what_falls_on_it() {
     for angle_rad in [0.0, std::f64::consts::FRAC_PI_4] {

@@ -228,7 +228,7 @@ fn spots_keep_their_mean() {
     }
 }
 
-/// The rms of what pixels are off their mean, over it.
+/// Rms deviation of the pixels from their mean, over it.
 fn unevenness(image: &Image) -> f64 {
     let lit = mean(&image.scratches)[1];
     let off = image

@@ -1,4 +1,4 @@
-//! A scratched plate seen in a mirror, and what many mirrors make of a white sky.
+//! A scratched plate seen in a mirror, and a white sky among many mirrors.
 
 use super::pictures::{LINEAR, compared, mean, picked, sampled};
 use super::scenes::{HALF_SIDE_M, View, add_quad, plate, scratch, sphere};

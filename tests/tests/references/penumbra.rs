@@ -70,7 +70,8 @@ fn on_plane(from: DVec3, along: DVec3, facing: DVec3) -> DVec3 {
     along * (way.dot(facing) / along.dot(facing)) - way
 }
 
-/// Irradiance at a point under a lamp: all of it, and what passes the edge at x = 0 of a board.
+/// Irradiance at a point under a lamp: all of it, and the part that passes the edge at x = 0 of a
+/// board.
 fn irradiance(lamp: &Lamp, from: DVec3) -> [f64; 2] {
     const STEPS: i32 = 144;
     let towards = (MIDDLE_M - from).normalize();

@@ -9,7 +9,7 @@ use hairline_reference::{Integrator, Settings};
 use hairline_scene::Scene;
 use std::ops::ControlFlow;
 
-/// The mask that is linear in the shares: what it makes of a pixel's mean share is the mean of what it makes of the points.
+/// The mask that is linear in the shares: the mask of a pixel's mean share is the mean of the masks of the points.
 pub const LINEAR: Settings = Settings {
     model: hairline_reference::Model::Separable,
     mask: Mask::Linear,
@@ -51,7 +51,7 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// The relative rms beyond the noise, and what two standard errors more would make of it.
+    /// The relative rms beyond the noise, and that plus two standard errors.
     pub fn rms(&self) -> (f64, f64) {
         (
             self.beyond.relative_rms(),

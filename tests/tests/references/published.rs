@@ -21,7 +21,7 @@ fn by(scene: &Scene, method: Method) -> Image {
     closed_form::render(scene, &options, &|_| {})
 }
 
-/// The talk's switches without what it approximates for speed alone, and without its mask.
+/// The talk's switches without its approximations for speed alone, and without its mask.
 const EXACT: Method = Method {
     published: Some(PublishedMethod {
         structure: Structure::TriangleLists,

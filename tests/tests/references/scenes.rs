@@ -42,7 +42,7 @@ pub fn leaning(slopes: [f64; 2]) -> Texture {
     }
 }
 
-/// Scratches all over what the view shows, some to a pixel of 20 um: 1 to 4 um wide, 40 to 400 nm deep.
+/// Scratches all over the view, some to a pixel of 20 um: 1 to 4 um wide, 40 to 400 nm deep.
 pub fn scratch(scene: &mut Scene, view: View, count: u32) {
     let shown_m = f64::from(view.size_px) * view.pixel_um * 1e-6 / view.angle_rad.cos();
     // Half of it, and beyond the corners.

@@ -49,7 +49,7 @@ pub(super) fn bounced(scene: &Scene, samples: u32, shadows: bool, bounces: u32) 
     closed_form::render(scene, &options, &|_| {})
 }
 
-/// A picture without what is beside it: what rays found is not there where none is cast, and what a display averages adds up in another order.
+/// A picture's layers alone: without rays there is no light that rays found, and the tones add up in another order.
 pub(super) fn alone(image: Image) -> Image {
     Image {
         found: None,
@@ -254,7 +254,7 @@ pub(super) fn luminance(image: &Image, layer: Layer) -> Vec<f64> {
         .collect()
 }
 
-/// Many rays come to what the path tracer finds, as near as the closed forms come without shadows.
+/// Many rays converge to the path tracer's result, as near as the closed forms come without shadows.
 #[test]
 fn many_rays_come_to_the_path_tracers_shadows() {
     for (name, scene) in scenes() {

@@ -126,7 +126,7 @@ fn sheets_cover_their_share_of_what_lies_behind() {
     }
 }
 
-/// An image's alpha and that of vertices count; coverage is the picture's alpha; what is whole has none of it.
+/// An image's alpha and that of vertices count; coverage is the picture's alpha; whole surfaces have none of it.
 #[test]
 fn coverage_is_that_of_images_and_vertices() {
     let mut scene = floor([1.0; 3]);
@@ -156,7 +156,7 @@ fn coverage_is_that_of_images_and_vertices() {
     }
 }
 
-/// A black sheet between lamp, floor and camera takes its share of the light that falls, and again of what comes back; so in all
+/// A black sheet between lamp, floor and camera takes its share of the light that falls, and again of the light that comes back; so in all
 /// renderers.
 #[test]
 fn sheets_take_their_share_of_the_light() {

@@ -1,4 +1,5 @@
-//! Gratings with pictures and along texture coordinates: the GPU against the CPU, and what pictures mean.
+//! Gratings with pictures and along texture coordinates: the GPU against the CPU, and the meaning of
+//! pictures.
 
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use glam::{DMat4, DVec2, DVec3};

@@ -90,7 +90,7 @@ fn both_renderers_see_the_same_shapes() -> Result<(), String> {
     Ok(())
 }
 
-/// Shapes hide nothing from one another's light, and what they light shows it once.
+/// Shapes hide nothing from one another's light, and lit objects show it once.
 #[test]
 fn what_they_light_stays_as_it_is() {
     let [seen, unseen] = [lamps(true), lamps(false)];
@@ -118,7 +118,7 @@ fn what_they_light_stays_as_it_is() {
     }
 }
 
-/// Monte Carlo shows a lamp as bright, and what it lights shows it once, with bounces too.
+/// Monte Carlo shows a lamp as bright, and lit objects show it once, with bounces too.
 #[test]
 fn both_references_see_them() {
     for model in [Model::Separable, Model::Full] {
@@ -205,7 +205,7 @@ fn barn_doors_end_the_light() -> Result<(), String> {
     }
 }
 
-/// Matt paper under a sun: albedo / pi of what falls on it, by either renderer.
+/// Matt paper under a sun: albedo / pi of the irradiance, by either renderer.
 #[test]
 fn a_sun_on_matt_paper() -> Result<(), String> {
     const ALBEDO: f64 = 0.8;

@@ -302,7 +302,8 @@ fn bumps(seed: u64) -> Texture {
     }
 }
 
-/// Clear layers with other normals than what is under them, scratched, one of them with holes. What is under them glows and is brushed or not.
+/// Clear layers with other normals than the surface under them, scratched, one of them with holes. What is under them glows and is brushed or
+/// not.
 #[test]
 fn balls_under_layers_of_other_normals() {
     let [coarse, fine] = [(0, 0.7), (1, 1.0)].map(Some);

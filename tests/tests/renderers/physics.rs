@@ -21,7 +21,7 @@ fn relative_rms(a: &[[f32; 3]], b: &[[f32; 3]]) -> f64 {
     (error2 / value2).sqrt()
 }
 
-/// A smooth base with scratches under a white environment reflects what it reflects without them.
+/// A smooth base with scratches under a white environment reflects as much as without them.
 #[test]
 fn white_furnace() {
     let half_side = 2e-3;
@@ -50,8 +50,7 @@ fn white_furnace() {
 }
 
 /// White furnace from above to a grazing view. A groove sends light to each direction with the phase of that direction; the
-/// light that it takes depends on the mirror's alone. What a groove sends to each direction it sends with the phase of that
-/// direction; what it takes goes by the mirror's alone. The two agree for a narrow lobe, and the wider it is and the lower the
+/// light that it takes depends on the mirror's alone. The two agree for a narrow lobe, and the wider it is and the lower the
 /// viewer, the less: of |B - S|^2 with all its phases the same is true.
 #[test]
 fn white_furnace_from_all_sides() {

@@ -202,7 +202,7 @@ fn rows_of(image: &Image, rows: Range<u32>) -> Image {
     part
 }
 
-/// Rows that begin within what is a tile of the whole, and bands of ten rows.
+/// Rows that begin within a tile of the whole, and bands of ten rows.
 #[test]
 fn a_part_is_the_same_as_in_the_whole() {
     let Some(gpu) = headless::test_gpu() else {

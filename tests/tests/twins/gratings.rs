@@ -1,4 +1,4 @@
-//! Rows of grooves: which way they run under a pixel, how their band is widened, and what they send of light from all around.
+//! Rows of grooves: their directions under a pixel, the width of their band, and their light from all around.
 
 use super::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec2, DVec3};

@@ -203,7 +203,7 @@ fn packed_normals() {
     .check(&rows, 0);
 }
 
-/// The point in the frame of what is under its coat, from a viewer in the x-z plane of the coat's.
+/// The point in the frame of the surface under its coat, from a viewer in the x-z plane of the coat's.
 #[test]
 fn frames_under_coats() {
     let mut random = Sequence(5);

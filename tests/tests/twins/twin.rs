@@ -1,4 +1,4 @@
-//! Feeds the same rows to a WGSL snippet and to an f64 function and compares what comes out.
+//! Feeds the same rows to a WGSL snippet and to an f64 function and compares the results.
 
 pub use conformance::Sequence;
 use hairline_gpu::call::{Call, Table};

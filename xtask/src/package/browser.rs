@@ -1,4 +1,4 @@
-//! Pages in a headless Chromium: a server of files on this machine, to which pages send what they drew.
+//! Pages in a headless Chromium: a server of files on this machine, to which pages send their pictures.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};

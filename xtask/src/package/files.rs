@@ -1,11 +1,11 @@
-//! Files of the package, and what its tests need from npm.
+//! Files of the package, and the npm packages of its tests.
 
 use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, ensure};
 
-/// Runs a test in its folder, with what it needs installed there.
+/// Runs a test in its folder, with its npm packages installed there.
 pub(super) fn node(folder: &Path, script: &[&str], output: &Path) -> anyhow::Result<()> {
     install(folder)?;
     let status = Command::new("node")

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use hairline_gpu::shaders::{Module, with_needs};
 
-/// Columns and rows of the package's tables: 2 MiB a metal, a quarter of what the renderer has.
+/// Columns and rows of the package's tables: 2 MiB a metal, a quarter of the renderer's.
 pub(super) const TABLE_SIZE: [u32; 2] = [512, 256];
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -14,7 +14,7 @@ pub struct Machine {
     pub adapter: Option<String>,
     pub adapter_kind: Option<&'static str>,
     pub driver: Option<String>,
-    /// Whether times are the device's own: its passes, without what the host does around them.
+    /// Whether times are the device's own: its passes, without the host's work around them.
     pub device_clock: bool,
     pub cpu: String,
     pub threads: usize,

@@ -144,7 +144,7 @@ fn warm_up(
     Ok(least)
 }
 
-/// The smaller of what was wanted so far and `count` strips.
+/// The smaller of the rows so far and `count` strips.
 fn fewer(rows: &PictureRows, height: u32, count: u32) -> PictureRows {
     match rows {
         PictureRows::Strips(so_far) if so_far.len() as u32 <= count => rows.clone(),

@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 use super::figure::figure;
 use super::side::Side;
 
-/// A column of the table: a heading, the figure, and what it means to someone who meets it first.
+/// A column of the table: a heading, the figure, and an explanation for someone who meets it first.
 pub struct Column {
     /// Short enough for a heading.
     pub heading: &'static str,

@@ -1,4 +1,4 @@
-//! `hairline info SCENE`: what a scene is made of.
+//! `hairline info SCENE`: the contents of a scene.
 
 use std::fmt::{self, Write};
 use std::path::{Path, PathBuf};
@@ -173,7 +173,7 @@ struct Memory {
     available_bytes: Option<u64>,
 }
 
-/// Loads the scene and prints what it holds.
+/// Loads the scene and prints its contents.
 pub fn run(path: &Path, json: bool) -> Result<(), Failure> {
     let loaded = scene_file::load(Some(path), &Overrides::default(), &[])?;
     let contents = contents(&loaded);

@@ -68,7 +68,7 @@ impl Motion {
         }))
     }
 
-    /// Refuses a way that leaves what scenes allow.
+    /// Refuses a motion that leaves the ranges of scenes.
     ///
     /// # Errors
     /// [`Failure::Input`].

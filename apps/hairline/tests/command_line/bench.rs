@@ -1,4 +1,4 @@
-//! `hairline bench` on pictures of a few pixels: that all is measured and written, not what comes out.
+//! `hairline bench` on pictures of a few pixels: that all is measured and written, not the results.
 
 use std::fs;
 use std::path::Path;

@@ -185,7 +185,7 @@ const NO_DRIVERS: [(&str, &str); 3] = [
     ("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"),
 ];
 
-/// Runs on a machine without a display, and says what is on stderr.
+/// Runs on a machine without a display, and returns stderr.
 fn stderr_without_display<'a>(
     folder: &Path,
     arguments: &str,

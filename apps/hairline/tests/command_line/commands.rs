@@ -10,7 +10,7 @@ use crate::common::{command, folder_with, hairline, names_in, stderr_of, stdout_
 use hairline_fixtures::scenes::bare_plate;
 use hairline_image::{Display, Output, Picture, exr_file};
 
-/// A plate under a lamp with a name, without scratches, and what is given.
+/// A plate under a lamp with a name, without scratches, and the given tables.
 fn scene(more: &str) -> String {
     bare_plate()
         .size_px([48, 27])

@@ -1,4 +1,4 @@
-//! The flags that choose a method: what is refused, and what the picture remembers.
+//! The flags that choose a method: refusals, and the picture's notes.
 
 use crate::common::{SCRATCHED, folder_with, hairline, stderr_of};
 use hairline_image::exr_file;

@@ -1,4 +1,5 @@
-//! Models that are rendered without a scene: at a time, by a camera of the file, and with what of the file is not in the picture.
+//! Models that are rendered without a scene: at a time, by a camera of the file, and with notes on the contents that the picture does not
+//! have.
 
 use std::path::Path;
 

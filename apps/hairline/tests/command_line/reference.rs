@@ -1,4 +1,4 @@
-//! `hairline reference` from outside: what it says, what it leaves behind, and that stopping costs nothing.
+//! `hairline reference` from outside: its messages, its files, and that stopping costs nothing.
 
 use std::fs;
 use std::path::Path;

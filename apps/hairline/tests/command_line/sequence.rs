@@ -1,4 +1,4 @@
-//! Sequences from outside: what is written, what is refused, and that stopping leaves whole files only.
+//! Sequences from outside: written files, refusals, and that stopping leaves whole files only.
 
 use std::path::Path;
 

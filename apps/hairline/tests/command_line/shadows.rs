@@ -1,4 +1,4 @@
-//! `render --shadows on`: what is refused, and that it reaches the picture.
+//! `render --shadows on`: refusals, and that it reaches the picture.
 
 use crate::common::{folder_with, hairline, stderr_of};
 use hairline_image::exr_file;

@@ -1,4 +1,5 @@
-//! `render --transparent`: alpha against what the same picture lacks before a white background.
+//! `render --transparent`: alpha against the share of white in the same picture before a white
+//! background.
 
 use crate::common::{folder_with, hairline, stderr_of};
 use hairline_image::{Display, Output, Picture, exr_file};

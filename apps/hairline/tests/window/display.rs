@@ -1,4 +1,4 @@
-//! An X display without a screen: its server, mouse, keyboard and what is on it.
+//! An X display without a screen: its server, mouse, keyboard and contents.
 
 use std::cell::RefCell;
 use std::io::{BufRead, BufReader, IoSlice};

@@ -122,7 +122,7 @@ impl<'d> Window<'d> {
         }
     }
 
-    /// Saves by the keyboard and reads what was saved.
+    /// Saves by the keyboard and reads the saved file.
     fn save(&self) -> Description {
         self.display.keys(&["Control_L", "s"]);
         self.wait_for_title("plate.toml · Hairline");

@@ -207,8 +207,8 @@ impl AreaLights {
         }
     }
 
-    /// A cone that holds every direction from a point to light `i`: what the tests draw even directions from. To tell which
-    /// directions a light can reach, [`AreaLights::extent`] is tighter.
+    /// Returns a cone that holds every direction from a point to light `i`; the tests draw even directions from it. To tell which directions a light can reach,
+    /// [`AreaLights::extent`] is tighter.
     #[cfg(test)]
     pub(crate) fn bound(&self, i: usize, from: DVec3) -> Bound {
         match &self.lights[i].shape {

@@ -1,4 +1,4 @@
-//! Directions by way of a scratch or a grating, drawn in proportion to what comes from there: shadow rays go that way.
+//! Directions by way of a scratch or a grating, drawn in proportion to the light that it sends from there, for shadow rays.
 
 use super::scratch_light::ScratchLight;
 use crate::light_view::{LightView, LightViews};
@@ -21,7 +21,7 @@ pub(crate) struct DrawnLight {
     pub color: DVec3,
 }
 
-/// One of many, drawn by the luminance of what each sends.
+/// Choice of one of many, by the luminance that each sends.
 pub(crate) struct Choice {
     /// Light of all of them.
     total: DVec3,
@@ -64,11 +64,11 @@ impl Choice {
     }
 }
 
-/// One of many lines, drawn by what comes along them.
+/// Choice of one of many lines, by the light that comes along them.
 struct Offers<F> {
     chord: DrawnChord,
     lines: Choice,
-    /// The line, the parts of it that light covers, and the antiderivative of what comes from there.
+    /// The line, the parts of it that light covers, and the antiderivative of the light from there.
     taken: Option<(BandLine, DrawnChord, F)>,
 }
 
@@ -104,7 +104,7 @@ impl<F: Fn(f64) -> DVec3> Offers<F> {
         })
     }
 
-    /// The direction in the frame of the scratch, and the colour of what comes from there, of luminance 1.
+    /// Draws the direction in the frame of the scratch, and the colour of the light from there, of luminance 1.
     fn place(&self, chord_u: f64) -> Option<(DVec3, DVec3)> {
         let (line, chord, spectrum) = self.taken.as_ref()?;
         let (low, high) = chord.draw(|q| luminance(spectrum(q)), chord_u)?;
@@ -115,8 +115,8 @@ impl<F: Fn(f64) -> DVec3> Offers<F> {
 }
 
 impl ScratchLight<'_> {
-    /// A direction from which a light reaches the viewer by way of the scratch: drawn in proportion to the luminance of what comes from there,
-    /// by three numbers in [0, 1). None where nothing comes. Other arguments as for [`Self::light`].
+    /// Draws a direction from which a light reaches the viewer by way of the scratch, in proportion to the luminance from there, by three numbers
+    /// in [0, 1). None where nothing comes. Other arguments as for [`Self::light`].
     pub fn draw_light(
         &self,
         stds: &BandStds,

@@ -201,7 +201,7 @@ impl Group {
 /// A segment under the footprints of a group.
 #[derive(Default)]
 pub(super) struct Seen {
-    /// 1 for those that see it; what else there is of others may be no number.
+    /// 1 for lanes that see the segment; the other values of the rest may be no numbers.
     sees: [u64; LANES],
     /// Tangent of the segment, in the surface's frame.
     tangent: [Lanes; 2],
@@ -220,7 +220,7 @@ impl Seen {
         DVec2::new(self.tangent[0][lane], self.tangent[1][lane])
     }
 
-    /// The ends of the segment, in standard deviations of what lies along it.
+    /// Ends of the segment, in standard deviations along it.
     pub fn ends(&self, lane: usize) -> [f64; 2] {
         [self.low[lane], self.high[lane]]
     }

@@ -13,7 +13,7 @@ use hairline_optics::band::OutlineRoots;
 use hairline_optics::mask::ScratchSums;
 use std::f64::consts::PI;
 
-/// Adds up what the scratches at a point take of the base, and picks one pair. `picks` were cleared for one round.
+/// Adds up the energy that the scratches at a point take of the base, and picks one pair. `picks` were cleared for one round.
 pub(crate) fn pick_one_pair(
     prepared: &Prepared,
     at: &ScratchPoint,

@@ -1,5 +1,5 @@
 //! Scratches that stand for all: a few pairs of a scratch and a light, each drawn with the probability of its part of the light that the scratches
-//! of a point send, and a few scratches by what they take of the base. Rays start from them.
+//! of a point send, and a few scratches by the energy that they take of the base. Rays start from them.
 
 use super::row_spread::RowSpread;
 use crate::sampling::luminance;
@@ -82,7 +82,7 @@ pub(crate) struct Picks {
     pub radiance: DVec3,
     /// Energy that all scratches take of the base.
     pub energy: DVec3,
-    /// Pairs of a scratch and a source, by what the one sends of the other.
+    /// Pairs of a scratch and a source, by the light that the scratch sends of the source.
     pub lit: Reservoirs,
     /// Scratches by the energy that they take.
     pub by_energy: Reservoirs,
@@ -108,7 +108,7 @@ impl Picks {
         self.by_energy.clear(count);
     }
 
-    /// Adds what a scratch sends by way of a source.
+    /// Adds the light that a scratch sends by way of a source.
     #[inline]
     pub fn add_light(&mut self, source: usize, radiance: DVec3, pick: impl FnOnce() -> Pick) {
         self.radiance += radiance;
@@ -120,7 +120,7 @@ impl Picks {
         self.lit.add(&mut self.random, luminance(radiance), pick);
     }
 
-    /// Adds what a scratch takes of the base.
+    /// Adds the energy that a scratch takes of the base.
     #[inline]
     pub fn add_energy(&mut self, energy: DVec3, pick: impl FnOnce() -> Pick) {
         self.energy += energy;

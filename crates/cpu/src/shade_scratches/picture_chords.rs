@@ -7,8 +7,8 @@ use hairline_optics::band::{BandLine, DrawnChord, OutlineRoots};
 use hairline_optics::picture::{PICTURE_CELLS, PICTURE_ROW_CELLS, picture_place};
 
 impl ScratchLight<'_> {
-    /// The parts of the chords of a light, from q to q, with what the picture sends from there. `of_luminance` is the antiderivative of what
-    /// the groove sends.
+    /// Cuts the chords of a light into parts, from q to q, with the light that the picture sends from there. `of_luminance` is the
+    /// antiderivative of the luminance that the groove sends.
     pub(super) fn picture_parts(
         &self,
         line: BandLine,

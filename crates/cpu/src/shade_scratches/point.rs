@@ -1,4 +1,4 @@
-//! A point that is shaded, and what a scratch is to it.
+//! A point that is shaded, and its relation to a scratch.
 
 use crate::light_view::LightViews;
 use crate::surface::SurfacePoint;
@@ -54,7 +54,7 @@ impl Frame {
     }
 }
 
-/// The share of a segment from what its place under a footprint amounts to: [`hairline_optics::footprint::scratch_share`].
+/// Share of a segment from its place under a footprint: [`hairline_optics::footprint::scratch_share`].
 #[inline]
 pub(super) fn share(
     width_um: f64,

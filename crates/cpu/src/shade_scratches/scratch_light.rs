@@ -190,7 +190,7 @@ impl<'a> ScratchLight<'a> {
             || motion.reaches(middle - cap.sin_radius, middle + cap.sin_radius, stds.mean)
     }
 
-    /// The antiderivative over q of what the groove sends for light from a part of a line.
+    /// Antiderivative over q of the light that the groove sends from a part of a line.
     pub(super) fn spectrum(
         &self,
         line: BandLine,
@@ -273,7 +273,7 @@ impl<'a> ScratchLight<'a> {
         }))
     }
 
-    /// The light of an outline along a line, given its roots there and the antiderivative over q of what the groove sends.
+    /// Light of an outline along a line, given its roots there and the antiderivative over q of the groove's light.
     fn on_line(
         &self,
         line: BandLine,

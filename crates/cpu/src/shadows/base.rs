@@ -55,7 +55,7 @@ struct LobeRay {
     followed: Option<Option<Hit>>,
 }
 
-/// A direction to a source, and what it stands for.
+/// A direction to a source, with the weight of its ray.
 struct Candidate {
     direction: DVec3,
     distance_m: f64,

@@ -1,4 +1,4 @@
-//! Rays by way of scratches and of gratings: in each round one to a source, and one for what other objects send.
+//! Rays by way of scratches and of gratings: in each round one to a source, and one for the light of other objects.
 
 use super::{HitRoom, MetObject, Purpose, RayEnd, ShadowPoint, Shadows, normals};
 use crate::found::{LayerLight, LayerRays};
@@ -10,7 +10,7 @@ use glam::DVec3;
 use hairline_optics::gaussian::gaussian;
 
 impl<'a> Shadows<'a> {
-    /// The gratings at a point, with what rays find of their light. `picks` is room for theirs.
+    /// Shades the gratings at a point, with the light that rays find for them. `picks` is room for theirs.
     pub fn gratings(
         &self,
         at: &ShadowPoint,
@@ -141,7 +141,7 @@ impl<'a> Shadows<'a> {
         }
     }
 
-    /// A place on a scratch, drawn by what the pixel sees of it.
+    /// Draws a place on a scratch, by the pixel's share of it.
     fn on_scratch(&self, at: &ShadowPoint, purpose: Purpose, round: u32, pick: &Pick) -> DVec3 {
         let [u, v, w, x] = at.random(purpose, round);
         let [right, down] = normals(u, v);

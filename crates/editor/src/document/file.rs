@@ -61,7 +61,7 @@ impl Document {
         })
     }
 
-    /// Reads a scene file's text as [`Self::open`] does; `name` is what errors call it.
+    /// Reads a scene file's text as [`Self::open`] does; `name` is the file's name in errors.
     ///
     /// # Errors
     /// What is wrong in the text, with its line.
@@ -112,7 +112,7 @@ impl Document {
         self.is_modified && self.saved.is_some()
     }
 
-    /// Goes back to what was opened or saved last, as one step, which undo takes back.
+    /// Goes back to the description that was opened or saved last, as one step, which undo takes back.
     pub fn revert(&mut self) {
         if let Some(saved) = self.saved.clone() {
             self.edit("Revert", |d| d.clone_from(&saved));

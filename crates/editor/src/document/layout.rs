@@ -1,15 +1,15 @@
-//! A scene file's own layout: comments, order and spelling of what an edit did not touch stay as they were written.
+//! A scene file's own layout: comments, order and spelling of the parts that an edit did not touch stay as they were written.
 //!
-//! The file's text is not understood here. What it meant is written out as the scene format writes it, before and after the edit; where
-//! those two differ the text is changed, and nowhere else. The result is read again, and where it does not mean the scene
-//! after all, the plain form is taken.
+//! The file's text is not understood here. Its meaning is written out as the scene format writes it, before and after the edit; where
+//! those two differ the text is changed, and nowhere else. The result is read again, and where it does not mean the edited scene, the
+//! plain form is taken.
 
 use std::path::Path;
 
 use hairline_scene::Description;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
 
-/// The text of a scene file that holds `description`: `original` with what has changed, or `plain` where that cannot be.
+/// Returns the text of a scene file that holds `description`: `original` with the changes, or `plain` where that cannot be.
 pub(super) fn kept(original: &str, description: &Description, plain: String) -> String {
     match merged(original, &plain) {
         Some(text) if means(&text, description) => text,

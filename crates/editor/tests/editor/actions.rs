@@ -1,4 +1,4 @@
-//! Actions: what they leave is a scene, and the selection stays on what was selected.
+//! Actions: their results are scenes, and the selection stays on the selected part.
 
 use std::path::Path;
 

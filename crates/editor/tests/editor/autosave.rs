@@ -1,4 +1,4 @@
-//! Autosaves: when they are written, who is offered them, and what comes back.
+//! Autosaves: when they are written, to whom they are offered, and their recovery.
 
 use std::path::Path;
 use std::time::Duration;

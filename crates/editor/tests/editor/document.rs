@@ -1,4 +1,4 @@
-//! Documents: steps, drags, what counts as modified, and files.
+//! Documents: steps, drags, modification, and files.
 
 use std::path::{Path, PathBuf};
 

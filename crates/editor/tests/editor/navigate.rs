@@ -1,4 +1,5 @@
-//! The camera's tools, by what must stay and what must follow, for cameras of any up.
+//! The camera's tools, by the points that must stay and those that must follow, for cameras of any
+//! up.
 
 use crate::seeded;
 use glam::{DVec2, DVec3};

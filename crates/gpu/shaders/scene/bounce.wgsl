@@ -7,8 +7,7 @@ struct BounceWay {
 }
 
 // Probability with which the ray of a sample goes by way of its scratches and its gratings, which take so much of the base. The camera's samples
-// send rays all ways in turn; hits send one, where the CPU's send all. The camera's samples send rays all ways by turns; what those meet sends
-// one, where the CPU's sends all.
+// send rays all ways in turn; hits send one, where the CPU's send all.
 fn bounce_way(way: u32, by_scratches: vec3f, by_gratings: vec3f, which: ShadowRound) -> BounceWay {
     if which.depth == 0u {
         return BounceWay(0.0, f32(way == which.way));

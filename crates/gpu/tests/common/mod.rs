@@ -45,7 +45,7 @@ pub fn scene(text: &str) -> Scene {
     Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A device of its own with what a browser grants; none where tests have no adapter.
+/// A device of its own with the limits of a browser; none where tests have no adapter.
 pub fn default_limits() -> Option<Gpu> {
     test_gpu()?;
     let request = AdapterRequest {
@@ -55,7 +55,7 @@ pub fn default_limits() -> Option<Gpu> {
     Some(headless::open(&request).unwrap())
 }
 
-/// A scene with what is made of it, as an editor keeps it.
+/// A scene with its trees and tables, as an editor keeps it.
 #[derive(Clone)]
 pub struct Made {
     pub scene: Scene,

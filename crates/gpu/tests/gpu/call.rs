@@ -1,4 +1,4 @@
-//! The harness that calls WGSL functions: it must return what the function computes, and must be able to fail.
+//! The harness that calls WGSL functions: it must return the function's results, and must be able to fail.
 
 use crate::common::default_limits;
 use hairline_gpu::call::{Call, Table, Texels};

@@ -100,7 +100,7 @@ fn a_canvas_holds_a_batch_of_samples_by_itself() {
     assert!(penumbra > 50, "each batch has its own rays: {penumbra}");
 }
 
-/// A canvas shows what the host's filter makes of what rays found, across bands.
+/// A canvas shows the result of the host's filter, across bands.
 #[test]
 fn a_canvas_is_shown_as_the_host_filters_it() {
     let Some(gpu) = test_gpu() else { return };

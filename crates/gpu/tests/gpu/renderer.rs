@@ -1,4 +1,4 @@
-//! The way of a picture through the device: what is seen, sample after sample, band after band, and what goes wrong.
+//! Pictures of the device: visibility, sample after sample, band after band, and errors.
 
 use crate::common::{default_limits, options};
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};

@@ -147,7 +147,7 @@ impl Sums {
     }
 }
 
-/// A hundredth of the median block's mean variance: what is added to the neighbours' noise, so that a pixel whose
+/// Variance that is added to the neighbours' noise, a hundredth of the median block's mean variance, so that a pixel whose
 /// neighbours have hardly any does not outweigh the picture.
 fn variance_floor(blocks: &Blocks) -> f64 {
     let mut means: Vec<f64> = blocks

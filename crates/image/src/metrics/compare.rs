@@ -56,7 +56,7 @@ pub enum Problem {
         /// Number of values, each component by itself.
         values: usize,
     },
-    /// One image is a PNG, so that the other was tone-mapped too and only what a display shows was compared.
+    /// One image is a PNG, so that the other was tone-mapped too and only the displayed colours were compared.
     ToneMapped {
         /// The image that was tone-mapped for it.
         side: Side,

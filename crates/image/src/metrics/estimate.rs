@@ -1,4 +1,4 @@
-//! Values with what is known of their noise.
+//! Values with their variances, where they are known.
 
 /// A layer whose values are known exactly or as Monte Carlo estimates.
 #[derive(Clone, Copy, Debug)]

@@ -17,7 +17,7 @@ const VALUES_MIN: usize = 100;
 /// approximation, make a few percent. A variance wrong by two does not pass.
 const MEAN_SQUARE_TOLERANCE: f64 = 1.3;
 
-/// Standard errors by which a figure must be beyond what is tolerated: one correct picture in 15,000 is called wrong.
+/// Standard errors by which a figure must exceed its tolerance: one correct picture in 15,000 is called wrong.
 const SIGMAS: f64 = 4.0;
 
 /// The chance that a correct picture has one block so far out that it is called wrong.

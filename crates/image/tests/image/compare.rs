@@ -1,4 +1,4 @@
-//! Comparisons of whole files: the figures of each layer, and what is reported because it has none.
+//! Comparisons of whole files: the figures of each layer, and reports about layers without any.
 
 use hairline_image::metrics::{Problem, Side, Verdict, compare};
 use hairline_image::{Display, Image, Layer, Layers, Noise, Picture, ToneMap};

@@ -1,4 +1,4 @@
-//! Files: what is written reads back, and what cannot be written leaves nothing behind.
+//! Files: written files read back, and files that cannot be written leave nothing behind.
 
 use std::fs;
 use std::io::Write;

@@ -68,7 +68,7 @@ pub(crate) struct Tree {
     pub segments: Range<u32>,
 }
 
-/// Nodes in a row, with what their numbers have to become.
+/// Nodes in a row, and the changes of their numbers.
 pub(super) struct Piece<'a> {
     pub nodes: Cow<'a, [ScratchNode]>,
     /// The number of its first node.

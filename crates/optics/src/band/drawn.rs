@@ -1,4 +1,4 @@
-//! A direction of a light's chords, drawn in proportion to what the scratch sends from there.
+//! A direction of a light's chords, drawn in proportion to the light that the scratch sends from there.
 
 /// Halvings of an interval that find a place: to 1e-7 of its length, finer than a fringe of the widest scratches.
 const HALVINGS: u32 = 24;
@@ -6,7 +6,7 @@ const HALVINGS: u32 = 24;
 /// The parts of a line that a light covers, as intervals of q.
 #[derive(Clone, Debug, Default)]
 pub struct DrawnChord {
-    /// (low, high), ascending, with what the scratch sends from there.
+    /// (low, high), ascending, with the light that the scratch sends from there.
     intervals: Vec<(f64, f64, f64)>,
     total: f64,
 }

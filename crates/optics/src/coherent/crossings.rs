@@ -6,7 +6,8 @@ use super::cell::{Cell, REACH};
 use super::polygon::{HalfPlane, Polygon};
 use glam::DVec2;
 
-/// Polygons end this many sigma from the middle, far enough that what matters of a crossing mostly stays a parallelogram.
+/// Distance of polygons' ends from the middle in sigma, far enough that the part of a crossing that matters mostly stays
+/// a parallelogram.
 const FRAME: f64 = 2.0 * REACH;
 /// Parts with less than this share of sigma squared are nothing but rounding.
 const LEAST_AREA: f64 = 1e-11;

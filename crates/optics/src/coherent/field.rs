@@ -45,8 +45,8 @@ enum Along {
 }
 
 impl GrooveField {
-    /// Finds what crosses: the square of the number of pieces in cheap tests, so leave out what the window does not
-    /// reach.
+    /// Finds the crossings: the square of the number of pieces in cheap tests, so leave out pieces that the window does
+    /// not reach.
     pub fn new(pieces: Vec<GroovePiece>, coherence_um: f64) -> Self {
         let strips = pieces
             .iter()
@@ -66,7 +66,7 @@ impl GrooveField {
         &self.pieces
     }
 
-    /// S in um, as [`super::scratch_amplitude`], less what is hidden: (35).
+    /// S in um, as [`super::scratch_amplitude`], less the hidden parts: (35).
     pub fn amplitude(&self, xi: DVec2, cos_sum: f64, wavelength_nm: f64) -> Complex64 {
         let wavelength_um = wavelength_nm * 1e-3;
         let k = Lanes([2.0 * PI / wavelength_um]);

@@ -7,7 +7,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 /// Largest angle in radians that is reduced here: beyond it the quarter turns no longer count exactly, and the standard
 /// library serves.
 const LARGEST_RAD: f64 = 1e6;
-/// 1.5 * 2^52: what is added to it is rounded to a whole number, whose last bits are those of the sum.
+/// 1.5 * 2^52: a number that is added to it is rounded to a whole one, whose last bits are those of the sum.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 /// pi/2 in three parts: 33 bits, 33 bits, the rest. Up to 2^20 times the first two are exact.
 const QUARTER_TURN: [f64; 3] = [

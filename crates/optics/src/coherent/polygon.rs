@@ -1,4 +1,4 @@
-//! Convex polygons: what is left of one after cuts, and trapezoids that tile it.
+//! Convex polygons: their cuts, and trapezoids that tile them.
 
 use super::cell::Trapezoid;
 use glam::DVec2;

@@ -52,8 +52,7 @@ pub struct Branches {
 
 impl GroovesAt {
     /// Returns the grooves of a row with a fixed number of turns. At the point it is `turns`, and changes by so many per metre along the
-    /// direction. At the point it is `turns`, and changes by so many per metre along the direction. None where they are too many to be told
-    /// apart.
+    /// direction. None where they are too many to be told apart.
     pub fn branching(turns: f64, turns_per_m: f64, pitch_um: f64) -> Option<Self> {
         // Grooves of this pitch to a turn.
         let count = 1e6 / (pitch_um * turns_per_m.abs().max(1e-12));
@@ -102,8 +101,8 @@ impl Grating {
         coherence_um * 0.5f64.sqrt() < MEAN_STD * self.pitch_um
     }
 
-    /// The factor on what the row sends: 1 in the mean. `std_um` is the standard deviation of pixel and window across the grooves, the root of
-    /// V in (20).
+    /// The factor on the row's light: 1 in the mean. `std_um` is the standard deviation of pixel and window across the grooves, the root of V in
+    /// (20).
     pub fn groove_density(&self, at: GroovesAt, std_um: f64, seed: u32) -> f64 {
         let pitch_um = self.mean_pitch_um(&at);
         let part = (std_um / pitch_um - SINGLE_STD) / (MEAN_STD - SINGLE_STD);

@@ -63,7 +63,7 @@ impl Columns {
 }
 
 impl Grating {
-    /// T_c(q, d): what the row sends between the mirror's direction and q, per unit of the surface that it covers, (44). `reflectance` is
+    /// T_c(q, d): the light that the row sends between the mirror's direction and q, per unit of the surface that it covers, (44). `reflectance` is
     /// spectral at normal incidence, and its colour is divided out, as in [`ScratchTable::new`]. `coherence_um` is sigma: orders are as wide as the
     /// band of a scratch, across it too.
     ///
@@ -166,7 +166,7 @@ impl Grating {
         sums
     }
 
-    /// The integral over q of what grooves send each for itself, over E |D|^2, and what of it is sent together instead, over |E D|^2.
+    /// Integral over q of the light of single grooves, over E |D|^2, and of the part that is sent together instead, over |E D|^2.
     fn rest(&self, columns: &Columns, wavelength_nm: f64) -> [Vec<Rise>; 2] {
         let wavelength_um = wavelength_nm * 1e-3;
         let (width, k) = (self.width_um, 2.0 * PI / wavelength_um);

@@ -89,7 +89,7 @@ fn brute_force(row: &Grating, rows: usize, step: f64, count: usize, seed: u64) -
     sums
 }
 
-/// Errors of the table against what random rows send to lights of the given sizes, relative rms, without order 0.
+/// Errors of the table against the light of random rows towards lights of the given sizes, relative rms, without order 0.
 fn errors(row: &Grating, sizes: &[f64], rows: usize) -> Vec<f64> {
     let table = row.table(SIGMA_UM, green);
     let step = 1e-3;
@@ -218,7 +218,7 @@ fn energy_is_kept() {
     }
 }
 
-/// Scratches with the density 1/pitch are what a row without any order comes to.
+/// A row without any order sends the light of scratches with the density 1/pitch.
 #[test]
 fn a_row_without_order_is_its_scratches() {
     let row = Grating {

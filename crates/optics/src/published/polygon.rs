@@ -137,8 +137,7 @@ pub fn triangle_segments(wo: DVec3, corners: [DVec3; 3]) -> BandSegments {
 }
 
 /// Sorts the places in ascending order by K. E. Batcher's bitonic network (*Sorting networks and their applications*, 1968):
-/// six rounds, the same for any input. E. Batcher's bitonic network (*Sorting networks and their applications*, 1968): six
-/// rounds, the same for any input.
+/// six rounds, the same for any input.
 pub fn bitonic_sort(mut places: [f64; 8]) -> [f64; 8] {
     for block in [2, 4, 8] {
         let mut distance = block / 2;

@@ -82,7 +82,7 @@ impl PublishedSpectrum {
         })
     }
 
-    /// The mean of |D|^2 in each channel: what a scratch radiates in all, and takes from the base.
+    /// The mean of |D|^2 in each channel: the energy that a scratch radiates in all, and takes from the base.
     pub fn total(&self, depth_nm: f64) -> [f64; 3] {
         self.wavelengths.iter().fold([0.0; 3], |sum, w| {
             let energy = scratch::phase_step_energy(depth_nm, 1e3 * w.wavelength_um);
@@ -108,8 +108,8 @@ pub fn published_chord_integral(
     (2.0 * si.eval(x) - 4.0 * s * s / x) / k_w
 }
 
-/// Computes what one wavelength adds to the channels: weight |D|^2 W/lambda times the sum of N(q1) - N(q0) over the
-/// segments.
+/// Computes the contribution of one wavelength to the channels: weight |D|^2 W/lambda times the sum of N(q1) - N(q0) over
+/// the segments.
 pub fn published_radiance(
     wavelength: PublishedWavelength,
     segments: &BandSegments,

@@ -38,7 +38,7 @@ fn integral(
     (-count..=count).into_par_iter().map(row).sum::<f64>() * step * step
 }
 
-/// Grooves that do not meet: each floor is a phase, so Parseval holds to what lies beyond the reach.
+/// Grooves that do not meet: each floor is a phase, so Parseval holds but for the energy beyond the reach.
 #[test]
 fn without_crossings_and_horizon_energy_is_exact() {
     let coherence_um = 5.0;

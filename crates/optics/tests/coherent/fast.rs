@@ -227,8 +227,8 @@ fn edges(g: &GroovePiece) -> impl Iterator<Item = (DVec2, f64)> {
     .filter(|(_, distance)| distance.is_finite())
 }
 
-/// The Fourier integral of what deeper grooves hide of a piece, in thin slices along it. Slices are Gauss's on panels that
-/// end wherever two edges meet, as what is hidden of a line has its kinks there.
+/// The Fourier integral of the part of a piece that deeper grooves hide, in thin slices along it. Slices are Gauss's on
+/// panels that end wherever two edges meet, as what is hidden of a line has its kinks there.
 fn hidden_by_slices(
     piece: &GroovePiece,
     deeper: &[GroovePiece],

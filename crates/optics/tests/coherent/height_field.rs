@@ -23,7 +23,7 @@ const WAVELENGTHS_NM: [f64; 3] = [450.0, 550.0, 650.0];
 /// spectrum has fallen to a fourteenth and the cell's transfer function to another. At worst 3e-4, at 450 nm.
 const BOUND: f64 = 6e-4;
 
-/// The difference of two fields relative to what the grooves scatter, rms over the propagating disc and at worst.
+/// The difference of two fields relative to the grooves' light, rms over the propagating disc and at worst.
 struct Difference {
     rms: f64,
     worst: f64,
@@ -308,7 +308,7 @@ fn a_window_constant_across_the_groove_costs_its_width_squared() {
     }
 }
 
-/// The amplitude without D times D is what the sum is made of, and depths may share it.
+/// The sum consists of amplitudes without D times D, and depths may share the amplitudes.
 #[test]
 fn the_sum_is_made_of_its_terms() {
     let grooves = pieces(&five_random());

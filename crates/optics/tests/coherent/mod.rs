@@ -1,4 +1,4 @@
-//! The full-wave field against a Fourier transform of a rasterised surface, and what must hold for any input.
+//! The full-wave field against a Fourier transform of a rasterised surface, and its properties for any input.
 
 mod energy;
 mod far_field;

@@ -95,8 +95,8 @@ impl Surface {
     }
 }
 
-/// Reflectances: a dielectric, whose lobe's average is far from what it shows of most lights; gold's blue, which rises; chromium's red, with a
-/// deep dip.
+/// Reflectances: a dielectric, whose lobe's average is far from its reflectance of most lights; gold's blue, which rises; chromium's red, with
+/// a deep dip.
 const REFLECTANCES: [&str; 3] = ["glass", "gold, blue", "chromium, red"];
 
 fn reflectances(cos_h: f64) -> [f64; 3] {

@@ -25,7 +25,7 @@ fn growing_steps(n: u32, from_rad: f64, to_rad: f64) -> impl Iterator<Item = (f6
     })
 }
 
-/// The lobe of GGX seen along its normal `middle`, not normalised: what a level of a blurred map is blurred by.
+/// The lobe of GGX seen along its normal `middle`, not normalised, which blurs a level of a map.
 fn round_lobe(w: DVec3, middle: DVec3, alpha: f64) -> f64 {
     let cos = w.dot(middle);
     ggx_eval(

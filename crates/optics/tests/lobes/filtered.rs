@@ -51,7 +51,7 @@ fn mean_over(radius: impl Fn(f64) -> f64, f: impl Fn(DVec2) -> f64) -> f64 {
     sum / (RADII * ANGLES) as f64
 }
 
-/// GGX slopes of alpha 1 over normals of variance `t`, at a slope `m`: the narrower of the two is what is averaged over.
+/// GGX slopes of alpha 1 over normals of variance `t`, at a slope `m`: the average is over the narrower of the two.
 fn blurred(m: f64, t: f64) -> f64 {
     let at = DVec2::new(m, 0.0);
     if t < 1.0 {

@@ -29,7 +29,7 @@ fn judge(name: &str, roughness: f64, at: impl Fn(DVec3) -> (f64, f64)) {
     assert!(rms < 0.03, "{name} {roughness}: {rms}");
 }
 
-/// The viewer's direction and what brings the world into the local frame.
+/// The viewer's direction, and the map from the world to the local frame.
 fn viewer(point: DVec3) -> (DVec3, impl Fn(DVec3) -> DVec3) {
     let view = (EYE - point).normalize();
     let x = view.with_z(0.0).normalize();

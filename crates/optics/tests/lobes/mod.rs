@@ -1,4 +1,4 @@
-//! The area-light lobes against converged cubature of GGX, and what must hold for any input.
+//! The area-light lobes against converged cubature of GGX, and their properties for any input.
 
 mod accuracy;
 mod brushed;

@@ -322,8 +322,8 @@ fn no_nan_on_awkward_input() {
     }
 }
 
-/// A clear layer on plastic that leans away from it towards the viewer: what is drawn has the density that it is said to have, and the light in
-/// the mean that it sends, from above either horizon.
+/// A clear layer on plastic that leans away from it towards the viewer: directions are drawn with the density that is stated, and have the
+/// light in the mean that the base sends, from above either horizon.
 #[test]
 fn coats_on_what_leans_are_drawn_as_they_are_weighed() {
     const LEANS_RAD: f64 = 0.4;

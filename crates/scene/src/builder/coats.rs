@@ -1,4 +1,4 @@
-//! The scratches of a scene: what a build lays, and what it has from the last one.
+//! The scratches of a scene: those that a build lays, and those that it has from the last one.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -149,7 +149,8 @@ impl<'a> Work<'a> {
             .collect()
     }
 
-    /// Reads what the `where` of a layer names; `key` is the path to it in the scene file.
+    /// Reads the files that the `where` of a layer names; `key` is the path to it in the scene
+    /// file.
     fn means(
         &mut self,
         place: &'a LayerPlaces,

@@ -119,7 +119,7 @@ impl SurfaceKey {
 /// Surfaces made ready for layers, each with the part of the object that it covers.
 type Grounds = Vec<(OnPart, Arc<PartGround>)>;
 
-/// An object's surface with what it brings along.
+/// An object's surface with the materials, textures and notes of its file.
 pub(super) struct KeptSurface {
     key: SurfaceKey,
     /// Files that the mesh's file refers to.

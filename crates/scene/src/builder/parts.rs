@@ -1,4 +1,5 @@
-//! The part of an object that a layer of scratches lies on: what is of one material of its file, or below one of its nodes.
+//! The part of an object that a layer of scratches lies on: the triangles of one material of its file, or below one of its
+//! nodes.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -73,8 +74,7 @@ impl OnPart {
     }
 }
 
-/// Replaces factors of a file's materials by those of an object. `key` is the path to it in the scene file. `key` is the
-/// way to it.
+/// Replaces factors of a file's materials by those of an object. `key` is the path to it in the scene file.
 ///
 /// # Errors
 /// A material that the file does not have.

@@ -1,4 +1,4 @@
-//! Ranges: what a number may be, whoever wrote it.
+//! Checks of the ranges of numbers, whoever wrote them.
 
 use super::limits;
 use super::ranges::{

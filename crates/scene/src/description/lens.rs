@@ -69,7 +69,7 @@ pub(super) fn aperture_mm(camera: &Table) -> Result<Option<f64>, Error> {
     }
 }
 
-/// The distance of what is in focus, of a `[camera]` that has an opening.
+/// Distance of focus of a `[camera]` that has an opening.
 pub(super) fn focus_distance_m(camera: &Table) -> Result<Option<f64>, Error> {
     let given = camera.optional("focus_distance_m")?;
     if given.is_some() && !camera.has("aperture_mm") && !camera.has("f_stop") {
@@ -99,7 +99,7 @@ impl Camera {
         self.sensor_width_mm.unwrap_or(FULL_FRAME_MM)
     }
 
-    /// The focal length that sees what the camera does, of a picture of this size.
+    /// Focal length with the camera's field of view, for a picture of this size.
     pub fn focal_length_mm(&self, size_px: [u32; 2]) -> f64 {
         let height_mm = film_height_mm(self.sensor_mm(), size_px);
         0.5 * height_mm / (0.5 * self.fov_y_deg.to_radians()).tan()

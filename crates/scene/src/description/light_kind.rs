@@ -162,7 +162,7 @@ impl LightKind {
         }
     }
 
-    /// The corners of the polygon that it is to renderers, counter-clockwise as seen from where it shines; none of what is not flat.
+    /// Corners of the light's polygon for renderers, counter-clockwise as seen from where it shines; none if it is not flat.
     pub fn corners_m(&self) -> Vec<DVec3> {
         match self {
             Self::Sphere { .. } | Self::Tube { .. } | Self::Sun { .. } => Vec::new(),
@@ -204,7 +204,7 @@ impl LightKind {
         polygon::vector_area_m2(&self.corners_m()).try_normalize()
     }
 
-    /// The unit direction of the width of what faces a target, to the right as seen from there.
+    /// Unit direction of the width of a light that faces a target, to the right as seen from there.
     pub(super) fn across(&self) -> Option<DVec3> {
         let (center_m, target_m, rotation_deg) = match self {
             Self::Disk {

@@ -103,7 +103,7 @@ pub(super) fn spread(key: &str, drawn: Distribution, spreads: RangeInclusive<f64
     }
 }
 
-/// The seed of what draws random numbers.
+/// Checks a seed of random numbers.
 pub(super) fn check_seed(seed: u64, key: &str) -> Check {
     if seed > limits::LARGEST_SEED {
         // TOML's integers end there, so it could not be saved.

@@ -11,10 +11,10 @@ use super::place::LayerPlaces;
 pub struct Scratches {
     /// The name of the object they lie on. Required.
     pub object: String,
-    /// The name of a material of the object's file: they lie on what is of it, and end where it ends. Default: on all of the object.
+    /// The name of a material of the object's file: they lie on its triangles, and end where it ends. Default: on all of the object.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
-    /// The name of a node of the object's file: they lie on it and on what is below it. Default: on all of the object.
+    /// The name of a node of the object's file: they lie on it and on the nodes below it. Default: on all of the object.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<String>,
     /// `where`: on which places they lie, and how thickly. Default: everywhere alike.
@@ -147,8 +147,8 @@ pub enum Brush {
         /// Factor on the layer's depths. Default: 1.
         depth: f64,
     },
-    /// `erase = true`: takes away what the layer laid before, as far as it comes within the radius, exactly at the brush's
-    /// edge. It does not reach through a sheet: what faces away from the surface under the brush stays.
+    /// `erase = true`: takes away the scratches that the layer laid before, as far as they come within the radius, exactly at the
+    /// brush's edge. It does not reach through a sheet: scratches on a surface that faces away from the one under the brush stay.
     Erase,
 }
 

@@ -1,4 +1,4 @@
-//! The sizes of scratches, in this order everywhere: their keys, their defaults, and what they may be.
+//! The sizes of scratches, in this order everywhere: their keys, their defaults, and their ranges.
 
 use std::ops::RangeInclusive;
 

@@ -8,8 +8,8 @@ use super::values::{is_false, is_zero};
 use super::{Description, limits};
 use crate::error::Error;
 
-/// `[studio]`: soft boxes, a lamp and a dim room about what the camera looks at. Scene files without `[[light]]` and `[environment]` have
-/// one that they do not name, with a ground.
+/// `[studio]`: soft boxes, a lamp and a dim room about the camera's subject. Scene files without `[[light]]` and `[environment]` have one
+/// that they do not name, with a ground.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Studio {
     /// Lights nothing, as if it were not there. Default: false.

@@ -1,4 +1,4 @@
-//! Maps in what half floats hold.
+//! Rounding of maps to half floats.
 
 use hairline_image::Picture;
 
@@ -26,7 +26,7 @@ pub(super) fn fit_half(map: &mut Picture) -> (f64, usize) {
     (f64::from(scale), cut)
 }
 
-/// Rounds to what a half-float texture holds.
+/// Rounds to the values that a half-float texture holds.
 pub(super) fn round_to_half(map: &mut Picture) {
     for c in map.rgb.iter_mut().flatten() {
         *c = half::f16::from_f32(c.min(HALF_MAX)).to_f32();

@@ -8,8 +8,8 @@ use super::half_texels::round_to_half;
 use super::mip::{Mip, RowTaps};
 use super::resample::{resample, row_solid_angle};
 
-/// Width and height of `blur`'s map, and of what it looks at: texels of 1.4 degrees. Linear between them a cosine is within 0.01 %; where it
-/// ends, at the horizon, what a source of 5 degrees sends is within 0.15 % of the most that it sends. Twin: environment.wgsl.
+/// Width and height of `blur`'s map, and of its source: texels of 1.4 degrees. Linear between them a cosine is within 0.01 %; where it ends,
+/// at the horizon, the light of a source of 5 degrees is within 0.15 % of the most that it sends. Twin: environment.wgsl.
 pub(crate) const IRRADIANCE_SIZE_PX: [u32; 2] = [256, 128];
 
 /// Computes the mean of radiance over the hemisphere of each normal, weighted by the cosine: irradiance over pi.
@@ -25,8 +25,7 @@ pub(super) fn blur(map: &Picture) -> Picture {
     blurred
 }
 
-/// Weights of each row of a map in what a normal at `v` sees: the cosine over the solid angle of each texel, from half a turn to its left
-/// on.
+/// Weights of each row of a map for a normal at `v`: the cosine over the solid angle of each texel, from half a turn to its left on.
 fn row_taps([width, height]: [usize; 2], v: f64) -> Vec<RowTaps> {
     let (sin, cos) = (v * PI).sin_cos();
     let texel_rad = PI / height as f64;
@@ -58,7 +57,7 @@ fn row_taps([width, height]: [usize; 2], v: f64) -> Vec<RowTaps> {
         .collect()
 }
 
-/// The mean over a texel of what of the cosine is above the horizon.
+/// Mean over a texel of the part of the cosine above the horizon.
 fn over_texel([sin, cos]: [f64; 2], row: usize, turn: f64, texel_rad: f64) -> f64 {
     const STEPS: u32 = 4;
     let place = |i: u32| (f64::from(i) + 0.5) / f64::from(STEPS) - 0.5;

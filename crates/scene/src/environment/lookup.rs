@@ -148,8 +148,8 @@ pub(crate) fn environment_prefiltered_lod(levels: &[Picture], dir: DVec3, lod: f
     near + (far - near) * (clamped - level)
 }
 
-/// [`environment_prefiltered`] for several directions at once: what is arithmetic alone is done for all in one loop, which
-/// compilers turn into vector instructions.
+/// [`environment_prefiltered`] for several directions at once: the arithmetic is done for all in one loop, which compilers turn into
+/// vector instructions.
 #[inline(always)]
 pub(crate) fn environment_prefiltered_all<const N: usize>(
     levels: &[Picture],

@@ -72,7 +72,7 @@ fn mip_chain(sharp: &[Picture]) -> Vec<Mip> {
     mips
 }
 
-/// A level of each map, from what each mip adds to it.
+/// Blurs a level of each map from the contributions of each mip.
 fn blur(mips: &[Mip], level: usize) -> Vec<Picture> {
     let size = LEVEL_HALVINGS[level];
     let finest = FINEST[size];

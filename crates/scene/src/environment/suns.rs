@@ -1,4 +1,4 @@
-//! Suns: what is small and bright in a map, which lights a surface as a disc of its own.
+//! Suns: small and bright spots in a map, each of which lights a surface as a disc of its own.
 //!
 //! A map blurred for rough surfaces, a map blurred by the cosine and the cells of a scratch's band know nothing as narrow as the sun: it
 //! would be a stain of a tenth of a radian, without colours on scratches. As a light it is exact (docs/model.md, section 8).
@@ -23,15 +23,14 @@ pub(crate) struct Sun {
     pub radiance: [f64; 3],
 }
 
-/// Suns of a map, at most: each costs what a light costs.
+/// Largest number of suns of a map: each costs as much as a light.
 const SUNS_MOST: usize = 4;
 /// Bright spots that are looked at before the search is given up: large lights are among them.
 const SPOTS_MOST: usize = 32;
 /// A sun's brightest texel over the mean of the map, at least.
 const BRIGHT: f64 = 20.0;
 /// Shares of a sun's brightest texel above which a texel belongs to it. The first one includes its glare in the camera; if it is no sun
-/// with that, then perhaps without: the surroundings of a lamp are a hundredth as bright, or a tenth. If it is no sun with that, then
-/// perhaps without: what is about a lamp is a hundredth as bright, or a tenth.
+/// with that, then perhaps without: the surroundings of a lamp are a hundredth as bright, or a tenth.
 const RIMS: [f64; 2] = [0.01, 0.1];
 /// The largest sun: a scratch's band shows larger lamps well enough (docs/model.md, section 8), and a polished surface their outlines.
 const RADIUS_MOST_RAD: f64 = 0.06;
@@ -45,7 +44,7 @@ const SHARE: f64 = 0.01;
 pub(super) struct Parted {
     /// Suns in the map's frame and units.
     pub suns: Vec<Sun>,
-    /// Texels that were changed, and what they were.
+    /// Texels that were changed, and their former values.
     texels: Vec<(usize, [f32; 3])>,
 }
 
@@ -191,7 +190,7 @@ impl BrightSpot {
         sum / self.ring.len().max(1) as f64
     }
 
-    /// The disc that has its light beyond what is around it. None if it is no sun.
+    /// The disc with the light of the spot beyond its surroundings. None if it is no sun.
     fn sun(&self, map: &Picture, around: DVec3, total: f64) -> Option<Sun> {
         if !self.is_small {
             return None;

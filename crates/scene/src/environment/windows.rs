@@ -1,4 +1,4 @@
-//! Windows: what is bright in a map and has a sharp outline, from lamps larger than a sun to soft boxes and windows.
+//! Windows: bright parts of a map with a sharp outline, from lamps larger than a sun to soft boxes and windows.
 //!
 //! A scratch looks a map up in ten cells of its band, each blurred by a lobe (docs/model.md, section 8): that smears an outline which the
 //! scratch itself shows sharply. So for scratches windows are lights of their own, and the cells hold the rest of the map. The base knows
@@ -20,7 +20,7 @@ mod patch;
 
 pub(crate) use outline::Window;
 
-/// Windows of a map, at most: each costs what a light costs, and a device lights scratches from seven lights at once.
+/// Largest number of windows of a map: each costs as much as a light, and a device lights scratches from seven lights at once.
 const WINDOWS_MOST: usize = 7;
 /// The map that is searched is no wider: texels of 0.7 degrees.
 const SEARCH_WIDTH_PX: u32 = 512;
@@ -35,7 +35,7 @@ const EVEN: f64 = 0.85;
 /// Least radiance of a window, over the map's mean.
 const BRIGHT: f64 = 2.0;
 
-/// The windows of a map, and what is left of it: the light of both together is the map's. None where there is no window.
+/// Parts the windows of a map from the rest: the light of both together is the map's. None where there is no window.
 pub(super) fn part(map: &Picture) -> Option<(Vec<Window>, Picture)> {
     let windows = Search::new(map).windows();
     if windows.is_empty() {
@@ -50,7 +50,7 @@ pub(super) fn part(map: &Picture) -> Option<(Vec<Window>, Picture)> {
     Some((windows, rest))
 }
 
-/// A map that is no wider than what is searched.
+/// Resamples a map to the width that is searched, if it is wider.
 fn narrowed(map: &Picture) -> Picture {
     let mut narrow = map.clone();
     while narrow.size_px[0] > SEARCH_WIDTH_PX {
@@ -59,8 +59,8 @@ fn narrowed(map: &Picture) -> Picture {
     narrow
 }
 
-/// Takes a window out of a map, but nowhere more than is there beyond what is around it: rays are drawn by what is left. Beyond the outline it
-/// takes what an edge that is no step has there. Returns it as bright as what was taken.
+/// Takes a window out of a map, but nowhere more than the map exceeds the surroundings: rays are drawn by the rest. Beyond the outline it
+/// takes the light of an edge that is no step there. Returns the window as bright as the light that was taken.
 fn taken_out(window: Window, rest: &mut Picture) -> Window {
     let [width, height] = rest.size_px;
     let texel_rad = std::f64::consts::PI / f64::from(height);
@@ -135,7 +135,7 @@ impl Search {
         }
     }
 
-    /// The windows that tell the most, one after the other, each of what those before have left.
+    /// The windows with the largest gain, one after the other, each from the map that those before have left.
     fn windows(self) -> Vec<Window> {
         let regions = self.regions();
         let fits = regions.par_iter().filter_map(|region| {
@@ -217,7 +217,7 @@ impl Search {
         regions
     }
 
-    /// A region with what is around it.
+    /// A region with its surroundings.
     fn patch(&self, region: &[usize]) -> Patch {
         let mut texels: Vec<usize> = region.to_vec();
         let mut is_in: HashSet<usize> = region.iter().copied().collect();

@@ -1,4 +1,4 @@
-//! The triangle that gratings are looked at on, and what they take from it: pictures, and directions by texture coordinates. Twin:
+//! The triangle that gratings are looked at on, with its pictures, and directions by texture coordinates. Twin:
 //! groove_ground.wgsl.
 
 use glam::{DVec2, DVec3};

@@ -122,8 +122,8 @@ impl Grating {
         is_numbered && self.row.shows_single_grooves(coherence_um)
     }
 
-    /// The factor on what a pixel sees of the grooves, in the place of their mean: single ones where pixel and coherence window are narrower than
-    /// the pitch. `tangent` is along the grooves, and the rest as for [`Self::seen_from_pixel`].
+    /// The factor on the grooves that a pixel sees, in the place of their mean: single ones where pixel and coherence window are narrower than the
+    /// pitch. `tangent` is along the grooves, and the rest as for [`Self::seen_from_pixel`].
     pub fn groove_density(
         &self,
         ground: &GrooveGround,

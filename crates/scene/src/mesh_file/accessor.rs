@@ -6,7 +6,8 @@ use gltf::accessor::DataType;
 use super::flaw::Flaw;
 use super::source::Buffers;
 
-/// Accessors without a buffer are all zero and cost the file nothing; this bounds what they cost here.
+/// Largest number of elements of accessors without a buffer, which are all zero and cost the file
+/// nothing.
 const MOST_ELEMENTS: usize = 1 << 28;
 
 /// Elements of N numbers. Integers that the file calls normalised become numbers in [0, 1] or [-1, 1].

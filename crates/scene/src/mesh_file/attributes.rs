@@ -1,4 +1,4 @@
-//! The attributes and the triangles of a primitive, from buffers or from what Draco packs.
+//! The attributes and the triangles of a primitive, from buffers or from Draco's packing.
 
 use glam::Vec4;
 use gltf::accessor::Dimensions;

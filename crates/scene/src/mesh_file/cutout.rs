@@ -20,8 +20,8 @@ pub(super) fn cutout(material: &gltf::Material, alpha: f64) -> Option<Cutout> {
     Some(Cutout { alpha, rule })
 }
 
-/// Forgets the cutouts of materials that are everywhere on their triangles of a mesh, from the material `first` on: many exporters write
-/// `BLEND` at whatever has an alpha, and rays take longer through what may be cut out.
+/// Removes the cutouts of materials that are everywhere on their triangles of a mesh, from the material `first` on: many exporters write
+/// `BLEND` wherever there is an alpha, and rays take longer through possible cutouts.
 pub(super) fn forget_whole(
     materials: &mut [Material],
     first: usize,

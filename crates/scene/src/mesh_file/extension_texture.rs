@@ -6,7 +6,7 @@ use gltf::json::Value;
 use super::flaw::{Flaw, RIGHT};
 use super::uv::{self, UvMapping};
 
-/// The texture of a use, and how it lies; `of` is what it belongs to.
+/// The texture of a use, and its mapping; `of` names its owner.
 pub(super) fn used<'a>(
     document: &'a Document,
     used: Option<&Value>,

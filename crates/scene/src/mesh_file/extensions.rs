@@ -1,4 +1,5 @@
-//! The extensions of glTF: those that are read, and what the picture is without the others.
+//! The extensions of glTF: those that are read, and the effect on the picture of not reading the
+//! others.
 
 /// Extensions that are read. Quantization needs nothing done: the accessors read every component type.
 const READ: [&str; 17] = [
@@ -21,7 +22,7 @@ const READ: [&str; 17] = [
     "KHR_texture_transform",
 ];
 
-/// Whether a file may require it, and what it says is in the picture.
+/// Whether an extension is read: a file may require it, and its contents are in the picture.
 pub(super) fn is_read(name: &str) -> bool {
     READ.contains(&name)
 }

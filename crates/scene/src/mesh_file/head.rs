@@ -87,7 +87,7 @@ impl FileCounts {
     }
 }
 
-/// The files that a glTF file names, each with what it is to it; none where it cannot be read.
+/// The files that a glTF file names, each with its use; none where it cannot be read.
 pub(crate) fn names(path: &Path) -> Vec<(String, PathBuf)> {
     let Some((root, _)) = head(path) else {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! The materials of a glTF file: metallic-roughness, and what its extensions make of it.
+//! The materials of a glTF file: metallic-roughness, and the changes by its extensions.
 
 use std::collections::HashMap;
 
@@ -48,7 +48,8 @@ impl<'a> Materials<'a> {
         })
     }
 
-    /// Forgets the cutouts of what is whole on a mesh, of the materials that were added from the number `first` on.
+    /// Removes the cutouts of materials that are whole on a mesh, of those that were added from the number `first`
+    /// on.
     pub(super) fn forget_whole(&mut self, first: usize, mesh: &Mesh) {
         if let Self::Own(own) = self {
             cutout::forget_whole(own.materials, first, own.images.textures, mesh);

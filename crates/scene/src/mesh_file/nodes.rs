@@ -92,7 +92,7 @@ pub(super) fn placed_nodes<'a>(
     Ok(placed)
 }
 
-/// KHR_node_visibility: what is below it is hidden too.
+/// KHR_node_visibility: nodes below a hidden one are hidden too.
 fn is_hidden(node: &gltf::Node) -> bool {
     let extension = node.extension_value("KHR_node_visibility");
     extension.and_then(|it| it.get("visible")?.as_bool()) == Some(false)

@@ -14,7 +14,7 @@ use super::tangents;
 use super::uv::{UvMapping, UvMappings};
 use crate::surface::{Surface, Vertex};
 
-/// A primitive as it stands, before what it lacks is made up.
+/// A primitive as it stands in the file, before missing attributes are made up.
 pub(super) struct Rough {
     pub surface: Surface,
     has_normals: bool,

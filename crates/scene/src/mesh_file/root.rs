@@ -1,5 +1,5 @@
-//! The text of a glTF file made ready for the crate that validates it: what is ignored anyway cannot make a file unusable, and what
-//! makes it unusable is said by its name.
+//! The text of a glTF file made ready for the crate that validates it: ignored contents cannot make a file unusable, and the reason
+//! of an unusable one is named.
 
 use gltf::json::deserialize::{from_slice, from_value};
 use gltf::json::validation::Checked;
@@ -11,7 +11,7 @@ use super::flaw::{Flaw, RIGHT};
 use super::leniency;
 use crate::text::shown;
 
-/// Reads the text of a file, of which what is not kept may be broken.
+/// Reads the text of a file; contents that are not kept may be broken.
 pub(super) fn read(text: &[u8], kept: OptionalElements) -> Result<Root, Flaw> {
     let invalid = |error: &dyn std::fmt::Display| {
         Flaw::new(
@@ -47,7 +47,7 @@ pub(super) fn read(text: &[u8], kept: OptionalElements) -> Result<Root, Flaw> {
     from_value(value).map_err(|error| invalid(&error))
 }
 
-/// Whether a channel moves what the specification has no name of.
+/// Whether a channel has a target that the specification has no name for.
 fn has_unknown_paths(root: &Root) -> bool {
     let mut channels = root.animations.iter().flat_map(|it| &it.channels);
     channels.any(|it| matches!(it.target.path, Checked::Invalid))

@@ -55,7 +55,7 @@ impl<'a> Shapes<'a> {
         cameras::of(&self.placed, wanted)
     }
 
-    /// Whether a node or a corner of what it places may lie so far from the origin along an axis, by what the file says of its positions.
+    /// Whether a node or a corner of its meshes may lie so far from the origin along an axis, by the file's bounds of its positions.
     pub(super) fn may_reach(&self, world_from_file: &DMat4, distance_m: f64) -> bool {
         let is_far = |point: DVec3| !(point.abs().max_element() <= distance_m);
         self.placed.iter().any(|placed| {

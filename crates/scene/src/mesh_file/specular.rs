@@ -1,4 +1,5 @@
-//! KHR_materials_specular and KHR_materials_ior: what of a material that is no metal reflects.
+//! KHR_materials_specular and KHR_materials_ior: reflection of the part of a material that is no
+//! metal.
 
 use gltf::json::Value;
 use gltf::material::Material;

@@ -33,7 +33,7 @@ pub(super) struct Eraser {
 struct Capsule {
     ends_m: [DVec3; 2],
     radius_m: f64,
-    /// The surface under its ends: what faces away from both is on another side of the object.
+    /// Normals of the surface under its ends: a surface that faces away from both is on another side of the object.
     normals: [DVec3; 2],
     /// The stroke's place among all strokes.
     stroke: usize,

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::scene::Mesh;
 
-/// A triangle with what walking across it needs. Edge i runs from corner i to corner i + 1.
+/// A triangle with the values for walking across it. Edge i runs from corner i to corner i + 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facet {
     pub corners_m: [DVec3; 3],
@@ -121,8 +121,8 @@ impl Facet {
         self.corners_m[edge].lerp(self.corners_m[(edge + 1) % 3], share)
     }
 
-    /// A direction that leaves through `edge`, carried on into the `next` facet, which has it as `next_edge`: what a straight
-    /// line does if the two are unfolded into one plane.
+    /// Carries a direction that leaves through `edge` on into the `next` facet, which has it as `next_edge`, as a straight
+    /// line goes on if the two are unfolded into one plane.
     pub(super) fn unfold(
         &self,
         direction: DVec3,

@@ -72,7 +72,8 @@ impl Ground {
         self.closest.get_or_init(|| Closest::new(self.mesh.clone()))
     }
 
-    /// A length that lies `normal` standard deviations from the mean, kept within what this surface has a use for.
+    /// A length that lies `normal` standard deviations from the mean, bounded to the lengths that make sense on
+    /// this surface.
     pub(super) fn scratch_length_m(&self, drawn: &Distribution, normal: f64) -> f64 {
         let longest_m = (LONGEST * self.diagonal_m).max(SHORTEST_M);
         drawn.log_normal_at(normal).clamp(SHORTEST_M, longest_m)

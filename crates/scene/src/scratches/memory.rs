@@ -1,4 +1,4 @@
-//! Memory of scratches, here and in what renderers make of them; an estimate on the safe side.
+//! Memory of scratches, here and in renderers; an estimate on the safe side.
 
 use hairline_memory::{costs, in_words};
 

@@ -4,7 +4,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// A camera, a material called "steel", and what is given. Without lights it stays dark: it has no studio.
+/// A scene with a camera, a material called "steel", and the given tables. Without lights it stays dark: it has no studio.
 pub fn scene_with(rest: &str) -> String {
     let is_lit = ["[[light]]", "[environment]"]
         .iter()

@@ -1,4 +1,4 @@
-//! Mistakes in scene files: each ends in one line that says where, what, and what would be right.
+//! Mistakes in scene files: each ends in one line that names the place, the mistake, and the right form.
 
 use crate::common::{object, scene_with, temporary_dir};
 use hairline_scene::{Loader, Scene};

@@ -1,4 +1,4 @@
-//! A builder that keeps what has not changed builds the same scenes as one that keeps nothing.
+//! A builder that keeps unchanged parts builds the same scenes as one that keeps nothing.
 
 use std::cell::{Cell, RefCell};
 use std::path::Path;
@@ -108,7 +108,7 @@ fn assert_equal(a: &Scene, b: &Scene, what: &str) {
     }
 }
 
-/// One random edit; what it was.
+/// Does one random edit, and describes it.
 fn edit(it: &mut Description, random: &mut Pcg64, dir: &Path) -> String {
     let layers = it.scratches.len();
     let i = random.random_range(0..layers);

@@ -1,4 +1,4 @@
-//! Scene files: what is saved loads again, the documented example works, defaults are those of the documentation.
+//! Scene files: saved scenes load again, the documented example works, defaults are those of the documentation.
 
 use std::path::Path;
 

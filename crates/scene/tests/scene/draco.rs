@@ -1,4 +1,4 @@
-//! KHR_draco_mesh_compression: what is unpacked against what was packed, by the encoder of the same crate.
+//! KHR_draco_mesh_compression: unpacked meshes against packed ones, by the encoder of the same crate.
 
 use crate::common::{Glb, cube};
 use crate::poses::{load, mesh};
@@ -9,7 +9,7 @@ use draco_core::{
 use glam::{Vec2, Vec3, Vec4, vec3};
 use hairline_scene::Mesh;
 
-/// An attribute: what it is, the numbers of an element, and their bytes.
+/// An attribute: its type, the numbers of an element, and their bytes.
 struct Attribute {
     kind: GeometryAttributeType,
     components: u8,

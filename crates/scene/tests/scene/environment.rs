@@ -147,7 +147,7 @@ fn levels_have_their_sizes_and_lods_hit_their_roughness() {
     assert_eq!(environment_lod(7.0), 11.0);
 }
 
-/// A sky with a gradient, a bright window and a small hot lamp: what maps are made of.
+/// A sky with a gradient, a bright window and a small hot lamp, for maps.
 fn room(d: DVec3) -> [f64; 3] {
     let lamp = DVec3::new(0.5, 0.7, 0.2).normalize();
     let hot = if d.dot(lamp) > 0.999 { 300.0 } else { 0.0 };
@@ -309,8 +309,8 @@ fn irradiance_matches_quadrature() {
     }
 }
 
-/// A window a few degrees wide in a black room, high and low, against the integral over it: for a level floor, a ceiling, what leans a little,
-/// and all others.
+/// A window a few degrees wide in a black room, high and low, against the integral over it: for a level floor, a ceiling, a slightly leaning
+/// surface, and all others.
 #[test]
 fn a_small_window_lights_every_normal_as_its_integral_says() {
     const WIDTH_DEG: f64 = 11.25;

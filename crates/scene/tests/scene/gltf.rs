@@ -1,4 +1,4 @@
-//! glTF and GLB files: what they may hold, and what becomes of broken ones. The files are made here.
+//! glTF and GLB files: their possible contents, and the errors of broken ones. The files are made here.
 
 use std::path::Path;
 
@@ -699,7 +699,7 @@ fn flaw(bytes: &[u8]) -> String {
     format!("{}; {}", error.found(), error.right())
 }
 
-/// The files have what the specification allows and few have, or lack what nothing needs.
+/// The files have rare contents that the specification allows, or lack contents that nothing needs.
 #[test]
 fn unusual_files_are_read() {
     let (corners, triangles) = common::cube();

@@ -1,4 +1,4 @@
-//! The shapes of lights against exact integrals over what they stand for.
+//! The shapes of lights against exact integrals over their surfaces.
 
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{BandFrame, BandLine, Outline, OutlineEdge, OutlineRoots};
@@ -40,7 +40,8 @@ fn a_rectangle_lies_as_its_keys_say() {
     }
 }
 
-/// Wherever in the scene, and however wide it is, by the solid angle's projection on what faces it.
+/// A sun's irradiance is the same wherever in the scene, and however wide it is, by the solid angle's projection on a
+/// surface that faces it.
 #[test]
 fn a_sun_stands_in_one_direction_and_sends_what_its_irradiance_says() {
     for (direction, angle_deg) in [([0.0, 3.0, -4.0], 0.53), ([-1.0, 0.0, 0.0], 30.0)] {

@@ -246,7 +246,8 @@ fn extensions_change_what_a_surface_reflects() {
     assert_eq!(mapped.textures[1].levels[0], [[255, 217, 158, 255]]);
 }
 
-/// Section 3.9.4: what has the alpha of the cutoff is there. Exporters write a code over 255 as a single.
+/// Section 3.9.4: a surface with the alpha of the cutoff is there. Exporters write a code over 255 as a
+/// single.
 #[test]
 fn an_alpha_that_equals_the_cutoff_is_there() {
     for code in [1u8, 77, 128, 204, 255] {

@@ -1,4 +1,4 @@
-//! EXT_meshopt_compression and KHR_meshopt_compression: what is unpacked against what was packed, and filters against the specification.
+//! EXT_meshopt_compression and KHR_meshopt_compression: unpacked views against packed ones, and filters against the specification.
 
 use crate::common::{Glb, cube, glb_of};
 use crate::poses::{cube_mesh, load, mesh};

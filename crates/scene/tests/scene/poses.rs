@@ -33,7 +33,7 @@ fn middle(mesh: &Mesh) -> Vec3 {
     0.5 * (least + most)
 }
 
-/// Section 3.5: what an animation moves has no matrix.
+/// Section 3.5: a node that an animation moves has no matrix.
 #[test]
 fn an_animation_of_a_node_with_a_matrix_is_refused() {
     let mut glb = Glb::default();

@@ -1,4 +1,4 @@
-//! Files are looked at before a scene names them: what is wrong is said as clearly as when a scene is loaded.
+//! Files are looked at before a scene names them: errors are as clear as when a scene is loaded.
 
 use crate::common::{self, Glb, cube, temporary_dir};
 use hairline_image::{Display, Output, Picture};

@@ -1,4 +1,4 @@
-//! Scratches along strokes, what an eraser leaves of a layer, and layers that do not depend on their place in the list.
+//! Scratches along strokes, layers under an eraser, and layers that do not depend on their place in the list.
 
 use std::path::Path;
 

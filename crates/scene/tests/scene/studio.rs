@@ -96,7 +96,7 @@ fn both_can_be_asked_for() {
     assert!(!scene.environment.is_some_and(|own| own.visible()));
 }
 
-/// The studio in a hall stands about what the camera looks at.
+/// The studio in a hall stands about the camera's subject.
 #[test]
 fn a_room_does_not_widen_the_studio() {
     let hall = "[[object]]\nname = \"hall\"\nmaterial = \"m\"\nshape = { plane = { size_m = [20, 20] } }\ntranslation_m = [3, 3, -0.06]\n";

@@ -173,7 +173,7 @@ impl Viewer {
         }
     }
 
-    /// Shows the questions, and does what is answered.
+    /// Shows the questions, and acts on the answers.
     pub(super) fn show_dialogs(&mut self, ctx: &egui::Context) {
         let title = self.work.document.title();
         let Some(answer) = self.dialogs.show(ctx, &title) else {

@@ -8,7 +8,7 @@ use super::Viewer;
 use crate::dialogs::Question;
 
 impl Viewer {
-    /// Takes in what other programs have written: the scene file, or what it names.
+    /// Takes in files that other programs have written: the scene file, or those that it names.
     pub(super) fn hear_of_files(&mut self, ctx: &egui::Context) {
         while let Some(change) = self.files.changed() {
             if self.work.is_own_file(&change.of) {

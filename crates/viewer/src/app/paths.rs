@@ -1,4 +1,4 @@
-//! Paths and files that come from dialogs, menus and other programs, and what they are taken for.
+//! Paths and files that come from dialogs, menus and other programs, and their use.
 
 use std::path::{Path, PathBuf};
 
@@ -34,8 +34,8 @@ impl Viewer {
         }
     }
 
-    /// Uses a path for what it was wanted for. A dialog of the system `has_asked` about a file that would be replaced; a path
-    /// that was typed nobody has asked about.
+    /// Uses a path for its purpose. A dialog of the system `has_asked` about a file that would be replaced; a path that was typed nobody has
+    /// asked about.
     pub(super) fn take_path(
         &mut self,
         ctx: &egui::Context,

@@ -1,4 +1,4 @@
-//! The picture in the middle of the window: what the engine is asked for and tells, and what lies over it.
+//! The picture in the middle of the window: the requests to the engine, its events, and the overlays.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use crate::viewport::Area;
 use crate::workspace::Workspace;
 
 impl Viewer {
-    /// Shows the picture in what is left of the window, and returns where.
+    /// Shows the picture in the rest of the window, and returns its place.
     pub(super) fn show_picture(&mut self, ui: &mut Ui) -> Rect {
         // Not filled: the picture covers it, and a software driver pays for each layer.
         let frame = egui::Frame::NONE;
@@ -91,7 +91,7 @@ impl Viewer {
         frame
     }
 
-    /// A model that was added may be far larger or smaller than what was there.
+    /// Frames an added model, which may be far larger or smaller than the objects before.
     pub(super) fn frame_what_was_added(&mut self) {
         let objects = &self.work.document.description().objects;
         let built = self.work.engine.built();

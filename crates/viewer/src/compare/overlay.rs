@@ -72,7 +72,7 @@ impl Compare {
         );
     }
 
-    /// Figures, and what is shown; true where it is to be closed.
+    /// Panel with the figures and the choice of the side; true where it is to be closed.
     fn panel(&mut self, ctx: &egui::Context, area: Rect) -> bool {
         let shown = self.shown();
         let corner = area.right_top() + vec2(-12.0, 12.0);

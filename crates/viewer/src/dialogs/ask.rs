@@ -10,8 +10,7 @@ pub(super) enum Loses {
 }
 
 /// Asks a question. Escape and a click outside are the last answer, which changes nothing; Enter is the first, where that loses
-/// nothing. Returns the place of the answer, once there is one. Escape and a click outside are the last answer, which changes
-/// nothing; Enter is the first, where that loses nothing. The place of the answer, once there is one.
+/// nothing. Returns the place of the answer, once there is one.
 pub(super) fn ask(
     ctx: &Context,
     name: &'static str,

@@ -24,7 +24,7 @@ impl PathLine {
         }
     }
 
-    /// Asks again, with the path that was typed and what is wrong with it.
+    /// Asks again, with the path that was typed and its error.
     pub fn again(purpose: Purpose, path: &Path, why: String) -> Self {
         Self {
             refused: Some(why),

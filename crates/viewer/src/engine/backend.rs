@@ -11,7 +11,7 @@ use super::pool;
 pub enum Backend {
     /// The CPU renderer, on threads of low priority.
     Cpu,
-    /// A device of its own, whose pictures are copied to the window's: what a window on another adapter needs.
+    /// A device of its own, whose pictures are copied to the window's, for a window on another adapter.
     Gpu(Gpu),
     /// The window's own device: its pictures are shown where they are.
     Shared(Gpu),

@@ -68,7 +68,7 @@ impl Built {
     }
 }
 
-/// Builds scenes one after the other, and keeps the trees and tables of what has not changed.
+/// Builds scenes one after the other, and keeps the trees and tables of unchanged parts.
 #[derive(Default)]
 pub(super) struct Workshop {
     scenes: SceneBuilder,

@@ -9,7 +9,7 @@ pub enum Event {
     NotBuilt {
         /// Revision of the description.
         revision: u64,
-        /// Names the key, what was found and what would be right.
+        /// Message with the key, the mistake and the right form.
         message: String,
     },
     /// The device was lost or refused the scene; the CPU paints from now on.

@@ -8,7 +8,7 @@ use hairline_scene::Transport;
 
 use super::{BuildStages, Built, View};
 
-/// A picture, when, of what, and how fine.
+/// A picture with its scene, its view and its settings.
 pub struct Frame {
     /// Counts up.
     pub number: u64,

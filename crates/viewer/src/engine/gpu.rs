@@ -35,7 +35,7 @@ pub(super) struct GpuEasel {
     is_shared: bool,
     is_timed: bool,
     uploaded: Option<(Weak<Built>, GpuScene)>,
-    /// The bounces of the shadows that what was uploaded has; none without shadows.
+    /// Bounces of the uploaded scene's shadows; none without shadows.
     bounces: Option<u32>,
     canvas: Option<Canvas>,
     /// Step of the canvas.

@@ -76,7 +76,7 @@ impl Kind {
 /// A finer step is taken only if it would leave this share of the time free, so that the picture does not go to and fro.
 const SLACK: f64 = 0.7;
 
-/// Knows from the last pictures what a pixel costs.
+/// Choice of the level by the cost of a pixel in the last pictures.
 #[derive(Debug)]
 pub(super) struct Pace {
     kind: &'static Kind,

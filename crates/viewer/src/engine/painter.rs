@@ -111,7 +111,7 @@ impl Progress {
         !self.steps.is_empty()
     }
 
-    /// Whether `order` is what is being painted already, exposure and all.
+    /// Whether `order` is being painted already, exposure and all.
     pub fn is_at(&self, order: &Order) -> bool {
         self.done.as_ref().is_some_and(|done| done.is_same(order))
     }

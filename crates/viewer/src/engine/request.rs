@@ -238,13 +238,13 @@ impl Shared {
         self.tell(is_awaited);
     }
 
-    /// Makes the interface look at what is there.
+    /// Makes the interface take the newest results.
     #[cfg(target_arch = "wasm32")]
     pub fn wake(&self) {
         (self.wake)();
     }
 
-    /// An interface that waits needs no further pass to see what is there.
+    /// Tells the interface of news. One that waits needs no further pass to see them.
     fn tell(&self, is_awaited: bool) {
         if is_awaited {
             self.news.notify_all();

@@ -24,7 +24,7 @@ pub(super) struct Bench {
 }
 
 impl Task {
-    /// Begins to compile what does not depend on a scene.
+    /// Begins to compile the passes that do not depend on a scene.
     pub fn open(shared: &Arc<Shared>, gpu: Gpu) -> Self {
         let task = Self {
             bench: Rc::default(),

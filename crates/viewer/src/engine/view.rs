@@ -15,7 +15,7 @@ pub struct View {
     pub display: Display,
     /// Standard deviation of the pixel's Gaussian filter.
     pub filter_std_px: f64,
-    /// Shadows and bounces that are wanted; what paints may leave out a part of it.
+    /// Shadows and bounces that are wanted; the renderer may leave out a part of them.
     pub transport: Transport,
     /// Reading of the picture that is wanted: a change of it paints nothing anew either.
     pub reading: crate::reading::Wanted,

@@ -22,7 +22,7 @@ pub(super) struct Form {
     pub samples: u32,
     /// Whether the camera is that of the window; else it is the scene's.
     pub is_as_seen: bool,
-    /// Whether what is no surface is transparent.
+    /// Whether the background is transparent.
     pub is_transparent: bool,
     pub frames: u32,
     pub degrees: f64,
@@ -93,7 +93,7 @@ impl Form {
         }
     }
 
-    /// Puts another path in the place of what is typed.
+    /// Replaces the typed path by another one.
     pub fn set_path(&mut self, path: &Path) {
         self.path = path.display().to_string();
         (self.refused, self.question) = (None, None);
@@ -103,7 +103,7 @@ impl Form {
         self.size_px.map(u64::from).iter().product::<u64>() > MOST_PX
     }
 
-    /// Shows it; what was pressed, if anything was.
+    /// Shows the form; returns the button that was pressed, if any.
     pub fn show(&mut self, ctx: &egui::Context, scene: &Shown) -> Option<Answer> {
         let modal = Modal::new(Id::unique("export")).show(ctx, |ui| {
             ui.set_width(500.0);

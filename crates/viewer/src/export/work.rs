@@ -41,7 +41,7 @@ pub(super) struct Wish {
     pub samples: u32,
     /// Shadows and bounces, as the window has them.
     pub transport: Transport,
-    /// Whether what is no surface is transparent; the environment is not seen then.
+    /// Whether the background is transparent; the environment is not seen then.
     pub is_transparent: bool,
     pub motion: Motion,
     /// Path as it was asked for; a turntable's pictures have numbers in their names.

@@ -15,7 +15,7 @@ pub(crate) const SIDE: f32 = 76.0;
 /// Cards in a row.
 const COLUMNS: usize = 4;
 
-/// A menu of cards; returns what was clicked.
+/// Shows a menu of cards; returns the one that was clicked.
 pub(crate) fn cards<T: Copy>(
     ui: &mut Ui,
     gallery: &mut Gallery,

@@ -67,7 +67,7 @@ material = "m"
 /// Diagonal of the dome's box.
 const DOME_DIAGONAL_M: f64 = 0.051;
 
-/// Renders small pictures, and keeps what several of them need.
+/// Renderer of small pictures, which keeps the map that several of them need.
 #[derive(Default)]
 pub(super) struct Studio {
     map: Option<Environment>,

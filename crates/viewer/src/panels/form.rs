@@ -311,7 +311,7 @@ fn slider_and_box(ui: &mut Ui, label: &Response, range: &Range, value: &mut f64)
     .inner
 }
 
-/// The width of one of `n` boxes in what is left of a row.
+/// Width of one of `n` boxes in the rest of a row.
 fn share(ui: &Ui, n: usize) -> f32 {
     let gaps = ui.spacing().item_spacing.x * (n as f32 - 1.0);
     ((ui.available_width() - gaps) / n as f32).max(40.0)

@@ -108,7 +108,8 @@ impl Kind {
         }
     }
 
-    /// The pattern on an object of this size with what it shares with the one before: the axis and the scatter of angles stay.
+    /// The pattern on an object of this size with the properties that it shares with the one before: the axis and the scatter
+    /// of angles stay.
     fn begin(self, before: &GroovePattern, diagonal_m: f64) -> GroovePattern {
         let around = match before {
             GroovePattern::Circular(around)

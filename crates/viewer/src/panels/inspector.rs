@@ -1,4 +1,4 @@
-//! The panel of what is selected.
+//! The panel of the selected part.
 
 use egui::{Panel, ScrollArea, Ui};
 use hairline_editor::Selection;

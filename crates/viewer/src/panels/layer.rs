@@ -269,7 +269,7 @@ impl Kind {
         }
     }
 
-    /// The pattern with what it shares with the one before: the axis stays where it was.
+    /// The pattern with the axis of the one before, if both have one.
     fn begin(self, before: &Pattern) -> Pattern {
         let around = match before {
             Pattern::Circular(around) | Pattern::Radial(around) | Pattern::Spun { around, .. } => {

@@ -74,7 +74,7 @@ fn bar(ui: &mut Ui, work: &mut Workspace, files: &Files, is_comparing: bool) -> 
     chosen
 }
 
-/// A button that asks for a command; the tooltip tells what it does, and its key.
+/// A button for a command; the tooltip has its effect and its key.
 fn bar_button(ui: &mut Ui, work: &mut Workspace, command: Command, button: Button, text: &str) {
     let response = ui.add_enabled(work.can(command), button);
     let text = match command.shortcut() {

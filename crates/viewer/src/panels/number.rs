@@ -16,7 +16,7 @@ pub(super) struct NumberBox<'a> {
     pub width: f32,
 }
 
-/// Result of reading what was typed.
+/// Result of reading an input.
 #[derive(Clone, Debug, Default)]
 enum Typed {
     #[default]
@@ -93,7 +93,7 @@ impl NumberBox<'_> {
         (Typed::Taken, Some(number))
     }
 
-    /// A red rim and the reason while what was typed last was refused; else the tooltip.
+    /// A red rim and the reason while the last input was refused; else the tooltip.
     fn remark(&self, ui: &Ui, response: Response) -> Response {
         let id = refused_id(&response);
         let why = ui.data(|data| data.get_temp::<String>(id));

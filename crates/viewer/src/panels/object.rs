@@ -1,4 +1,4 @@
-//! An object: where it is, what it is made of, and the layers on it.
+//! An object: its place, its material, and the layers on it.
 
 use egui::Ui;
 use hairline_editor::Selection;

@@ -124,7 +124,7 @@ fn layer_line(ui: &mut Ui, work: &mut Workspace, description: &Description, i: u
     });
 }
 
-/// A line with a box that hides and shows what it is of.
+/// A line with a box that hides and shows its part.
 struct Switched<'n> {
     selection: Selection,
     name: &'n str,
@@ -191,7 +191,7 @@ fn numbered(title: &str, description: &Description, i: usize) -> String {
     }
 }
 
-/// A title with a menu of what can be added.
+/// A title with a menu of the parts that can be added.
 fn section(ui: &mut Ui, title: &str, add: impl FnOnce(&mut Ui)) {
     ui.add_space(10.0);
     ui.horizontal(|ui| {

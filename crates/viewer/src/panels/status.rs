@@ -1,4 +1,4 @@
-//! The line at the bottom: what is shown, how fast, and on what.
+//! The line at the bottom: the state of the picture, its speed, and the renderer.
 
 use std::time::Duration;
 

@@ -40,7 +40,7 @@ impl ReadingState {
         }
     }
 
-    /// Whether a switch is on; none for what is no switch.
+    /// Whether a switch is on; none for commands that are no switch.
     pub fn is_on(&self, command: ReadCommand) -> Option<bool> {
         match command {
             ReadCommand::Probe => Some(self.probe.is_on()),

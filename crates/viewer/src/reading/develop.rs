@@ -1,4 +1,4 @@
-//! The picture that is shown of a render, by what is wanted of it.
+//! Conversion of a render to the picture that is shown, by the wanted reading.
 
 use egui::ColorImage;
 use hairline_image::{Display, Image, png};
@@ -36,7 +36,8 @@ pub struct Findings {
 /// One pixel of so many is looked at.
 const LOOKED_AT: usize = 7;
 
-/// The picture that is shown of a render, and what is to be told with it. `full_px` is the size of a picture that is not coarse.
+/// Converts a render to the picture that is shown, with the findings about it. `full_px` is the size of a picture that is not
+/// coarse.
 pub(crate) fn develop(
     image: &Image,
     full_px: [u32; 2],

@@ -9,8 +9,8 @@ pub(super) const MIDDLE_GREY: f32 = 0.18;
 /// Stops at the ends of the scale.
 pub(super) const STOPS: [f32; 2] = [-6.0, 6.0];
 
-/// A colour for each stop of the scale: violet and blue for what is dark, grey at middle grey, yellow, red and white for what is
-/// bright. Displayed codes.
+/// A colour for each stop of the scale: violet and blue for dark pixels, grey at middle grey, yellow, red and white for bright
+/// ones. Displayed codes.
 const COLORS: [[u8; 3]; 13] = [
     [18, 6, 40],
     [48, 18, 110],

@@ -15,7 +15,7 @@ use super::false_color;
 use crate::engine::{Built, SHADOW_SAMPLES, View, bands};
 use crate::jobs::Job;
 
-/// A pixel, and what is under it.
+/// A pixel, and the surface under it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
     /// Column and row of the window's picture.

@@ -1,4 +1,4 @@
-//! The window of the probe: what is read at a pixel, and the mark where it is.
+//! The window of the probe: the values of a pixel, and the mark at its place.
 
 use egui::{Align2, Color32, Grid, Id, Label, Painter, Pos2, Response, RichText, Ui, vec2};
 use hairline_image::Display;

@@ -8,7 +8,7 @@ use super::{Findings, Shows, false_color};
 use crate::engine::View;
 use crate::workspace::Workspace;
 
-/// Shows what is switched on. `view` is the newest one, of which there may be no picture yet.
+/// Shows the windows that are switched on. `view` is the newest one, of which there may be no picture yet.
 pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, view: Option<View>, picture: &Response) {
     let Some(frame) = work.engine.latest() else {
         return;
@@ -23,7 +23,7 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, view: Option<View>, pictur
     show_probe(ui, work, &view.unwrap_or(frame.view), picture);
 }
 
-/// The scale of what is shown in place of the picture.
+/// Scale of the false colours or the layer in place of the picture.
 fn scale(ui: &Ui, area: Rect, shows: Shows, findings: &Findings) {
     let (colors, marks): (Vec<Color32>, Vec<(f32, String)>) = match (shows, findings.depths_m) {
         (Shows::FalseColor, _) => {

@@ -1,4 +1,4 @@
-//! The thumbnails at the lower edge of the picture, and what can be done with one.
+//! The thumbnails at the lower edge of the picture, and the tools of one.
 
 use egui::{
     Align2, Button, Color32, CornerRadius, Id, Painter, Rect, Role, ScrollArea, Sense, Stroke,

@@ -59,7 +59,7 @@ impl Area {
         }
     }
 
-    /// Dims what the picture does not have.
+    /// Dims the area outside the scene's picture.
     pub fn paint_frame(&self, ui: &egui::Ui) {
         let dim = egui::Color32::from_black_alpha(110);
         let (all, frame) = (self.rect, self.frame);

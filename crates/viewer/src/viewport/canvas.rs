@@ -41,8 +41,8 @@ impl CanvasTexture {
         }
     }
 
-    /// Fills the area, at its place among what is drawn. While a coarser picture of another shape is all there is, it is stretched; one from elsewhere that stays for
-    /// long is dimmed.
+    /// Fills the area with the picture, at its place in the order of drawing. While a coarser picture of another shape is all there is, it is stretched; one
+    /// from elsewhere that stays for long is dimmed.
     pub fn paint(
         &mut self,
         ui: &egui::Ui,
@@ -83,7 +83,7 @@ impl CanvasTexture {
         ui.painter().set(place, Shape::Vec(shapes));
     }
 
-    /// Whether what was drawn last is a picture of another view, and has been for long enough to be noticed.
+    /// Whether the picture drawn last is of another view, and has been for long enough to be noticed.
     pub fn is_stale(&self) -> bool {
         self.is_stale
     }

@@ -63,7 +63,7 @@ impl Gizmo {
         self.grab.take().is_some()
     }
 
-    /// Shows the handles of what is selected, and does what is done to them.
+    /// Shows the handles of the selected part, and applies their drags.
     pub fn show(&mut self, ui: &mut Ui, work: &mut Workspace, area: &Area) {
         let selection = work.selection();
         let description = Arc::clone(work.document.description());

@@ -1,5 +1,5 @@
-//! Projection between the screen and the world: by the rays that the renderers cast, so that what is drawn over a
-//! picture lies on it.
+//! Projection between the screen and the world: by the rays that the renderers cast, so that overlays lie on the
+//! picture.
 
 use egui::Pos2;
 use glam::{DVec2, DVec3};

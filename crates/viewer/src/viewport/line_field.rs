@@ -40,7 +40,7 @@ const REST_S: f64 = 0.12;
 /// Least cosine between the surface's normal and the way to the eye.
 const LEAST_FACING: f64 = 0.12;
 
-/// The strokes, and what they were made for.
+/// The strokes, and the layer and view that they were made for.
 #[derive(Default)]
 pub(super) struct LineField {
     /// Time of a pass of the interface for it.

@@ -137,7 +137,7 @@ impl Viewport {
     }
 }
 
-/// Keeps the selected layer to the part that was clicked on: what is of its material and of the node that it belongs to.
+/// Keeps the selected layer to the part that was clicked on: its material and the node that it belongs to.
 fn pick_part(work: &mut Workspace, hit: &Picked) {
     let Selection::Layer(i) = work.selection() else {
         let text = "Select a layer of scratches first: it is kept to the part that you click on.";
@@ -158,7 +158,7 @@ fn pick_part(work: &mut Workspace, hit: &Picked) {
     });
 }
 
-/// A click of the right button selects what is there, and shows what can be done with it.
+/// Selects the part under a click of the right button, and shows its menu.
 fn context_menu(work: &mut Workspace, area: &Area, response: &Response) {
     if work.toolbox.tool != Tool::Select {
         return;

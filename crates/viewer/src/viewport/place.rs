@@ -13,7 +13,7 @@ use crate::engine::Built;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
-/// A light stays off what is in its way by this share of the way that is free.
+/// Distance that a light keeps from an obstacle, over the free distance.
 const MARGIN: f64 = 0.02;
 /// Distances from its highlight that are tried for a light, over the one that it had: nearer, then farther.
 const SHARES: [f64; 11] = [1.0, 0.85, 0.7, 0.55, 0.4, 0.3, 0.2, 0.1, 1.3, 1.8, 2.5];

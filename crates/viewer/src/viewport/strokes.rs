@@ -58,7 +58,7 @@ impl StrokeTool {
         was_going_on
     }
 
-    /// Handles the mouse for the brush, if one `is_in_hand`; else ends what it has begun.
+    /// Handles the mouse for the brush, if one `is_in_hand`; else ends its strokes.
     pub fn interact(
         &mut self,
         ui: &Ui,
@@ -145,7 +145,7 @@ impl StrokeTool {
     }
 }
 
-/// A place on the screen, and what a ray through it met.
+/// A place on the screen, and the hit of a ray through it.
 #[derive(Clone, Copy)]
 struct Place {
     pos: Pos2,
@@ -186,7 +186,7 @@ impl World<'_> {
 }
 
 impl Going {
-    /// Follows the pointer: what lies between two passes is looked up too, since a surface is not straight between them.
+    /// Follows the pointer: places between two passes are looked up too, since a surface is not straight between them.
     fn follow(&mut self, world: World, to: Pos2) {
         for pos in way(self.pos, to) {
             self.take(world, world.at(pos));

@@ -53,7 +53,7 @@ pub(super) fn missing() -> Option<String> {
     None
 }
 
-/// The sentence for what the window's own library said.
+/// The sentence for an error of the window's own library.
 pub(super) fn sentence(error: &str) -> String {
     let display = |name: &str| std::env::var(name).unwrap_or_default();
     if error.contains("connection to X server") {

@@ -18,7 +18,8 @@ pub(crate) struct SoftwareWindow {
 }
 
 impl SoftwareWindow {
-    /// Leaves out what the driver pays for and nobody sees: the panels' ground is the colour that the window is cleared to.
+    /// Leaves out layers that the driver pays for and nobody sees: the panels' ground is the colour that the window is cleared
+    /// to.
     pub fn new(ctx: &egui::Context) -> Self {
         ctx.all_styles_mut(|style| style.visuals.panel_fill = Color32::TRANSPARENT);
         Self::default()
@@ -36,8 +37,8 @@ impl SoftwareWindow {
         }
     }
 
-    /// Waits for the picture of what is wanted since the last pass. A frame without it would take as long as the picture, from
-    /// the same cores, and show nothing new.
+    /// Waits for the picture of the view since the last pass. A frame without it would take as long as the picture, from the
+    /// same cores, and show nothing new.
     pub fn wait_for_picture(&mut self, engine: &Engine, view: View, revision: u64) {
         let is_new = self
             .waited_for

@@ -17,8 +17,8 @@ impl Workspace {
         self.toolbox.brush = Some(brush);
     }
 
-    /// The brush as it was set by hand; before that, as it fits what it was over last, or the selected object in the middle of
-    /// the view.
+    /// The brush as it was set by hand; before that, as it fits the object that it was over last, or the selected object in
+    /// the middle of the view.
     pub fn brush(&self) -> BrushSettings {
         let fitted = || {
             let camera = self.camera();

@@ -27,7 +27,7 @@ impl Workspace {
         }
     }
 
-    /// Distance at which a free view is in focus: what is sharp stays sharp while the view moves. None: at its
+    /// Distance at which a free view is in focus: the sharp point stays sharp while the view moves. None: at its
     /// target.
     fn free_focus_m(&self, free: &Camera) -> Option<f64> {
         let scene = &self.document.description().camera;

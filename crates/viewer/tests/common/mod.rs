@@ -1,4 +1,4 @@
-//! The window without a screen: what tests of the viewer share. A test file uses some of it.
+//! The window without a screen, for the tests of the viewer. A test file uses some of it.
 #![allow(dead_code)]
 
 use std::sync::Arc;

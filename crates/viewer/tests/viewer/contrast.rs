@@ -1,4 +1,4 @@
-//! All text can be read: its contrast against what it stands on is 4.5 : 1 at least, by WCAG 2.
+//! All text can be read: its contrast against its background is 4.5 : 1 at least, by WCAG 2.
 
 use crate::common::{SMALL, click_on, key, viewer, wait_built, wait_until};
 use egui::epaint::TextShape;

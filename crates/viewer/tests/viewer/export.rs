@@ -292,7 +292,7 @@ fn the_scene_may_change_meanwhile() {
     assert_eq!(last, in_a_file(rendered(TINY, 7.0 * 45.0).0));
 }
 
-/// Alpha is the share of each pixel that the disk covers, and the free view is what is exported.
+/// Alpha is the share of each pixel that the disk covers, and the free view is exported.
 #[test]
 fn a_transparent_picture_has_alpha_and_is_taken_from_where_the_window_looks() {
     let folder = tempfile::tempdir().unwrap();
@@ -375,7 +375,7 @@ fn pictures_of_a_turntable_that_are_there_are_counted_before_they_are_replaced()
     );
 }
 
-/// A lens takes the number of samples that was asked for, and the dialog says what few of them look like.
+/// A lens takes the number of samples that was asked for, and the dialog says how few of them look.
 #[test]
 fn a_lens_has_the_samples_that_were_asked_for() {
     let folder = tempfile::tempdir().unwrap();

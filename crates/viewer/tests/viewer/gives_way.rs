@@ -1,4 +1,4 @@
-//! Painting gives way to what is wanted next.
+//! Painting gives way to the next request.
 
 use std::time::{Duration, Instant};
 

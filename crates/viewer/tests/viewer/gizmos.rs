@@ -1,4 +1,4 @@
-//! Handles in the picture: they do what they say, in one step, and take it back.
+//! Handles in the picture: each does what its name says, in one step, which undo takes back.
 
 use crate::common;
 use egui::{Pos2, vec2};

@@ -211,7 +211,7 @@ fn a_click_that_closes_a_menu_selects_and_draws_nothing() {
     assert_eq!(harness.state().document().selection(), Selection::Object(0));
 }
 
-/// Names and what no object has are not seen.
+/// Names and materials that no object has are not seen.
 #[test]
 fn a_new_name_and_an_unused_material_leave_the_picture() {
     let mut harness = viewer(SMALL);
@@ -386,7 +386,7 @@ fn the_colour_picker_has_all_its_signs() {
     assert!(egui::Popup::is_any_open(&harness.ctx));
 }
 
-/// The line stays with what is wrong, and with what was typed.
+/// The line stays with the error, and with the typed path.
 #[test]
 fn the_line_for_a_path_stays_until_the_path_is_right() {
     let folder = tempfile::tempdir().unwrap();

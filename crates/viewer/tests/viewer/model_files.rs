@@ -9,7 +9,7 @@ use hairline_editor::Selection;
 use hairline_scene::description::Override;
 use hairline_viewer::Viewer;
 
-/// A scene of two squares, and what is selected in it.
+/// A scene of two squares, and a selection in it.
 fn opened(selection: Selection) -> (Harness<'static, Viewer>, tempfile::TempDir) {
     let dir = tempfile::tempdir().unwrap();
     two_squares(dir.path());

@@ -9,7 +9,7 @@ use hairline_editor::Selection;
 use hairline_scene::description::{Layer, LightKind};
 use hairline_viewer::Viewer;
 
-/// Types into the box of this name, in the place of what is there.
+/// Replaces the text of the box of this name.
 fn type_into(harness: &mut Harness<'static, Viewer>, name: &str, text: &str) {
     harness
         .get_by_role_and_label(Role::SpinButton, name)

@@ -201,7 +201,7 @@ fn the_environment() {
     assert!(harness.query_by_label_contains("is not there").is_none());
 }
 
-/// A scene that is put right before its builder has found out what is wrong with it: nothing is told of what was.
+/// A scene that is corrected before its builder has found its error: nothing is told of the error.
 #[test]
 fn errors_of_scenes_that_are_gone_are_not_told() {
     let mut harness = viewer(common::SMALL);
@@ -228,7 +228,7 @@ fn errors_of_scenes_that_are_gone_are_not_told() {
     }
 }
 
-/// The panel tells what it took out of a map.
+/// The panel tells of the sun that was taken out of a map.
 #[test]
 fn a_sun_in_the_environment() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,5 @@
-//! Whatever is typed into the panels: what a scene file cannot hold is refused, and all else is saved and loaded.
+//! Texts typed into the panels: numbers that a scene file cannot hold are refused, and all others are saved and
+//! loaded.
 
 use std::path::Path;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! The free view beside the scene's camera, kept views, the turntable, and what is drawn over the picture.
+//! The free view beside the scene's camera, kept views, the turntable, and the overlays.
 
 use crate::common::{
     self, SMALL, click_on, description, viewer, viewer_with, wait_built, wait_until,

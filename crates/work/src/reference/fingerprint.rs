@@ -11,9 +11,9 @@ use hairline_scene::inputs;
 /// Hexadecimal digits of a fingerprint: 128 bits, beyond any accident.
 const DIGITS: usize = 32;
 
-/// A digest of what a scene's linear picture depends on: the description, with the contents of files in the place of
-/// their names; what lies in memory has a name that tells its contents. Not of the exposure and the tone map, which act on what is displayed alone, and not of the picture's size,
-/// which a picture tells by itself.
+/// A digest of everything that a scene's linear picture depends on: the description, with the contents of files in the place of their names; arrays in memory
+/// have a name that tells their contents. Exposure and tone map act on the display alone and are left out; so is the picture's size, which a picture tells by
+/// itself.
 ///
 /// # Errors
 /// Files that cannot be read.
@@ -208,7 +208,7 @@ picture = "lamp.png"
         }
     }
 
-    /// Flags may take a seed beyond what a scene file can say.
+    /// A flag may give a seed beyond those of a scene file.
     #[test]
     fn all_seeds_have_one() {
         let folder = folder();

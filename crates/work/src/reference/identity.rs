@@ -9,7 +9,7 @@ use hairline_reference::{BATCH_SAMPLES, Model, REVISION, Settings};
 
 use crate::failure::Failure;
 
-/// The names of notes, with what they are called in messages.
+/// The names of notes, with their names in messages.
 const NOTES: [(&str, &str); 7] = [
     ("version", "version of Hairline"),
     ("model", "model"),

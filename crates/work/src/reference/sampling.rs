@@ -1,4 +1,4 @@
-//! The work itself: samples until there are enough, time is up or the user has enough, with what there is saved now and then.
+//! The work itself: samples until there are enough, time is up or the user has enough, saved now and then.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};

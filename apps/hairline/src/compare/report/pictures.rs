@@ -1,4 +1,4 @@
-//! The report's pictures: what a display shows of a layer, and false colours of where two layers differ.
+//! The report's pictures: layers as a display shows them, and false colours of the differences of two layers.
 
 use hairline_image::metrics::{Estimate, LayerComparison, magma};
 use hairline_image::{Display, Layer, Picture, ToneMap, png};

@@ -297,8 +297,8 @@ impl PolygonLight {
 }
 
 impl SphericalTriangle {
-    /// The direction that has the share `part` (steradians) of the triangle on one side of the great circle through it and the
-    /// second corner, and the share `u` of what is left between it and that corner.
+    /// Direction that has the share `part` (steradians) of the triangle on one side of the great circle through it and the
+    /// second corner, and the share `u` of the rest of the way to that corner.
     fn sample(&self, part: f64, u: f64) -> DVec3 {
         let [a, b, c] = self.corners;
         // Let d on the arc from a to c cut off the triangle (a, b, d). With d the mirror image of a at o, the formula for its

@@ -145,7 +145,7 @@ fn a_lamp_in_a_reflector() {
     assert!(brightest > 150.0, "the reflector stays: {brightest}");
 }
 
-/// A window is no disc, and stays what it is; a square is one nearly.
+/// A window is no disc, and stays in the map; a square is nearly one.
 #[test]
 fn windows_are_no_suns() {
     for (sides, count) in [([0.03, 0.03], 1), ([0.06, 0.03], 0), ([0.1, 0.01], 0)] {

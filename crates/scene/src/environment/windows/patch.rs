@@ -30,7 +30,7 @@ const DARK: f64 = 0.25;
 const FINEST: f64 = 0.02;
 /// Outlines of four corners that are looked at, at most.
 const LOOKS_MOST: u32 = 2000;
-/// Texels within half of these from where an outline's edge ends tell what it ends by.
+/// Width in texels about an outline's edge whose inner half tells the radiance at the edge.
 const RIM_TEXELS: f64 = 2.0;
 /// Widths of edges that are tried.
 const EDGE_TEXELS: [f64; 6] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0];

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 const SIZE_PX: [u32; 2] = [512, 256];
 
-/// A dim room, brighter above, with what lies in some outlines brighter: each with soft edges of a texel, as a camera sees them.
+/// A dim room, brighter above, and brighter within some outlines: each with soft edges of a texel, as a camera sees them.
 fn room(windows: &[(Outline, f64)]) -> Picture {
     let covers: Vec<_> = windows
         .iter()
@@ -32,7 +32,8 @@ fn light(map: &Picture) -> DVec3 {
     (0..map.rgb.len()).map(|i| radiance(map, i) * sr(i)).sum()
 }
 
-/// A window beside the seam, a slanting soft box above and a round lamp: their outlines, what they send, and nothing of them is left.
+/// A window beside the seam, a slanting soft box above and a round lamp: their outlines and their light are found, and nothing of
+/// them is left.
 #[test]
 fn windows_are_found_as_they_are() {
     let window = quad([
@@ -84,7 +85,7 @@ fn windows_are_found_as_they_are() {
     assert!((light(&rest) / room - 1.0).abs().max_element() < 0.05);
 }
 
-/// Corners are those of what the scene sees of the sphere's inside: the light shines to there.
+/// Corners are those that the scene sees of the sphere's inside: the light shines to there.
 #[test]
 fn a_window_shines_inwards() {
     let window = quad([
@@ -106,7 +107,7 @@ fn a_window_shines_inwards() {
     );
 }
 
-/// A sky without an edge, a glow, and what is hardly brighter than the rest have none.
+/// A sky without an edge, a glow, and a patch hardly brighter than the rest have no window.
 #[test]
 fn a_smooth_sky_has_no_window() {
     assert!(part(&room(&[])).is_none());

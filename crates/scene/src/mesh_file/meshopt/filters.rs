@@ -1,5 +1,5 @@
-//! The filters of attributes: what unpacked bytes stand for; appendix B of KHR_meshopt_compression. The crate meshopt-rs has no filter of
-//! colours.
+//! The filters of attributes, which give unpacked bytes their meaning; appendix B of KHR_meshopt_compression. The crate meshopt-rs has no
+//! filter of colours.
 
 /// Applies the filter of a name to elements of `stride` bytes.
 pub(super) fn apply(name: &str, stride: usize, bytes: &mut [u8]) -> Result<(), String> {
@@ -42,7 +42,7 @@ fn each_i16(bytes: &mut [u8], filter: impl Fn([i32; 4]) -> [i32; 4]) {
     }
 }
 
-/// A unit vector from two coordinates on an octahedron, and what stands for 1 among them. The fourth number stays.
+/// A unit vector from two coordinates on an octahedron, and the number that means 1 among them. The fourth number stays.
 fn octahedral([x, y, one, w]: [i32; 4], largest: f64) -> [i32; 4] {
     let [x, y] = [x, y].map(|it| f64::from(it) / f64::from(one));
     let z = 1.0 - x.abs() - y.abs();
@@ -53,8 +53,8 @@ fn octahedral([x, y, one, w]: [i32; 4], largest: f64) -> [i32; 4] {
     [x, y, z, w]
 }
 
-/// A unit quaternion from its three smaller components, each times the square root of 2, what stands for 1 among them, and, in the lowest
-/// two bits of that, which the largest one is.
+/// A unit quaternion from its three smaller components, each times the square root of 2, the number that means 1 among them, and, in the
+/// lowest two bits of that, the index of the largest one.
 fn quaternion([x, y, z, last]: [i32; 4]) -> [i32; 4] {
     let one = f64::from(last | 3) * std::f64::consts::SQRT_2;
     let smaller = [x, y, z].map(|it| f64::from(it) / one);
@@ -91,7 +91,7 @@ mod tests {
         bytes.collect()
     }
 
-    /// Elements and what they stand for, worked out by hand from the text of the specification.
+    /// Elements and their meaning, worked out by hand from the text of the specification.
     #[test]
     fn elements_stand_for_what_the_specification_says() {
         let bytes = |numbers: [i32; 4]| numbers.map(|it| it as u8).to_vec();

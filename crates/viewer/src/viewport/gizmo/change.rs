@@ -7,7 +7,7 @@ use hairline_scene::description::{Light, Object};
 
 use super::motion::Motion;
 
-/// Makes of the body, as it was at the `start`, what the motion makes of it.
+/// Applies a motion to the body, as it was at the `start`.
 pub(super) fn change(
     description: &mut Description,
     start: &Description,

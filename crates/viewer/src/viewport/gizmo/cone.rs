@@ -1,4 +1,4 @@
-//! The cone of a spot: what of it is seen, and how its rims are dragged.
+//! The cone of a spot: its visible rims, and their drags.
 //!
 //! The outer rim is where the light ends, the inner one where it begins to fall off. Both are drawn on the cone at a fixed size on the screen, the
 //! inner one nearer to the light: so each can be met where both have one angle.
@@ -15,7 +15,7 @@ const OUTER: f32 = 132.0;
 const INNER: f32 = 104.0;
 /// Pieces of a rim.
 const STEPS: usize = 48;
-/// A place of a rim that moves by less than this share of what the liveliest one does tells little of its angle.
+/// Least movement of a place of a rim, over that of the liveliest one: a smaller one tells little of its angle.
 const LIVELY: f32 = 0.6;
 /// Angles that are tried for a place of the pointer.
 const TRIED: usize = 720;

@@ -85,7 +85,7 @@ pub(in crate::viewport) fn middle(
     }
 }
 
-/// A circle with rays, and an arrow from there to what the camera looks at: which way the light goes.
+/// A circle with rays, and an arrow from there to the camera's target in the direction of the light.
 fn sun_sign(middle: Pos2, target: Pos2) -> Vec<[Pos2; 2]> {
     let around = |i: u8, radius: f32| {
         middle + Vec2::angled(f32::from(i) / 16.0 * std::f32::consts::TAU) * radius

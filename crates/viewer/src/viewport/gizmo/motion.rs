@@ -38,7 +38,7 @@ const SMALLEST: f64 = 0.02;
 /// Below this cosine between the view and a ring's axis the ring is seen from its edge.
 const EDGE_ON: f64 = 0.3;
 
-/// A place on the screen, and what is seen through it.
+/// A place on the screen, and the camera at that moment.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Aim {
     pub lens: Lens,
