@@ -1,4 +1,5 @@
-//! Shaders for a page, which is sent each byte of them: without comments and indentation, two thirds of the text. A program has them as they are.
+//! Shaders for a page, without comments and indentation: two thirds of the text, since a page has to download each byte. A program has the full
+//! text.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};

@@ -7,7 +7,7 @@ use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_scene::{LightShape, Scene};
 use std::path::Path;
 
-/// The picture's size sets how many scratches lie under a pixel; its cost is that of the rows.
+/// Size of the picture. It sets how many scratches lie under a pixel; the time is that of the rows.
 const SIZE_PX: [u32; 2] = [480, 270];
 const ROWS: std::ops::Range<u32> = 140..142;
 

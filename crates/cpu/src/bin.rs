@@ -31,7 +31,7 @@ const PART_LEAST: usize = 1 << 12;
 const COUNTERS: usize = 1 << 24;
 
 impl TileLists {
-    /// Lists for the tiles that `rows` of a picture of this width touch.
+    /// Makes the lists for the tiles that `rows` of a picture of this width touch.
     pub fn new(segments: Vec<Projected>, width: u32, rows: &Range<u32>) -> Self {
         let tile = TILE_PX as usize;
         let columns = (width as usize).div_ceil(tile);

@@ -20,8 +20,8 @@ impl<'a> Shadows<'a> {
         (0..self.options.bounces).map(|_| room()).collect()
     }
 
-    /// Radiance that arrives at a point from an object that a ray of it has met.
-    /// The ray stands for a solid angle: what it meets is averaged over that, and a small bright image in a mirror makes no bright dots.
+    /// Radiance that arrives at a point along one of its rays from the object that the ray has met. The ray stands for a solid angle, and
+    /// the radiance is averaged over that, so that a small bright image in a mirror makes no bright dots.
     pub(crate) fn light_of_object(
         &self,
         at: &ShadowPoint,
@@ -90,7 +90,7 @@ impl<'a> Shadows<'a> {
     }
 }
 
-/// Rays that graze a surface see no more of it than this cosine lets them.
+/// Least cosine that widens a footprint: at a flatter angle to the surface the footprint grows no further.
 const MIN_COS: f64 = 0.25;
 
 /// Standard deviation of a pixel's footprint at a hit by way of a mirror, across the ray: as wide as on the mirror, wider by the

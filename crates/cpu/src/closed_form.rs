@@ -46,8 +46,7 @@ impl Prepared<'_> {
             .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
-    /// Renders the rows unless `cancelled` says so, which is asked from any thread, before each tile and, where there are shadows, before each
-    /// sample: then there is no picture.
+    /// Renders the rows, or returns `None` once `cancelled` says so.
     pub fn render_unless(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),
@@ -65,8 +64,8 @@ impl Prepared<'_> {
         Some((image, counts))
     }
 
-    /// The picture as far as it has come when `cancelled` says so, and whether it is whole. Tiles that were not done by then are
-    /// black and empty.
+    /// Renders until `cancelled` says so, and returns the picture with whether it is whole. Tiles that were not done by then are black and
+    /// empty.
     pub fn render_until(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),
@@ -81,8 +80,8 @@ impl Prepared<'_> {
         (image, is_whole)
     }
 
-    /// Renders anew those pixels of some rows that have an edge or a crease. `image` has these rows, of one sample a pixel, and becomes
-    /// what [`Self::render_rows`] makes of more. None if it was cancelled, as by [`Self::render_unless`].
+    /// Renders those pixels of some rows again that have an edge or a crease. `image` has these rows, of one sample a pixel, and becomes what
+    /// [`Self::render_rows`] makes of more. None if it was cancelled, as by [`Self::render_unless`].
     pub fn refine_edges_unless(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),

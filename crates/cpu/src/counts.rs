@@ -11,7 +11,7 @@ pub struct Counts {
     pub tests: u64,
     /// Pairs of a pixel and a segment with a share.
     pub pairs: u64,
-    /// Lights of a pair that were asked whether they reach it.
+    /// Lights of a pair for which it was tested whether they reach the pair.
     pub asked: u64,
     /// Those lights that reach the scratch: integrals over a light.
     pub lit: u64,

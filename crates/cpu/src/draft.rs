@@ -14,10 +14,10 @@ const FEWEST: usize = 48;
 /// Properties of a layer that a draft depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DraftLayer {
-    /// Number of scratches that each of those in the scene stands for already.
+    /// Number of scratches for which each scratch of the scene stands already.
     pub weight: f64,
-    /// Whether any of its scratches are as good as others: then the first ones are taken, which an editor has first. Else they are
-    /// taken evenly from all of it.
+    /// Whether the scratches are in random order: then the first ones are taken, which an editor has first. Else they are taken
+    /// evenly from all of the layer.
     pub is_random: bool,
 }
 
@@ -26,14 +26,14 @@ pub struct DraftLayer {
 pub struct Draft {
     /// Object by object.
     pub(crate) segments: Vec<IndexedSegment>,
-    /// Number of pieces that each of them stands for.
+    /// Number of pieces for which each of the `segments` stands.
     pub(crate) weights: Vec<f32>,
     /// The segments of each object.
     pub(crate) objects: Vec<Range<usize>>,
 }
 
 impl Draft {
-    /// One scratch of `step` of each layer, or all of them where they are few. `layer` tells of a layer by its number.
+    /// Takes one of every `step` scratches of each layer, or all of them where they are few. `layer` describes a layer by its number.
     pub fn new(scene: &Scene, step: usize, layer: &dyn Fn(u32) -> DraftLayer) -> Self {
         let mut draft = Self::default();
         for object in &scene.objects {

@@ -19,9 +19,9 @@ pub(crate) struct LayerLight {
     pub seen: DVec3,
     /// Light of other objects.
     pub bounced: DVec3,
-    /// Sums over rounds of a round's share that is seen, and of its square.
+    /// Sums over rounds of the share of luminance that is seen, and of its square.
     share_moments: DVec2,
-    /// Sums over rounds of the luminance of `bounced` over that of `around`, and of its square.
+    /// Sums over rounds of the ratio of luminances of `bounced` and `around`, and of its square.
     bounced_moments: DVec2,
 }
 
@@ -46,12 +46,12 @@ impl LayerLight {
         }
     }
 
-    /// The mean over so many samples, of which this is the sum.
+    /// Divides the sum of the light of `samples` samples by their number.
     pub fn mean(self, samples: f64) -> Self {
         self.times(DVec3::splat(1.0 / samples))
     }
 
-    /// The share of its luminance that is seen; all of it without rays. As [`FoundLight::share`].
+    /// Share of the luminance that is seen; 1 without rays. As [`FoundLight::share`].
     pub fn share(&self) -> f64 {
         let all = luminance(self.weight);
         match all > 0.0 {

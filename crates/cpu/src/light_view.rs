@@ -22,7 +22,7 @@ pub(crate) enum LightView {
         vertices: Range<usize>,
         away: DVec3,
         facing: f64,
-        /// Whether a corner lies below the horizon.
+        /// Whether one of the corners lies below the horizon.
         sets: bool,
         /// Holds the whole polygon.
         bound: Cap,
@@ -37,7 +37,7 @@ impl LightView {
         }
     }
 
-    /// A direction well within it, as far above the horizon as there is one.
+    /// Direction inside the light that lies as far above the horizon as possible.
     pub fn highest(&self, views: &LightViews) -> DVec3 {
         match self {
             Self::Sphere { cap, .. } if cap.cos_radius <= 0.0 => DVec3::Z,
@@ -201,7 +201,7 @@ impl<'a> LightViews<'a> {
         }
     }
 
-    /// Adds a light whose outline is that of the vertices from `first` on, unless nothing of it is seen.
+    /// Adds a light whose outline has the vertices from `first` on, unless no part of it is above the horizon.
     fn add_outline(
         &mut self,
         point: &SurfacePoint,

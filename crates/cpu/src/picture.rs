@@ -19,7 +19,7 @@ pub(crate) struct PictureView<'a> {
 }
 
 impl<'a> PictureView<'a> {
-    /// `corners` are those of the light, relative to the point, in the frame of its surface.
+    /// Makes the plane of a picture on a light; `corners` are the light's, relative to the point, in the frame of its surface.
     pub fn new(texture: &'a Texture, corners: &[DVec3]) -> Self {
         Self {
             texture,
@@ -83,7 +83,8 @@ impl<'a> PictureView<'a> {
         mean
     }
 
-    /// Value of the picture for a part of a chord with its middle at q, by the directions of its ends and its middle.
+    /// Colour of the picture for a part of a chord with its middle at q. `directions` are those of the part's ends and its
+    /// middle.
     pub fn on_chord(&self, directions: [DVec3; 3], q: f64) -> DVec3 {
         let [middle, per_q2] = self.across_variance;
         let across_std = (middle + per_q2 * q * q).max(0.0).sqrt();

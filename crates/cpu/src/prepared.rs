@@ -28,7 +28,7 @@ impl<'a> Prepared<'a> {
         Self::watched(scene, &Watch::default()).unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
-    /// Prepares the scene while a watch listens to the building of the tree over the scratches, which takes the most time. `None` if it was
+    /// Prepares the scene; a watch follows the building of the tree over the scratches, which takes the most time. `None` if it was
     /// cancelled.
     pub fn watched(scene: &'a Scene, watch: &Watch) -> Option<Self> {
         let (triangles, (scratches, tables)) = rayon::join(
@@ -108,7 +108,7 @@ impl<'a> Prepared<'a> {
             .get_or_init(|| TriangleLists::build(self.scene, &self.scratches))
     }
 
-    /// Sampler of directions to the environment, if there is one; built when first asked for, not for each part of a picture.
+    /// Sampler of directions to the environment, if there is one. It is built at the first call, and not for each part of a picture.
     pub(crate) fn environment_sampler(&self) -> Option<&EnvironmentSampler> {
         let environment = self.scene.environment.as_ref()?;
         let sampler = || EnvironmentSampler::new(environment);

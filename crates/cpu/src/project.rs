@@ -42,7 +42,7 @@ pub(crate) struct Projected {
     /// Pixels. For a segment too near the camera both ends are the same and the reach is infinite.
     pub start_px: [f32; 2],
     pub end_px: [f32; 2],
-    /// No pixel farther away has a share of it.
+    /// Distance in pixels from the segment beyond which no pixel has a share of it.
     pub reach_px: f32,
 }
 
@@ -156,7 +156,7 @@ impl Rows {
         }
     }
 
-    /// The segments of an object that lie in nodes of its tree which the rows may see, in their order.
+    /// Ranges of the segments of an object in those nodes of its tree which the rows may see, in their order.
     fn in_sight(&self, prepared: &Prepared, object: usize, margin_m: f64) -> Vec<Range<usize>> {
         let tree = &prepared.scratches.tree;
         let mut ranges: Vec<Range<usize>> = Vec::new();

@@ -33,7 +33,7 @@ pub(crate) struct Wide<'a> {
 /// Samples of a pixel that share one sample's scratches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Shared {
-    /// The sample has the scratches of this number of samples, itself among them.
+    /// The sample shades the scratches for this number of samples, itself among them.
     Among(u32),
     /// Another sample of the batch has the scratches.
     With(usize),
@@ -70,7 +70,7 @@ impl<'a> SamplePoint<'a> {
         self.wide.as_ref().map_or(own, |wide| &wide.point)
     }
 
-    /// Origin of the rays by way of the sample's scratches; none if another sample has them.
+    /// Origin of the rays off the sample's scratches; none if another sample shades them.
     pub fn scratched_point<'p>(
         &'p self,
         camera: &'p CameraFrame,

@@ -174,7 +174,7 @@ pub(crate) struct Base<'p, 'a> {
     pub lobe: Layer<'a>,
     /// The layer over both, with its share of the surface.
     pub coat: Option<(f64, Layer<'a>)>,
-    /// Share of the light on the body that leaves it.
+    /// Share of the light in the body that leaves it again.
     pub body: DVec3,
 }
 

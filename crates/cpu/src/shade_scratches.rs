@@ -148,7 +148,7 @@ impl Shading<'_, '_> {
         }
     }
 
-    /// Adds the light of a segment, times `weight`, to those points of a group that see it.
+    /// Adds the light of a segment, times `weight`, to the points of a group that the segment lies under.
     #[inline(always)]
     fn light(
         &mut self,

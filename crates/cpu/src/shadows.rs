@@ -118,10 +118,10 @@ enum Purpose {
     Source,
     /// A direction in the environment (2), and whether to go there (the last one).
     Environment,
-    /// A direction by way of a scratch to a light (3), and where on the scratch it starts (4).
+    /// Direction from a scratch to a light (3), and the start of the ray on the scratch (4).
     Scratch,
     ScratchOrigin,
-    /// A direction by way of a scratch to another object, and where on the scratch it starts (2, 4).
+    /// Direction from a scratch to another object, and the start of the ray on the scratch (2, 4).
     Around,
     AroundOrigin,
     /// A direction to a light (2), and whether to go there (the last one).
@@ -254,7 +254,7 @@ impl<'a> Shadows<'a> {
         }
     }
 
-    /// Intersects a ray of the camera beside that of a point with the point's triangle, which most of them meet.
+    /// Intersects a ray of the camera near that of a point with the point's triangle, which most such rays meet.
     fn on_triangle(&self, at: &ShadowPoint, from_m: DVec3, direction: DVec3) -> Option<Hit> {
         let (object, triangle) = (at.object, at.point.triangle);
         let mesh = &self.prepared.scene.objects[object as usize].mesh;
@@ -269,7 +269,7 @@ impl<'a> Shadows<'a> {
         })
     }
 
-    /// Start of a ray that must not meet the surface that it leaves.
+    /// Start of a ray, moved off the surface so that the ray does not meet the surface that it leaves.
     fn off_the_surface(
         &self,
         point: &SurfacePoint,
@@ -288,7 +288,7 @@ impl ShadowPoint<'_, '_> {
         numbers.map(|u| f64::from(u) + 0.5 / f64::from(1 << 24))
     }
 
-    /// Seed of the picks of its scratches: another one for other rounds.
+    /// Seed of the random picks of the sample's scratches. It depends on the rounds.
     pub fn picks_seed(&self) -> u64 {
         u64::from(self.rounds.now.first) << 32 | u64::from(self.seed)
     }

@@ -4,11 +4,12 @@ use crate::prepared::Prepared;
 use crate::sample_point::{SamplePoint, Seen, Shared, Wide};
 use glam::DVec2;
 
-/// The least cosine between normals that are those of one surface.
+/// Least cosine between two normals of samples that count as one surface.
 const ALIKE_COS: f64 = 0.9994;
 
-/// Makes one sample stand for the scratches of all that see the same surface, of those of a pixel from `first` of the batch on: the one nearest to
-/// the pixel's middle, with the pixel's whole filter. Scratches are most of the work, and a pixel without an edge has them once, too.
+/// Lets one sample of a pixel shade the scratches for all samples that see the same surface: the sample nearest to the pixel's middle, with the
+/// pixel's whole filter. The pixel's samples are those from `first` of the batch on. Scratches are most of the work, and a pixel without an edge
+/// shades them once, too.
 pub(crate) fn share_scratches(
     prepared: &Prepared,
     batch: &mut [SamplePoint],
@@ -53,7 +54,7 @@ pub(crate) fn share_scratches(
     }
 }
 
-/// Whether both see one surface, as far as scratches tell.
+/// Whether both samples see one surface, as far as scratches depend on it.
 fn is_like(one: &Seen, other: &Seen) -> bool {
     match (one, other) {
         (

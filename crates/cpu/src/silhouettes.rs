@@ -7,8 +7,8 @@
 use crate::visibility::Visibility;
 use hairline_scene::CameraFrame;
 
-/// The reciprocal of depth is linear over the picture of a plane, so its second difference tells a crease or a step. In
-/// units of a pixel's width on the surface: a fold of about 10 degrees.
+/// Threshold of the second difference of 1 / depth, which is zero over a plane, above which there is a crease or a step. In units of a pixel's width on the
+/// surface: a fold of about 10 degrees.
 const CREASE_PX: f64 = 0.2;
 
 /// Whether one sample is enough for a pixel.

@@ -34,7 +34,7 @@ pub struct SurfacePoint<'a> {
     pub distance_m: f64,
     /// Movements of the point by one standard deviation of the pixel's filter to the right and down, world space.
     pub footprint_axes_m: [DVec3; 2],
-    /// Turns of the smooth normal, on the viewer's side, over each of them, in the local frame.
+    /// Turns of the smooth normal, on the viewer's side, over each of the footprint's axes, in the local frame.
     pub normal_turns: [DVec3; 2],
     /// Specular reflectance.
     pub fresnel: FresnelRgb<'a>,
@@ -46,7 +46,7 @@ pub struct SurfacePoint<'a> {
     pub facets: Option<FacetAxes>,
     /// A clear layer over all of this.
     pub coat: Option<PointCoat<'a>>,
-    /// Standard deviation of the slopes of its normal map about the one that is looked up, in each direction.
+    /// Standard deviation of the slopes of the normal map about the slope that is looked up, in each direction.
     pub slope_std: f64,
     /// Share of the environment's light that reaches the base.
     pub open: f64,
@@ -86,7 +86,7 @@ impl SurfacePoint<'_> {
         SURFACE_BENDS + 2.0 * self.normal.distance(self.facet)
     }
 
-    /// Reflectance at a cosine of the surface in which scratches lie: the coat, where it is.
+    /// Reflectance at a cosine of the layer in which scratches lie: the coat, if there is one.
     pub fn reflectance(&self, cos_theta: f64) -> DVec3 {
         let base = DVec3::from(self.fresnel.eval(cos_theta));
         self.coat.map_or(base, |coat| {
@@ -113,7 +113,7 @@ impl SurfacePoint<'_> {
         }
     }
 
-    /// The surface under the coat in its own frame, where it has a normal of its own.
+    /// The surface under the coat in its own frame, if it has a normal of its own.
     pub fn under_coat(&self) -> Option<Self> {
         let normal = self.normal_under_coat?;
         let to_viewer = self.world_from_surface(self.wo);

@@ -28,7 +28,7 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Samples of a pixel of which some may share scratches.
+/// Number of samples of a pixel that are shaded together and may share scratches.
 const SAMPLES_AT_ONCE: usize = 16;
 /// Pixels to a side.
 const SIDE: usize = TILE_PX as usize;
@@ -58,7 +58,8 @@ pub(crate) enum PictureMethod<'a> {
 /// The room that a thread needs for a tile, filled anew for each.
 pub(crate) struct Tile<'a> {
     picture: &'a Picture<'a>,
-    /// Asked before each batch, and with shadows before each of its points: their rays take a while.
+    /// Callback that tells whether to stop. It is called before each batch, and with shadows before each point, since its rays take
+    /// long.
     cancelled: &'a (dyn Fn() -> bool + Sync),
     is_cancelled: bool,
     rays: CameraBeam,
@@ -99,7 +100,7 @@ impl<'a> Tile<'a> {
         }
     }
 
-    /// Renders the part of a tile that lies within the picture's rows; there is nothing of other pixels. Row by row. None if it was
+    /// Renders the part of a tile that lies within the picture's rows; other pixels are `None`. Row by row. None if it was
     /// cancelled: then it renders nothing more.
     pub fn render(&mut self, column: usize, row: usize) -> Option<[Option<Sample>; SIDE * SIDE]> {
         let picture = self.picture;
@@ -167,7 +168,7 @@ impl<'a> Tile<'a> {
         }
     }
 
-    /// Adds one of `samples` samples of a pixel, given the hit of its ray.
+    /// Adds a sample of a pixel, given the hit of its ray; the pixel has `samples` in all.
     fn add(
         &mut self,
         column: usize,

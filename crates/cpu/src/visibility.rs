@@ -7,13 +7,13 @@ use hairline_scene::CameraFrame;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Hits of the pixels of some rows, and of the row beyond at either end, which tell edges.
+/// Hits of the rays through the pixels of some rows, and through one more row at either end, by which edges are found.
 pub(crate) struct Visibility {
     /// Row by row; [`NOTHING`] for the background.
     hits: Vec<Hit>,
     /// Reciprocals of the depths along the view axis; 0 for the background.
     per_depths_m: Vec<f64>,
-    /// Whether the surface may cover only a part of what lies behind it.
+    /// Whether each hit's surface may cover only a part of what lies behind it.
     partial: Vec<bool>,
     /// The row that `hits` begins with, and the row behind the last one.
     rows: Range<usize>,
@@ -96,7 +96,7 @@ impl Visibility {
         (hit.object != NOTHING.object).then_some(hit)
     }
 
-    /// Whether what a pixel's centre sees may cover only a part of what lies behind it.
+    /// Whether the surface at a pixel's centre may cover only a part of what lies behind it.
     pub fn is_partial(&self, x: usize, y: usize) -> bool {
         self.partial[self.index(x, y)]
     }

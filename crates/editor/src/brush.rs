@@ -11,18 +11,18 @@ use hairline_scene::description::{Brush, Layer, Stroke};
 use crate::actions::{layers, objects};
 use crate::{ActionError, Selection, presets};
 
-/// Points of a drag are taken at least this part of the radius apart,
+/// Least distance between two points of a drag, as a share of the radius.
 const LEAST_SPACING: f64 = 1.0 / 8.0;
-/// and filled up where they are farther apart than this part.
+/// Largest distance between two points of a drag, as a share of the radius; points are inserted where it is larger.
 const MOST_SPACING: f64 = 1.0 / 2.0;
-/// A stroke may leave the way of the pointer by this part of the radius.
+/// Largest distance of a simplified stroke from the pointer's path, as a share of the radius.
 const STRAYING: f64 = 1.0 / 20.0;
-/// Coordinates are rounded by no more than this part of the radius.
+/// Largest error of rounded coordinates, as a share of the radius.
 const ROUNDING: f64 = 1.0 / 500.0;
 
-/// The radius as a part of the view's height: some 15 points of a usual window.
+/// Radius of a new brush as a share of the view's height: some 15 points of a usual window.
 const SHARE_OF_VIEW: f64 = 0.025;
-/// and at most this part of the object's diagonal.
+/// Largest radius of a new brush, as a share of the object's diagonal.
 const MOST_OF_OBJECT: f64 = 0.06;
 
 /// Settings of the brush.
@@ -116,7 +116,7 @@ impl Recorder {
         true
     }
 
-    /// The way so far, in the world, for a preview.
+    /// Path of the stroke until now, in the world, for a preview.
     pub fn way_m(&self) -> &[DVec3] {
         &self.way_m
     }

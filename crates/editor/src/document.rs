@@ -79,7 +79,7 @@ impl Document {
         }
     }
 
-    /// The scene as it is.
+    /// The current description of the scene.
     pub fn description(&self) -> &Arc<Description> {
         &self.state.description
     }
@@ -199,7 +199,7 @@ impl Document {
         self.drag.as_ref().map(|drag| &drag.before.description)
     }
 
-    /// The next [`Self::drag`] is a step of its own.
+    /// Ends a drag, so that the next [`Self::drag`] is a step of its own.
     pub fn end_drag(&mut self) {
         self.drag = None;
     }

@@ -17,7 +17,7 @@ pub enum GratingPreset {
     BrushedAluminium,
     /// Turned on a lathe.
     TurnedSteel,
-    /// Spots that a spinning peg leaves: plates of watches, dashboards.
+    /// Spots from a spinning peg: plates of watches, dashboards.
     EngineTurned,
 }
 

@@ -1,4 +1,4 @@
-//! Lights moved, turned, sized and reshaped by hand, and placed where their highlight is wanted.
+//! Lights that are moved, turned, sized and reshaped by hand, or placed so that their highlight lies at a given point.
 
 use glam::{DQuat, DVec3};
 use hairline_scene::description::limits::{LARGEST_M, SMALLEST_M};

@@ -24,7 +24,7 @@ pub enum LayerPreset {
     BrushedSteel,
     /// Rays from an axis.
     PolishedWatch,
-    /// Arcs that leave an axis.
+    /// Arcs that start at an axis.
     SpunDisk,
     /// Short, bent, uneven scratches.
     WornCutlery,
@@ -152,7 +152,7 @@ impl LayerPreset {
     }
 }
 
-/// The layer that a brush of this radius begins.
+/// Layer that a brush of this radius starts.
 pub fn drawn_layer(object: impl Into<String>, radius_m: f64) -> Scratches {
     let drawn = |mean, spread| Distribution { mean, spread };
     let length_m = (1.5 * radius_m).clamp(1e-4, 10.0);
@@ -358,8 +358,8 @@ impl LightPreset {
         }
     }
 
-    /// The light, beside and above a target, at a distance and a size that suit a scene of this diagonal; flat ones face the
-    /// target. `up` is the camera's.
+    /// Makes the light, beside and above a target, at a distance and of a size that suit a scene of this diagonal; flat ones
+    /// face the target. `up` is the camera's.
     pub fn light(self, target_m: DVec3, up: DVec3, diagonal_m: f64) -> Light {
         let d = fitting(diagonal_m);
         let up = up.normalize_or(DVec3::Y);

@@ -15,7 +15,7 @@ use dimension::Dimension;
 pub enum Unit {
     /// No unit: a factor, a share, a number of things.
     None,
-    /// Metres, shown in whatever of nm, µm, mm and m reads best.
+    /// Metres, shown in nm, µm, mm or m, whichever reads best.
     Metre,
     /// Micrometres.
     Micrometre,
@@ -81,7 +81,7 @@ impl Unit {
         }
     }
 
-    /// Display of numbers of this unit, of which the largest has this magnitude.
+    /// Display unit for numbers of this unit, the largest of which has this magnitude.
     pub fn shown(self, magnitude: f64) -> ShownUnit {
         let (factor, symbol) = match self {
             Self::None => (1.0, ""),
@@ -124,7 +124,7 @@ impl Unit {
     }
 }
 
-/// The unit in which a number is shown, and in which one without a unit is typed.
+/// Unit in which a number is shown, and in which a typed number without a unit is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShownUnit {
     /// Size of one unit shown, in the parameter's own unit.

@@ -10,11 +10,11 @@ pub enum Selection {
     None,
     /// `[camera]`
     Camera,
-    /// `[environment]`, whether there is one or not.
+    /// `[environment]`, even if the scene has none.
     Environment,
     /// `[studio]`, lit or not.
     Studio,
-    /// `[ground]`, whether there is one or not.
+    /// `[ground]`, even if the scene has none.
     Ground,
     /// `[render]`
     Render,
@@ -45,7 +45,7 @@ impl Selection {
         }
     }
 
-    /// Itself if the description has it, else the last of its kind, else nothing.
+    /// Returns the selection if the description has that part, else the last of its kind, else nothing.
     #[must_use]
     pub(crate) fn held_by(self, description: &Description) -> Self {
         let last = |n: usize, make: fn(usize) -> Self| n.checked_sub(1).map_or(Self::None, make);

@@ -1,13 +1,13 @@
-//! The subject of a scene, which a view of all of it shows.
+//! Subject of a scene: the objects that a view of the whole scene frames.
 
 use glam::DVec3;
 use hairline_scene::Description;
 
 use crate::actions::objects;
 
-/// An object that is this flat, its thinnest side over its longest,
+/// Largest thickness of a ground, as a share of its longest side.
 const FLAT: f64 = 0.03;
-/// and so many times as large as all that is left, is what the rest stands on.
+/// Least size of a ground over the size of all other objects.
 const WIDE: f64 = 2.0;
 
 /// The objects that are not the ground that others stand on, nor a room around them and the camera. What has scratches always

@@ -1,4 +1,4 @@
-//! The arrays that the passes of bounces leave for one another: how they are made.
+//! Makes the arrays in which the passes of bounces store their results for one another.
 
 use wgpu::BufferUsages;
 

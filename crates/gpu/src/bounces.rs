@@ -25,7 +25,7 @@ use crate::strip::{StripRoom, whole};
 use crate::transfer::Transfer;
 use crate::variant::{Constant, Seen, ShadeVariant, Way};
 
-/// Passes for rays to other objects, besides those of shadows.
+/// Passes for rays to other objects, in addition to the passes of shadows.
 pub(crate) struct Bounces {
     /// Largest number of objects on a path of light, besides the one that the camera sees.
     pub count: u32,
@@ -36,9 +36,9 @@ pub(crate) struct Bounces {
     light: ComputePass,
     /// Shadows of hits.
     pub shadows: Shadows,
-    /// Passes by way of scratches; none where the scene has no scratches.
+    /// Passes for rays off scratches; none where the scene has no scratches.
     pub scratches: Option<BounceScratches>,
-    /// Pass for rays by way of gratings. None where the scene has none.
+    /// Pass for rays off gratings; none where the scene has none.
     gratings: Option<ComputePass>,
 }
 
@@ -127,7 +127,7 @@ impl Bounces {
         }
     }
 
-    /// Whether rays may leave the camera's samples in a way.
+    /// Whether rays may leave the camera's samples by a lobe.
     pub(crate) fn has(&self, way: Way) -> bool {
         match way {
             Way::Base => true,
@@ -289,7 +289,7 @@ impl BounceScratches {
         pick.record(gpu, recording, by.from, picks, on.sorted, on.chunks);
     }
 
-    /// Counts the segments that each hit may see, and finds the start of its list.
+    /// Counts the segments that each hit may see, and finds the start of the hit's list.
     pub(crate) fn record_count(
         &self,
         gpu: &Gpu,

@@ -1,5 +1,4 @@
-//! A picture of any size for a window, which comes together step by step, band by band, and can be shown or read at any
-//! moment.
+//! A picture of any size for a window. It is rendered step by step, band by band, and can be shown or read at any moment.
 
 use std::ops::Range;
 

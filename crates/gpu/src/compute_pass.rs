@@ -37,7 +37,7 @@ pub(crate) struct Recording<'a> {
     pub timing: &'a Timing,
 }
 
-/// Workgroups that each WebGPU device takes in one dimension.
+/// Largest number of workgroups in one dimension on every WebGPU device.
 const WORKGROUPS_MAX: u32 = 65_535;
 
 impl ComputePass {

@@ -110,7 +110,7 @@ impl std::fmt::Display for Adapter {
     }
 }
 
-/// The adapters of this machine, the ones to prefer first. In a browser: the one that it lends.
+/// Lists the adapters of this machine, the preferred ones first. In a browser: the one that it lends.
 ///
 /// GL is asked only where nothing newer reaches a GPU: the same card is nearly always there by a newer interface too, with
 /// less overhead. The environment variable `WGPU_BACKEND` narrows the choice ("vulkan", "gl", ...).
@@ -243,7 +243,7 @@ fn shortcoming(limits: &wgpu::Limits, downlevel: &wgpu::DownlevelCapabilities) -
     (!missing.is_empty()).then(|| missing.join("; "))
 }
 
-/// WebGPU's default limits, save those that a large scene outgrows: the sizes of one buffer.
+/// WebGPU's default limits, with larger buffers, since a large scene outgrows the default sizes.
 fn raised_limits(allowed: &wgpu::Limits) -> wgpu::Limits {
     wgpu::Limits {
         max_buffer_size: allowed.max_buffer_size,
@@ -332,8 +332,8 @@ impl Gpu {
             .min(limits.max_buffer_size)
     }
 
-    /// The layers that a texture must have to be bound as an array of `count` of them. By way of OpenGL wgpu makes an array of what has
-    /// more than one layer and nothing else; what is bound as an array and is none reads as zeros.
+    /// Number of layers that a texture must have to be bound as an array of `count` layers. With OpenGL, wgpu makes an array only of a
+    /// texture with more than one layer; another texture that is bound as an array reads as zeros.
     pub(crate) fn array_layers(&self, count: u32) -> u32 {
         let least = if self.adapter.is_opengl() { 2 } else { 1 };
         count.max(least)
@@ -489,11 +489,11 @@ fn describe(adapters: &[Adapter]) -> String {
     lines.collect::<Vec<_>>().join(", ")
 }
 
-/// Errors that no scope caught, kept until somebody asks. Unheard, the graphics library would panic.
+/// Errors that no scope caught, kept until they are taken. Without a handler the graphics library would panic.
 #[derive(Clone, Default)]
 struct Faults {
     first: Arc<Mutex<Option<Error>>>,
-    /// Who wants to know of a loss at once.
+    /// Listener that is told at once when the device is lost.
     on_lost: Arc<OnceLock<LossListener>>,
 }
 

@@ -26,8 +26,8 @@ pub(crate) struct FilmFound {
 }
 
 impl Film {
-    /// The rows of each band of a picture of `size_px`, of which about `submission_px` pixels are to be done at a time: whole tiles,
-    /// and no more than the device can hold.
+    /// Number of rows in each band of a picture of `size_px`: whole tiles, about `submission_px` pixels at a time, and no more than
+    /// the device can hold.
     pub(crate) fn band_rows(
         gpu: &Gpu,
         [width, height]: [u32; 2],
@@ -76,7 +76,7 @@ impl Film {
         Ok(())
     }
 
-    /// Device memory of its pixels.
+    /// Device memory of the film's pixels, in bytes.
     pub(crate) fn bytes(&self) -> u64 {
         let found = self.found.as_ref().map_or(0, |_| size_of::<FoundPixel>());
         self.pixels * (size_of::<FilmPixel>() + found) as u64
@@ -161,7 +161,7 @@ impl FilmFound {
     }
 }
 
-/// Largest number of rows of which the device can hold the light that rays found: whole tiles.
+/// Largest number of rows, in whole tiles, whose found light the device can hold.
 fn found_rows_max(gpu: &Gpu, width_px: u32) -> u32 {
     let row_bytes = u64::from(width_px.max(1)) * size_of::<FoundPixel>() as u64;
     let rows = (gpu.largest_array() / row_bytes) as u32;

@@ -233,7 +233,7 @@ impl Pass {
 struct Inputs<'a>([BindingResource<'a>; 9]);
 
 impl<'a> Inputs<'a> {
-    /// Bindings with the signals of one turn to read, and those of the other to write.
+    /// Makes bindings that read the signals of one turn and write those of the other.
     fn of(room: &'a Room, film: &'a crate::film::Film, turn: usize) -> Self {
         let view = BindingResource::TextureView;
         let settings = BindingResource::Buffer(wgpu::BufferBinding {

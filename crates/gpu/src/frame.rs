@@ -36,7 +36,7 @@ pub(crate) struct View<'a> {
 pub(crate) const SAMPLES_AT_ONCE: u32 = 16;
 
 impl View<'_> {
-    /// The samples of its step.
+    /// Range of the samples of this step.
     pub(crate) fn step_samples(&self) -> Range<u32> {
         match self.step {
             0 => 0..1,
@@ -50,7 +50,7 @@ impl View<'_> {
 }
 
 impl View<'_> {
-    /// Shadows of the scene, where it has some that are wanted.
+    /// Shadows of the scene, if it has some and the view wants them.
     pub(crate) fn shadows(&self) -> Option<&Shadows> {
         let shadows = self.uploaded.shadows.as_ref();
         shadows.filter(|_| !self.without_shadows)
@@ -178,7 +178,7 @@ fn sample_order(step: Range<u32>, samples: u32) -> [u32; 2] {
     packed
 }
 
-/// Jittered samples lie within half a pixel of the centre to either side, by the diagonal.
+/// Largest distance of a jittered sample from the pixel's centre, in pixels: half of the diagonal.
 const JITTER_MAX_PX: f32 = 0.71;
 
 fn vec3(v: DVec3) -> [f32; 3] {

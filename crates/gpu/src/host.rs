@@ -14,9 +14,9 @@ use crate::layout::VERTEX_BITANGENT_FLIPPED;
 use crate::layout::{Grating, Material, Object, ScratchNode, ScratchSegment, Vertex};
 use crate::texture_array::TextureArray;
 
-/// Elements that a thread takes at a time: fewer are not worth another thread.
+/// Number of elements that a thread takes at a time: fewer are not worth another thread.
 const CHUNK: usize = 4096;
-/// A place as it is uploaded.
+/// Converts a position to single precision, relative to an origin.
 pub(crate) fn relative(position_m: DVec3, origin_m: DVec3) -> [f32; 3] {
     (position_m - origin_m).as_vec3().to_array()
 }
@@ -93,7 +93,7 @@ pub(crate) fn objects(index: &ScratchIndex, gratings: &[Vec<Grating>]) -> Vec<Ob
     index.tree.objects.iter().enumerate().map(object).collect()
 }
 
-/// Converts the gratings of each object of a scene, each once for each material that it lies on.
+/// Converts the gratings of each object of a scene, once for each material on which a grating lies.
 pub(crate) fn gratings(
     scene: &Scene,
     tables: &ScratchTables,

@@ -11,7 +11,7 @@ use crate::lights::{self, Kind};
 
 /// Lights of one dispatch, for which the pass has room. Twin: shade_scratches.wgsl.
 const LIGHTS_AT_ONCE: u32 = 7;
-/// Offsets into uniform buffers are multiples of this on every WebGPU device.
+/// Alignment of offsets into uniform buffers that holds on every WebGPU device, in bytes.
 pub(crate) const RANGE_STRIDE: u64 = 256;
 
 /// The dispatches that a scene's lights need, in the order of the passes.

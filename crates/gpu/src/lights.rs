@@ -109,14 +109,14 @@ impl Kinds {
         Kind::ALL.into_iter().filter(wanted)
     }
 
-    /// Kinds of rays, each of which has passes of its own.
+    /// Kinds of rays to sources. Each kind has passes of its own.
     pub(crate) fn of_rays(self) -> impl Iterator<Item = Kind> {
         let folded = move |kind: &Kind| *kind != Kind::Quads || !self.has(Kind::Outlines);
         let there = Kind::ALL.into_iter().filter(move |kind| self.has(*kind));
         there.filter(folded).map(Kind::of_rays)
     }
 
-    /// Constants of shaders for the kinds that shine on scratches and those that shine on the base. Twin:
+    /// Constants of shaders for the kinds of lights that shine on scratches, and those that shine on the base. Twin:
     /// contents.wgsl.
     pub(crate) fn constants(self, on_base: Self) -> [(&'static str, f64); 9] {
         [
@@ -202,13 +202,13 @@ pub(crate) fn doors(light: &Light) -> Option<Doors> {
 /// Places among the vertices that a light's doors take, behind its own. Twin: rows.wgsl.
 pub(crate) const DOOR_PLACES: usize = 3;
 
-/// Places among the vertices that a light takes.
+/// Number of entries of a light in the array of vertices.
 pub(crate) fn places(light: &Light) -> usize {
     let doors = doors(light).map_or(0, |_| DOOR_PLACES);
     vertices_m(light).len() + doors + usize::from(light.picture.is_some())
 }
 
-/// All area lights, and behind them the vertices of those that have some, as texels.
+/// Packs all area lights, then the vertices of those that have some, as texels.
 pub(crate) fn packed(scene: &Scene, array: &TextureArray, origin_m: DVec3) -> Vec<[u32; 4]> {
     let mut vertices: Vec<[f32; 4]> = Vec::new();
     let pack = |light: &Light| {

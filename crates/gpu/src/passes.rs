@@ -54,7 +54,7 @@ impl ScenePasses {
         }
     }
 
-    /// Chunks of sums that gratings of so many groups need behind those of scratches.
+    /// Number of chunks of sums that gratings need behind those of scratches, for `groups` groups.
     pub(crate) fn grating_chunks(&self, groups: u32) -> u32 {
         match &self.shade {
             Shade::Own {

@@ -60,7 +60,7 @@ impl<'a> Orders<'a> {
         self.variant
     }
 
-    /// Asks for a pipeline over the frame, the scene, its textures and `group_3`, with `more` constants beside the variant's or in place of them.
+    /// Requests a pipeline over the frame, the scene, its textures and `group_3`; `more` constants are added to the variant's or replace them.
     pub(crate) fn pipeline(
         &mut self,
         (module, entry_point): (&'static shaders::Module, &'static str),

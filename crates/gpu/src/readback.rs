@@ -108,8 +108,8 @@ impl Gpu {
         self.map(&staging, unpadded).await
     }
 
-    /// Maps a buffer with the usage `MAP_READ` once what was submitted is done, and returns what `take` makes of its
-    /// bytes.
+    /// Maps a buffer with the usage `MAP_READ` once the submitted work is done, and returns the result of `take` on
+    /// its bytes.
     async fn map(
         &self,
         staging: &wgpu::Buffer,

@@ -50,8 +50,7 @@ impl Default for RenderOptions {
     }
 }
 
-/// The steps that a picture takes: one for all pixels, and, if there are several samples, one for each 16 of them on pixels with an edge
-/// or a crease.
+/// Number of steps of a picture: one for all pixels, and, with several samples, one for each 16 of them on pixels with an edge or a crease.
 pub const fn steps(samples: u32) -> u32 {
     if samples > 1 {
         1 + samples.div_ceil(SAMPLES_AT_ONCE)

@@ -10,7 +10,8 @@ use crate::transfer::{Place, Transfer};
 pub(crate) const ROW_TEXELS: u32 = 1 << 12;
 const TEXEL_BYTES: usize = 16;
 
-/// The bytes that one texture of this many elements of `stride` bytes takes, and those that the device allows.
+/// Bytes of a texture that holds `count` elements of `stride` bytes, and the largest number of bytes that the
+/// device allows.
 pub(crate) fn bytes_and_allowed(gpu: &Gpu, count: usize, stride: usize) -> (u64, u64) {
     let row_bytes = u64::from(ROW_TEXELS) * TEXEL_BYTES as u64;
     let rows = (count as u64 * stride as u64).div_ceil(row_bytes).max(1);

@@ -21,7 +21,7 @@ pub(crate) struct ScanPasses {
 
 /// The scan of one array.
 pub(crate) struct Scan {
-    /// The array first, then the sums of blocks, then those of blocks of these.
+    /// The array, then the sums of its blocks, then the sums of blocks of these, and so on.
     levels: Vec<Level>,
 }
 
@@ -71,7 +71,7 @@ impl ScanPasses {
         }
     }
 
-    /// A scan of `values`, an array of `u32` with room for `capacity` of them.
+    /// Makes a scan of `values`, an array of `u32` with room for `capacity` of them.
     pub(crate) async fn of(
         &self,
         gpu: &Gpu,

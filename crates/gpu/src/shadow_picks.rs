@@ -53,7 +53,7 @@ impl ShadowPicksPass {
 pub(crate) struct PickedRaysPasses(Vec<ComputePass>);
 
 impl PickedRaysPasses {
-    /// Makes the passes for rays by way of scratches, or of gratings.
+    /// Makes the passes for rays off scratches, or off gratings.
     pub(crate) fn new(orders: &mut Orders, of_gratings: bool) -> Self {
         use Use::{Reads, Uniform, Writes};
         let uses = [Reads, Reads, Reads, Reads, Writes, Uniform, Reads];

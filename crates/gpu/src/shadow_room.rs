@@ -1,4 +1,4 @@
-//! The arrays that the passes of shadows leave for one another.
+//! Arrays in which the passes of shadows store their results for one another.
 
 use wgpu::BufferUsages;
 

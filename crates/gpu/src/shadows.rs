@@ -33,7 +33,7 @@ pub(crate) struct Shadows {
     film: ComputePass,
     /// Number of layers of a sample.
     pub layers: u64,
-    /// Passes by way of scratches and of gratings, for those that the scene has.
+    /// Passes for rays off scratches and off gratings, if the scene has any.
     pub by_picks: Vec<Box<dyn ByPicks>>,
     pub tree: TriangleTree,
     /// Largest distance of the scene from the origin of the uploaded positions.
@@ -139,7 +139,7 @@ impl Shadows {
         self.record_trace(gpu, recording, room, shadow_room, film, groups);
     }
 
-    /// Draws a ray of each sample by way of its pick, and follows it.
+    /// Draws a ray of each sample off its pick, and follows it.
     #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
     pub(crate) fn record_picked_round(
         &self,

@@ -1,4 +1,4 @@
-//! A scene with its trees and tables, as it is to be uploaded.
+//! A scene with its trees and tables, ready to be uploaded.
 
 use std::sync::Arc;
 

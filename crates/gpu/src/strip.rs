@@ -1,4 +1,4 @@
-//! The arrays that passes leave for one another while they shade a strip: some rows of a picture.
+//! Arrays in which passes store their results for one another while they shade a strip: some rows of a picture.
 
 use std::ops::Range;
 
@@ -54,7 +54,8 @@ pub(crate) struct StripRoom {
     pub bounces: Option<Box<BounceRoom>>,
 }
 
-/// The arrays over samples that the passes of bounces leave for one another, and the rooms for their hits. They grow to the size that is needed.
+/// Arrays over samples in which the passes of bounces store their results for one another, and the rooms for their hits. They grow to the size
+/// that is needed.
 pub(crate) struct BounceRoom {
     pub round: wgpu::Buffer,
     pub rays: wgpu::Buffer,

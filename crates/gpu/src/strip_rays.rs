@@ -323,7 +323,7 @@ impl StripShader {
     }
 }
 
-/// The rays of a round, from samples to their hits, which lie in the two rooms in turn. None before there are shadows.
+/// Rays of a round, from samples to their hits, which lie in the two rooms in turn. None until there are shadows.
 fn bounce<'a>(
     room: &'a StripRoom,
     bounce_room: &'a BounceRoom,

@@ -88,7 +88,8 @@ impl GpuScene {
         Ok(())
     }
 
-    /// Arrays that the last upload or update wrote, without those that it copied on the device or left as they were.
+    /// Arrays that the last upload or update wrote. Arrays that it copied on the device or left unchanged are not among
+    /// them.
     pub fn written(&self) -> &[Written] {
         &self.data.written
     }

@@ -122,7 +122,7 @@ pub(crate) enum Seen {
 }
 
 impl Seen {
-    /// Constant for passes whose shader asks.
+    /// Constant for passes whose shader needs it.
     pub(crate) fn constant(self) -> Constant {
         ("AT_HITS", f64::from(u8::from(self == Self::ByRays)))
     }

@@ -13,7 +13,7 @@ pub(crate) struct VisibilityPass {
     objects: wgpu::RenderPipeline,
     /// Objects with cutouts.
     cutouts: wgpu::RenderPipeline,
-    /// The shapes of lights, of which the camera sees the fronts.
+    /// Pipeline for the shapes of lights, of which the camera sees the fronts.
     lamps: wgpu::RenderPipeline,
 }
 

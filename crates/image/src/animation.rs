@@ -23,7 +23,7 @@ pub struct Animation {
 }
 
 impl Animation {
-    /// Whether a file name's ending asks for an animation: .apng, in either case.
+    /// Whether the file name ends in .apng, in either case.
     pub fn is_asked_by(path: &Path) -> bool {
         path.extension()
             .is_some_and(|ending| ending.eq_ignore_ascii_case("apng"))

@@ -16,7 +16,7 @@ const FIRST_ROUNDS: u32 = 2;
 /// Some of the samples of each pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Batch {
-    /// The first of them.
+    /// Number of the batch's first sample.
     pub first: u32,
     /// Number of samples in the batch.
     pub count: u32,
@@ -162,7 +162,7 @@ impl Batches {
         Ok(())
     }
 
-    /// The mean so far. It says how sure it is where there is more than one batch to come.
+    /// Mean of the batches until now. It says how sure it is where there is more than one batch to come.
     pub fn image(&self) -> Option<&Image> {
         self.image.as_ref()
     }
@@ -344,7 +344,7 @@ mod tests {
         assert_eq!((image.depth_m[0], image.normal[0]), (2.0, [0.0, 0.0, 1.0]));
     }
 
-    /// One batch tells nothing of its scatter.
+    /// One batch alone gives no variance.
     #[test]
     fn a_single_batch_is_the_picture() {
         assert_eq!(added(4, &[1.0]).image().unwrap().noise, None);

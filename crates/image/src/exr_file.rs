@@ -524,7 +524,7 @@ impl Contents {
         self.parts.iter().find_map(|part| part.interleaved(names))
     }
 
-    /// The picture that everybody shows, in Rec.709.
+    /// Colours of the file in Rec.709: from R, G, B, else from X, Y, Z, else from Y alone.
     pub(crate) fn beauty(&self) -> Option<Picture> {
         let converted = |names, to: Option<ToRec709>| {
             let mut picture = self.find(names)?;

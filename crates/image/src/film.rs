@@ -10,9 +10,9 @@ use crate::tones::Tones;
 pub struct Image {
     /// Width and height.
     pub size_px: [u32; 2],
-    /// Light by way of the base and the background, less the energy that the scratches take from it. Linear Rec.709 radiance.
+    /// Light off the base and of the background, less the energy that the scratches take from the base. Linear Rec.709 radiance.
     pub base: Vec<[f32; 3]>,
-    /// Light by way of the scratches. Linear Rec.709 radiance.
+    /// Light off the scratches. Linear Rec.709 radiance.
     pub scratches: Vec<[f32; 3]>,
     /// The share of the base's energy that the scratches took, from 0 to 1 for each of R, G and B.
     pub density: Vec<[f32; 3]>,

@@ -17,12 +17,12 @@ pub const PASSES: u32 = 5;
 const TAPS: [(i32, f32); 3] = [(-1, 0.25), (0, 0.5), (1, 0.25)];
 /// Differences of so many standard deviations count for little. Chosen by measured error.
 pub const NOISE_STD: f32 = 1.5;
-/// The share of depth by which a surface may leave the plane of a pixel.
+/// Largest distance of a surface from the plane of a pixel, as a share of depth, at which both are averaged.
 pub const OFF_PLANE: f32 = 0.01;
 /// The power of the cosine between normals of mirrors.
 pub const NORMAL_POWER: f32 = 64.0;
-/// Factor n by which the power falls with the roughness r, as 1 / (1 + (n r)²): a wide lobe sees much the same from normals that differ. Chosen by
-/// measured error.
+/// Factor n by which the power falls with the roughness r, as 1 / (1 + (n r)²): a wide lobe reflects nearly the same light at normals that differ.
+/// Chosen by measured error.
 pub const ROUGH_NORMALS: f32 = 3.0;
 /// The longest step in a mirror, pixels: a mirror image has edges that no guide knows.
 pub const MIRROR_STEP_PX: f32 = 4.0;
@@ -175,7 +175,7 @@ impl Signals {
     }
 }
 
-/// Guides that tell whether pixels see the same surface.
+/// Guides by which pixels of one surface are found.
 struct Guides {
     size_px: [usize; 2],
     pixels: Vec<Guide>,
@@ -449,7 +449,7 @@ impl Around {
         [r * less, g * less, b * less, variance * less * less]
     }
 
-    /// A variance, given those around and its own.
+    /// Variance averaged over the neighbours; `own` is the pixel's.
     fn smoothed(&self, own: f32, rounds: u32) -> f32 {
         if own < 0.0 || !(self.weights > 0.0) {
             return own;

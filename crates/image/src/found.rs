@@ -8,7 +8,7 @@ use crate::tone_map::tone_luminance as luminance;
 /// Light that rays found in a picture, pixel by pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// Rays of each pixel to each source of its light.
+    /// Number of rays from each pixel to each source of light.
     pub rounds: u32,
     /// Light of each pixel of the image.
     pub pixels: Vec<FoundPixel>,
@@ -48,7 +48,7 @@ pub struct FoundLight {
     pub bounced: [f32; 3],
     /// Sums over the rounds of the share of luminance that is seen, and of its square.
     pub share_moments: [f32; 2],
-    /// Sums over the rounds of the luminance of `bounced` over that of `around`, and of its square.
+    /// Sums over the rounds of the ratio of luminances of `bounced` and `around`, and of its square.
     pub bounced_moments: [f32; 2],
 }
 
@@ -94,8 +94,8 @@ pub(crate) fn variance([sum, squares]: [f32; 2], count: u32) -> f32 {
     ((squares - sum * sum / n) / (n * (n - 1.0))).max(0.0)
 }
 
-/// Multiplies a closed form by the shares of its channels. A channel below 0, where a colour lies outside of the gamut, goes with the luminance of
-/// the others: what is left has no negative luminance. Twin: `found_left`.
+/// Multiplies a closed form by the shares of its channels. A channel below 0, where a colour lies outside of the gamut, takes the share of the
+/// luminance of the others, so that the result has no negative luminance. Twin: `found_left`.
 pub(crate) fn left(open: [f32; 3], share: [f32; 3]) -> [f32; 3] {
     let bright = open.map(|value| value.max(0.0));
     let bright_left = std::array::from_fn(|c| bright[c] * share[c]);
@@ -124,15 +124,15 @@ impl FoundPixel {
         [base, self.scratches.light()]
     }
 
-    /// The same where nothing is hidden and nothing reflected.
+    /// Light of the base and of the scratches where nothing is hidden and nothing reflected.
     pub fn open(&self) -> [[f32; 3]; 2] {
         let (diffuse, specular) = (&self.diffuse.open, &self.specular.open);
         let base = std::array::from_fn(|c| self.rest[c] + (diffuse[c] + specular[c]));
         [base, self.scratches.open]
     }
 
-    /// The mean over the samples of a pixel, of which this is the sum; `covered` of them see a surface. Each sample has rays of its own: what they
-    /// tell of noise adds up.
+    /// Divides the sum over the samples of a pixel by their number; `covered` of them see a surface. Each sample has rays of its own, so the sums
+    /// for the noise add up.
     #[must_use]
     pub fn mean(mut self, samples: f32, covered: f32) -> Self {
         let layers = [&mut self.diffuse, &mut self.specular, &mut self.scratches];

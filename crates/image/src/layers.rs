@@ -74,7 +74,7 @@ impl Layers {
         }
     }
 
-    /// A picture as a display shows it, already tone-mapped.
+    /// Wraps a picture that is tone-mapped already.
     pub fn of_displayed(picture: Picture) -> Self {
         Self {
             size_px: picture.size_px,
@@ -103,7 +103,7 @@ impl Layers {
         self.held.iter().find(|held| held.layer == layer)
     }
 
-    /// A layer with all that is known of its noise, as the metrics take it.
+    /// Layer with its variances and samples, as the metrics take it.
     pub fn estimate(&self, layer: Layer) -> Option<Estimate<'_>> {
         let held = self.get(layer)?;
         Some(Estimate {

@@ -18,7 +18,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that a file name's ending asks for, in either case.
+    /// Format by the ending of a file name, in either case.
     ///
     /// # Errors
     /// [`Error::UnknownEnding`].
@@ -56,7 +56,7 @@ impl Output {
         })
     }
 
-    /// The path as it was given.
+    /// The path as given.
     pub fn path(&self) -> &Path {
         &self.path
     }

@@ -34,7 +34,7 @@ impl ToneMap {
         }
     }
 
-    /// The number by which the shader knows it.
+    /// Number of the curve in shaders.
     pub fn shader_index(self) -> u32 {
         self as u32
     }
@@ -56,7 +56,7 @@ impl Display {
         tone_map(self.tone_map, radiance.map(|c| c * gain)).map(srgb_from_linear)
     }
 
-    /// Whether an eye notices that one radiance is shown in the place of another: by 5 of 255 in a channel.
+    /// Whether the eye notices one radiance in the place of another: they differ by 5 of 255 or more in a channel.
     pub fn is_noticed(&self, one: [f32; 3], other: [f32; 3]) -> bool {
         let (one, other) = (self.apply(one), self.apply(other));
         (0..3).any(|c| 255.0 * (one[c] - other[c]).abs() >= NOTICED)
@@ -82,7 +82,7 @@ pub fn tone_map(curve: ToneMap, rgb: [f32; 3]) -> [f32; 3] {
     mapped.map(|c| c.clamp(0.0, 1.0))
 }
 
-/// Replaces values that are no numbers, and bounds those that are too large.
+/// Replaces NaN, and bounds values that are too large.
 pub fn tone_sanitize(c: f32) -> f32 {
     if c.is_nan() {
         0.0

@@ -31,7 +31,7 @@ fn compressed(luminance: f32, gain: f32) -> f32 {
     exposed / (1.0 + exposed)
 }
 
-/// A display shows nothing but white far beyond it; and numbers of 32 bits tell no more.
+/// Share above which a display shows white alone; 32 bits hold no finer difference.
 const WHITE: f32 = 0.9999;
 
 impl Tone {
@@ -43,7 +43,7 @@ impl Tone {
         }
     }
 
-    /// The share of the pixel's linear mean that a display is to show, from 0 to 1; 1 where all samples are alike. Twin: `tone_share`.
+    /// Share of the pixel's linear mean that a display shows, from 0 to 1; 1 where all samples are alike. Twin: `tone_share`.
     pub fn share(&self, gain: f32) -> f32 {
         let exposed = gain * self.luminance;
         if exposed <= 0.0 || self.compressed >= WHITE {
@@ -55,7 +55,7 @@ impl Tone {
 }
 
 impl Tones {
-    /// Adds those of further samples, whose share of all is `share`.
+    /// Adds the tones of further samples, whose share of all samples is `share`.
     pub fn add(&mut self, other: &Self, share: f32) {
         for (tone, other) in self.pixels.iter_mut().zip(&other.pixels) {
             tone.luminance += (other.luminance - tone.luminance) * share;

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use hairline_index::ScratchIndex;
 use hairline_scene::{Loader, Scene};
 
-/// The system's allocator, which knows how much is taken.
+/// The system's allocator with a count of the bytes in use.
 struct Counting;
 
 static TAKEN: AtomicUsize = AtomicUsize::new(0);
@@ -77,7 +77,7 @@ fn step<T>(work: impl FnOnce() -> T) -> (T, Step) {
     (made, step)
 }
 
-/// Time of all threads, where the system tells it.
+/// Processor time of all threads, where the system tells it.
 fn cpu_time() -> Duration {
     // Fields 14 and 15 in hundredths of a second; the second one, a name in brackets, may hold spaces.
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
@@ -88,7 +88,7 @@ fn cpu_time() -> Duration {
 }
 
 const STEPS: [&str; 2] = ["laid", "tree"];
-/// Runs of which the shortest counts: other work of the machine only makes it longer.
+/// Number of runs. The shortest one counts, since other work on the machine only makes a run longer.
 const RUNS: usize = 3;
 
 struct Row {

@@ -4,14 +4,14 @@
 use glam::DVec3;
 use hairline_optics::word_hash::word_hash;
 
-/// Rule by which a ray meets such a surface or goes on through it.
+/// Rule by which a ray meets a surface that covers a part of what lies behind it, or passes through it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
     /// The ray meets each surface that covers anything at all.
     Any,
-    /// The ray meets those of one object, and goes through all others.
+    /// The ray meets such surfaces of one object, and passes through all others.
     Only(u32),
-    /// The ray meets each by chance, with the probability of its alpha.
+    /// The ray meets each such surface at random, with the probability of its alpha.
     Drawn {
         /// Key of the random numbers.
         key: u32,

@@ -7,10 +7,10 @@ use hairline_scene::{AlphaRule, Cutout, Material, Mesh, Scene, Texture};
 use crate::coverage::Coverage;
 use crate::hit::Hit;
 
-/// Materials and textures that tell whether a surface is there, for scenes in which something is cut out.
+/// Materials and textures by which surfaces are cut out, for scenes that have such.
 pub(crate) struct Cutouts {
     meshes: Vec<Arc<Mesh>>,
-    /// The first triangle of each object, among those of all.
+    /// Index of each object's first triangle among those of all objects.
     firsts: Vec<u32>,
     materials: Vec<Option<(Material, Cutout)>>,
     textures: Arc<Vec<Texture>>,

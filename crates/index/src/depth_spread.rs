@@ -4,8 +4,8 @@ use hairline_optics::mask::depth_coherence;
 use hairline_scene::{Object, Scratch};
 use rayon::prelude::*;
 
-/// Number of depths that are told apart: for grooves of 2 µm those within 0.13 nm are taken at their mean, which moves a phase
-/// by 0.002 at most and, since deeper and shallower ones even out, the result by some millionths.
+/// Number of bins of depth: for grooves of 2 µm a bin is 0.13 nm wide, and its depths are taken at their mean. This moves a
+/// phase by 0.002 at most and, since deeper and shallower ones even out, the result by some millionths.
 const BINS: usize = 1 << 14;
 
 /// Computes the coherence by area: a scratch counts by its width times its length.

@@ -1,4 +1,4 @@
-//! Scratches as they lie on the surface, for the references: every piece with its true ends, and how far its scratch
+//! Scratches of a surface for the references: every piece with its true ends, and the distance by which its scratch
 //! goes on beyond them.
 
 use crate::segment_tree::{SegmentTree, Straight};

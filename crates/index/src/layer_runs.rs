@@ -10,7 +10,7 @@ use crate::indexed_segment::IndexedSegment;
 /// Largest turn between pieces that count as one: a tenth of the width of the narrowest bands, and a micrometre off in the middle of
 /// a centimetre.
 const STRAIGHT_RAD: f32 = 2e-4;
-/// Normals of both, which tell sides of a sheet apart, agree to this cosine.
+/// Least cosine between the normals of two pieces that lie on one side of a sheet.
 const SAME_SIDE_COS: f32 = 0.9999;
 
 /// Pieces are put together up to this length. A renderer projects each piece once for the whole picture, so longer pieces are fewer

@@ -21,11 +21,11 @@ pub struct ScratchIndex {
     coherence_max_um: Vec<f32>,
 }
 
-/// A footprint cannot be told apart from its Gaussian's tail beyond this many standard deviations (5e-4 of it is left).
+/// Number of standard deviations at which a footprint is cut off: 5e-4 of its Gaussian lies beyond.
 pub const REACH_STD: f32 = 3.5;
 
-/// A segment shows at a point only if their normals agree at least this well: the far side of a thin sheet has the
-/// opposite one.
+/// Least cosine between the normals of a segment and of a point at which it shows: the far side of a thin sheet has the opposite
+/// normal.
 pub const FACING_MIN_COS: f32 = 0.2;
 
 impl ScratchIndex {

@@ -13,7 +13,7 @@ use obvhs::{Boundable, BvhBuildParams};
 /// rounding.
 const LARGEST_MOVE: f32 = 1e-4;
 
-/// The tree over `boxes`, in which each lies as it is.
+/// Builds the tree over `boxes`, without moving any of them.
 pub(crate) fn build(boxes: &[Aabb], params: &BvhBuildParams) -> Bvh2 {
     let moved: Vec<Moved> = (0u32..).zip(boxes).map(Moved::new).collect();
     let mut tree = PlocBuilder::with_capacity(moved.len()).build(
@@ -40,7 +40,7 @@ pub(crate) fn build(boxes: &[Aabb], params: &BvhBuildParams) -> Bvh2 {
     tree
 }
 
-/// A box as it looks for a partner.
+/// A box, moved along its diagonal by a pseudo-random amount while partners are sought.
 struct Moved(Aabb);
 
 impl Moved {

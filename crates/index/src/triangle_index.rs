@@ -82,7 +82,7 @@ impl TriangleIndex {
         }
     }
 
-    /// Whether the surface is there that a ray meets, and not cut out of its triangle.
+    /// Whether the surface exists at a hit, and is not cut out of its triangle there.
     pub(crate) fn is_there(&self, hit: &Hit, coverage: Coverage) -> bool {
         let cutouts = self.cutouts.as_ref();
         cutouts.is_none_or(|it| it.is_there(hit, coverage))

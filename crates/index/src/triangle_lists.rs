@@ -20,11 +20,11 @@ pub struct TriangleLists {
     pub segments: Vec<u32>,
 }
 
-/// Triangles that a thread takes at a time.
+/// Number of triangles that a thread takes at a time.
 const CHUNK: usize = 256;
 
-/// The variance, in sigma squared, that bounds the window's 1/2 across a scratch and the 0.68 of its blurred ends along it
-/// ([`hairline_optics::footprint::ends`]); renderers walk the tree by it.
+/// Variance, in sigma squared, of the Gaussian by which renderers walk the tree. It bounds the window's 1/2 across a scratch and
+/// the 0.68 of its blurred ends along it ([`hairline_optics::footprint::ends`]).
 const WINDOW_VARIANCE: f64 = 0.7;
 
 impl TriangleLists {
@@ -90,7 +90,7 @@ struct TriangleReach {
     corners_um: [DVec2; 3],
     reach_std: f64,
     coherence_um: f64,
-    /// Half the side of the box by which a point walks the tree.
+    /// Half of the side of the box with which a point walks the tree.
     walk_um: f64,
     /// The largest angle between the triangle's normal and a shading normal on it.
     tilt_rad: f64,

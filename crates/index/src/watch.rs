@@ -1,6 +1,6 @@
 //! Long work that another watches.
 
-/// Who is told how far work has come, and may end it. Both are asked from any thread.
+/// Callbacks that follow the progress of work and may end it. Both are called from any thread.
 #[derive(Clone, Copy)]
 pub struct Watch<'a> {
     /// Callback for the share that is done, from 0 to 1.

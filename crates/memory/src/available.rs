@@ -50,7 +50,7 @@ fn field_bytes(table: &str, name: &str) -> Option<u64> {
 struct Version {
     limit: &'static str,
     used: &'static str,
-    /// Key in memory.stat of copies of files, which the system gives up when memory is wanted.
+    /// Key in memory.stat of the bytes of cached files, which the system frees when memory runs short.
     cache: &'static str,
 }
 
@@ -65,7 +65,7 @@ const V2: Version = Version {
     cache: "inactive_file",
 };
 
-/// The least that the groups of a process leave, and the groups above them. `groups` is /proc/self/cgroup.
+/// Least memory that the groups of a process and the groups above them have left. `groups` is the text of /proc/self/cgroup.
 fn left_in_groups(groups: &str, root: &Path) -> Option<u64> {
     let of_line = |line: &str| {
         let mut parts = line.splitn(3, ':');

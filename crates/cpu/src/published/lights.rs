@@ -13,7 +13,7 @@ use hairline_optics::published::spectrum::PublishedSpectrum;
 use hairline_optics::published::sphere::sphere_segments;
 
 impl Published<'_> {
-    /// Radiance of a scratch per unit of its share, Fresnel left out.
+    /// Radiance of a scratch for a share of 1, without Fresnel's factor.
     pub(super) fn radiance(
         &self,
         view: &SegmentView,

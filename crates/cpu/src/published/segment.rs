@@ -15,12 +15,13 @@ pub(super) struct SegmentView {
     /// `wo` in the frame of the scratch.
     pub wo: DVec3,
     pub share: ScratchShare,
-    /// Share that it takes from the base by the talk's mask.
+    /// Share of the base that the scratch masks by the talk's mask.
     pub density: f64,
     pub profile: Profile,
 }
 
-/// Far enough from any pixel to stand for endless, and near enough for sums of it to keep their digits.
+/// Length that stands for an endless scratch: far beyond any pixel, yet small enough for sums of it to
+/// keep their digits.
 const ENDLESS_UM: f64 = 1e9;
 
 impl SegmentView {

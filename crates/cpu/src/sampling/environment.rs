@@ -22,7 +22,7 @@ pub struct EnvironmentSampler {
     environment: Environment,
     width: usize,
     height: usize,
-    /// The cosine from the map's top at each row of texel centres, between those of its top and bottom edges.
+    /// Cosines from the map's top: of its top edge, of each row of texel centres, and of its bottom edge.
     cos_rows: Vec<f64>,
     /// Sums of the rows of cells up to and with each, in texel units times cosine.
     row_sums: Vec<f64>,
@@ -201,7 +201,7 @@ fn pick(sums: &[f64], u: f64) -> (usize, f64) {
     (i, share.clamp(OFF_EDGE, 1.0 - OFF_EDGE))
 }
 
-/// The place in [0, 1] below which lies the share `u` of a density that goes from `a` to `b`.
+/// Quantile: the place in [0, 1] below which the share `u` of a density lies, which is linear from `a` to `b`.
 fn linear(a: f64, b: f64, u: f64) -> f64 {
     let root = (a * a + u * (b * b - a * a)).max(0.0).sqrt();
     if a + root > 0.0 {

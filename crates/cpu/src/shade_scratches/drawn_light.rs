@@ -1,4 +1,4 @@
-//! Directions by way of a scratch or a grating, drawn in proportion to the light that it sends from there, for shadow rays.
+//! Random directions from which light reaches the viewer off a scratch or a grating, drawn in proportion to that light, for shadow rays.
 
 use super::scratch_light::ScratchLight;
 use crate::light_view::{LightView, LightViews};
@@ -12,7 +12,7 @@ use hairline_optics::band::{
 use hairline_optics::band_environment::EnvironmentCell;
 use hairline_scene::Environment;
 
-/// A direction of a source by way of a scratch.
+/// Direction from which a source's light falls on a scratch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DrawnLight {
     /// Direction in the surface's frame.
@@ -23,7 +23,7 @@ pub(crate) struct DrawnLight {
 
 /// Choice of one of many, by the luminance that each sends.
 pub(crate) struct Choice {
-    /// Light of all of them.
+    /// Sum of the light of all items.
     total: DVec3,
     /// The sum of the luminances.
     weight: f64,
@@ -40,7 +40,7 @@ impl Choice {
         }
     }
 
-    /// Whether the next one is taken in place of those before.
+    /// Offers the next item, with the light that it sends. Returns whether it replaces the one chosen before.
     pub fn offer(&mut self, sent: DVec3) -> bool {
         let weight = luminance(sent);
         self.total += sent;
@@ -68,7 +68,7 @@ impl Choice {
 struct Offers<F> {
     chord: DrawnChord,
     lines: Choice,
-    /// The line, the parts of it that light covers, and the antiderivative of the light from there.
+    /// Line that was chosen, the parts of it that light covers, and the antiderivative of the light along it.
     taken: Option<(BandLine, DrawnChord, F)>,
 }
 
@@ -115,8 +115,8 @@ impl<F: Fn(f64) -> DVec3> Offers<F> {
 }
 
 impl ScratchLight<'_> {
-    /// Draws a direction from which a light reaches the viewer by way of the scratch, in proportion to the luminance from there, by three numbers
-    /// in [0, 1). None where nothing comes. Other arguments as for [`Self::light`].
+    /// Draws a direction from which a light reaches the viewer off the scratch, in proportion to the luminance from there, by three numbers in
+    /// [0, 1). None where there is no light. Other arguments as for [`Self::light`].
     pub fn draw_light(
         &self,
         stds: &BandStds,
@@ -182,9 +182,9 @@ impl ScratchLight<'_> {
         }
     }
 
-    /// A direction by way of the environment, as [`Self::draw_light`]; two numbers in [0, 1). One cell is drawn by what comes from it, one of its
-    /// parts by what comes from that, and the colour has what really comes from the direction: the closed form takes the environment and the
-    /// groove's depth as even over a cell, but an object may hide its bright side alone.
+    /// Draws a direction to the environment, as [`Self::draw_light`], by two numbers in [0, 1). A cell is drawn in proportion to its light, then
+    /// one of its parts in proportion to the part's. The colour is the environment's in the drawn direction: the closed form takes the
+    /// environment and the groove's depth as even over a cell, but an object may hide the cell's bright side alone.
     pub fn draw_environment(
         &self,
         point: &SurfacePoint,
@@ -238,7 +238,7 @@ impl ScratchLight<'_> {
         })
     }
 
-    /// Draws a direction for light of radiance 1 from all around, and returns the light that the scratch sends of it.
+    /// Draws a direction under even light of radiance 1 from all sides, and returns the light that the scratch reflects of it.
     pub fn draw_all_around(&self, [pick_u, cell_u]: [f64; 2]) -> Option<(DrawnLight, DVec3)> {
         let line = BandLine::new(self.wo, 0.0);
         let mut offers = Offers::new(pick_u);

@@ -21,13 +21,13 @@ pub(crate) struct Pick {
     pub row: Option<RowSpread>,
     /// Share of the point that it covers.
     pub share: f64,
-    /// Place of its light in [`LightViews::views`](crate::light_view::LightViews::views); that behind the last for the environment.
+    /// Index of the light in [`LightViews::views`](crate::light_view::LightViews::views); the number of views for the environment.
     pub source: usize,
-    /// Light that it sends by way of the source, or energy that it takes of the base.
+    /// Light of the source that the scratch reflects, or energy that the scratch takes from the base.
     pub radiance: DVec3,
 }
 
-/// A few of many, each drawn with the probability of its luminance.
+/// Random choice of a few items out of many, each with a probability in proportion to its luminance.
 #[derive(Default)]
 pub(crate) struct Reservoirs {
     /// The sum of all luminances.
@@ -78,7 +78,7 @@ impl Reservoirs {
 
 /// Picks of a point.
 pub(crate) struct Picks {
-    /// Light that all scratches send by way of all sources.
+    /// Light that all scratches reflect from all sources.
     pub radiance: DVec3,
     /// Energy that all scratches take of the base.
     pub energy: DVec3,
@@ -108,7 +108,7 @@ impl Picks {
         self.by_energy.clear(count);
     }
 
-    /// Adds the light that a scratch sends by way of a source.
+    /// Adds the light that a scratch reflects from a source.
     #[inline]
     pub fn add_light(&mut self, source: usize, radiance: DVec3, pick: impl FnOnce() -> Pick) {
         self.radiance += radiance;
@@ -120,7 +120,7 @@ impl Picks {
         self.lit.add(&mut self.random, luminance(radiance), pick);
     }
 
-    /// Adds the energy that a scratch takes of the base.
+    /// Adds the energy that a scratch takes from the base.
     #[inline]
     pub fn add_energy(&mut self, energy: DVec3, pick: impl FnOnce() -> Pick) {
         self.energy += energy;
@@ -132,7 +132,7 @@ impl Picks {
             .add(&mut self.random, luminance(energy), pick);
     }
 
-    /// Makes the one pick, drawn by a bound of its light, stand for all: `light` returns the light that it sends by way of its source.
+    /// Lets the only pick, which was drawn by a bound of its light, stand for all pairs; `light` returns the light of the pick.
     pub fn light_one(&mut self, light: impl FnOnce(&Pick) -> DVec3) {
         let (mut radiance, bounds) = (DVec3::ZERO, self.lit.total);
         if let Some((_, Some(pick))) = self.lit.picks.first_mut() {

@@ -1,4 +1,4 @@
-//! Chords of lights with pictures, in parts of which each has a look-up. Twin: scratch_picture.wgsl.
+//! Chords of lights with pictures: a chord is cut into parts with one look-up each. Twin: scratch_picture.wgsl.
 
 use super::scratch_light::ScratchLight;
 use crate::picture::PictureView;

@@ -17,12 +17,12 @@ use hairline_optics::scratch::oblique_depth_nm;
 use hairline_optics::table::{ScratchTable, TableRow};
 use hairline_scene::{Environment, Profile};
 
-/// The energy that a scratch takes of the mirror's direction, where both cosines are the viewer's. Twin: `scratch_energy`.
+/// Energy that a scratch takes from the reflection in the mirror's direction, where both cosines are the viewer's. Twin: `scratch_energy`.
 pub(super) fn scratch_energy(profile: Profile, table: &ScratchTable, cos_o: f64) -> [f64; 3] {
     table.scratch_table_total(oblique_depth_nm(profile.depth_nm.into(), cos_o, cos_o))
 }
 
-/// Bounds by which pairs are drawn do not fall below this, so that no light that is brighter than its bound makes a dot.
+/// Amount that is added to the estimate by which a pair is drawn, so that no light far above its estimate makes a bright dot.
 const LEAST_LIKELY: f64 = 0.003;
 
 /// A scratch from a point, or the grooves of a grating.
@@ -73,8 +73,8 @@ impl<'a> ScratchLight<'a> {
         self.profile.width_um.into()
     }
 
-    /// Width for weights by q, where the light lies about the mirror's direction; 0 for a grating, whose light lies about its orders, wherever
-    /// they are.
+    /// Groove width for weights that depend on q: the scratch's, since its light lies about the mirror's direction; 0 for a grating, whose light
+    /// lies about its orders, wherever they are.
     pub(super) fn weighed_um(&self) -> f64 {
         match self.row {
             Some(_) => 0.0,
@@ -114,8 +114,8 @@ impl<'a> ScratchLight<'a> {
         self.table.at_depth(depth_nm)
     }
 
-    /// Radiance by way of one light, Fresnel left out; none if it doesn't reach the scratch. `place` is where the scratch lies
-    /// under the footprint.
+    /// Radiance of one light off the scratch, without Fresnel's factor; none if the light does not reach the scratch. `place` is the scratch's
+    /// place under the footprint.
     pub fn light(
         &self,
         stds: &BandStds,
@@ -160,7 +160,8 @@ impl<'a> ScratchLight<'a> {
         [std * std - per_q2 * q * q, per_q2]
     }
 
-    /// About how much light a source sends by way of the scratch, over its energy; 0 where it surely sends none. Cheap: to draw one of many by.
+    /// Estimate of the light of a source off the scratch, over the scratch's energy; 0 where there is surely none. It is cheap, to draw one of
+    /// many sources by.
     pub(super) fn likely(
         &self,
         stds: &BandStds,
@@ -207,7 +208,7 @@ impl<'a> ScratchLight<'a> {
         }
     }
 
-    /// The lines of the band that a light is asked along.
+    /// Lines of the band along which the light is integrated.
     fn lines(&self, wo_t: f64, lowest: f64, highest: f64, stds: BandStds) -> BandLines {
         let lines = band_lines(wo_t, lowest, highest, stds);
         match self.one_line {
@@ -216,7 +217,7 @@ impl<'a> ScratchLight<'a> {
         }
     }
 
-    /// Light by way of the scratch of a sphere of radiance 1.
+    /// Light of a sphere of radiance 1 off the scratch.
     fn sphere(&self, stds: &BandStds, cap: Cap, motion: BandMotion) -> Option<DVec3> {
         let cap = cap.turned(self.frame);
         let wo = self.wo + motion.shift * DVec3::X;
@@ -231,7 +232,7 @@ impl<'a> ScratchLight<'a> {
         }))
     }
 
-    /// Light by way of the scratch of a polygon of radiance 1.
+    /// Light of a polygon of radiance 1 off the scratch.
     fn polygon(
         &self,
         stds: &BandStds,
@@ -290,7 +291,7 @@ impl<'a> ScratchLight<'a> {
         sent.sum::<DVec3>().to_array()
     }
 
-    /// Light by way of the scratch of radiance 1 from all around.
+    /// Light of radiance 1 from all sides off the scratch.
     #[inline(always)]
     pub fn all_around(&self) -> DVec3 {
         let mut sum = DVec3::ZERO;
@@ -313,7 +314,7 @@ impl<'a> ScratchLight<'a> {
         self.spectrum(line, roots.range)
     }
 
-    /// Light by way of the scratch of the environment without its windows, along the band's middle line, cell by cell.
+    /// Light of the environment without its windows off the scratch, along the band's middle line, cell by cell.
     #[inline(always)]
     pub fn environment(&self, point: &SurfacePoint, environment: &Environment) -> DVec3 {
         let line = BandLine::new(self.wo, 0.0);

@@ -118,7 +118,7 @@ impl<'a> Shadows<'a> {
             .collect()
     }
 
-    /// One source that stands for all, drawn by a cheap bound of its light.
+    /// Draws one source that stands for all, by a cheap bound of its light.
     fn one_source(&self, at: &ShadowPoint, base: &Base, lobes: &Lobes) -> Option<Source> {
         let environment = self.prepared.scene.environment.as_ref();
         let around = environment.map(|it| {

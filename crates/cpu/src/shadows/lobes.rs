@@ -10,7 +10,7 @@ use hairline_optics::fresnel::{FresnelRgb, half_vector_cos};
 use hairline_optics::ggx::ggx_alpha;
 use std::f64::consts::PI;
 
-/// Bounds by which sources are drawn do not fall below this for each steradian, so that no light that is brighter than its bound makes a dot.
+/// Amount for each steradian that is added to the estimate by which a source is drawn, so that no light far above its estimate makes a bright dot.
 const LEAST_LIKELY: f64 = 0.01;
 
 /// The lobes of the base, simple enough to be drawn from. They only shape shadows: the closed form says how much light there is. Directions are in

@@ -1,4 +1,4 @@
-//! Rays by way of scratches and of gratings: in each round one to a source, and one for the light of other objects.
+//! Rays that leave scratches and gratings: in each round one to a source, and one for the light of other objects.
 
 use super::{HitRoom, MetObject, Purpose, RayEnd, ShadowPoint, Shadows, normals};
 use crate::found::{LayerLight, LayerRays};
@@ -28,7 +28,7 @@ impl<'a> Shadows<'a> {
         (open, self.by_picks(at, picks, rooms))
     }
 
-    /// Returns the scratches' light that is not hidden, before they weaken one another, and the light of other objects by way of them.
+    /// Returns the scratches' light that is not hidden, before they weaken one another, and the light of other objects off them.
     pub fn by_picks(
         &self,
         at: &ShadowPoint,
@@ -97,7 +97,7 @@ impl<'a> Shadows<'a> {
         rays.add(pick.radiance * color * weight_of_one, is_seen);
     }
 
-    /// The light of an object by way of a pick.
+    /// Light of another object off a picked scratch.
     fn by_object(
         &self,
         at: &ShadowPoint,
@@ -141,7 +141,7 @@ impl<'a> Shadows<'a> {
         }
     }
 
-    /// Draws a place on a scratch, by the pixel's share of it.
+    /// Draws a point on a picked scratch, in proportion to the pixel's share of it.
     fn on_scratch(&self, at: &ShadowPoint, purpose: Purpose, round: u32, pick: &Pick) -> DVec3 {
         let [u, v, w, x] = at.random(purpose, round);
         let [right, down] = normals(u, v);
@@ -150,7 +150,7 @@ impl<'a> Shadows<'a> {
     }
 }
 
-/// Light of rays from other objects by way of scratches that were picked by the energy that they take.
+/// Light of other objects that rays bring to scratches which were picked by the energy that they take.
 #[derive(Default)]
 struct Brought {
     /// Light that the picks send of radiance 1 from all around, and the energy that they take, each over that energy's luminance.
@@ -193,8 +193,8 @@ impl Brought {
     }
 }
 
-/// The part of a channel's weight that rays must have for its mean to be told, and the times by which colours may lift a channel beyond the most
-/// light that a ray brought.
+/// Part of a channel's weight that rays must have for the channel to get its own mean, and the factor by which colours may lift a channel above
+/// the brightest ray.
 const LEAST_COLOR: f64 = 0.2;
 const MOST_COLOR: f64 = 4.0;
 

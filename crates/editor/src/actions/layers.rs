@@ -46,7 +46,7 @@ pub fn add_list(
     )
 }
 
-/// Adds a copy behind the original, with a seed of its own: the same wear, other scratches.
+/// Adds a copy behind the original, with a seed of its own: equal wear from other scratches.
 ///
 /// # Errors
 /// [`ActionError::Missing`].
@@ -136,7 +136,7 @@ pub fn toggle_hidden(
     Ok(Selection::Layer(index))
 }
 
-/// Makes a layer solo or lets it be one of all again. While any is solo, the scene shows only those.
+/// Makes a layer solo, or ends that. While any is solo, the scene shows only those.
 ///
 /// # Errors
 /// [`ActionError::Missing`].

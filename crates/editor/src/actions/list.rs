@@ -65,7 +65,7 @@ pub(super) fn insert<P: ListedPart>(
     P::at(place)
 }
 
-/// Takes a part out of its list. Where it was selected, the one that took its place is, or the last.
+/// Removes a part from its list. If it was selected, the part in its place is selected then, or the last one.
 pub(super) fn remove<P: ListedPart>(
     description: &mut Description,
     index: usize,
@@ -118,7 +118,7 @@ pub(super) fn rename_freely<P: ListedPart>(
     Ok(P::at(index))
 }
 
-/// Renames a part that others know by its name. Returns the old name and the new one, for them.
+/// Renames a part to which others refer by name. Returns the old and the new name, for the references.
 pub(super) fn rename_known<P: ListedPart>(
     description: &mut Description,
     index: usize,

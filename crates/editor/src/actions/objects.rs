@@ -57,7 +57,8 @@ fn add(
     list::insert(description, description.objects.len(), object)
 }
 
-/// Adds a copy in the same place, with copies of its gratings and its layers: they keep their seeds, so it is scratched alike.
+/// Adds a copy in the same place, with copies of its gratings and its layers; these keep their seeds, so that its scratches
+/// are equal.
 ///
 /// # Errors
 /// [`ActionError::Missing`].

@@ -91,7 +91,7 @@ impl Document {
         self.passed_over = text.and_then(Result::ok).map(Into::into);
     }
 
-    /// Takes the scene from its file again, as one step, which undo takes back.
+    /// Reads the scene from its file again, as one step that undo reverts.
     ///
     /// # Errors
     /// What is wrong in the file, with its line; then nothing has changed.
@@ -112,14 +112,14 @@ impl Document {
         self.is_modified && self.saved.is_some()
     }
 
-    /// Goes back to the description that was opened or saved last, as one step, which undo takes back.
+    /// Restores the description that was opened or saved last, as one step that undo reverts.
     pub fn revert(&mut self) {
         if let Some(saved) = self.saved.clone() {
             self.edit("Revert", |d| d.clone_from(&saved));
         }
     }
 
-    /// Files that the scene names, in full as far as the document knows.
+    /// Files that the scene names, with their full paths as far as the document knows its folder.
     pub fn files(&self) -> Vec<PathBuf> {
         let named = self.state.description.files().into_iter();
         named.map(|(_, path)| self.base_dir.join(path)).collect()
@@ -213,7 +213,7 @@ impl Document {
         self.is_modified = false;
     }
 
-    /// A description whose relative paths are those of a scene in `base_dir`, as this document writes it.
+    /// Rewrites a description whose relative paths start from `base_dir`, so that they start from this document's folder.
     pub fn brought_here(&self, description: &Description, base_dir: &Path) -> Description {
         let mut description = description.clone();
         if base_dir != self.base_dir {

@@ -1,5 +1,5 @@
-//! The camera's tools, by the points that must stay and those that must follow, for cameras of any
-//! up.
+//! Tests of the camera's tools, by the points that must stay and those that must move along, for
+//! cameras of any up direction.
 
 use crate::seeded;
 use glam::{DVec2, DVec3};

@@ -45,7 +45,7 @@ pub fn scene(text: &str) -> Scene {
     Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A device of its own with the limits of a browser; none where tests have no adapter.
+/// Opens a device of its own with the limits of a browser; none where tests have no adapter.
 pub fn default_limits() -> Option<Gpu> {
     test_gpu()?;
     let request = AdapterRequest {
@@ -152,7 +152,7 @@ impl Stage {
         gpu.block_on(renderer.accumulate(scene, uploaded, canvas, band, step, &options(samples)))
     }
 
-    /// Adds steps up to `end` of those for `samples` to all bands.
+    /// Adds the steps up to `end` of those for `samples` to all bands.
     pub fn paint(&mut self, canvas: &mut Canvas, end: u32, samples: u32) {
         for band in 0..canvas.bands() {
             for step in canvas.steps(band)..end {

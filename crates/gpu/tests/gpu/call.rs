@@ -38,7 +38,7 @@ fn a_function_is_called_for_each_row() {
     }
 }
 
-/// A harness that cannot fail shows nothing: a row that is off by one part in a thousand must be seen.
+/// The harness itself can fail: it finds a row that is off by one part in a thousand.
 #[test]
 fn a_wrong_row_is_seen() {
     let Some(gpu) = test_gpu() else { return };

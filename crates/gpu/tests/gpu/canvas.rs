@@ -189,7 +189,7 @@ fn bands_with_fewer_samples_are_exposed_alike() {
     assert!((few - all).abs() < 1.0, "{few}, not {all} of 255");
 }
 
-/// An earlier view leaves nothing, complete or not.
+/// Nothing of an earlier view is left, whether that was complete or not.
 #[test]
 fn an_interrupted_view_leaves_nothing_behind() {
     let Some(gpu) = test_gpu() else { return };

@@ -72,7 +72,7 @@ fn a_lost_device_is_an_error_everywhere() {
     }
 }
 
-/// The window then takes a new device, a new renderer and the same scene; what was uploaded counts for nothing.
+/// The window then takes a new device, a new renderer and the same scene, and uploads everything again.
 #[test]
 fn another_device_takes_over() {
     let Some(gpu) = open() else { return };

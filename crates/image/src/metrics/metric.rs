@@ -58,7 +58,7 @@ impl Metric {
         }
     }
 
-    /// Whether more of it is less of a difference.
+    /// Whether a larger figure means a smaller difference.
     pub fn larger_is_better(self) -> bool {
         self == Self::Psnr
     }

@@ -9,7 +9,7 @@ use super::estimate::{Estimate, assert_same_length, residual};
 /// model itself: zero on average where there is only noise, however heavy its tails are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeyondNoise {
-    /// Values with a known variance (zero included), which all of this is about.
+    /// Number of values with a known variance (zero included). All other figures are over these.
     pub values: usize,
     /// Mean of difference^2 - variance. May be negative.
     pub mean_square: f64,

@@ -14,7 +14,7 @@ pub struct Psnr {
     pub peak: f64,
 }
 
-/// Ratio of two linear pictures as a display shows them: tone-mapped and sRGB-encoded. `None` if no pixel counts.
+/// PSNR of two linear pictures as a display shows them: tone-mapped and sRGB-encoded. `None` if no pixel counts.
 ///
 /// # Panics
 /// Panics if the lengths differ.

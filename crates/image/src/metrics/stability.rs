@@ -11,7 +11,7 @@
 use super::away_from_silhouettes;
 use crate::{Display, Image, Picture};
 
-/// A surface that is found again lies at the depth that it should have, but for this share.
+/// Largest difference of depths, as a share of depth, at which a surface counts as the same one in the next frame.
 const SAME_DEPTH: f64 = 0.01;
 /// Neighbours whose depths differ by more than this share are of two surfaces: a slope has less, in all but tiny pictures.
 const EDGE: f64 = 0.05;
@@ -93,7 +93,7 @@ fn moved(frame: &Image, previous: &Image, to_previous: Move<'_>) -> (Picture, Ve
     (moved, seen)
 }
 
-/// The mean of the four pixels around a place, if they show one surface, of that depth.
+/// Bilinear mean of the four pixels around a place, if they show one surface at that depth.
 fn bilinear(
     picture: &Picture,
     depths_m: &[f32],

@@ -17,10 +17,10 @@ const VALUES_MIN: usize = 100;
 /// approximation, make a few percent. A variance wrong by two does not pass.
 const MEAN_SQUARE_TOLERANCE: f64 = 1.3;
 
-/// Standard errors by which a figure must exceed its tolerance: one correct picture in 15,000 is called wrong.
+/// Number of standard errors by which a figure must exceed its tolerance: one correct picture in 15,000 is rejected.
 const SIGMAS: f64 = 4.0;
 
-/// The chance that a correct picture has one block so far out that it is called wrong.
+/// Largest probability that a correct picture is rejected for one block.
 const MAX_BLOCK_CHANCE: f64 = 1e-4;
 
 /// The share of values without noise near them that may differ: a stray pixel of an outline.
@@ -31,11 +31,11 @@ const WITHOUT_NOISE_MAX: f64 = 1e-3;
 pub enum Verdict {
     /// The difference is as large as the noise makes it.
     ExplainedByNoise,
-    /// There is more than noise in it.
+    /// The difference is more than noise.
     MoreThanNoise,
     /// Smaller than the noise should make it: the variances are too large, or both images have the same noise.
     LessThanNoise,
-    /// Too few values with a known variance to tell.
+    /// Too few values have a known variance.
     TooFewValues,
 }
 
@@ -51,7 +51,7 @@ impl Verdict {
     }
 }
 
-/// Differences measured by the noise that is known of them. Beside each figure: what it is if there is only noise.
+/// Differences relative to the known noise. The value that each figure has for noise alone stands beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ZTest {
     /// Values with a known variance above zero: those of the next three figures.

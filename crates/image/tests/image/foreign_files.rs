@@ -5,7 +5,7 @@ use hairline_image::metrics::compare;
 use hairline_image::{Display, Layers, exr_file};
 use std::path::Path;
 
-/// A file of named channels, a value each, whose pixels lie somewhere in a picture.
+/// A file of named channels with one value each, whose pixels lie in a window of a picture.
 struct File<'a> {
     size: (usize, usize),
     at: (i32, i32),
@@ -147,7 +147,7 @@ fn more_pixels_than_a_picture_can_have_are_refused_before_they_are_read() {
     assert!(error.contains("1000000016 x 16 pixels"), "{error}");
 }
 
-/// The expected colours are those of the matrices of ITU-R BT.2087 and IEC 61966-2-1.
+/// Colours are converted by the matrices of ITU-R BT.2087 and IEC 61966-2-1.
 #[test]
 fn colours_of_other_primaries_are_told_in_rec_709() {
     let folder = tempfile::tempdir().unwrap();

@@ -14,12 +14,12 @@ use crate::tree;
 
 /// Most segments in one leaf.
 const LEAF_SEGMENTS: u32 = 4;
-/// Segments that one thread takes: few, so that all have work on a small layer too, yet the tree is as good as one grown whole: a
-/// walk reads 1 % more nodes.
+/// Number of segments that one thread takes: small, so that all threads have work on a small layer too, but large enough that a
+/// walk reads only 1 % more nodes than in a tree that is grown whole.
 const PART_SEGMENTS: usize = 1 << 13;
 
-/// The tree over some segments, which are put in the order of its leaves: nothing for none. The first of them is number `first`
-/// of all. `goes_on` is told how many are done; when it says no, what is returned is no tree.
+/// Builds the tree over some segments, and puts them in the order of its leaves; no nodes for no segments. The first of them is
+/// number `first` of all. `goes_on` is told how many are done; when it says no, what is returned is no tree.
 pub(super) fn grow<S: Straight>(
     segments: &mut [S],
     first: u32,
@@ -102,7 +102,7 @@ impl Part {
     }
 }
 
-/// The nodes over as many segments as one thread takes.
+/// Builds the nodes over so few segments that one thread takes them all.
 fn of_few<S: Straight>(segments: &mut [S]) -> Vec<ScratchNode> {
     if segments.is_empty() {
         return Vec::new();

@@ -71,8 +71,8 @@ pub(crate) struct Tree {
 /// Nodes in a row, and the changes of their numbers.
 pub(super) struct Piece<'a> {
     pub nodes: Cow<'a, [ScratchNode]>,
-    /// The number of its first node.
+    /// Index of the tree's first node.
     pub first_node: u32,
-    /// Distance by which its segments move, wrapped around.
+    /// Number that is added to the indices of its segments, wrapping around.
     pub segments_by: u32,
 }

@@ -11,7 +11,8 @@ use super::bound::widened;
 #[cfg(test)]
 use super::bound::{BOUND_SLACK, Cone};
 
-/// Points this near the plane, relative to the polygon and the way to it, see its edge: nothing. What is lost is as small.
+/// Height over the plane, relative to the polygon's size and the distance, below which a point sees the polygon's edge and
+/// no light. The light that is lost is as small.
 const EDGE_ON: f64 = 1e-10;
 
 #[derive(Clone, Debug)]
@@ -99,7 +100,7 @@ impl PolygonLight {
         direction.dot(self.normal)
     }
 
-    /// Height of a point above the plane, positive on the side that the normal shows to. 0 for points that see the edge.
+    /// Height of a point above the plane, positive on the side of the normal. 0 for points that see the polygon's edge.
     fn height_m(&self, from: DVec3) -> f64 {
         let to = from - self.origin_m;
         let height_m = to.dot(self.normal);

@@ -119,7 +119,8 @@ impl TubeLight {
         (enter.distance_m > 0.0 && !self.holds(from)).then_some(enter.distance_m)
     }
 
-    /// Points of both sides lie in each direction.
+    /// Density of a direction over solid angle, in 1/sr. A line crosses the tube twice, and points
+    /// of both sides are drawn.
     pub fn pdf(&self, from: DVec3, direction: DVec3) -> f64 {
         let Some(crossings) = self.crossings(from, direction) else {
             return 0.0;
@@ -148,13 +149,13 @@ impl TubeLight {
         })
     }
 
-    /// Bounds on a component of directions to it.
+    /// Least and greatest component along `axis` of the unit directions to the tube.
     pub fn extent(&self, from: DVec3, axis: DVec3) -> (f64, f64) {
         let extents = self.beads().map(|bead| bead.bound(from).extent(axis));
         extents.fold((1.0, -1.0), |(low, high), (a, b)| (low.min(a), high.max(b)))
     }
 
-    /// A cone that holds every direction to it.
+    /// Cone that contains all directions to the tube.
     #[cfg(test)]
     pub fn bound(&self, from: DVec3) -> Cone {
         let middle_m = self.start_m + 0.5 * self.length_m * self.axis;

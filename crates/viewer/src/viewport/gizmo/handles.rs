@@ -22,9 +22,9 @@ pub(super) const RING: f32 = 58.0;
 const SIZE: f32 = 74.0;
 /// Nearer to the middle than this a corner would hide it.
 const CORNER_GAP: f32 = 14.0;
-/// The pointer meets a line within this distance, points,
+/// Largest distance at which the pointer meets a line, points.
 const LINE_REACH: f32 = 6.0;
-/// and a knob within this.
+/// Largest distance at which the pointer meets a knob, points.
 const KNOB_REACH: f32 = 9.0;
 
 /// Names of the axes.
