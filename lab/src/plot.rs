@@ -15,7 +15,7 @@ const COLORS: [RGBColor; 4] = [
     RGBColor(188, 82, 196),
 ];
 const SIZE_PX: (u32, u32) = (560, 320);
-/// Values below are shown at the axis: logarithms have no zero.
+/// Number of decades below the largest value: smaller values are drawn on the axis, since logarithms have no zero.
 const DECADES_MAX: f64 = 5.0;
 
 /// One axis.
@@ -263,7 +263,7 @@ impl Scale {
     }
 }
 
-/// Enough digits to tell ticks apart, without the dust of rounding.
+/// Formats a tick's value with enough digits to tell ticks apart, and without rounding errors.
 fn label(value: f64) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     if rounded != 0.0 && !(1e-4..1e6).contains(&rounded.abs()) {

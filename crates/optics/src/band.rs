@@ -31,7 +31,7 @@ use std::f64::consts::PI;
 /// One line of the band.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandLine {
-    /// Component of its directions along the tangent, xi_t - wo_t.
+    /// Component along the tangent of all directions on the line, xi_t - wo_t.
     pub along: f64,
     /// Radius of the cone's circle, sqrt(1 - along^2).
     pub radius: f64,
@@ -160,11 +160,11 @@ impl Chord {
 /// A spherical light as a cap of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cap {
-    /// Unit direction of its centre.
+    /// Unit direction of the cap's centre.
     pub axis: DVec3,
-    /// Sine of its angular radius; 1 if the point lies inside the sphere.
+    /// Sine of the cap's angular radius; 1 if the point lies inside the sphere.
     pub sin_radius: f64,
-    /// Cosine of its angular radius; -1 if the point lies inside the sphere, which lights every direction.
+    /// Cosine of the cap's angular radius; -1 if the point lies inside the sphere, which lights every direction.
     pub cos_radius: f64,
 }
 
@@ -179,7 +179,7 @@ impl Cap {
     }
 }
 
-/// The cap of a sphere whose centre lies at `center` from the point (any unit of length, the radius's too).
+/// Cap that a sphere covers as seen from a point; `center` is relative to the point, in any unit of length, which is the radius's too.
 pub fn sphere_cap(center: DVec3, radius: f64) -> Cap {
     let distance2 = center.length_squared();
     let sin2 = radius * radius / distance2;
@@ -358,8 +358,8 @@ pub(crate) fn edge_band_extent(a: DVec3, b: DVec3) -> (f64, f64) {
     (lowest, highest)
 }
 
-/// The angle by which the edge from `a` to `b` (unit vectors) turns about the unit direction `about`. Summed over a
-/// polygon's edges: 2 pi or -2 pi if the polygon encloses that direction or its opposite, else 0.
+/// Angle by which the edge from `a` to `b` (unit vectors) turns about the unit direction `about`. Summed over a polygon's edges: 2 pi or -2 pi if
+/// the polygon encloses that direction or its opposite, else 0.
 pub(crate) fn edge_winding(about: DVec3, a: DVec3, b: DVec3) -> f64 {
     let sin = about.dot(a.cross(b));
     let cos = a.dot(b) - a.dot(about) * b.dot(about);

@@ -20,7 +20,8 @@ pub const ENVIRONMENT_CELLS: usize = 10;
 /// Scale of x as u = W q. Larger ones take more of the cells to the lobes beside the main one.
 const CELL_SCALE_UM: f64 = 0.3;
 
-/// Cells along the band for a grating, whose orders spread the colours over all of it: even in the angle.
+/// Number of cells along the band for a grating. Its orders spread the colours over the whole band, so the cells are even in the
+/// angle.
 pub const ROW_CELLS: usize = 48;
 
 /// A part of a light's chord on a grating, of one depth, is no longer in q.
@@ -31,7 +32,7 @@ pub fn row_part_count(length: f64) -> usize {
     (length / ROW_PART).ceil().clamp(1.0, ROW_CELLS as f64) as usize
 }
 
-/// Parts of a cell that shadow rays tell apart.
+/// Number of parts of a cell for shadow rays.
 pub const CELL_PARTS: usize = 6;
 
 /// Alpha of the lobe that blurs a cell over the chord that it spans.
@@ -46,7 +47,7 @@ pub struct EnvironmentCell {
     pub q_high: f64,
     /// The unit direction that stands for it, in the frame of the scratch. Its z is the cosine for the groove's depth.
     pub direction: DVec3,
-    /// The angle that it spans along the band, as the length of its chord on the unit sphere.
+    /// Length of the cell's chord on the unit sphere, for the angle that the cell spans along the band.
     pub angle_rad: f64,
 }
 
@@ -131,8 +132,8 @@ pub fn environment_cell(i: usize, line: BandLine, width_um: f64) -> EnvironmentC
     environment_cells(line, width_um)[i]
 }
 
-/// The light of an environment off a scratch of width `width_um` along a line of its band, cell by cell. `antiderivative` is
-/// the scratch's response over q, from any fixed q on, at a cosine of the light's direction to the normal; `blurred` the
+/// Integrates the light of an environment off a scratch of width `width_um` along a line of its band, cell by cell. `antiderivative`
+/// is the scratch's response over q, from any fixed q on, at a cosine of the light's direction to the normal; `blurred` the
 /// environment towards a direction (in the frame of the scratch), blurred by the mirror lobe of a perceptual roughness.
 #[inline(always)]
 pub fn environment_band(

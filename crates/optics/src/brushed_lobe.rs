@@ -46,7 +46,7 @@ const RULE_ACROSS: [[f64; 2]; 2] = [
     [0.339_981_043_584_856, 0.652_145_154_862_546],
     [0.861_136_311_594_053, 0.347_854_845_137_454],
 ];
-/// The share of all facets in a slice, over a step of its place.
+/// Density of facets over the place of a slice.
 const DENSITY: f64 = 0.5;
 /// The alphas of a look-up over half of the slopes that it stands for, and over the alpha across the slice.
 const TAP_WIDTHS: [f64; 2] = [0.85, 0.55];
@@ -221,7 +221,7 @@ impl BrushedLobe {
         x / (1.0 + x * x).sqrt()
     }
 
-    /// Cuts a range of places to those whose facets reflect to directions above the horizon.
+    /// Cuts a range of places to the slices whose facets reflect to directions above the horizon.
     fn visible(&self, range: [f64; 2]) -> [f64; 2] {
         let [from, to] = [-1.0, 1.0].map(|end| self.place_of_slope((end - self.wo.x) / self.wo.z));
         [range[0].max(from), range[1].min(to)]
@@ -574,7 +574,7 @@ const NEWTON_ROUNDS: usize = 5;
 /// A slope beyond all that reflect to above the horizon.
 const FAR: f64 = 1e9;
 
-/// A rule that is given for one side of its middle.
+/// Mirrors a quadrature rule that is given for one side of its middle.
 fn both_ways(rule: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]> {
     let both = |&[node, weight]: &[f64; 2]| [[-node, weight], [node, weight]];
     rule.iter().flat_map(both)

@@ -26,7 +26,7 @@ pub struct EnvironmentTap {
     pub grazing_weight: f64,
 }
 
-/// A lobe of which look-ups can be asked.
+/// A lobe with the parameters of its look-ups in an environment.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvironmentLobe {
     /// The x axis of the viewer's frame in the local one.
@@ -86,7 +86,7 @@ pub fn environment_lobe(lobe: &LtcLobe) -> EnvironmentLobe {
     }
 }
 
-/// Lobes that are longer than those of lower cosines are not looked up as these: there the horizon cuts them.
+/// Ratio of cosine to alpha from which on a lower cosine does not lengthen the looked-up lobe: there the horizon cuts it.
 const MIN_COSINE_OVER_ALPHA: f64 = 20.0;
 /// Relative difference of squared axes below which a lobe is round.
 const ROUND: f64 = 1e-4;

@@ -22,7 +22,7 @@ const BEND2: f64 = 0.25;
 /// Below this excess the wider lobe is left out.
 const MIN_EXCESS: f64 = 0.02;
 
-/// The distances from the first lobe's middle, in its widths, between which the sharp lobe takes over. Chosen by the errors that the test
+/// Distances from the first lobe's middle, in its widths, between which the lobe changes to the sharp one. Chosen by the errors that the test
 /// `small_lamps_have_the_tails_of_a_sharp_lobe` prints.
 const TAILS: [f64; 2] = [1.5, 3.2];
 
@@ -107,7 +107,7 @@ pub(crate) fn filtered_tails(widths: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// A lobe as the difference of two, and the sharp one in the place of its tails.
+/// A lobe that is the difference of two lobes near its core, and the sharp lobe in its tails.
 #[derive(Clone, Copy, Debug)]
 pub struct FilteredLobe {
     /// [`LtcLobe::alphas`] of the first. The second is wider by the root of 2.
@@ -172,7 +172,7 @@ impl LobePart {
         self.core != 0.0 || self.tails != 0.0
     }
 
-    /// Returns the lobe's weight for a light of this vector irradiance in the lobe's cosine space.
+    /// Weight of the lobe for a light with this vector irradiance in the lobe's cosine space.
     pub fn weight(&self, vector: DVec3) -> f64 {
         if self.core == self.tails {
             return self.core;

@@ -126,7 +126,7 @@ mod tests {
         sum
     }
 
-    /// The figure that docs/model.md asks for: rms error below 0.5 % for pixels from 5 to 320 um.
+    /// Test of the figure in docs/model.md: rms error below 0.5 % for pixels from 5 to 320 um.
     #[test]
     fn the_closed_form_equals_quadrature() {
         let sigma = 20.0;

@@ -56,7 +56,7 @@ pub fn dielectric(cos_theta: f64, eta: f64) -> f64 {
     0.5 * (r_parallel * r_parallel + r_perpendicular * r_perpendicular)
 }
 
-/// (1 - cos)^5, by which Schlick's approximation f0 + (1 - f0)(1 - cos)^5 rises.
+/// (1 - cos)^5, the weight of 1 - f0 in Schlick's approximation f0 + (1 - f0)(1 - cos)^5.
 pub fn schlick_weight(cos_theta: f64) -> f64 {
     let m = (1.0 - cos_theta).clamp(0.0, 1.0);
     let m2 = m * m;
@@ -162,7 +162,7 @@ impl FresnelRgb<'_> {
         self.of_parts(self.curve.lookup(cos_theta))
     }
 
-    /// t F90 + s F0, from the curve's parts or from means of them.
+    /// Reflectance t F90 + s F0, from the curve's parts t and s or from their means.
     pub(crate) fn of_parts(&self, parts: [f64; 4]) -> [f64; 3] {
         std::array::from_fn(|ch| parts[ch] * self.f90 + parts[3] * self.f0[ch])
     }

@@ -24,7 +24,7 @@ const QUANTILE_OCTAVES: u64 = 19;
 /// Nodes in each, as bits of the mantissa.
 const QUANTILE_BITS: u32 = 4;
 const QUANTILE_COUNT: usize = ((QUANTILE_OCTAVES + 1) << QUANTILE_BITS) as usize;
-/// Bits of a share below those that tell its node.
+/// Number of low bits of a share that do not select the node.
 const REST_BITS: u32 = f64::MANTISSA_DIGITS - 1 - QUANTILE_BITS;
 /// The least share.
 const SHARE_MIN: f64 = 1.0 / (1u64 << (QUANTILE_OCTAVES + 1)) as f64;
@@ -71,7 +71,7 @@ impl Gaussian {
         self.cdf(high) - self.cdf(low)
     }
 
-    /// The place below which a share lies, for shares within [1e-6, 1 - 1e-6]: within 1e-7.
+    /// Quantile: the place below which a share lies, for shares within [1e-6, 1 - 1e-6], with an error of at most 1e-7.
     #[inline]
     pub fn quantile(&self, share: f64) -> f64 {
         let tail = share.min(1.0 - share).clamp(SHARE_MIN, 0.5);

@@ -17,7 +17,7 @@ use crate::spectrum::WAVELENGTH_MIN_NM;
 pub use single::GroovesAt;
 pub use table::{GRATING_DEPTH_NM, GRATING_WIDTH_UM};
 
-/// Phases at which the most that a row takes is looked for.
+/// Number of phases at which the largest share that a row takes is sought.
 const PHASES: u32 = 16;
 
 /// A row of parallel grooves of rectangular profile.
@@ -116,7 +116,7 @@ impl Grating {
         }
     }
 
-    /// An upper bound of the share of the mirror's direction that the row takes, 1 - eta_0 of (43), over all wavelengths and angles.
+    /// Upper bound of the share that the row takes from the mirror's direction, 1 - eta_0 of (43), over all wavelengths and angles.
     pub fn most_taken(&self) -> f64 {
         let fill = self.fill();
         // Spread depths take the most within the first turn of the phase.

@@ -20,21 +20,21 @@ const SMALL_PERIMETER: [f64; 2] = [0.05, 0.1];
 /// A polygon's irradiance while its edges stream in.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PolygonIrradiance {
-    /// Boundary integral so far.
+    /// Boundary integral over the edges until now.
     vector: DVec3,
-    /// Length so far of the boundary above the horizon, in radians.
+    /// Length, in radians, of the boundary above the horizon until now.
     perimeter: f64,
     /// Turns around z, from the edges' crossings of the half-plane y = 0, x > 0.
     winding: f64,
-    /// First vertex, and where the chain of edges has got to relative to it. The differences are summed
-    /// because they are exact where the vertices are not.
+    /// First vertex, and the last vertex relative to it. The offset is a sum of differences, which are exact where the
+    /// vertices are not.
     first: DVec3,
     offset: DVec3,
     started: bool,
     /// Six times the signed volume between origin and polygon, and its moment about the first vertex.
     volume: f64,
     moment: DVec3,
-    /// Whether part of it is below the horizon, and whether part is above.
+    /// Whether a part of the polygon is below the horizon, and whether a part is above it.
     cut: bool,
     risen: bool,
 }

@@ -141,8 +141,8 @@ pub(crate) fn environment_middle_table() -> &'static LobeTable {
     &TABLE
 }
 
-/// The nodes of [`ltc_table`], and under them those of each [`environment_table`] and of `environment_middle_table`: one texture,
-/// [`LOBE_TABLE_SIZE`] wide.
+/// Texels of all tables of lobes in one texture that is [`LOBE_TABLE_SIZE`] wide: from the top [`ltc_table`], each [`environment_table`] and
+/// `environment_middle_table`.
 pub fn shape_texels() -> &'static [[f32; 4]] {
     static TEXELS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| {
         let looked_up = (0..ENVIRONMENT_TAPS).map(environment_table);

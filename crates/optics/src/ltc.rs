@@ -54,8 +54,9 @@ pub struct LtcLobe {
     pub alphas: DVec2,
     /// Displacement of the mean slope across the plane, over the second alpha, for a slope in the plane of one first alpha.
     pub shear: f64,
-    /// Share, 0 to 1, by which the lobe's core is too bent for the correction. Normals that spread across the plane of view and normal reflect to an arc; the
-    /// fit draws its chord, and where the two are further apart than they are wide the correction would find next to nothing.
+    /// Weight, 0 to 1, of the uncorrected fit for large lights, where the lobe's core is too bent for the correction. Normals that spread across the plane of
+    /// view and normal reflect to an arc; the fit draws its chord, and where the two are further apart than they are wide the correction would find next to
+    /// nothing.
     pub bent: f64,
     /// The share of the normals' spread that is the pixel's: its normals are weighted as the picture shows them, and not as facets are.
     pub turned: f64,
@@ -191,7 +192,7 @@ impl<'a> LobeFresnel<'a> {
     }
 }
 
-/// (x axis of the viewer's frame in the local one, (sin, cos) of its angle), for any `wo`.
+/// Viewer's frame, for any `wo`: its x axis in the local frame, and sine and cosine of the viewer's angle to the normal.
 pub(crate) fn viewer_frame(wo: DVec3) -> (DVec2, DVec2) {
     let sine = wo.truncate().length();
     let x_axis = if sine > 1e-9 {
@@ -454,7 +455,7 @@ const CENTRE_WEIGHT: f64 = 1.0 / 3.0;
 const RING_LIFT: f64 = 0.12;
 /// The longest radius of the ring.
 const RING_MAX: f64 = 0.97;
-/// The squared sine of a light's radius at which half of a bent lobe is left as it was fitted.
+/// Squared sine of a light's angular radius at which a fully bent lobe ([`LtcLobe::bent`]) is corrected by half.
 const FIT_FROM: f64 = 0.0003;
 /// The share of the cosine from which on the rest of the hemisphere counts, more and more up to the whole.
 const REST_FROM: f64 = 0.3;
@@ -489,8 +490,8 @@ pub fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3
     std::array::from_fn(|ch| integral * (mean[ch] + fade * (of.albedo[ch] / e0 - mean[ch])))
 }
 
-/// Computes the light that the lobe reflects, single scattering, of a light so small that it lies in one direction, from its vector irradiance in the
-/// cosine's space.
+/// Computes the light that the lobe reflects, single scattering, from a light that is so small that all of it comes from one direction, by its vector
+/// irradiance in the cosine's space.
 pub fn ltc_small_light(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3] {
     let length = vector.length().max(1e-30);
     if vector.z <= 0.0 {

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use crate::ltc::LtcLobe;
 
-/// A parallelogram that a picture lies on, relative to a point.
+/// Parallelogram on which a picture lies, relative to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PicturePlane {
     /// Corner between the picture's left and lower edges.
@@ -40,7 +40,7 @@ pub const PICTURE_PARTS: usize = 4;
 /// One over the square of the widest blur of a part, in its own widths: four texels in it, which still tell one side from the other.
 const PART_WIDEST: f64 = 16.0;
 
-/// Parts of a chord of a light with a picture, each of which has one look-up at the middle.
+/// Number of parts of a chord over a light with a picture; each part has one look-up at its middle.
 pub const PICTURE_CELLS: usize = 12;
 /// [`PICTURE_CELLS`] for a grating: its orders are narrower than a twelfth of a soft box.
 pub const PICTURE_ROW_CELLS: usize = 48;
@@ -117,8 +117,8 @@ impl PicturePlane {
         plane.picture_look(vector)
     }
 
-    /// The look-up of a part of a chord, by the directions of its ends and its middle. `across_std` is the standard deviation of the band about the
-    /// chord, in direction cosines.
+    /// Look-up for a part of a chord, by the directions of the part's ends and its middle. `across_std` is the standard deviation of the band about
+    /// the chord, in direction cosines.
     pub fn picture_on_chord(
         &self,
         [low, middle, high]: [DVec3; 3],
@@ -140,7 +140,8 @@ pub fn picture_part_uv(i: usize) -> DVec2 {
     DVec2::new(x as f64, y as f64) / PICTURE_PARTS as f64
 }
 
-/// The blur of a part over the root of the picture's area, given that of its look-up over the part's own: no part is wider than itself.
+/// Spread of a part's look-up, over the root of the whole picture's area, from `spread` over the root of the part's area. No part spreads further
+/// than its own width.
 pub fn picture_part_spread(spread: f64) -> f64 {
     spread / (1.0 + PART_WIDEST * spread * spread).sqrt() / PICTURE_PARTS as f64
 }

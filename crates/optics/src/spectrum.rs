@@ -86,7 +86,7 @@ pub fn rgb_from_reflectance(reflectance: impl Fn(f64) -> f64) -> [f64; 3] {
     rgb_from_spectral_rgb(|nm| [reflectance(nm); 3])
 }
 
-/// [`rgb_from_reflectance`] for a function that computes a value of its own for each channel.
+/// [`rgb_from_reflectance`] for a function that returns a value for each colour channel.
 pub(crate) fn rgb_from_spectral_rgb(value: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
     samples().iter().fold([0.0; 3], |sum, s| {
         let v = value(s.wavelength_nm);

@@ -56,7 +56,7 @@ pub struct SphericalCap {
     pub axis: DVec3,
     /// Cosine of the angular radius, in [-1, 1].
     pub cosine: f64,
-    /// Sine of it, kept apart because it is precise for small caps.
+    /// Sine of the cap's angular radius, kept beside the cosine because it is precise for small caps.
     pub sine: f64,
 }
 
@@ -304,8 +304,8 @@ const RING_SHARE: f64 = 0.75;
 const RING_WEIGHT: f64 = 1.0 / 6.0;
 const CENTRE_WEIGHT: f64 = 1.0 / 3.0;
 
-/// The mean of GGX times the map's Jacobian over the cap that has the region's centroid and solid angle, as far as it
-/// is above the horizon.
+/// Mean of GGX times the map's Jacobian over the cap with the region's centroid and solid angle, for the cap's part above
+/// the horizon.
 fn sptd_mean(lobe: &SptdLobe, region: SphericalRegion) -> f64 {
     let centre = region.vector.normalize_or(DVec3::Z);
     let (u, v) = irradiance_basis(centre);

@@ -202,7 +202,7 @@ mod tests {
 
     static MIRROR: LazyLock<ScratchTable> = LazyLock::new(|| ScratchTable::new(|_| 1.0));
 
-    /// T by a quadrature of its own: 1 nm steps over the interpolated weights, Simpson over u.
+    /// T by a separate quadrature: 1 nm steps over the interpolated weights, Simpson over u.
     fn quadrature(u0: f64, u1: f64, depth_nm: f64, metal: Option<Metal>) -> [f64; 3] {
         let reflectance = |nm: f64| metal.map_or(1.0, |m| m.reflectance(1.0, nm));
         let f0 = spectrum::rgb_from_reflectance(reflectance);

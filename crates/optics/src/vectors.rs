@@ -1,4 +1,4 @@
-//! The vectors of the processor that runs the program, which the compiler does not know.
+//! Vector instructions of the processor that runs the program, which the compiler cannot assume.
 
 /// Runs `work`, compiled for each kind of vectors with all that is inlined into it; which one runs is chosen here. Works of some
 /// microseconds are worth it.

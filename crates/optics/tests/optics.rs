@@ -1,5 +1,5 @@
-//! The physics against quadrature and transforms that share none of its code.
-//! In one program, since each that is linked takes seconds.
+//! Tests of the physics against quadrature and transforms that share none of its code. They are one
+//! program, since linking each takes seconds.
 
 mod coherent;
 mod lobes;

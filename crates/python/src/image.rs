@@ -20,10 +20,10 @@ pub(crate) struct Image {
     image: hairline_image::Image,
     display: Display,
     notes: Notes,
-    /// Whether each pixel has all that was asked for; False after Ctrl-C.
+    /// Whether each pixel has all of its samples; False after Ctrl-C.
     #[pyo3(get)]
     is_complete: bool,
-    /// Made when first asked for.
+    /// Beauty picture, made at the first access.
     beauty: PyOnceLock<Py<PyArray3<f32>>>,
 }
 
@@ -66,12 +66,12 @@ impl Image {
         &self.display
     }
 
-    /// Whether each pixel has all that was asked for.
+    /// Whether each pixel has all of its samples.
     pub(crate) fn is_whole(&self) -> bool {
         self.is_complete
     }
 
-    /// Layers as a comparison takes them.
+    /// Layers for a comparison.
     pub(crate) fn layers(&self) -> Layers {
         Layers::from(&self.image)
     }
@@ -186,13 +186,13 @@ impl Image {
         Ok(beauty.clone_ref(py))
     }
 
-    /// Light by way of the base and the background: float32, height x width x 3, W sr^-1 m^-2.
+    /// Light off the base and of the background: float32, height x width x 3, W sr^-1 m^-2.
     #[getter]
     fn base<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         Self::rgb(slf, &slf.get().image.base)
     }
 
-    /// Light by way of the scratches: float32, height x width x 3, W sr^-1 m^-2.
+    /// Light off the scratches: float32, height x width x 3, W sr^-1 m^-2.
     #[getter]
     fn scratches<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         Self::rgb(slf, &slf.get().image.scratches)
@@ -273,7 +273,7 @@ impl Image {
         Ok(PyBytes::new(py, &bytes))
     }
 
-    /// PNG that notebooks show.
+    /// PNG of the picture, which notebooks show.
     fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         self.png(py, None, None)
     }

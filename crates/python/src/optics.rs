@@ -192,7 +192,7 @@ fn metal_names() -> Vec<&'static str> {
     names.map(|(name, _)| *name).collect()
 }
 
-/// Adds all of this.
+/// Adds the functions of this file to the module.
 pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     add_functions(module)?;
     module.add_class::<ScratchTable>()?;

@@ -8,7 +8,7 @@ use crate::errors;
 use crate::image::Image as Picture;
 use crate::names::tone_map;
 
-/// One picture of strips of it, from the top.
+/// Puts strips of one picture together, from the top.
 #[pyfunction]
 pub(crate) fn assemble(strips: Vec<Bound<'_, Picture>>) -> PyResult<Picture> {
     let wrong = |found: &str| {
@@ -44,7 +44,8 @@ pub(crate) fn assemble(strips: Vec<Bound<'_, Picture>>) -> PyResult<Picture> {
     Ok(Picture::new(image, *first.shown(), notes, is_complete))
 }
 
-/// Puts rows of a picture over those from `first` on. Both have noise, or none. References have no alpha.
+/// Copies rows into a picture from row `first` on. Either both have noise or neither has. References have
+/// no alpha.
 fn put(image: &mut Image, first: usize, rows: &Image) {
     let start = first * image.size_px[0] as usize;
     let own = start..start + rows.depth_m.len();

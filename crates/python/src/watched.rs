@@ -1,4 +1,4 @@
-//! Long work on a thread of its own, while the thread of Python looks after signals and tells how far it has come.
+//! Long work on a thread of its own, while Python's thread handles signals and reports the progress.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Condvar, Mutex, OnceLock};
@@ -13,7 +13,7 @@ use crate::errors;
 /// Interval at which signals are looked for.
 const EVERY: Duration = Duration::from_millis(50);
 
-/// Progress of work, kept until the thread of Python asks for it.
+/// Progress of work, kept until Python's thread reads it.
 #[derive(Default)]
 pub(crate) struct Told {
     cancelled: AtomicBool,

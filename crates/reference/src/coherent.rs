@@ -1,4 +1,4 @@
-//! Light by way of the whole field in the coherence window, |B - S|^2 with every phase (docs/model.md, (1) and section 9).
+//! Light off the whole field in the coherence window, |B - S|^2 with every phase (docs/model.md, (1) and section 9).
 //!
 //! Directions are drawn by a mixture: the base's peak, each groove's band, and whatever else is lit, so that no direction that
 //! the field sends light to is left out, and the estimate divides by the mixture's density.
@@ -99,7 +99,7 @@ impl<'a> Field<'a> {
         sum
     }
 
-    /// Directions whose components along axes of the surface's frame lie within the ranges of `extent`.
+    /// Distribution of directions whose components along axes of the surface's frame lie within the ranges of `extent`.
     pub(crate) fn directions(&self, extent: impl Fn(DVec2) -> (f64, f64)) -> FieldDirections {
         let wo = self.point.wo;
         let std = band_std(self.point.coherence_um, WIDEST_NM);

@@ -25,7 +25,7 @@ pub(super) struct RowView {
     table: usize,
     /// Random position of the grooves in [0, 1) of a pitch.
     phase: f64,
-    /// Actual position of the grooves, if single ones could be told from one another.
+    /// Actual places of the grooves, if a pixel could show single ones.
     single: Option<GroovesAt>,
     seed: u32,
     /// Density of single grooves at the point, over their mean.

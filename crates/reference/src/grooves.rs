@@ -13,7 +13,7 @@ use std::f64::consts::{PI, SQRT_2};
 /// Distance within which grooves matter, in sigma. The window's energy falls as exp(-p^2/sigma^2): 7e-7 of it lies beyond
 /// 3.5.
 pub(super) const REACH_OF_ENERGY: f64 = 3.5;
-/// The window's amplitude, by which interference goes, has fallen to 4e-6 here.
+/// Number of standard deviations at which the window is cut off for interference: its amplitude is 4e-6 there.
 pub(super) const REACH_OF_AMPLITUDE: f64 = 5.0;
 
 /// A piece of a groove from a point.

@@ -40,7 +40,7 @@ pub struct Settings {
 pub struct SceneIndex {
     /// Triangles along a ray.
     pub triangles: Arc<TriangleIndex>,
-    /// The scratches as they lie.
+    /// Tree over the grooves of the scratches, in full detail.
     pub grooves: Arc<SegmentTree<Groove>>,
     /// Optical properties of the materials.
     pub tables: Arc<ScratchTables>,
@@ -84,7 +84,7 @@ impl SceneIndex {
         }
     }
 
-    /// Whether those of one scene are those of another: its surfaces, scratches, gratings and materials are the same ones.
+    /// Whether the index of one scene serves another: its surfaces, scratches, gratings and materials are shared ones.
     pub fn are_alike(a: &Scene, b: &Scene) -> bool {
         let alike = |a: &Object, b: &Object| {
             Arc::ptr_eq(&a.mesh, &b.mesh)

@@ -4,7 +4,8 @@ use super::interval::{CutCauchy, CutNormal};
 use super::wavelengths::Spectrum;
 use hairline_optics::grating::Grating as Row;
 
-/// Probability with which q is drawn for the light of single grooves, and for all that the orders leave out.
+/// Probability of drawing q from the rest's distribution, which serves the light of single grooves and all that the
+/// orders do not cover.
 const REST_SHARE: f64 = 0.2;
 
 /// Half width of the rest's distribution over u = W q: wider than a slit's, as displaced grooves send light further out.
@@ -13,9 +14,9 @@ const REST_HALF_WIDTH_UM: f64 = 0.4;
 /// Orders of less than this share of the light are left to the rest.
 const LEAST_WEIGHT: f64 = 1e-6;
 
-/// A mixture of the peaks of orders and a distribution that leaves no direction out, cut to an interval.
+/// Mixture of the orders' peaks and a distribution that covers all directions, cut to an interval.
 pub(super) struct Orders {
-    /// Peaks of the orders: ascending sums of the weights, the middle of each peak, and the peak about it.
+    /// Peaks of the orders: cumulative sum of the weights, middle of the peak, and distribution about that.
     peaks: Vec<(f64, f64, CutNormal)>,
     rest: CutCauchy,
 }

@@ -56,7 +56,7 @@ enum Response<'a> {
     Separable {
         lobes: Vec<Lobe>,
         kept: f64,
-        /// Lobe of a grating under the scratches, and the share of its light that they leave.
+        /// Lobe of a grating under the scratches, and the share of its light that the scratches leave.
         row: Option<Box<(Lobe, DVec3)>>,
     },
     Full(Box<Field<'a>>),
@@ -215,7 +215,7 @@ impl Integrator<'_> {
         (kept, taken)
     }
 
-    /// Light by way of the base: multiple importance sampling of lights and lobes (E. Veach, 1997).
+    /// Light off the base: multiple importance sampling of lights and lobes (E. Veach, 1997).
     fn by_base(&self, vertex: &Vertex, wavelengths: &Wavelengths) -> DVec3 {
         let point = vertex.point;
         let mut sum = DVec3::ZERO;
@@ -268,7 +268,7 @@ impl Integrator<'_> {
         sum
     }
 
-    /// Light by way of the grooves, each for itself, before they weaken one another.
+    /// Light off the grooves, each by itself, before they weaken one another.
     fn by_grooves(&self, vertex: &Vertex, lobes: &[Lobe], wavelengths: &Wavelengths) -> DVec3 {
         let mut sum = DVec3::ZERO;
         for (g, lobe) in lobes.iter().enumerate() {
@@ -328,7 +328,7 @@ impl Integrator<'_> {
         sum
     }
 
-    /// Light from further surfaces by way of one groove, drawn by its share.
+    /// Light from further surfaces off one groove, which is drawn by its share.
     fn bounce_off_a_groove(
         &self,
         vertex: &Vertex,
@@ -360,7 +360,7 @@ impl Integrator<'_> {
         DVec3::ZERO
     }
 
-    /// Light by way of the whole field.
+    /// Light off the whole field.
     fn by_field(&self, vertex: &Vertex, field: &Field, wavelengths: &Wavelengths) -> FieldResponse {
         let point = vertex.point;
         let mut sum = FieldResponse {
@@ -516,7 +516,7 @@ impl Integrator<'_> {
         self.triangles.is_hidden(origin_m, to_end, way_m.length())
     }
 
-    /// Start of a ray that must not meet the surface that it leaves.
+    /// Start of a ray, moved off the surface so that the ray does not meet the surface that it leaves.
     fn off_the_surface(&self, point: &SurfacePoint, direction: DVec3) -> DVec3 {
         point.raised_m + self.step_m(point.position_m) * (direction + point.normal)
     }

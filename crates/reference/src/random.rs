@@ -23,7 +23,8 @@ pub(super) enum Purpose {
     FieldLight { light: u32, draw: u32 },
     /// A direction of the field to the environment.
     FieldEnvironment { draw: u32 },
-    /// The continuation of a path by way of scratches: one of them, or of the field's draws (1), and the direction (2).
+    /// Continuation of a path off scratches: the choice of one, or of one of the field's draws (1), and the direction
+    /// (2).
     Bounce,
     /// The grating at a point (1), its grooves' angle (1) and place (1).
     Row,

@@ -1,4 +1,4 @@
-//! Reflectances of facets and of lobes made of them, by the equations and by quadrature. The curves and tables of the closed form take no part.
+//! Reflectances of facets and of lobes made of them, by the equations and by quadrature. The curves and tables of the closed form are not used.
 
 use glam::DVec3;
 use hairline_cpu::surface::SurfacePoint;
@@ -228,7 +228,7 @@ impl Albedo {
         }
     }
 
-    /// Light that multiple scattering adds to single scattering where F = 1, relative to it.
+    /// Light of multiple scattering over that of single scattering where F = 1.
     pub(crate) fn gain(self) -> f64 {
         1.0 / self.e0.clamp(1e-3, 1.0) - 1.0
     }

@@ -194,13 +194,13 @@ struct Round {
     batches: u32,
 }
 
-/// Pixels that a thread takes at a time.
+/// Number of pixels that a thread takes at a time.
 const CHUNK_PX: usize = 16;
 
 /// Rounds shorter than this are made longer.
 const ROUND_LEAST: Duration = Duration::from_secs(1);
 
-/// Middle of a pixel of a picture of this width.
+/// Middle of a pixel, given its index in a picture of this width.
 fn middle(pixel: usize, width: usize) -> DVec2 {
     DVec2::new((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5)
 }

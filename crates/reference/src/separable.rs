@@ -1,4 +1,4 @@
-//! Light by way of grooves, each for itself: the separable |S|^2 of docs/model.md, (3) to (7), at a point.
+//! Light off grooves, each by itself: the separable |S|^2 of docs/model.md, (3) to (7), at a point.
 
 use super::gratings::RowView;
 use super::grooves::GrooveView;
@@ -106,7 +106,7 @@ impl Lobe {
             .sum()
     }
 
-    /// A way to draw directions whose components along and across the groove lie in intervals. None where the band does not
+    /// Distribution of directions whose components along and across the groove lie in intervals. None if the band does not
     /// reach them.
     pub(crate) fn directions(
         &self,

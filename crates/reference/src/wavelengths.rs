@@ -34,7 +34,7 @@ impl Wavelengths {
     }
 }
 
-/// Wavelength of the widest band, by which directions are drawn.
+/// Wavelength by whose band, the widest one, directions are drawn.
 pub(super) const WIDEST_NM: f64 = LAST_NM;
 
 /// Reflection off the floor of a groove and off the smooth base.

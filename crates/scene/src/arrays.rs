@@ -113,12 +113,12 @@ impl MeshArrays {
         &self.triangles
     }
 
-    /// One for each vertex, if there are any.
+    /// Normals, one for each vertex, if there are any.
     pub fn normals(&self) -> Option<&[[f64; 3]]> {
         self.normals.as_deref()
     }
 
-    /// One for each vertex, if there are any.
+    /// Texture coordinates, one pair for each vertex, if there are any.
     pub fn uvs(&self) -> Option<&[[f64; 2]]> {
         self.uvs.as_deref()
     }
@@ -159,7 +159,7 @@ pub struct ScratchArrays {
 }
 
 impl ScratchArrays {
-    /// Keys of the columns that [`ScratchArrays::new`] takes for each scratch besides its ends, in this order.
+    /// Keys of the columns of sizes that [`ScratchArrays::new`] takes beside the ends, in this order.
     pub const SIZES: [&str; SIZE_COUNT] = {
         let mut keys = [""; SIZE_COUNT];
         let mut i = 0;

@@ -1,4 +1,4 @@
-//! Rays through pixels, and the footprints that pixels leave on a surface.
+//! Rays through pixels, and the footprints of pixels on a surface.
 
 use crate::description::limits;
 use crate::scene::{Camera, Lens, RenderSettings};
@@ -84,8 +84,8 @@ pub struct Framing {
     pub target_m: DVec3,
 }
 
-/// The place as near to some points as lets all of them be seen, by a camera whose axes are `right`, `up` and `forward`, and half
-/// of whose field of view has these tangents, sideways and upwards.
+/// Place of the camera as near to some points as possible so that all of them are in the picture. The camera's axes are `right`, `up` and
+/// `forward`, and `tan` are the tangents of half its field of view, sideways and upwards.
 pub fn framing(points_m: &[DVec3], [right, up, forward]: [DVec3; 3], tan: DVec2) -> Framing {
     let low = points_m.iter().copied().fold(DVec3::INFINITY, DVec3::min);
     let high = points_m
@@ -147,7 +147,7 @@ pub fn lens_point_at(on_square: DVec2) -> DVec2 {
 }
 
 impl CameraFrame {
-    /// The camera seen through a point of its lens, in its radii to the right and up: points in focus stay where they are in the picture.
+    /// Camera at a point of its lens, given in the lens's radii to the right and up: points in focus keep their place in the picture.
     pub fn through_lens(&self, lens: &Lens, point: DVec2) -> Self {
         let per_px = self.per_px_x.length();
         let px_at_focus = lens.radius_m / (lens.focus_m * per_px);

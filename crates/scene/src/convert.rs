@@ -89,7 +89,7 @@ pub(crate) fn material(material: &description::Material) -> Material {
     }
 }
 
-/// A map as it is without the scene: not turned, intensity 1.
+/// Map of the environment without the scene's settings: not turned, intensity 1.
 pub(crate) fn environment_map(
     map: &description::Map,
     base_dir: &Path,
@@ -124,7 +124,7 @@ fn built_in_map(map: BuiltInMap) -> Environment {
     made.get_or_init(|| map).clone()
 }
 
-/// The map as it is described, its top along `up`.
+/// Environment as described, with the map's top along `up`.
 pub(crate) fn environment(
     described: &description::Environment,
     map: Environment,

@@ -94,7 +94,7 @@ pub struct Description {
 /// `[camera]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Camera {
-    /// A camera of a model's file in the place of this one: its name, that of its node, or its number. The exposure and the lens are of this
+    /// Camera of a model's file, used in place of this one: its name, that of its node, or its number. The exposure and the lens are of this
     /// one. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub of_file: Option<String>,
@@ -187,7 +187,7 @@ impl Map {
 /// `[[material]]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Material {
-    /// Name by which objects refer to it; no two are equal. Required.
+    /// Name of the material, to which objects refer; no two are equal. Required.
     pub name: String,
     /// `kind` and the keys that belong to it.
     #[serde(flatten)]
@@ -246,7 +246,7 @@ pub enum MetalColor {
 /// `[[object]]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Object {
-    /// Name by which layers of scratches and gratings refer to it; no two are equal. Required.
+    /// Name of the object, to which layers of scratches and gratings refer; no two are equal. Required.
     pub name: String,
     /// `shape` or `mesh`.
     #[serde(flatten)]
@@ -268,7 +268,8 @@ pub struct Object {
     /// Name of a material. Required for a shape; a mesh that leaves it out keeps the materials of its file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
-    /// Other factors for materials of its file, whose maps stay. Shapes, and meshes of a `material`, have no such key. Default: none.
+    /// Factors that replace those of materials of its file, whose maps stay. Shapes, and meshes of a `material`, have no such key. Default:
+    /// none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub overrides: Vec<Override>,
     /// Moves the object, after it was scaled and rotated. Default: `[0, 0, 0]`.
@@ -310,7 +311,7 @@ pub enum Surface {
     Mesh(PathBuf),
 }
 
-/// sigma of materials that do not say it, those of glTF files among them.
+/// Default of sigma for materials without one, such as those of glTF files.
 pub(crate) const DEFAULT_COHERENCE_UM: f64 = 20.0;
 
 impl Named for Up {

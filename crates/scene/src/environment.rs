@@ -108,7 +108,7 @@ impl Environment {
         Self::of_maps(maps, rotation_rad, intensity, visible)
     }
 
-    /// Makes it as [`Environment::from_map`], with suns and windows parted from the map as [`Environment::load`] does.
+    /// Makes the environment as [`Environment::from_map`] does, with suns and windows parted from the map as [`Environment::load`] does.
     ///
     /// # Panics
     /// If the map is empty.
@@ -196,8 +196,8 @@ impl Environment {
             * self.texel_radiance()
     }
 
-    /// The radiance blurred by the lobe that a GGX surface of perceptual `roughness` and normal `dir` (unit vector, world space) shows to
-    /// who looks along that.
+    /// Radiance averaged over the lobe of a GGX surface of perceptual `roughness` and normal `dir` (unit vector, world space) that is seen along the
+    /// normal.
     pub fn prefiltered(&self, dir: DVec3, roughness: f64) -> DVec3 {
         self.prefiltered_lod(dir, environment_lod(roughness))
     }
@@ -257,7 +257,7 @@ impl Environment {
         self.intensity * self.maps.texel_scale
     }
 
-    /// The rotation that takes world directions to the map's, in which +Y is the top and -Z the centre.
+    /// Rotation from the world to the map's frame, in which +Y is the top and -Z the centre.
     pub fn map_from_world(&self) -> DMat3 {
         self.map_from_world
     }
@@ -277,7 +277,7 @@ impl Environment {
         &self.maps.irradiance
     }
 
-    /// The suns as spheres, so far away that they stand in one direction for all of a scene. They shine beside what is
+    /// Suns as spheres, so far away that their direction is the same over the whole scene. They shine beside what is
     /// [prefiltered](Environment::prefiltered) and the [irradiance](Environment::irradiance), which lack them; the
     /// [radiance](Environment::radiance) has them.
     pub fn suns(&self) -> &[Light] {

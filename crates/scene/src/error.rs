@@ -61,14 +61,14 @@ impl Error {
         self
     }
 
-    /// Takes the place away, if it is in a file of this name: text that no reader has.
+    /// Removes the position of an error in a file of this name, for text that is in no file.
     #[must_use]
     pub fn nowhere_in(mut self, name: &Path) -> Self {
         self.place = self.place.filter(|place| place.file != name);
         self
     }
 
-    /// Adds the line to an error whose key belongs to the scene file of this text; `name` is what the error calls the file.
+    /// Adds the line to an error whose key belongs to the scene file of this text; `name` is the file's name in the error.
     /// Errors of [`Scene::from_toml`](crate::Scene::from_toml) have it already.
     #[must_use]
     pub fn in_scene_file(self, text: &str, name: &Path) -> Self {

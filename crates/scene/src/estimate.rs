@@ -1,5 +1,5 @@
-//! Memory that a scene takes, by the costs of [`hairline_memory`], counted before it is built. Scratches, whose number depends on the
-//! built surfaces, are counted where they are laid.
+//! Memory of a scene, by the costs of [`hairline_memory`], estimated before the scene is built. Scratches, whose number depends on
+//! the built surfaces, are counted where they are laid.
 
 use std::path::Path;
 
@@ -11,20 +11,20 @@ use crate::error::Error;
 use crate::mesh_file;
 use crate::texture::texture_bytes;
 
-/// Something that takes memory.
+/// An item of the scene that takes memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MemoryItem {
-    /// Path in the scene file of the key that asks for it.
+    /// Path of its key in the scene file.
     pub key: String,
     /// Name with its number: `32768 triangles`.
     pub what: String,
-    /// Memory that it takes.
+    /// Memory of the item.
     pub bytes: f64,
     /// Advice for taking less.
     remedy: &'static str,
 }
 
-/// Memory that a scene takes without its scratches.
+/// Memory of a scene without its scratches.
 #[derive(Clone, Debug, Default)]
 pub struct Estimate {
     parts: Vec<MemoryItem>,

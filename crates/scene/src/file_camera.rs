@@ -12,7 +12,7 @@ use crate::mesh_file::{self, FileCamera, Placing};
 use crate::upright::vertical_axis;
 
 impl Description {
-    /// Returns the description with the camera of a file that it asks for by `of_file`, if it does.
+    /// Returns the description with the camera of a file in place of its own, if `of_file` names one.
     ///
     /// # Errors
     /// As of [`Description::see_by`].
@@ -25,7 +25,7 @@ impl Description {
         Ok(Cow::Owned(seen))
     }
 
-    /// The files of its models, as it names them.
+    /// Files of the scene's models, with the paths as written.
     pub fn mesh_files(&self) -> impl Iterator<Item = &Path> {
         self.objects.iter().filter_map(|it| match &it.surface {
             Surface::Mesh(file) => Some(file.as_path()),
@@ -33,7 +33,7 @@ impl Description {
         })
     }
 
-    /// The cameras of its models' files that it can be seen by: their names or their nodes', or their numbers. What cannot be read has none.
+    /// Cameras of the models' files: their names, their nodes' names, or their numbers. What cannot be read has none.
     pub fn file_cameras(&self, base_dir: &Path) -> Vec<String> {
         let mut names = Vec::new();
         let files = self.mesh_files();

@@ -61,7 +61,7 @@ pub enum GrooveField {
         /// Bearing of the grooves to the circles.
         bearing: Bearing,
     },
-    /// Around the middles of spots in rows, pressed into the surface along an axis, each over those before it.
+    /// Grooves around the middles of spots in rows. The spots are pressed into the surface along an axis, each over those before it.
     Spots {
         /// A unit vector.
         axis: DVec3,
@@ -127,7 +127,7 @@ const LEAST_PART: f64 = 1e-3;
 pub struct GroovePlace {
     /// Unit vector along the grooves in the plane of the surface.
     pub tangent: DVec3,
-    /// Angles by which they turn to the left over one standard deviation of the pixel's filter to the right and down.
+    /// Angles by which the grooves turn to the left over one standard deviation of the pixel's filter to the right and down.
     pub turns_rad: [f64; 2],
     /// Standard deviation of their angles at any place.
     pub angle_std_rad: f64,
@@ -138,7 +138,7 @@ pub struct GroovePlace {
 }
 
 impl GroovePlace {
-    /// The grooves at the point itself, without those that are mixed.
+    /// Grooves of the spot at the point, without the mixed ones of others.
     pub fn of_one_spot(self) -> Self {
         Self {
             share: (1.0 - self.mixed) * self.share,
@@ -344,7 +344,7 @@ impl Grating {
         })
     }
 
-    /// The share of a pixel that lies between the radii.
+    /// Share of a pixel that lies between the grating's radii.
     fn share_within(&self, point_m: DVec3, axes_m: [DVec3; 2]) -> f64 {
         if self.radii_m == [0.0, f64::INFINITY] {
             return 1.0;

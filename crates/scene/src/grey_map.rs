@@ -39,7 +39,7 @@ impl GreyMap {
         DVec2::new(self.size_px[0].into(), self.size_px[1].into())
     }
 
-    /// The share at a place, between those of the four texels about it. (0, 0) is the upper left corner.
+    /// Value of the map at a place, bilinear between the four texels about it. (0, 0) is the upper left corner.
     pub(crate) fn value(&self, uv: DVec2) -> f64 {
         let [width, height] = self.size_px.map(i64::from);
         let at = uv * self.size() - 0.5;

@@ -1,4 +1,4 @@
-//! The files that a scene is made from, so that nobody writes over one of them.
+//! Files from which a scene is made, so that no output overwrites one of them.
 
 use std::path::{Path, PathBuf};
 
@@ -22,8 +22,8 @@ pub fn of_model(path: &Path) -> Vec<PathBuf> {
 }
 
 impl Description {
-    /// All files that the scene names, and those that its models name in turn. Files are looked for in `base_dir`; a model that
-    /// cannot be read names none.
+    /// All files that the scene and its models name. Relative paths start from `base_dir`; a model that cannot be read names
+    /// none.
     pub fn inputs(&self, base_dir: &Path) -> Vec<Input> {
         let mut inputs = Vec::new();
         let mut add = |what: String, path: PathBuf| inputs.push(Input { what, path });

@@ -3,7 +3,7 @@
 
 use basisu::{DecodeFlags, SourceFormat, TargetFormat, Transcoder};
 
-/// First bytes of files of this version and of the older one.
+/// First bytes of files of this version, and of the older version.
 const MAGIC: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 const ANY_MAGIC: &[u8] = b"\xabKTX ";
 /// Schemes that pack the packed texels again.
@@ -26,7 +26,7 @@ pub(crate) fn size_px(bytes: &[u8], largest_px: u32) -> Result<[u32; 2], Broken>
     Head(bytes).check(largest_px)
 }
 
-/// The texels of the first level, row by row from the top, of a file whose size was asked for.
+/// Texels of the first level, row by row from the top. The file must have passed the check of its size.
 pub(crate) fn texels(bytes: &[u8]) -> Result<Vec<[u8; 4]>, Broken> {
     let broken = |_| Broken("what it packs is broken".to_owned());
     let packed = Transcoder::new(bytes).map_err(broken)?;
@@ -66,7 +66,7 @@ impl Head<'_> {
         Ok(length as usize)
     }
 
-    /// Returns the size of an image, if it is one flat image and all that it names lies within it.
+    /// Checks that the file is one flat image and that all its ranges lie within it, and returns the image's size.
     fn check(&self, largest_px: u32) -> Result<[u32; 2], Broken> {
         let refused = |found: String| Err(Broken(found));
         if !self.0.starts_with(MAGIC) {
@@ -130,7 +130,7 @@ mod tests {
     use rand::SeedableRng;
     use rand_pcg::Pcg64;
 
-    /// Images that Basis Universal's own program packed, and the texels that it unpacks of them.
+    /// Images that Basis Universal's own program packed, and the texels that it decodes from them.
     macro_rules! images {
         ($($name:literal)*) => {
             [$((

@@ -12,7 +12,7 @@ pub struct Light {
     pub shape: LightShape,
     /// Emitted radiance: linear Rec.709, W sr^-1 m^-2 in effect; (1, 1, 1) has the spectrum of D65.
     pub radiance: [f64; 3],
-    /// The directions that light leaves in; all, if none.
+    /// Cone into which the light shines; all directions, if none.
     pub cone: Option<Cone>,
     /// A picture on it: an index into [`Scene::textures`](crate::scene::Scene::textures), whose values are factors on the radiance. Of a
     /// rectangle alone: the picture's left lower corner is at its first vertex, the right lower one at its second.
@@ -53,7 +53,7 @@ impl Doors {
         })
     }
 
-    /// Share of the light in a unit direction that the doors of a light along an axis leave.
+    /// Share of the light in a unit direction that passes the doors of a light along an axis.
     fn share(&self, axis: DVec3, direction: DVec3) -> f64 {
         let ahead = axis.dot(direction);
         if ahead <= 0.0 {
@@ -80,7 +80,7 @@ impl Cone {
         }
     }
 
-    /// Share of the light in a unit direction that the cone leaves: the fall-off of KHR_lights_punctual, times that of the doors.
+    /// Share of the light in a unit direction that the cone passes: the fall-off of KHR_lights_punctual, times the doors' share.
     pub fn share(&self, direction: DVec3) -> f64 {
         let past = self.axis.dot(direction) - self.cos_outer;
         let of_cone = (past * self.per_cos()).clamp(0.0, 1.0).powi(2);
@@ -133,7 +133,7 @@ impl Light {
         }
     }
 
-    /// A sphere so far away that it stands in one direction for all of a scene.
+    /// Makes a sphere so far away that its direction is the same over the whole scene.
     ///
     /// `towards_it` is a unit vector, `radius_rad` half of the angle that it spans.
     pub fn sun(towards_it: DVec3, radius_rad: f64, radiance: [f64; 3]) -> Self {

@@ -10,7 +10,7 @@ use crate::error::Error;
 pub struct Progress {
     /// Current stage.
     pub stage: Stage,
-    /// Units of it that are done, of `total`.
+    /// Number of units of the work that are done, out of `total`.
     pub done: u64,
     /// Number of units of the stage: objects for [`Stage::Meshes`], scratches for [`Stage::Scratches`].
     pub total: u64,
@@ -36,7 +36,8 @@ pub struct Loader<'a> {
     pub arrays: &'a Arrays,
     /// Callback for the progress of long work, on the calling thread.
     pub progress: &'a dyn Fn(Progress),
-    /// Callback on the calling thread that tells whether to give up. Then the work ends with an error for which
+    /// Callback on the calling thread that returns whether to give up. Then the work ends with an error for
+    /// which
     /// [`Error::is_cancelled`] holds.
     pub cancelled: &'a dyn Fn() -> bool,
 }

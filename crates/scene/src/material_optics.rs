@@ -19,11 +19,11 @@ pub struct MaterialOptics {
     pub metallic: f64,
     /// Reflectance of the dielectric part at normal incidence, by its refractive index.
     pub dielectric_f0: f64,
-    /// Index of its reflectance in [`ScratchTables::curves`].
+    /// Index of the material's reflectance in [`ScratchTables::curves`].
     pub curve: u32,
-    /// Index of its scratches' table in [`ScratchTables::tables`]: white's in a coat.
+    /// Index of the table of its scratches in [`ScratchTables::tables`]; the table of white if they lie in a coat.
     pub table: u32,
-    /// Index of its coat's reflectance in [`ScratchTables::curves`].
+    /// Index of the coat's reflectance in [`ScratchTables::curves`].
     pub coat_curve: Option<u32>,
 }
 
@@ -85,7 +85,7 @@ pub struct GratingSpectrum {
     pub row: Row,
     /// The metal that they are in; none for white's reflectance.
     pub metal: Option<Metal>,
-    /// Standard deviation of the coherence window of its surface.
+    /// Standard deviation of the coherence window on the surface.
     pub coherence_um: f64,
 }
 
@@ -163,7 +163,8 @@ impl ScratchTables {
         }
     }
 
-    /// Index in [`Self::tables`] of the table of a grating of the scene on a material that it lies on.
+    /// Index in [`Self::tables`] of the table of a grating on a material. The grating must lie on that material in the
+    /// scene.
     pub fn grating_table(&self, grating: &Grating, material: usize) -> Option<usize> {
         let spectrum = self.spectrum(grating, material);
         let at = self.grating_spectra.iter().position(|of| *of == spectrum)?;

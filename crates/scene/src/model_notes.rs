@@ -7,8 +7,8 @@ use crate::mesh_file::{self, LeftOut, UsedContents};
 use crate::text::shown;
 
 impl Description {
-    /// Lists the contents of its models that are not in the picture, file by file, each once. Files are looked for in `base_dir`;
-    /// what cannot be read has nothing.
+    /// Lists, file by file and each once, the contents of the models that are not in the picture. Files are looked for in
+    /// `base_dir`; what cannot be read has nothing.
     pub fn left_out(&self, base_dir: &Path) -> Vec<(PathBuf, Vec<LeftOut>)> {
         let mut models: Vec<(&PathBuf, UsedContents)> = Vec::new();
         for object in &self.objects {

@@ -181,7 +181,7 @@ fn in_scene(mut mesh: Mesh, factor: f64) -> Mesh {
     mesh
 }
 
-/// Places the camera along [`VIEW`], as near as lets all points be seen.
+/// Places the camera along [`VIEW`], as near as possible so that all points are in the picture.
 fn camera(points_m: &[DVec3], [width, height]: [u32; 2]) -> Camera {
     let least = points_m
         .iter()

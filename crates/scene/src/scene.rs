@@ -16,7 +16,7 @@ use crate::grating::Grating;
 
 pub use crate::light::{Cone, Doors, Light, LightShape};
 
-/// Samples of a pixel with an edge or a crease in it, in a finished picture: of the window, of an export, of `hairline render`, by every
+/// Number of samples of a pixel with an edge or a crease, in a finished picture: of the window, of an export and of `hairline render`, by every
 /// renderer.
 pub const DEFAULT_SAMPLES: u32 = 8;
 
@@ -36,8 +36,7 @@ impl Transport {
         bounces: 0,
     };
 
-    /// The batches that add up to a picture for which `samples` are asked: of a lens 64 samples at least. None where a picture has all of its samples
-    /// at once.
+    /// Batches that make up a picture of `samples` samples. None where a picture has all of its samples at once.
     pub fn batches(self, camera: &Camera, samples: u32) -> Option<Batches> {
         match (camera.has_lens(), self.shadows) {
             (true, _) => Some(Batches::new(samples.max(LENS_SAMPLES))),
@@ -75,7 +74,7 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Objects in world space.
     pub objects: Vec<Object>,
-    /// Area lights, those of the environment not among them: see [`Scene::all_lights`].
+    /// Area lights, without those of the environment: see [`Scene::all_lights`].
     pub lights: Vec<Light>,
     /// Notes on the scene file and its models for the author, a line each: a key that has no effect any more, a part of a model that is not shown.
     pub notes: Vec<String>,
@@ -125,7 +124,7 @@ pub struct Camera {
 /// A thin lens, across the view.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lens {
-    /// Radius of its opening. Without one the camera is a pinhole: everything is in focus.
+    /// Radius of the lens's opening. Without one the camera is a pinhole: everything is in focus.
     pub radius_m: f64,
     /// Depth of focus along the view.
     pub focus_m: f64,
@@ -159,7 +158,7 @@ pub struct Material {
     pub base_color_texture: Option<usize>,
     /// glTF metallic-roughness texture (linear): green is roughness, blue is metallic.
     pub metallic_roughness_texture: Option<usize>,
-    /// Tangent-space normal map (linear) and the scale of its x and y.
+    /// Index of the tangent-space normal map (linear), and the scale of its x and y.
     pub normal_texture: Option<(usize, f64)>,
     /// Emission texture (sRGB encoded), multiplied with the emission.
     pub emission_texture: Option<usize>,
@@ -173,17 +172,17 @@ pub struct Material {
     pub specular_textures: [Option<usize>; 2],
     /// Whether it sends its base colour and reflects nothing, as a picture without light (KHR_materials_unlit).
     pub is_unlit: bool,
-    /// Cutout of its surface; none if it is everywhere on its triangles.
+    /// Cutout of the surface; none if the surface fills its triangles.
     pub cutout: Option<Cutout>,
-    /// A clear layer over all of this. Scratches lie in it.
+    /// Clear layer over the surface. Scratches lie in it.
     pub coat: Option<Coat>,
     /// Textures (linear) of the coat: the red of the first is a factor on its weight, the green of the second on its roughness.
     pub coat_textures: [Option<usize>; 2],
-    /// Tangent-space normal map (linear) of the coat and the scale of its x and y. Without it the coat is smooth, whatever lies under it.
+    /// Index of the coat's tangent-space normal map (linear), and the scale of its x and y. Without it the coat is smooth, whatever lies under it.
     pub coat_normal_texture: Option<(usize, f64)>,
     /// Highlights of the base that are drawn out one way, as on brushed metal.
     pub anisotropy: Option<Anisotropy>,
-    /// Texture (linear) of it: red and green are a direction, which `direction_deg` turns, blue is a factor on the strength.
+    /// Index of the texture (linear) of the anisotropy: red and green are a direction, which `direction_deg` turns, blue is a factor on the strength.
     pub anisotropy_texture: Option<usize>,
 }
 
@@ -214,7 +213,7 @@ impl Material {
         self.coat.is_some() && self.coat_normal_texture != self.normal_texture
     }
 
-    /// Whether, as far as it is no metal, it reflects otherwise than its refractive index says.
+    /// Whether the part of the surface that is no metal reflects otherwise than its refractive index says.
     pub fn has_specular(&self) -> bool {
         let textured = self.specular_textures.iter().any(Option::is_some);
         textured || self.specular != Specular::default() || self.is_unlit
@@ -266,7 +265,7 @@ pub const GLTF_DIELECTRIC_F0: f64 = 0.04;
 pub struct Cutout {
     /// Factor on the alpha of the base colour texture and of the vertices.
     pub alpha: f64,
-    /// Rule by which the product of these decides where the surface is.
+    /// Rule by which the product of the alphas decides where the surface is.
     pub rule: AlphaRule,
 }
 
@@ -275,7 +274,7 @@ pub struct Cutout {
 pub enum AlphaRule {
     /// The surface is there where alpha is at least this.
     AtLeast(f64),
-    /// Alpha is the share of what lies behind that the surface covers.
+    /// Alpha is the share of the background that the surface covers.
     Share,
 }
 
@@ -327,7 +326,7 @@ pub struct Sampling {
     pub wrap: [Wrap; 2],
     /// Whether its texels, seen large, are rectangles of one value each.
     pub is_sharp: bool,
-    /// Whether it lies by [`Mesh::other_uvs`] in place of [`Mesh::uvs`].
+    /// Whether the texture uses [`Mesh::other_uvs`] in place of [`Mesh::uvs`].
     pub by_other_uvs: bool,
 }
 
@@ -430,7 +429,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The materials of its triangles, each once, in order.
+    /// Materials of the triangles, each once, in order.
     pub fn materials(&self) -> Vec<usize> {
         let all = self.triangle_materials.iter();
         let mut all: Vec<usize> = all.map(|material| *material as usize).collect();
@@ -472,6 +471,6 @@ pub struct Segment {
     pub end_m: Vec3,
     /// Unit shading normal of the surface at the middle: tells the two sides of a thin sheet apart.
     pub normal: Vec3,
-    /// The triangle in [`Mesh::triangles`] that it lies on.
+    /// Index in [`Mesh::triangles`] of the segment's triangle.
     pub triangle: u32,
 }

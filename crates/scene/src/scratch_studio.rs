@@ -23,7 +23,7 @@ const LAMP_DISTANCE: f64 = 4.1;
 const LAMP_RADIUS: f64 = 0.05;
 /// Radiance of a lamp over a body that sends back all light: three such lamps make it white.
 const LAMP_RADIANCE: f64 = 800.0;
-/// Factor on the radiance of a lamp over metals and black bodies, which show their mirror images alone.
+/// Factor on the radiance of a lamp over metals and black bodies, whose light is mirror images alone.
 const DARKEST_BODY: f64 = 15.0;
 /// Places that are tried, at most.
 const PLACES_MAX: usize = 400;
@@ -39,8 +39,8 @@ pub(crate) const DARK_GROUND: Ground = Ground {
 };
 
 impl Description {
-    /// Lights the scene so that its scratches show, in the place of its lights, its studio and its environment. `scene` is what it was built to.
-    /// Scratched objects count, or all where there are none.
+    /// Replaces the scene's lights, studio and environment by lights that show its scratches. `scene` is what it was built to. Scratched objects
+    /// count, or all where there are none.
     pub fn light_for_scratches(&mut self, scene: &Scene) {
         let is_scratched = |name: &str| self.scratches.iter().any(|layer| layer.object == name);
         let any = (scene.objects.iter()).any(|object| is_scratched(&object.name));
@@ -173,7 +173,7 @@ struct Lamps<'a> {
 }
 
 impl Lamps<'_> {
-    /// One after the other, each where the fan around its highlight holds most of the points that those before leave.
+    /// Places lamps one after the other, each where the fan around its highlight holds most of the points that the lamps before have left.
     fn places(&self, seen: &[SeenPoint]) -> Vec<DVec3> {
         let [fan_cos, apart_cos] = [FAN_DEG, APART_DEG].map(|angle| angle.to_radians().cos());
         let mut left: Vec<SeenPoint> = seen.to_vec();
@@ -206,7 +206,7 @@ impl Lamps<'_> {
         lamps
     }
 
-    /// The lamp whose highlight lies at a point, or the one next to it that stands above the ground.
+    /// Place of the lamp whose highlight lies at a point, or the nearest place above the ground.
     fn lamp_for(&self, point: &SeenPoint) -> Option<DVec3> {
         let to_eye = (self.eye_m - point.position_m).try_normalize()?;
         let to_lamp = 2.0 * to_eye.dot(point.normal) * point.normal - to_eye;

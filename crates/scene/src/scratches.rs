@@ -48,7 +48,7 @@ use walk::{Course, Walker};
 
 /// Number of scratches that are laid first, to learn how many segments one has.
 const PILOTS: u64 = 1024;
-/// Segments that are enough to know.
+/// Number of segments of a sample that is laid for an estimate.
 const PILOT_SEGMENTS: usize = 1 << 20;
 /// Bit that distinguishes the draws of whether a scratch is laid from all others: seeds of layers end below.
 const LOT: u64 = 1 << 63;
@@ -64,14 +64,14 @@ const COPY: usize = 1 << 14;
 
 /// A `[[scratches]]` table with the surface that it goes on.
 pub(crate) struct Table<'a> {
-    /// The way to it in the scene file.
+    /// Path of the layer's key in the scene file.
     pub key: String,
     pub layer: &'a Layer,
     pub strokes: &'a [Stroke],
     /// Number of earlier layers on the same object with the same seed.
     pub number: u64,
     pub ground: &'a Ground,
-    /// Places of the surface on which it lies.
+    /// Inputs for the places on the surface where the layer lies.
     pub means: PlaceInputs<'a>,
 }
 
@@ -305,7 +305,7 @@ impl<'a> Plan<'a> {
         Ok(())
     }
 
-    /// Whether a scratch is one of those that are thick enough where it lies.
+    /// Whether a scratch is kept, at the density of the place where it lies.
     fn is_drawn(&self, index: u64) -> bool {
         let Some(place) = self.place.as_ref().filter(|place| !place.is_even()) else {
             return true;
@@ -316,7 +316,7 @@ impl<'a> Plan<'a> {
         Stream::new(seed, self.table.number, index).uniform() < chance
     }
 
-    /// Returns the parts of a scratch that erasers and the layer's places leave, in runs; `None` where they leave all of it.
+    /// Parts of a scratch, in runs, that remain after erasers and the layer's places; `None` if that is all of it.
     fn rest(
         &self,
         walker: &Walker,

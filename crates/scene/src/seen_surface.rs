@@ -92,7 +92,8 @@ impl Projected {
         })
     }
 
-    /// Calls `each` with every pixel whose middle it covers, the depth there and the shares of its corners.
+    /// Calls `each` for every pixel whose middle the triangle covers, with the depth there and the shares
+    /// of its corners.
     fn each_pixel(&self, frame: &CameraFrame, mut each: impl FnMut(usize, f64, [f64; 3])) {
         let [a, b, c] = self.corners_px;
         let area = (b - a).perp_dot(c - a);

@@ -16,7 +16,7 @@ const GROUND_RADII: f64 = 40.0;
 const GAP: f64 = 2e-4;
 /// Size of a set, over the visible extent, from which on it is a room: the studio then stands about the camera's target.
 const ROOM: f64 = 3.0;
-/// The lamp's height as it is seen from the set.
+/// Range of the lamp's elevation as seen from the set.
 const LAMP_ELEVATION_DEG: std::ops::RangeInclusive<f64> = 25.0..=60.0;
 
 /// Frame of a studio about the objects.
@@ -43,7 +43,7 @@ pub(crate) struct SoftBox {
     pub radiance: f64,
     /// Linear Rec.709.
     pub color: [f64; 3],
-    /// Direction of its width.
+    /// Direction of the lamp's width.
     pub along: DVec3,
 }
 
@@ -53,7 +53,7 @@ impl Studio {
         PhotoSet::new(camera, bounds_m).lights(self)
     }
 
-    /// The room around, where a scene has no environment of its own.
+    /// Environment of the room, for a scene without one of its own.
     pub fn room(&self) -> Environment {
         Environment {
             map: Map::BuiltIn(BuiltInMap::Overcast),
@@ -65,7 +65,7 @@ impl Studio {
 }
 
 impl PhotoSet {
-    /// About a box, in which all objects lie, and a camera.
+    /// Makes the studio around a box that contains all objects, for a camera.
     pub(crate) fn new(camera: &Camera, (least, most): (DVec3, DVec3)) -> Self {
         let up = camera.world_up();
         let [eye, target] = [camera.position_m, camera.target_m].map(DVec3::from);

@@ -43,7 +43,7 @@ pub(crate) struct Surface {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// A triangle's height must exceed this many roundings of its coordinates, or its normal is noise.
+/// Least height of a triangle, in roundings of its coordinates, at which its normal is more than noise.
 const LEAST_HEIGHT_ROUNDINGS: f64 = 4.0;
 /// Least height of a triangle, over its longest edge.
 const LEAST_HEIGHT_SHARE: f64 = 1e-6;
@@ -112,8 +112,8 @@ impl Surface {
         turned
     }
 
-    /// Makes vertices of its own for every triangle, with the triangle's normal, as glTF 2.0 asks for where a file has no normals
-    /// (section 3.7.2.1).
+    /// Gives every triangle vertices of its own, with the triangle's normal, as glTF 2.0 requires where a file has no normals (section
+    /// 3.7.2.1).
     pub(crate) fn make_flat_normals(&mut self) {
         let mut vertices = Vec::with_capacity(self.triangles.len() * 3);
         for triangle in &mut self.triangles {
@@ -128,7 +128,7 @@ impl Surface {
     }
 }
 
-/// Cofactor matrix, by which a linear map takes normals; unlike the inverse it exists for flattened objects too.
+/// Cofactor matrix, the map of normals under a linear map; unlike the inverse it exists for flattened objects too.
 pub(crate) fn cofactor(linear: &DMat3) -> DMat3 {
     DMat3::from_cols(
         linear.y_axis.cross(linear.z_axis),

@@ -1,8 +1,8 @@
 //! Text of unknown origin in messages: names, cells, paths. What a terminal would obey is escaped, what is long is shortened.
 
-/// Number of characters of a name or a cell that are shown.
+/// Largest number of characters of a name or a cell in a message.
 const LONGEST: usize = 60;
-/// Number of characters of one half of a message that are shown.
+/// Largest number of characters of one half of a message.
 const LONGEST_HALF: usize = 1000;
 
 /// Text for one line of a message: control characters, line ends and marks that turn the direction of writing are escaped.

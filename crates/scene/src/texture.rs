@@ -229,7 +229,7 @@ fn halved(texels: &[[f32; 4]], size: [u32; 2], half: [u32; 2]) -> Vec<[f32; 4]> 
         .collect()
 }
 
-/// Indices of the texels, of `n`, under texel `i` of `half`, with their shares of it: two, or three where `n` is odd.
+/// Texels of `n` that lie under texel `i` of `half`, with their shares of it: two, or three if `n` is odd.
 fn covered(i: u32, n: u32, half: u32) -> Vec<(u32, f32)> {
     // In units of 1 / half of a texel everything is a whole number.
     let (from, to) = (i * n, (i + 1) * n);

@@ -7,7 +7,7 @@ use crate::scene::{Cutout, Material, Mesh, Texture};
 
 /// The standard deviation of a texel's width.
 const TEXEL_STD: f64 = 0.288_675_134_594_812_9;
-/// Filters no narrower are told from a point.
+/// Least width of a filter: a narrower one counts as a point.
 const LEAST_WIDTH: f64 = 1e-3;
 
 impl Texture {
@@ -72,7 +72,7 @@ impl Texture {
 /// Bilinear look-up in a level, by a filter of so many texels of the first.
 pub type TextureSampler = fn(&Texture, usize, DVec2, f64) -> DVec4;
 
-/// The mean of four texels, so far from the first to the others.
+/// Bilinear mean of four texels, with the place between them.
 pub fn blend(texels: [DVec4; 4], [x, y]: [f64; 2]) -> DVec4 {
     texels[0]
         .lerp(texels[1], x)
@@ -109,7 +109,7 @@ impl Mesh {
         triangle.map(|corner| uv(corner).as_dvec2())
     }
 
-    /// The factor of the vertices' colours at a place of a triangle, of these weights of its corners.
+    /// Factor of the vertices' colours at a place of a triangle, given its barycentric coordinates.
     pub fn color(&self, triangle: [u32; 3], weights: [f64; 3]) -> DVec4 {
         if self.colors.is_empty() {
             return DVec4::ONE;
@@ -120,7 +120,7 @@ impl Mesh {
 }
 
 impl Cutout {
-    /// The alpha of a surface of this material, at a place of a triangle of these weights of its corners.
+    /// Alpha of a surface of this material at a place of a triangle, given its barycentric coordinates.
     pub fn alpha_at(
         &self,
         material: &Material,

@@ -55,7 +55,7 @@ impl WearKind {
         Self::Digs,
     ];
 
-    /// The layer's name, by which it is known again.
+    /// Name of the layer, by which it is found again.
     fn name(self) -> &'static str {
         match self {
             Self::Hairlines => "wear: hairlines",
@@ -138,7 +138,7 @@ impl WearKind {
         (pattern, sizes)
     }
 
-    /// The layer for an object of this diagonal; none where there is nothing of its kind.
+    /// Layer for an object of this diagonal; none if the wear has none of this kind.
     fn layer(self, wear: Wear, object: &str, diagonal_m: f64) -> Option<Scratches> {
         let cover = self.cover(wear);
         let (pattern, sizes) = self.look(diagonal_m);

@@ -121,9 +121,9 @@ impl BandPlace {
         Self::new([0.0; 2], 0.0, 1.0)
     }
 
-    /// Draws the place under the pixel, in standard deviations of its filter to the right and down, of a part that sees the scratch: from three
-    /// standard normal numbers and one in (0, 1). Of what is normal over the pixel, the distance across the scratch is known, and what is
-    /// along it lies between its ends.
+    /// Draws the place under the pixel, in standard deviations of its filter to the right and down, at which a scratch is seen, from three
+    /// standard normal numbers and one in (0, 1). The place is normal over the pixel, but its distance across the scratch is known, and its
+    /// coordinate along the scratch lies between the scratch's ends.
     pub fn drawn(&self, [right, down, window]: [f64; 3], along: &Along, u: f64) -> [f64; 2] {
         let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
         let missing_um =
@@ -145,7 +145,7 @@ impl BandPlace {
         [right + left[0] * missing, down + left[1] * missing]
     }
 
-    /// Computes how the pixel shifts and widens the band towards a light, of which `moves` are [`band_moves`].
+    /// Computes how the pixel shifts and widens the band towards a light, from the light's [`band_moves`] `moves`.
     #[inline]
     pub fn moved(&self, moves: [f64; 2]) -> BandMotion {
         let slope = moves[0] * self.slopes[0] + moves[1] * self.slopes[1];
@@ -211,7 +211,7 @@ pub struct BandLines {
     pub channel_shares: [f64; 3],
     /// Standard deviations of the band.
     pub stds: BandStds,
-    /// The share of the lit part of the band that lies below a single line, or below the middle one.
+    /// Share of the lit part of the band that lies below the single line, or below the middle one of several.
     pub node: f64,
 }
 
@@ -284,7 +284,8 @@ fn is_steep(wo_t: f64, std: f64) -> bool {
     1.0 - wo_t * wo_t < 32.0 * std * wo_t.abs()
 }
 
-/// A light that covers a band up to here covers all of it: 6e-8 is left out on either side at the mean wavelength, 3e-6 in red.
+/// Number of standard deviations from the band's middle up to which a light must reach to cover the whole band: 6e-8 of the band lies beyond on
+/// either side at the mean wavelength, 3e-6 in red.
 const BAND_WHOLE_STD: f64 = 5.3;
 
 /// Whether the line in the middle stands for all of a band that is `std` wide, every share being 1. A part of the light's extent
@@ -335,7 +336,7 @@ impl BandLines {
         (self.stds.mean * x, weight * narrower * exponents.exp())
     }
 
-    /// Returns the xi_t, in standard deviations, below which the share `node` of the lit part of the band lies.
+    /// Quantile: the xi_t, in standard deviations, below which the share `node` of the lit part of the band lies.
     fn quantile(&self, node: f64) -> f64 {
         // It is cut where single precision loses it; the band's reach ends before.
         gaussian().quantile((self.share_below + self.share * node).clamp(1e-6, 1.0 - 1e-6))
@@ -347,8 +348,8 @@ impl BandLines {
         BandLine::new(wo, self.stds.mean * self.quantile(node))
     }
 
-    /// Replaces the lines by a single one, below which the share `node` of the lit part of the band lies: its light is right in the mean over
-    /// `node`, where the bands of all channels are about as wide.
+    /// Replaces the lines by a single one, with the share `node` of the lit part of the band below it. Its light is right in the mean over
+    /// `node`, if the bands of all channels are about as wide.
     pub fn by_one_line(self, node: f64) -> Self {
         Self {
             count: self.count.min(1),

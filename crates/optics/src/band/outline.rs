@@ -54,11 +54,11 @@ pub struct Outline<'a> {
     pub away: DVec3,
     /// See [`super::PolygonView::facing`].
     pub facing: f64,
-    /// Whether any corner lies below the horizon.
+    /// Whether at least one corner lies below the horizon.
     pub sets: bool,
 }
 
-/// Roots of a line on an outline, where it enters or leaves the light.
+/// Values of q at which a line crosses an outline, where it enters or leaves the light.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutlineRoots {
     /// The sign with which the antiderivative counts there, and q. The ends of the arc are among them where the light covers the
@@ -98,7 +98,7 @@ fn along_tangent(tangent: DVec2, v: DVec3) -> f64 {
 }
 
 impl Outline<'_> {
-    /// Least and greatest tangent component of its corners.
+    /// Least and greatest component of the corners along the tangent.
     #[inline]
     pub fn corner_extent(&self, frame: BandFrame) -> (f64, f64) {
         let components = self
@@ -208,8 +208,8 @@ impl Outline<'_> {
         self.odd_crossings(t, |v| v.z)
     }
 
-    /// Whether the half of a great circle through n, the plane of which `side` tells the distance to, meets the outline an odd
-    /// number of times. Sides are those of vertices, which both edges share.
+    /// Whether half of a great circle through n meets the outline an odd number of times. `side` is the distance of a vertex to
+    /// the circle's plane: two edges that share a vertex get the same sign for it.
     fn odd_crossings(&self, t: DVec2, side: impl Fn(DVec3) -> f64) -> bool {
         let Some(last) = self.edges.last() else {
             return false;

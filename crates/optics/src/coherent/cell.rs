@@ -108,9 +108,10 @@ pub(super) struct Cell {
     along: DVec2,
     /// Half the vector from the middle of one edge to that of the other.
     across: DVec2,
-    /// The edges' lengths are those of the middle line times 1 - taper and 1 + taper.
+    /// Relative difference of the edges' lengths from the middle line's: they are its length times 1 - taper and 1 + taper.
     taper: f64,
-    /// The series across, each of its coefficients a series along, that is, as many of `series` as its length says.
+    /// Numbers of coefficients of the series along. Each coefficient of the series across is such a series, and `series` has
+    /// them one after the other.
     lengths: Vec<usize>,
     series: Vec<f64>,
 }

@@ -60,7 +60,7 @@ impl IntervalEnds {
         }
     }
 
-    /// The Fourier integral relative to the window's, or None where nothing in it is above [`TOLERANCE`] over `weight`.
+    /// Fourier integral relative to the window's, or None if it is nowhere above [`TOLERANCE`] over `weight`.
     #[inline(always)]
     pub(crate) fn fourier<const N: usize>(
         &self,

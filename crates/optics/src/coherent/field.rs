@@ -11,7 +11,7 @@ use glam::DVec2;
 use num_complex::Complex64;
 use std::f64::consts::{PI, SQRT_2};
 
-/// Wavelengths that [`GrooveField::responses`] takes at once.
+/// Number of wavelengths that [`GrooveField::responses`] computes at once.
 const LANES: usize = 8;
 /// Pieces up to this many sigma long are one span along.
 const SHORT: f64 = 1.0;
@@ -129,7 +129,7 @@ impl GrooveField {
         }
     }
 
-    /// [`Self::response`] at many wavelengths, into as many places of `out`, by way of [`Self::amplitudes`].
+    /// [`Self::response`] at many wavelengths, one for each element of `out`, from [`Self::amplitudes`].
     pub fn responses(
         &self,
         xi: DVec2,

@@ -122,8 +122,8 @@ impl Polygon {
             .collect()
     }
 
-    /// Returns the two points where the line with the value v along `along`'s normal enters and leaves the
-    /// polygon.
+    /// Returns the two points at which a line enters and leaves the polygon; the line has the coordinate v
+    /// along the normal of `along`.
     fn chord(&self, along: DVec2, v: f64, tolerance_um: f64) -> [DVec2; 2] {
         let across = along.perp();
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

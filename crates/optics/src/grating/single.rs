@@ -15,7 +15,7 @@ const SINGLE_STD: f64 = 0.5;
 /// 5e-9 there.
 const MEAN_STD: f64 = 1.0;
 
-/// Grooves that are asked for on either side: those that are off their places may be as far away.
+/// Number of grooves on either side of the point that are evaluated: a displaced groove may come from as far away.
 const REACH: i32 = 6;
 
 /// [`REACH`] of grooves that branch, which are up to twice as dense.
@@ -44,9 +44,9 @@ pub struct GroovesAt {
 /// Grooves that come nearer to one another along their way: so that they stay a pitch apart in the mean, one begins between two others, or ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Branches {
-    /// There are two to this power of places to a turn, of which those of odd numbers are not all taken.
+    /// Binary logarithm of the number of places in a turn. Only some of the places of odd number hold a groove.
     bits: i32,
-    /// The share of the odd ones that are.
+    /// Share of the odd places that hold a groove.
     taken: f64,
 }
 
@@ -96,7 +96,7 @@ impl GroovesAt {
 }
 
 impl Grating {
-    /// Whether a pixel, however small, could show single grooves in a coherence window of this standard deviation.
+    /// Whether some pixel, however small, shows single grooves in a coherence window of this standard deviation.
     pub fn shows_single_grooves(&self, coherence_um: f64) -> bool {
         coherence_um * 0.5f64.sqrt() < MEAN_STD * self.pitch_um
     }

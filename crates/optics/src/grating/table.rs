@@ -9,11 +9,10 @@ use crate::spectrum::{self, WAVELENGTH_MIN_NM, WAVELENGTH_STEP_NM};
 use crate::table::{COLUMNS, DEPTH_MAX_NM, ROWS, ScratchTable, U_HALF_UM, column_u_um};
 use std::f64::consts::PI;
 
-/// The table of a row is looked up as that of a scratch of this width: u = 2 um q. Columns are then 0.001 apart in q about the mirror's
-/// direction, 0.004 at q = 1.
+/// Width of the scratch whose table layout a row uses: u = 2 um q. Columns are then 0.001 apart in q about the mirror's direction, 0.004 at q = 1.
 pub const GRATING_WIDTH_UM: f64 = 2.0;
 
-/// Depth of that scratch, of which an oblique path takes a share. The row's own depths are in the table.
+/// Depth of that scratch, which an oblique path scales. The row's own depths are in the table.
 pub const GRATING_DEPTH_NM: f64 = DEPTH_MAX_NM;
 
 /// There are no directions beyond |q| = 2. The table holds its value from here on.
@@ -212,7 +211,8 @@ struct Edge {
 }
 
 impl Edge {
-    /// Adds the order and the one opposite to it: odd in q. Each is a peak under the envelope, of which the value and the rise in its middle are given.
+    /// Adds an order and its opposite: the sum is odd in q. Each is a peak times the envelope, which is given by its value and its slope at the peak's
+    /// middle.
     fn add(&self, columns: &Columns, envelope: [f64; 2], sums: &mut [Rise], whole: &mut [f64]) {
         let [weight, rise] = envelope;
         let reach = EDGE_STD * self.std;

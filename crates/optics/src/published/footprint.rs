@@ -35,7 +35,7 @@ impl PixelFootprint {
 pub struct PublishedShare {
     /// The share of the coherence window that the segment covers, mean over the pixel: in the place of rho of (20).
     pub share: f64,
-    /// Part of the scratch in rho_phi, by which the talk masks the base: the base keeps max(1 - sum, 0).
+    /// Density of the scratch in rho_phi of the talk's mask: the base keeps max(1 - sum, 0).
     pub density: f64,
 }
 

@@ -10,7 +10,7 @@ use super::segments::BandSegments;
 use super::sine_integral::SineIntegral;
 use crate::{scratch, spectrum};
 
-/// Wavelengths unless others are asked for.
+/// Default number of wavelengths.
 pub const PUBLISHED_WAVELENGTHS: usize = 8;
 
 /// Steps of the integral over one part.
@@ -68,7 +68,7 @@ impl PublishedSpectrum {
         Self { wavelengths }
     }
 
-    /// Radiance of a scratch per unit of its share under a light of radiance 1, Fresnel left out.
+    /// Radiance of a scratch for a share of 1 under a light of radiance 1, without Fresnel's factor.
     pub fn radiance(
         &self,
         segments: &BandSegments,

@@ -67,7 +67,7 @@ fn reflectance(rectangles: &[Rectangle], at: DVec2, crossing: Crossing) -> Compl
 
 /// The discrete Fourier transform of a power of two of values.
 struct Fourier {
-    /// exp(-2 pi i k / length) for the first half of them.
+    /// exp(-2 pi i k / length) for the first half of the values of k.
     roots: Vec<Complex64>,
 }
 

@@ -271,7 +271,7 @@ fn the_mean_reflection_counts_floors_once() {
     }
 }
 
-/// (2) takes the window as constant across a groove: W sinc(k W xi_n/2) exp(-p^2/2 sigma^2). What that costs.
+/// Error of the window's being constant across a groove in (2): W sinc(k W xi_n/2) exp(-p^2/2 sigma^2).
 #[test]
 fn a_window_constant_across_the_groove_costs_its_width_squared() {
     let (coherence_um, wavelength_um) = (20.0, 0.55);

@@ -340,7 +340,7 @@ fn outlines() -> [(&'static str, Vec<(f64, f64)>); 4] {
     ]
 }
 
-/// Polygons are upright and tilted in turn, which takes half of the time of both.
+/// Polygons are upright and tilted in turn, which halves the time of doing both.
 #[test]
 fn polygons_match_ggx() {
     polygons(|outline| if outline % 2 == 0 { &[0.0] } else { &[1.0] });

@@ -35,7 +35,7 @@ fn reflected(wo: DVec3, axes: FacetAxes, along: f64, across: f64) -> DVec3 {
     2.0 * wo.dot(h) * h - wo
 }
 
-/// The integral over a patch, by cells that shrink towards the arc along which the lobe lies.
+/// Integral over a patch, by cells that shrink towards the lobe's arc.
 fn integrate(patch: impl Patch, wo: DVec3, axes: FacetAxes) -> f64 {
     let facets = Facets::new(axes);
     let arc: Vec<DVec3> = (-40..=40)

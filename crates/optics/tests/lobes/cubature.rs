@@ -81,7 +81,7 @@ pub fn integrate<T: Integrand>(patch: impl Patch, peak: Peak, lobe: &dyn Fn(DVec
 /// A part of a patch.
 pub struct Cell {
     pub centre: DVec3,
-    /// The distance to the farthest of its corners and edges' middles.
+    /// Distance from the centre to the farthest of the corners and of the edges' middles.
     pub reach: f64,
     /// Number of times that the patch was halved.
     pub depth: u32,
@@ -145,8 +145,7 @@ pub fn integrate_by<T: Integrand>(
     sum
 }
 
-/// The integral over a polygon whose vertices all lie in one plane, convex or not, as a fan of triangles; its sign is that of
-/// the polygon's orientation.
+/// Integral over a polygon in a plane, convex or not, as a fan of triangles; its sign is that of the polygon's orientation.
 pub fn integrate_polygon<T: Integrand>(
     vertices: &[DVec3],
     peak: Peak,

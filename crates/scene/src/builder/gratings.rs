@@ -104,7 +104,7 @@ fn as_texture(read: Texels, kind: GroovePictureKind) -> Texture {
     texture::with_mips(read.size_px, texels, Channels::Linear)
 }
 
-/// Refuses a grating that lies by texture coordinates on a surface without any.
+/// Refuses a grating that follows texture coordinates on a surface that has none.
 fn check_uvs(grating: &description::Grating, on: &KeptSurface, key: &str) -> Result<(), Error> {
     if on.mesh.has_uvs() {
         return Ok(());

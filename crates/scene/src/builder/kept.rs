@@ -1,4 +1,4 @@
-//! Results that a build leaves for the next one, and the keys by which it finds them.
+//! Results that a build stores for the next build, and their keys.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -134,7 +134,8 @@ pub(super) struct KeptSurface {
     pub notes: Arc<Vec<String>>,
     /// Parts of the object that its file names.
     pub parts: Arc<Vec<NodeTriangles>>,
-    /// Laying does not look at the numbers of materials, so one serves all of them.
+    /// Grounds of the surface. They do not depend on the numbers of its materials, so all objects share
+    /// them.
     grounds: Arc<Mutex<Grounds>>,
 }
 

@@ -1,5 +1,5 @@
-//! The part of an object that a layer of scratches lies on: the triangles of one material of its file, or below one of its
-//! nodes.
+//! The part of an object on which a layer of scratches lies: the triangles of one material of its file, or below one of
+//! its nodes.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -74,7 +74,7 @@ impl OnPart {
     }
 }
 
-/// Replaces factors of a file's materials by those of an object. `key` is the path to it in the scene file.
+/// Replaces factors of a file's materials by the object's own. `key` is the path to it in the scene file.
 ///
 /// # Errors
 /// A material that the file does not have.
@@ -150,7 +150,7 @@ impl PartGround {
         }
     }
 
-    /// Renumbers the triangles of scratches laid on the part as those of the whole surface.
+    /// Converts the triangle numbers of scratches that were laid on the part to those of the whole surface.
     pub(super) fn on_the_whole(&self, mut laid: Laid) -> Laid {
         if let Some(triangles) = &self.triangles {
             for segment in &mut laid.segments {

@@ -12,7 +12,7 @@ pub(super) struct NewTextures {
 }
 
 impl NewTextures {
-    /// Adds those of one file, and returns the number of the first.
+    /// Adds the textures of one file, and returns the number of the first.
     pub(super) fn add(&mut self, textures: Arc<Vec<Texture>>) -> usize {
         let first = self.count;
         self.count += textures.len();

@@ -285,7 +285,7 @@ fn place(place: &LayerPlaces, key: &str) -> Check {
     }
 }
 
-/// `paints` says whether the layer takes strokes that lay scratches.
+/// Checks a stroke; `paints` says whether the layer takes strokes that lay scratches.
 fn stroke(stroke: &Stroke, paints: bool, key: &str) -> Check {
     let points = format!("{key}.points_m");
     if !limits::STROKE_POINTS.contains(&stroke.points_m.len()) {

@@ -60,7 +60,7 @@ macro_rules! walk {
 }
 
 impl Description {
-    /// All files that it names, as it names them.
+    /// All files that the description names, with the paths as written.
     pub fn files(&self) -> Vec<(FileUse, &PathBuf)> {
         walk!(self, iter,)
     }

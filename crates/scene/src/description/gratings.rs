@@ -80,7 +80,7 @@ pub enum GroovePattern {
     },
     /// `"swirl"`: around the middles of spots in rows, each over those before it, as a spinning peg leaves them: engine turning, perlage.
     Swirl {
-        /// The axis along which the spots are pressed into the surface, through the middle of one of them.
+        /// Axis along which the spots are pressed into the surface. It passes through the middle of one of them.
         #[serde(flatten)]
         around: Around,
         /// Distance of neighbouring spots in a row, and of neighbouring rows. Default: 0.004.

@@ -1,4 +1,4 @@
-//! Guesses of what an author meant: the nearest known word, the right unit.
+//! Hints at the author's intention: the nearest known word, the right unit.
 
 /// Units that keys end in, as far as one can be turned into another: suffix, quantity, factor to the quantity's base.
 const UNITS: [(&str, Quantity, f64); 11] = [

@@ -222,7 +222,7 @@ impl LightKind {
         Some(across)
     }
 
-    /// Whether `target_m` tells where it faces, with or without a cone.
+    /// Whether `target_m` sets the light's direction, with or without a cone.
     pub(super) fn has_target(&self) -> bool {
         matches!(self, Self::Disk { .. } | Self::Rectangle { .. })
     }
@@ -391,7 +391,7 @@ impl LightKind {
     }
 }
 
-/// Nearer to the middle a target tells no direction in single precision.
+/// Least distance of a target from the light's middle: a nearer one has no direction in single precision.
 const NEAREST_TARGET_M: f64 = 1e-6;
 
 pub(super) fn aimed(key: &str, center_m: [f64; 3], target_m: [f64; 3]) -> Check {

@@ -35,13 +35,13 @@ pub struct Light {
     /// Stops: the radiance is multiplied by 2^`exposure_ev`. Default: 0.
     #[serde(skip_serializing_if = "is_zero")]
     pub exposure_ev: f64,
-    /// The light is a black body of this temperature, K, of the luminance that it would have without. `color` is a filter before it. Default:
-    /// none.
+    /// Temperature, K, of a black body that the light is, with the luminance that the light has without this key. `color` is a filter before it.
+    /// Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub temperature_k: Option<f64>,
     /// Factor on the radiance, linear Rec.709, not negative; `[1, 1, 1]` has the spectrum of D65. Default: `[1, 1, 1]`.
     pub color: [f64; 3],
-    /// The directions that light leaves in. Default: all.
+    /// Directions into which the light shines. Default: all.
     #[serde(flatten)]
     pub cone: Option<Cone>,
     /// For a disk or a rectangle: the angles between its axis and flaps that end its light, to the left, to the right, above and below as seen from

@@ -11,7 +11,7 @@ pub const SMALLEST_M: f64 = 1e-5;
 
 /// Coordinates of points.
 pub const COORDINATE_M: RangeInclusive<f64> = -LARGEST_M..=LARGEST_M;
-/// Components of directions, not all of them 0.
+/// Components of directions; at least one must not be 0.
 pub const DIRECTION: RangeInclusive<f64> = -1e6..=1e6;
 /// Radii and edges of shapes and lights.
 pub const SIZE_M: RangeInclusive<f64> = SMALLEST_M..=LARGEST_M;

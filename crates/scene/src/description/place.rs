@@ -39,7 +39,7 @@ pub struct LayerPlaces {
 }
 
 impl LayerPlaces {
-    /// Whether it leaves nothing out.
+    /// Whether the layer lies on the whole object.
     pub fn is_everywhere(&self) -> bool {
         *self == Self::default()
     }

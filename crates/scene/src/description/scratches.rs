@@ -9,7 +9,7 @@ use super::place::LayerPlaces;
 /// `[[scratches]]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scratches {
-    /// The name of the object they lie on. Required.
+    /// Name of the object on which the scratches lie. Required.
     pub object: String,
     /// The name of a material of the object's file: they lie on its triangles, and end where it ends. Default: on all of the object.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -29,7 +29,7 @@ pub struct Scratches {
     /// Whether the layer is solo: if any layer of the scene is, only solo ones that are not hidden are laid. Default: false.
     #[serde(skip_serializing_if = "super::values::is_false")]
     pub solo: bool,
-    /// Pattern by which they are laid.
+    /// Pattern of the scratches.
     #[serde(flatten)]
     pub layer: Layer,
     /// Strokes of a brush, in this order; the pattern's own scratches come before all strokes. Default: none.

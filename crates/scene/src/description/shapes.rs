@@ -31,7 +31,7 @@ pub enum Shape {
     Box {
         /// Edge lengths along x, y and z. Required.
         size_m: [f64; 3],
-        /// Radius of its rounded edges and corners, at most half of the shortest edge. Default: 0, sharp.
+        /// Radius of the rounded edges and corners, at most half of the shortest edge. Default: 0, sharp.
         rounding_m: f64,
     },
     /// A cylinder about the z axis with its middle in the origin, closed at both ends.
@@ -40,7 +40,7 @@ pub enum Shape {
         radius_m: f64,
         /// Height from end to end. Required.
         height_m: f64,
-        /// Radius of its rounded rims, at most its radius and half of its height. Default: 0, sharp.
+        /// Radius of the rounded rims, at most the cylinder's radius and half of its height. Default: 0, sharp.
         rounding_m: f64,
     },
     /// A ring of round section about the z axis.

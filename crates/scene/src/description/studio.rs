@@ -1,4 +1,4 @@
-//! The studio around a scene's objects and the ground under them, which a scene asks for by name.
+//! The studio around a scene's objects and the ground under them, which a scene file selects by name.
 
 use serde::Serialize;
 
@@ -60,7 +60,7 @@ pub struct Ground {
     /// Albedo, linear Rec.709, in [0, 1]. Default: a dark grey.
     #[serde(skip_serializing_if = "is_dark_grey")]
     pub color: [f64; 3],
-    /// Roughness of its gloss, as that of a material. Default: 0.55.
+    /// Roughness of the ground's gloss, as that of a material. Default: 0.55.
     #[serde(skip_serializing_if = "is_satin")]
     pub roughness: f64,
     /// Height along the world's up axis. Default: under the lowest point of all objects.
@@ -94,7 +94,7 @@ impl Ground {
 }
 
 impl Description {
-    /// Whether it has a light or an environment of its own, hidden or not.
+    /// Whether the scene has a light or an environment of its own, hidden or not.
     pub(super) fn is_lit(&self) -> bool {
         self.environment.is_some() || !self.lights.is_empty()
     }

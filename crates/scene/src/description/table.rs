@@ -53,7 +53,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// A table in which the value of `tag` decides what other keys belong to it, besides the `shared` ones.
+    /// Reads a table in which the value of `tag` decides which keys are allowed besides the `shared` ones.
     pub(super) fn read_kind(
         value: &'a Value<'a>,
         key: &str,

@@ -63,7 +63,7 @@ pub enum Error {
 /// 16k maps are the largest in circulation; 1.6 GB while being read.
 const WIDTH_MAX: u32 = 16384;
 
-/// The width and height of a map, of which only the head is read.
+/// Width and height of a map; only the file's head is read.
 pub(crate) fn size_px(path: &Path) -> Result<[u32; 2], Error> {
     check_regular(path).map_err(|e| cannot_read(path, &e))?;
     let size_px = match ending(path).as_deref() {
@@ -217,7 +217,7 @@ fn primaries(attributes: &[(String, String)]) -> Result<Option<ToRec709>, String
     Primaries::of_numbers(eight).to_rec_709()
 }
 
-/// Replaces `#?RGBE`, with which other programs begin such a picture, by `#?RADIANCE`, the only mark that the decoder knows.
+/// Replaces the first bytes `#?RGBE`, which other programs write, by `#?RADIANCE`, the only ones that the decoder accepts.
 fn as_radiance(mut file: impl BufRead) -> io::Result<impl BufRead> {
     const OTHER: &[u8] = b"#?RGBE";
     let is_other = file.fill_buf()?.starts_with(OTHER);

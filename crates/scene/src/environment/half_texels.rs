@@ -5,8 +5,8 @@ use hairline_image::Picture;
 /// The largest half float.
 pub(super) const HALF_MAX: f32 = 65504.0;
 
-/// The largest power of two by which maps are divided: one texel of rubbish would leave nothing of all others. The sun's disk takes 2^15 in
-/// cd/m2, and a candela is then exact to a part in a thousand still.
+/// Largest power of two by which a map is divided: with a larger one a single wrong texel would leave nothing of all others. The sun's disk
+/// takes 2^15 in cd/m2, and a candela is then still exact to a part in a thousand.
 const TEXEL_SCALE_MAX: f32 = 1048576.0;
 
 /// Divides the map by the power of two that brings it below the largest half float, and cuts what stays above. Returns the power, and how

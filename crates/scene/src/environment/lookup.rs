@@ -26,8 +26,8 @@ pub fn environment_uv(dir: DVec3) -> DVec2 {
     DVec2::new(0.5 + longitude / TAU, polar / PI)
 }
 
-/// `f64::atan2` within 3e-8, in a third of its time: a scratch under an environment asks for it some twenty times. M. Abramowitz and
-/// I. Stegun, *Handbook of Mathematical Functions* (1964), 4.4.49.
+/// `f64::atan2` with an error of 3e-8, in a third of its time: a scratch under an environment calls it some twenty times. M.
+/// Abramowitz and I. Stegun, *Handbook of Mathematical Functions* (1964), 4.4.49.
 #[inline(always)]
 fn arctangent(y: f64, x: f64) -> f64 {
     let (low, high) = (x.abs().min(y.abs()), x.abs().max(y.abs()));
@@ -66,7 +66,7 @@ pub fn environment_dir(uv: DVec2) -> DVec3 {
     )
 }
 
-/// A row, and the column of it that stands for column `x`: beyond a pole lies the row on its other side.
+/// Column and row of texel (x, y), continued over the poles: beyond a pole lies the same row, half a turn away.
 #[inline(always)]
 pub fn over_the_pole([width, height]: [i32; 2], x: i32, y: i32) -> [i32; 2] {
     if y >= 0 && y < height {

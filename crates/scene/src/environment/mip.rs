@@ -7,7 +7,7 @@ use rayon::prelude::*;
 /// Weights with which a row of a map adds to all texels of another row.
 pub(super) struct RowTaps {
     pub row: usize,
-    /// The first texel that the first one takes from, up to a width to its left.
+    /// First texel to which the first weight belongs, up to a width to the left of the row's start.
     pub first: isize,
     pub weights: Vec<f32>,
 }

@@ -29,12 +29,13 @@ const SUNS_MOST: usize = 4;
 const SPOTS_MOST: usize = 32;
 /// A sun's brightest texel over the mean of the map, at least.
 const BRIGHT: f64 = 20.0;
-/// Shares of a sun's brightest texel above which a texel belongs to it. The first one includes its glare in the camera; if it is no sun
-/// with that, then perhaps without: the surroundings of a lamp are a hundredth as bright, or a tenth.
+/// Thresholds, as shares of a sun's brightest texel, above which a texel belongs to it; they are tried in this order. The first one
+/// includes its glare in the camera; if it is no sun with that, then perhaps without: the surroundings of a lamp are a hundredth as
+/// bright, or a tenth.
 const RIMS: [f64; 2] = [0.01, 0.1];
 /// The largest sun: a scratch's band shows larger lamps well enough (docs/model.md, section 8), and a polished surface their outlines.
 const RADIUS_MOST_RAD: f64 = 0.06;
-/// The least share of its light that the disc of its size holds: 0.91 for a square, 0.7 for a rectangle of two.
+/// Least share of a sun's light that lies in a disc of its size: 0.91 for a square, 0.7 for a rectangle of two.
 const ROUND: f64 = 0.85;
 /// The least share of the whole map's light.
 const SHARE: f64 = 0.01;
@@ -150,7 +151,7 @@ struct BrightSpot {
 }
 
 impl BrightSpot {
-    /// Connected texels about `peak` that are brighter than `threshold`, without those that were seen before.
+    /// Connected texels about `peak` that are brighter than `threshold`, except those that are `seen` already.
     fn around(map: &Picture, peak: usize, threshold: f64, seen: &mut [bool]) -> Self {
         let middle = direction(map, peak);
         let mut spot = Self {

@@ -135,7 +135,7 @@ impl Search {
         }
     }
 
-    /// The windows with the largest gain, one after the other, each from the map that those before have left.
+    /// Finds the windows with the largest gain, one after the other, each in the map without those before.
     fn windows(self) -> Vec<Window> {
         let regions = self.regions();
         let fits = regions.par_iter().filter_map(|region| {

@@ -111,7 +111,7 @@ fn across(axis: DVec3) -> [DVec3; 2] {
 }
 
 impl Grating {
-    /// Whether a pixel, however small, could show single grooves on a surface of this coherence window.
+    /// Whether some pixel, however small, shows single grooves on a surface of this coherence window.
     pub fn shows_single_grooves(&self, coherence_um: f64) -> bool {
         let is_numbered = match self.field {
             GrooveField::Along { .. } | GrooveField::Around { .. } | GrooveField::Spots { .. } => {
@@ -146,7 +146,7 @@ impl Grating {
         self.row.groove_density(at, std_um, self.seed)
     }
 
-    /// The grooves about a point of a surface of this normal, counted to the left of their tangent. None where they have no numbers.
+    /// Grooves about a point of a surface with this normal, counted to the left of their tangent. None if they have no numbers.
     pub fn grooves_at(
         &self,
         ground: &GrooveGround,

@@ -1,5 +1,4 @@
-//! Spots of circular grooves in rows, as a spinning peg that is set down again and again leaves them: engine turning (docs/model.md, section 12).
-//! Twin: groove_spots.wgsl.
+//! Rows of spots with circular grooves, as a spinning peg makes them: engine turning (docs/model.md, section 12). Twin: groove_spots.wgsl.
 
 use glam::{DVec2, DVec3};
 
@@ -9,7 +8,7 @@ const RADIUS: f64 = 0.75;
 /// Number of directions in which spots smaller than a pixel meet light from all around.
 pub(super) const WAYS: usize = 8;
 
-/// Standard deviation of angles for which a Gaussian of them has the density of all angles, 1/pi, at its middle.
+/// Standard deviation of a Gaussian over angles whose peak is 1/pi, the density of even angles.
 pub(super) const ALL_AROUND_STD_RAD: f64 = 1.253_314_137_315_500_3;
 
 /// Wider in cosines no band is: below [`hairline_optics::band::BAND_STD_MAX`], so that its own width has room.

@@ -1,4 +1,4 @@
-//! Textures that extensions of materials use, which the crate knows nothing of.
+//! Textures in extensions of materials that the gltf crate does not read.
 
 use gltf::Document;
 use gltf::json::Value;

@@ -1,4 +1,4 @@
-//! Size and files of a glTF file by its text, before anything of them is read.
+//! Size and files of a glTF file by its text, before its contents are read.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ const TEXT_BYTES: f64 = 8.0;
 pub(crate) struct FileCounts {
     pub triangles: f64,
     pub vertices: f64,
-    /// Memory of its text and its buffers.
+    /// Memory of the file's text and buffers.
     pub bytes: f64,
 }
 

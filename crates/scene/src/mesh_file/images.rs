@@ -45,7 +45,7 @@ impl Images<'_> {
         Ok(index)
     }
 
-    /// The two textures of the newer model for those of the older one.
+    /// Makes the two textures of the newer material model from those of the older one.
     pub(super) fn spec_gloss(
         &mut self,
         factors: &SpecGloss,

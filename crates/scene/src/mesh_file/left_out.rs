@@ -32,7 +32,7 @@ pub struct LeftOut {
 #[derive(Default)]
 struct LeftOutCounts(BTreeMap<(u8, String, String, bool), usize>);
 
-/// Kinds in the order in which they are told.
+/// Kinds of contents, in the order of the report.
 const EXTENSION: u8 = 0;
 const ATTRIBUTE: u8 = 1;
 const PROPERTY: u8 = 2;
@@ -42,9 +42,9 @@ const PROPERTY: u8 = 2;
 pub(crate) struct UsedContents {
     /// Whether its own materials are used; if not, their contents do not count.
     pub own_materials: bool,
-    /// Whether one of its animations is shown, at a time.
+    /// Whether an animation of the file is shown, at a time.
     pub animation: bool,
-    /// Whether the scene's lights were made of its own.
+    /// Whether lights of the scene were made from the file's.
     pub lights: bool,
 }
 
@@ -85,7 +85,7 @@ impl LeftOutCounts {
         }
     }
 
-    /// Counts all extensions below a value, wherever the specification lets one be.
+    /// Counts all extensions below a value, wherever the specification allows them.
     fn extensions(&mut self, value: &Value, scope: Scope, wanted: UsedContents) {
         match value {
             Value::Array(elements) => {

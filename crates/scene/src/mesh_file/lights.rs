@@ -36,7 +36,7 @@ pub(crate) enum PunctualKind {
     Directional,
 }
 
-/// Lights of the nodes that show.
+/// Lights of the visible nodes.
 pub(super) fn of(document: &gltf::Document) -> Result<Vec<Punctual>, Flaw> {
     let none = Vec::new();
     let table = document

@@ -48,8 +48,7 @@ impl<'a> Materials<'a> {
         })
     }
 
-    /// Removes the cutouts of materials that are whole on a mesh, of those that were added from the number `first`
-    /// on.
+    /// Removes the cutouts of those materials, from number `first` on, whose alpha is 1 all over a mesh.
     pub(super) fn forget_whole(&mut self, first: usize, mesh: &Mesh) {
         if let Self::Own(own) = self {
             cutout::forget_whole(own.materials, first, own.images.textures, mesh);
@@ -169,7 +168,7 @@ impl Own<'_> {
         })
     }
 
-    /// Replaces the newer model's properties of a material by those of the older one.
+    /// Replaces a material's properties of the newer model by those of the older one.
     fn take_spec_gloss(
         &mut self,
         extension: &Value,
@@ -217,7 +216,7 @@ impl Own<'_> {
     }
 }
 
-/// A texture, and how it lies.
+/// Texture of a slot, and its mapping.
 fn used<'a>(info: Option<gltf::texture::Info<'a>>) -> Option<(gltf::Texture<'a>, UvMapping)> {
     info.map(|info| (info.texture(), UvMapping::of(&info)))
 }

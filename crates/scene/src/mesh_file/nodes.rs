@@ -7,7 +7,7 @@ use glam::DMat4;
 use super::flaw::Flaw;
 use super::pose::Pose;
 
-/// Nodes may lie this deep within each other; more is taken for a mistake.
+/// Largest depth of nested nodes; a deeper file is refused.
 const DEEPEST: usize = 256;
 
 /// A node of the file's scene.

@@ -37,7 +37,7 @@ pub(super) struct FileTransform {
 }
 
 impl Placing {
-    /// Placing of a file that is used as it is.
+    /// Placing of a file that is used unchanged.
     pub(crate) const NONE: Self = Self {
         up: Up::Z,
         world_up: DVec3::Z,

@@ -14,13 +14,13 @@ use super::tangents;
 use super::uv::{UvMapping, UvMappings};
 use crate::surface::{Surface, Vertex};
 
-/// A primitive as it stands in the file, before missing attributes are made up.
+/// A primitive as the file has it, before missing attributes are computed.
 pub(super) struct Rough {
     pub surface: Surface,
     has_normals: bool,
     has_tangents: bool,
     has_uvs: bool,
-    /// Sets of texture coordinates that its material's images lie by, and that it does not have.
+    /// Sets of texture coordinates that images of its material use and that the primitive lacks.
     pub missing_sets: Vec<u32>,
 }
 

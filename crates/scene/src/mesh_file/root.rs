@@ -61,7 +61,7 @@ fn check_version(version: &str) -> Result<(), Flaw> {
     }
 }
 
-/// Checks the glTF version that a reader must know (glTF 2.0, section 3.2).
+/// Checks the least glTF version that a reader must support (glTF 2.0, section 3.2).
 fn check_least_version(least: Option<&str>) -> Result<(), Flaw> {
     match least {
         None | Some("2.0") => Ok(()),
@@ -79,7 +79,7 @@ pub(super) fn wrong_version(version: &str) -> Flaw {
     )
 }
 
-/// Parts of a file that are kept because they are wanted: broken, they make a file unusable.
+/// Elements of a file that are kept because the scene uses them: an error in one of them makes the file unusable.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct OptionalElements {
     pub animations: bool,
@@ -99,7 +99,7 @@ pub(super) fn leave_out_what_is_ignored(root: &mut Root, kept: OptionalElements)
     }
 }
 
-/// Extensions by which a texture may have its image.
+/// Extensions that give a texture its image.
 const IMAGES_BY: [&str; 2] = ["EXT_texture_webp", "KHR_texture_basisu"];
 
 /// Sets the image of each texture, which may be named by an extension.

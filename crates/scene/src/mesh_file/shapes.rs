@@ -50,12 +50,13 @@ impl<'a> Shapes<'a> {
         })
     }
 
-    /// A camera of the file, as it stands then, in the file's frame.
+    /// A camera of the file at the time of the scene, in the file's frame.
     pub(super) fn camera(&self, wanted: &str) -> Result<FileCamera, Flaw> {
         cameras::of(&self.placed, wanted)
     }
 
-    /// Whether a node or a corner of its meshes may lie so far from the origin along an axis, by the file's bounds of its positions.
+    /// Whether a node or a vertex may lie at least `distance_m` from the origin along an axis, by the bounds of positions in the
+    /// file.
     pub(super) fn may_reach(&self, world_from_file: &DMat4, distance_m: f64) -> bool {
         let is_far = |point: DVec3| !(point.abs().max_element() <= distance_m);
         self.placed.iter().any(|placed| {

@@ -107,7 +107,7 @@ fn joints(skin: &gltf::Skin, all: &[PlacedNode], buffers: &Buffers) -> Result<Ve
     skin.joints().enumerate().map(matrix).collect()
 }
 
-/// Each vertex goes with the mean of its joints.
+/// Moves each vertex by the mean of its joints.
 fn bend(joints: &[DMat4], attributes: &Attributes, vertices: &mut [Vertex]) -> Result<(), Flaw> {
     let mut file_from_rest = vec![DMat4::ZERO; vertices.len()];
     let mut sums = vec![0.0; vertices.len()];

@@ -52,8 +52,8 @@ impl UvMapping {
     }
 }
 
-/// The ways of a material's images, the first that of the normal map, or of its coat's where it has none: tangents go by it. A vertex keeps two
-/// places; where there are more ways, those beyond are taken for the first.
+/// Mappings of a material's images. The first one is that of the normal map, or of its coat's where it has none, since tangents follow it. A
+/// vertex has two pairs of coordinates; images with a third mapping use the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct UvMappings {
     pub first: Option<UvMapping>,
@@ -77,7 +77,7 @@ impl UvMappings {
         }
     }
 
-    /// Whether an image lies by the second of the places.
+    /// Whether an image uses the second mapping.
     pub(super) fn is_second(&self, way: UvMapping) -> bool {
         self.second == Some(way)
     }

@@ -7,13 +7,13 @@ use crate::description::limits::{CONE_DEG, LARGEST_M, SMALLEST_M};
 use crate::description::{Cone, Light, LightKind, SUN_DEG};
 use crate::mesh_file::{Punctual, PunctualKind};
 
-/// The radius of a lamp over the extent of its model: scratches show clear colours of it.
+/// Radius of a lamp over the extent of its model, small enough for scratches to show clear colours.
 const LAMP_RADIUS: f64 = 0.01;
 /// The extension counts in lumens. Exporters take a watt for as many of them.
 const LUMENS_PER_WATT: f64 = 683.0;
 
-/// Makes the lamp for a light beside a model of an extent, in metres of the file, that is shown larger by a factor. `turned` and `placed`
-/// make directions and places of the file upright.
+/// Makes a lamp from a light of a model. The model has an extent, in metres of the file, and is shown larger by a factor. `turned` and
+/// `placed` make directions and places of the file upright.
 ///
 /// # Errors
 /// The reason why there is no lamp.

@@ -194,8 +194,8 @@ impl Closest {
     }
 }
 
-/// The tree over `items`, which are put into the order of its leaves, and of which the first is the mesh's `first`. Its root comes
-/// first.
+/// Builds a tree over `items`, and puts them into the order of its leaves. `first` is the index of the first of them in the mesh's
+/// order. The root comes first.
 fn grown(items: &mut [Item], first: usize, depth: usize) -> Vec<Node> {
     let bounds = items.iter().map(|item| item.bounds);
     let bounds = bounds.fold(Bounds::EMPTY, Bounds::with);
@@ -290,8 +290,8 @@ fn split(items: &mut [Item], depth: usize) -> usize {
     count
 }
 
-/// The foot of the perpendicular if it lies inside, else the nearest point of an edge; nothing where that is farther than the root of
-/// `most` for certain.
+/// Nearest point of a triangle: the foot of the perpendicular if it lies inside, else the nearest point of an edge. None if it is
+/// surely farther away than the root of `most`.
 fn nearest_on_triangle([a, b, c]: [DVec3; 3], point: DVec3, most: f64) -> Option<DVec3> {
     // More than rounding.
     const CERTAIN: f64 = 1.0 + 1e-9;

@@ -12,7 +12,7 @@ use glam::DVec3;
 use super::neighbours::each_bend;
 use crate::scene::Mesh;
 
-/// Pieces of edges are so long at most, and those within so many metres of one another are taken together; as a share of the reach.
+/// Longest piece of an edge, and width of the cubes in which pieces are merged, as a share of the reach.
 const PIECE: f64 = 0.25;
 /// Smaller bends are roundings.
 const LEAST_BEND_RAD: f64 = 1e-6;
@@ -37,7 +37,7 @@ struct EdgePiece {
     bend_m: f64,
 }
 
-/// Key by which pieces are taken together: a cube, and the signs of their normals.
+/// Key of pieces that are merged: a cube, and the signs of their normals.
 type PieceKey = ([i32; 3], [bool; 3]);
 
 fn cube(point_m: DVec3, width_m: f64) -> [i32; 3] {
@@ -45,7 +45,7 @@ fn cube(point_m: DVec3, width_m: f64) -> [i32; 3] {
 }
 
 impl Edges {
-    /// An edge reaches so far.
+    /// Finds the edges of a mesh; each counts up to `reach_m` from it.
     pub(super) fn new(mesh: &Mesh, reach_m: f64) -> Self {
         let piece_m = PIECE * reach_m;
         // Sums, weighted by the sizes of bends.

@@ -130,7 +130,7 @@ impl Capsule {
     }
 }
 
-/// Interval of t in which height + t rise lies between 0 and `length_m`.
+/// Interval of t in which height + t rise is between 0 and `length_m`.
 fn slab(height: f64, rise: f64, length_m: f64) -> Option<[f64; 2]> {
     if rise.abs() <= 1e-12 * length_m {
         return (0.0..=length_m)

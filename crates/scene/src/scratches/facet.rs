@@ -107,7 +107,7 @@ impl Facet {
         })
     }
 
-    /// A point on an edge, as a share of its length, kept off the corners: a walk that never meets a corner always knows its
+    /// Place of a point on an edge, as a share of the edge's length, kept off the corners, so that a walk always knows its
     /// next triangle. The shift of 1e-6 of an edge is far below a wavelength for edges up to decimetres.
     pub(super) fn share_of_edge(&self, edge: usize, point_m: DVec3) -> f64 {
         const OFF_CORNER: f64 = 1e-6;
@@ -121,8 +121,8 @@ impl Facet {
         self.corners_m[edge].lerp(self.corners_m[(edge + 1) % 3], share)
     }
 
-    /// Carries a direction that leaves through `edge` on into the `next` facet, which has it as `next_edge`, as a straight
-    /// line goes on if the two are unfolded into one plane.
+    /// Carries a direction over the edge `edge` into the `next` facet, whose edge `next_edge` is the same: as a straight
+    /// line goes on if both facets are unfolded into one plane.
     pub(super) fn unfold(
         &self,
         direction: DVec3,
@@ -150,7 +150,7 @@ pub(super) fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a).normalize_or_zero()
 }
 
-/// Weights of the corners of a triangle at a point of its plane, kept inside.
+/// Barycentric coordinates of a point in the plane of a triangle, clamped to the triangle.
 pub(super) fn barycentric([a, b, c]: [DVec3; 3], normal: DVec3, point_m: DVec3) -> [f64; 3] {
     let area = (b - a).cross(c - a).dot(normal);
     let at_b = (c - a).cross(a - point_m).dot(normal) / area;

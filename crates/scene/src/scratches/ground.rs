@@ -17,22 +17,22 @@ const SHORTEST_M: f64 = 10e-6;
 /// A longer scratch only goes over itself again; relative to the object's diagonal.
 const LONGEST: f64 = 100.0;
 
-/// A mesh with all that laying needs to know about it.
+/// A mesh with all data that laying needs.
 #[derive(Debug)]
 pub(crate) struct Ground {
     pub(super) mesh: Arc<Mesh>,
     /// The object's own frame, in which patterns are described.
     pub(super) world_from_object: DMat4,
-    /// The corner of its bounding box with the least coordinates.
+    /// Corner of the bounding box with the least coordinates.
     pub(super) corner_m: DVec3,
     /// The length of the box's diagonal.
     pub(super) diagonal_m: f64,
-    /// Shortest piece that walks leave behind.
+    /// Length of the shortest piece of a walk.
     shortest_piece_m: f64,
     neighbours: Neighbours,
     /// The area of all triangles up to and including each.
     areas_m2: Vec<f64>,
-    /// Made when it is asked for: few layers need it.
+    /// Search for closest points, made at the first use: few layers need it.
     closest: OnceLock<Closest>,
 }
 
@@ -72,8 +72,7 @@ impl Ground {
         self.closest.get_or_init(|| Closest::new(self.mesh.clone()))
     }
 
-    /// A length that lies `normal` standard deviations from the mean, bounded to the lengths that make sense on
-    /// this surface.
+    /// Length that lies `normal` standard deviations from the mean, limited to lengths that fit the surface.
     pub(super) fn scratch_length_m(&self, drawn: &Distribution, normal: f64) -> f64 {
         let longest_m = (LONGEST * self.diagonal_m).max(SHORTEST_M);
         drawn.log_normal_at(normal).clamp(SHORTEST_M, longest_m)

@@ -145,7 +145,7 @@ fn turned(facet: &Facet, direction: DVec3, angle_rad: f64) -> DVec3 {
     direction * cos + facet.normal.cross(direction) * sin
 }
 
-/// `arm_m` leads from a point of the axis to the point asked for.
+/// Direction around the axis. `arm_m` leads from a point of the axis to the point.
 fn around(
     facet: &Facet,
     axis: DVec3,

@@ -5,14 +5,14 @@ use crate::description::Distribution;
 use crate::error::Error;
 use crate::scene::{Profile, Segment};
 
-/// Widths are kept within the spectral table's range, and below the coherence windows that scenes ask for.
+/// Range of widths: the spectral table's, and below the coherence windows of scenes.
 const WIDTHS_UM: (f64, f64) = (0.05, 100.0);
 /// Depths are kept within the spectral table's range.
 const DEPTHS_NM: (f64, f64) = (0.0, 2000.0);
 
-/// A size of a groove that lists tell of each scratch.
+/// Size of a groove that a list gives for each scratch.
 pub(crate) struct ListedSize {
-    /// Name of its column in a file, of its array in memory.
+    /// Name of the size: of its column in a file, and of its array in memory.
     pub key: &'static str,
     range: (f64, f64),
     pub of: fn(&mut Profile) -> &mut f32,
@@ -71,7 +71,7 @@ pub(super) trait Laying: Sync {
     }
 }
 
-/// A profile whose sizes lie `normals` standard deviations from their means, times factors.
+/// Profile whose sizes lie `normals` standard deviations from their means, times factors.
 pub(super) fn scratch_profile(
     [_, width_um, depth_nm]: [Distribution; 3],
     normals: [f64; 2],

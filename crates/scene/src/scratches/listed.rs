@@ -23,7 +23,8 @@ const COUNT: usize = ENDS.len() + LISTED_SIZES.len();
 /// Further columns of a list for other programs: the number of the scratch, whose straight pieces follow one another, and the surface's
 /// normal in the middle of the piece.
 const MORE_COLUMNS: &str = "scratch,nx,ny,nz";
-/// Ends may lie this far off the surface, relative to the diagonal of the object: a list made for the ideal shape fits its facets.
+/// Largest distance of a scratch's end from the surface, relative to the diagonal of the object: a list for the ideal shape fits its
+/// facets.
 const OFF_SURFACE: f64 = 0.01;
 /// Longest way on the surface between two points over their distance: on a curved surface it is longer than the straight line.
 const LONGEST_WAY: f64 = 4.0;
@@ -60,7 +61,7 @@ pub(super) fn read(path: &Path, key: &str) -> Result<Vec<ListedRow>, Error> {
     parse(&text, path)
 }
 
-/// An error goes with its line in the file of this path.
+/// Parses the list. An error gets its line in the file of this path.
 fn parse(text: &str, path: &Path) -> Result<Vec<ListedRow>, Error> {
     // A byte order mark is no part of the first name.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -166,7 +167,7 @@ pub(super) struct Listed<'a> {
 }
 
 impl<'a> Listed<'a> {
-    /// Refuses rows that do not lie on the surface.
+    /// Makes the layer, or refuses rows that do not lie on the surface.
     pub(super) fn new(
         loader: &Loader,
         rows: &[ListedRow],
@@ -194,8 +195,8 @@ impl<'a> Listed<'a> {
         })
     }
 
-    /// Refuses the first end that does not lie on the surface. `error` makes the message of a row, one of its ends and two halves of
-    /// a sentence.
+    /// Places both ends of each row on the surface, or refuses the first end that is too far from it. `error` makes the message from a
+    /// row, one of its ends and two halves of a sentence.
     fn placed(
         loader: &Loader,
         count: usize,

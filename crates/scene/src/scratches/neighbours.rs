@@ -14,7 +14,7 @@ const WELD: f32 = 1e-6;
 const CREASE_COS: f64 = 0.5;
 const NONE: u32 = u32::MAX;
 
-/// Triangle beyond each edge of each triangle, and the index of the shared edge in it.
+/// Triangle beyond each edge of each triangle, and the number of the shared edge in that triangle.
 #[derive(Debug)]
 pub(super) struct Neighbours(Vec<[u32; 3]>);
 

@@ -17,10 +17,10 @@ use crate::description::{Brush, Brushed, Stroke};
 use crate::error::Error;
 use crate::scene::Segment;
 
-/// The surface may lie this far from the brush, as a multiple of its radius.
+/// Largest distance of the surface from the brush, in the brush's radii.
 const REACH: f64 = 2.0;
-/// A point whose nearest place lies this much more beside it than below it, as a sine, is over the rim: without this all that a
-/// brush does out there would pile up along it. Edges of a right angle are no rims.
+/// Least sine at which a point's nearest place counts as beside the point and not below it: the point is then over a rim. Edges
+/// of a right angle are no rims.
 const BESIDE_SINE: f64 = 0.9;
 /// Nearer than this, the direction is rounding.
 const BESIDE_M: f64 = 1e-7;
@@ -85,7 +85,7 @@ impl<'a> Painted<'a> {
         self.paths.last().map_or(0, |last| last.first + last.count)
     }
 
-    /// The number of a scratch's stroke among those that lay scratches.
+    /// Index of the stroke of a scratch among those that lay scratches.
     fn path(&self, index: u64) -> usize {
         self.paths.partition_point(|path| path.first <= index) - 1
     }
@@ -97,7 +97,7 @@ impl<'a> Painted<'a> {
         Stream::new(self.layer.seed, self.number, (number as u64) << 32 | nth)
     }
 
-    /// Draws the middle of a scratch, and where the brush was for it, by the first two numbers of its stream.
+    /// Draws the middle of a scratch, and the place of the brush for it, from the first two numbers of its stream.
     fn seed(&self, index: u64, stream: &mut Stream) -> Option<(MeshPoint, Touch)> {
         let path = &self.paths[self.path(index)];
         let [along, across] = std::array::from_fn(|_| stream.uniform());

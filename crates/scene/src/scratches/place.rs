@@ -53,7 +53,7 @@ struct LookUp {
 }
 
 impl<'a> GroundPlaces<'a> {
-    /// `None` where it leaves nothing out. `key` is the way to the layer.
+    /// Makes the places of a layer; `None` if it lies everywhere. `key` is the way to the layer.
     ///
     /// # Errors
     /// Pictures on an object without texture coordinates, edges that are too narrow for it.
@@ -112,7 +112,7 @@ impl<'a> GroundPlaces<'a> {
         of_picture * of_edges
     }
 
-    /// Adds the parts of a segment that lie elsewhere, from 0 to 1.
+    /// Adds the parts of a segment, from 0 to 1, that lie outside of the layer's places.
     pub(super) fn elsewhere(&self, segment: &Segment, parts: &mut Parts) {
         let [start, end] = [segment.start_m, segment.end_m].map(|p| p.as_dvec3());
         if let Some([least_m, most_m]) = self.radii_m {

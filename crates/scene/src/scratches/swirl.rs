@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::facet::Facet;
 use super::random::Stream;
 
-/// Streams of the lattice are those of no scratch: counts stay below this index.
+/// Number that is added to a stream's index for the lattice: scratches have lower indices.
 const LATTICE_STREAMS: u64 = 1 << 63;
 
 /// The centres of a layer.

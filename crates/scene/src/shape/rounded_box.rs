@@ -15,7 +15,7 @@ const SIDES: [[DVec3; 2]; 6] = [
     [DVec3::X, DVec3::NEG_Y],
 ];
 
-/// Sides meet in the middle of edges, so half of an edge's facets belong to one of them.
+/// Number of facets of an edge for one of its two sides: sides meet in the middle of edges.
 const EDGE_FACETS: u32 = ROUNDING_FACETS / 2;
 
 /// A place along one edge of a side: on the smaller box, and from there to the box without roundings, in radii.

@@ -41,7 +41,7 @@ pub fn temporary_dir() -> tempfile::TempDir {
     tempfile::tempdir().expect("a temporary directory can be made")
 }
 
-/// The file of the assets beside the repository that are not part of it; says so on stderr if it is missing.
+/// Path of an asset that is kept beside the repository and is no part of it; if it is missing, prints so to stderr.
 pub fn asset(name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../../shared/assets")
@@ -63,7 +63,7 @@ pub struct Glb {
     pub bin: Vec<u8>,
     pub views: Vec<String>,
     pub accessors: Vec<String>,
-    /// Members of the top object besides those made here, each with its own comma before it.
+    /// More members of the file's top object, each with a comma before it.
     pub more: String,
 }
 

@@ -176,7 +176,7 @@ impl Tube {
     }
 }
 
-/// Each triangle from the least of its vertices on, in order.
+/// Triangles in order, each turned so that its least vertex comes first.
 fn sorted(triangles: impl Iterator<Item = [usize; 3]>) -> Vec<[usize; 3]> {
     let from_least = |mut triangle: [usize; 3]| {
         let least = (0..3).min_by_key(|i| triangle[*i]).unwrap();

@@ -108,7 +108,7 @@ fn cube_file(damage: impl Fn(&mut Vec<u8>)) -> Vec<u8> {
     edited_cube_file([2, 4], ["TRIANGLES"; 2], damage, |text| text)
 }
 
-/// The cube twice, by indices of those bytes and modes, with its text edited.
+/// The cube's file twice, with indices of those bytes and modes, and its text edited.
 fn edited_cube_file(
     strides: [usize; 2],
     modes: [&str; 2],
@@ -140,7 +140,7 @@ fn edited_cube_file(
     glb_of(&edit(text), &file.glb.bin)
 }
 
-/// The corners of each triangle, from the first in the order of its numbers on; all in that order.
+/// Corners of each triangle, turned so that the first in the order of its numbers comes first; all sorted.
 fn sorted_corners(mesh: &Mesh) -> Vec<[[u32; 3]; 3]> {
     let of = |triangle: &[u32; 3]| {
         let corner = |v: u32| mesh.positions_m[v as usize].to_array().map(f32::to_bits);

@@ -34,7 +34,7 @@ fn lamps(description: &Description) -> Vec<(DVec3, f64)> {
     description.lights.iter().filter_map(lamp).collect()
 }
 
-/// The unit normal by which a point would mirror a lamp.
+/// Unit normal at which a point mirrors a lamp to the eye.
 fn half(eye_m: DVec3, lamp_m: DVec3, point_m: DVec3) -> DVec3 {
     let towards = |to: DVec3| (to - point_m).normalize();
     (towards(eye_m) + towards(lamp_m)).normalize()

@@ -13,11 +13,11 @@ pub const LEVEL_HALVINGS: [usize; LEVELS] = [0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6]
 /// Width and height of level 0; powers of two.
 pub(crate) const LEVEL_0_SIZE_PX: [u32; 2] = [2048, 1024];
 
-/// The finest map that a level is made from, and up to how many of its texels away that and each coarser map is looked at, by a level's
-/// halvings: smooth levels have many texels, and tails that are dim. Texels of the finest map are a quarter of the level's, where there are any.
+/// Finest map of a level, by the level's halvings, and reach in texels of that and of each coarser map: smooth levels have many texels, and dim
+/// tails. Texels of the finest map are a quarter of the level's, if there are such.
 pub(super) const FINEST: [usize; 7] = [0, 0, 0, 1, 2, 3, 4];
 pub(super) const REACH_TEXELS: [f64; 7] = [0.0, 5.0, 6.0, 12.0, 16.0, 16.0, 16.0];
-/// Factor on the reach of a map over which it fades, and the next map takes over.
+/// Ratio of the distances at which a map's weight has fallen to zero and begins to fall; the next map takes over in between.
 pub(super) const FADE: f64 = 1.5;
 /// The coarsest map.
 pub(super) const COARSEST: usize = 5;

@@ -43,7 +43,7 @@ impl LobePart {
             .map_or(FRAC_PI_2, |[_, end]| end.min(FRAC_PI_2))
     }
 
-    /// Relative density of the part at an angle from the lobe's middle, given the squared sine of half of it.
+    /// Relative density of the part at an angle from the lobe's middle, given the squared sine of half the angle.
     fn density(&self, half_sine2: f64) -> f64 {
         let angle_rad = 2.0 * half_sine2.sqrt().min(1.0).asin();
         let fade = |range: Option<[f64; 2]>| {
@@ -60,7 +60,7 @@ impl LobePart {
         a2 / (t * t) * ggx_g1(1.0 - 2.0 * half_sine2, self.alpha) * (begun - ended).max(0.0)
     }
 
-    /// The mean of its density over a texel, and the texel's solid angle times that.
+    /// Mean density over a texel, and the texel's solid angle times that.
     fn weight(&self, at: &RowPair<'_>, turn_rad: f64) -> f64 {
         let middle = at.rows.half_sine2(turn_rad);
         let angle_rad = middle.sqrt() * 2.0;
@@ -114,7 +114,7 @@ impl RowAngles {
         }
     }
 
-    /// The square of the sine of half the angle between a texel of each, of which one is turned about the pole.
+    /// Squared sine of half the angle between two texels, one of each row, the second turned about the pole.
     fn half_sine2(&self, turn_rad: f64) -> f64 {
         self.apart + self.sines * (0.5 * turn_rad).sin().powi(2)
     }
@@ -183,7 +183,7 @@ pub(super) fn row_taps(
     .collect()
 }
 
-/// Rows whose middles lie no further than so much from a place.
+/// Rows whose middles lie within an angle of a place.
 fn rows_within(height: usize, v: f64, reach_rad: f64) -> Range<usize> {
     let reach = reach_rad / PI * height as f64;
     let at = v * height as f64 - 0.5;

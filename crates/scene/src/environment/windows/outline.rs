@@ -38,8 +38,8 @@ pub(crate) enum Outline {
 }
 
 impl Outline {
-    /// Returns the share of a texel of this angle that lies within the outline, by the direction of
-    /// its middle; a wider angle makes a soft edge.
+    /// Returns a function of a direction: the share, within the outline, of a texel of this angle
+    /// about it. A wider angle makes a soft edge.
     pub(crate) fn measure(&self, texel_rad: f64) -> impl Fn(DVec3) -> f64 + Sync + use<> {
         let step = move |inside_rad: f64| (0.5 + inside_rad / texel_rad).clamp(0.0, 1.0);
         let rim = self.rim();
@@ -86,7 +86,8 @@ impl Outline {
         }
     }
 
-    /// Makes a light so far away that it stands in one direction for all of a scene.
+    /// Makes a light of the outline, so far away that its direction is the same over the whole
+    /// scene.
     pub(crate) fn light(&self, distance_m: f64, radiance: [f64; 3]) -> Light {
         match self {
             Self::Disc {

@@ -30,7 +30,7 @@ const DARK: f64 = 0.25;
 const FINEST: f64 = 0.02;
 /// Outlines of four corners that are looked at, at most.
 const LOOKS_MOST: u32 = 2000;
-/// Width in texels about an outline's edge whose inner half tells the radiance at the edge.
+/// Width, in texels, of the ring about an outline's edge. The radiance at the edge is averaged over its inner half.
 const RIM_TEXELS: f64 = 2.0;
 /// Widths of edges that are tried.
 const EDGE_TEXELS: [f64; 6] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0];
@@ -100,7 +100,7 @@ impl Patch {
         light.powi(2) / squares.max(1e-12)
     }
 
-    /// Returns the best angle for the soft edge of an outline, one texel to some of them.
+    /// Width of the soft edge that suits an outline best, from one texel to a few.
     pub(super) fn edge_rad(&self, outline: &Outline) -> f64 {
         let edges = EDGE_TEXELS.map(|texels| texels * self.texel_rad);
         let gain = |edge_rad: &f64| self.soft_gain(outline, *edge_rad);
@@ -125,7 +125,7 @@ impl Patch {
         1.0 - left / all.max(1e-12)
     }
 
-    /// Radiance of an outline with an edge of this angle above the surroundings, where it ends.
+    /// Difference of radiance between an outline's inside and its surroundings, at an edge of this angle.
     pub(super) fn step(&self, outline: &Outline, edge_rad: f64) -> DVec3 {
         let covers = outline.measure(edge_rad);
         let near = outline.measure(edge_rad + RIM_TEXELS * self.texel_rad);
@@ -161,7 +161,7 @@ impl Mean {
     }
 }
 
-/// Value below which a share of the values lies; 0 if there are none.
+/// Quantile of the values: the value below which the share lies; 0 if there are none.
 fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
     if values.is_empty() {
         return 0.0;

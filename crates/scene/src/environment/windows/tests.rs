@@ -85,7 +85,7 @@ fn windows_are_found_as_they_are() {
     assert!((light(&rest) / room - 1.0).abs().max_element() < 0.05);
 }
 
-/// Corners are those that the scene sees of the sphere's inside: the light shines to there.
+/// Corners lie on the sphere's inside, as the scene sees it, so the light shines towards the scene.
 #[test]
 fn a_window_shines_inwards() {
     let window = quad([

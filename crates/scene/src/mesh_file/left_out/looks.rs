@@ -1,4 +1,4 @@
-//! Images of a glTF file's materials that lie on the surface otherwise than the file says.
+//! Images of a glTF file's materials that lie on the surface in another way than the file says.
 
 use gltf::json::Value;
 

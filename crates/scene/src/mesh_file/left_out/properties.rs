@@ -8,14 +8,14 @@ use crate::mesh_file::extensions::Scope;
 struct Element {
     /// Name of the element in messages.
     name: &'static str,
-    /// Names of its properties that are values.
+    /// Names of the properties of the element that are values.
     values: &'static [&'static str],
-    /// Names of its properties that are elements, or lists of them.
+    /// Names of the properties that are elements, or lists of elements.
     parts: &'static [(&'static str, &'static Element)],
 }
 
-/// Hands each property that neither the specification nor an extension has to `tell`, with the name of the element that it is of.
-/// What surfaces look like is passed over where `with_looks` is false.
+/// Calls `tell` for each property that neither the specification nor an extension defines, with the name of its element. What
+/// surfaces look like is passed over where `with_looks` is false.
 pub(super) fn unknown(root: &Value, with_looks: bool, tell: &mut impl FnMut(&str, &str)) {
     let is_told = |name: &str| with_looks || Scope::File.within(name) != Scope::Look;
     for (name, value) in members(root).filter(|it| is_told(it.0)) {

@@ -9,7 +9,7 @@ const GROUP: usize = 16;
 /// The most elements of a block, and the most bytes.
 const MOST_ELEMENTS: usize = 256;
 const MOST_BYTES: usize = 8192;
-/// Bits to a difference in a group, by the two bits of its header.
+/// Numbers of bits of a difference in a group, by the two bits of the group's header.
 const VERSION_0: [u32; 4] = [0, 2, 4, 8];
 const NARROW: [u32; 4] = [0, 1, 2, 4];
 const WIDE: [u32; 4] = [1, 2, 4, 8];
@@ -71,7 +71,7 @@ pub(super) fn unpacked(packed: &[u8], count: usize, stride: usize) -> Result<Vec
     }
 }
 
-/// Coding of the difference of four bytes to those of the element before.
+/// Coding of the difference between four bytes and those of the element before.
 #[derive(Clone, Copy)]
 enum DeltaCoding {
     Bytes,
@@ -166,7 +166,7 @@ mod tests {
     use meshopt_rs::vertex::VertexEncodingVersion::V0;
     use meshopt_rs::vertex::buffer::encode_vertex_buffer;
 
-    /// Elements of a length that no array of the decoder is written for, more of them than a block holds.
+    /// Test of elements of a size for which the decoder has no array, and of more of them than a block holds.
     fn check<const N: usize>() {
         let element = |i: usize| std::array::from_fn(|k| ((i * i * (k % 5)) / 7 + 31 * k) as u8);
         for count in [0, 1, 16, 31, 300] {
