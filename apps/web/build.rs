@@ -1,4 +1,4 @@
-//! A page has one thread, whose stack is to be as large as those that the libraries are tested with.
+//! Sets the stack of a page's only thread to the size with which the libraries are tested.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");

@@ -101,7 +101,7 @@ struct KeptFigures<'a> {
 }
 
 impl KeptFigures<'_> {
-    /// Measured if it is asked for, else as it was.
+    /// Measures a part if it is selected, else reads its last results.
     fn part<T: Serialize + DeserializeOwned>(
         &self,
         part: AccuracyPart,

@@ -22,7 +22,7 @@ use rayon::prelude::*;
 /// Looks for inputs that make `hairline` panic, hang, take too much memory or leave parts of files.
 #[derive(Args)]
 pub struct Fuzz {
-    /// Number of mutated inputs, besides those of earlier findings.
+    /// Number of mutated inputs, beside the inputs of earlier findings.
     cases: u64,
     /// Seed of the mutations.
     #[arg(long, default_value_t = 1)]

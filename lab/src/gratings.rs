@@ -41,7 +41,7 @@ const LIGHTS: [f64; 4] = [0.002, 0.01, 0.05, 0.3];
 const Q_START: f64 = 0.02;
 const Q_STEP: f64 = 0.001;
 const Q_COUNT: usize = 1300;
-/// Blocks of rows, by which noise is told.
+/// Number of blocks of rows, by whose scatter noise is estimated.
 const BLOCKS: u32 = 8;
 const SEED: u64 = 1000;
 /// The window's amplitude has fallen to 4e-5 here.

@@ -55,7 +55,7 @@ struct Figures {
 }
 
 impl Figures {
-    /// Key by which rows are told apart and ordered.
+    /// Key of a row, by which rows are replaced and sorted.
     fn row(&self) -> (bool, Option<usize>, u32) {
         let place = SCENES.iter().position(|(name, _)| *name == self.scene);
         (self.is_on_gpu, place, self.bounces)

@@ -62,8 +62,8 @@ pub fn on_the_cpu(scene: &Scene, samples: u32) -> Image {
     closed_form::render(scene, &options, &|_| {})
 }
 
-/// Pixels whose centre lies clear of the edges of its triangle. Within rounding of an edge the rasteriser and the ray may
-/// take one neighbour each, whose normals turn differently.
+/// Mask of pixels whose centre lies clear of the edges of its triangle. Within rounding of an edge the rasteriser and the
+/// ray may take one neighbour each, whose normals turn differently.
 fn on_one_triangle(scene: &Scene) -> Vec<bool> {
     let triangles = TriangleIndex::build(scene);
     let [width, height] = scene.render.size_px;
@@ -101,7 +101,7 @@ pub fn compare(name: &str, scene: &Scene, gpu: &Image, cpu: &Image) -> Result<()
     compare_pixels(name, gpu, cpu, Some(&interior))
 }
 
-/// Compares the pixels of a mask, or all of them.
+/// Compares the pixels of a mask, or all pixels.
 pub fn compare_pixels(
     name: &str,
     gpu: &Image,

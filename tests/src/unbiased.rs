@@ -53,7 +53,7 @@ pub fn brighter(name: &str, part: f64) -> Scene {
     })
 }
 
-/// A scene without some of its objects.
+/// Removes some objects from a scene.
 pub fn without(mut scene: Scene, objects: &[&str]) -> Scene {
     scene
         .objects
@@ -208,8 +208,8 @@ pub struct Found {
     pub z: ZTest,
 }
 
-/// Pixels that show one object alone, as far as a pixel's filter reaches. On an outline the path tracer averages over the filter, and the
-/// renderers over the pixel: both objects are right there, but not their parts of the pixel.
+/// Mask of pixels that show one object alone, as far as a pixel's filter reaches. On an outline the path tracer averages over the filter, and
+/// the renderers over the pixel: both objects are right there, but not their parts of the pixel.
 pub fn inside(scene: &Scene) -> Vec<bool> {
     let size_px = scene.render.size_px;
     let triangles = TriangleIndex::build(scene);
@@ -229,7 +229,7 @@ pub fn inside(scene: &Scene) -> Vec<bool> {
     pixels.map(|(x, y)| is_inside(x, y)).collect()
 }
 
-/// Five standard deviations of it.
+/// Reach of a pixel's filter in pixels, five standard deviations.
 const FILTER_REACH_PX: i32 = 3;
 
 /// Compares a layer of a picture of several batches with that of [`expected`], where the picture is [`inside`]; `open` is that without shadows.

@@ -17,7 +17,7 @@ pub struct Shaders {
 
 #[derive(Serialize)]
 struct Texts {
-    /// Modules, each with those that it needs.
+    /// Modules, each with the modules that it imports.
     modules: Vec<Module>,
     passes: Vec<Pass>,
 }

@@ -124,7 +124,7 @@ fn command_line(root: &Path) -> anyhow::Result<PathBuf> {
     Ok(target.join("release/hairline"))
 }
 
-/// Compiles `apps/web` in a folder of its own.
+/// Compiles `apps/web` in a separate build folder.
 fn compile(root: &Path, is_quick: bool) -> anyhow::Result<PathBuf> {
     let folder = root.join("target/browser");
     let profile = if is_quick { "web-quick" } else { "web" };
@@ -168,7 +168,7 @@ fn has_target() -> anyhow::Result<bool> {
     Ok(Path::new(String::from_utf8(asked.stdout)?.trim()).is_dir())
 }
 
-/// The page itself, with the pictures and scenes that it shows.
+/// Copies the page itself, with its pictures and scenes.
 fn copy_page(root: &Path, output: &Path) -> anyhow::Result<()> {
     for name in ["index.html", "page.css", "page.js"] {
         fs::copy(root.join("apps/web/page").join(name), output.join(name))?;

@@ -142,7 +142,8 @@ fn wheels(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     Ok(paths.into_iter().filter(is_wheel).collect())
 }
 
-/// Runs a command and shows its output once it is done: others may be at work.
+/// Runs a command and prints its output once it is done, since other commands may run at the same
+/// time.
 fn run(command: &mut Command) -> anyhow::Result<()> {
     let done = command.output().with_context(|| format!("{command:?}"))?;
     let said = [done.stdout, done.stderr].concat();

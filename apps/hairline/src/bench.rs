@@ -71,7 +71,7 @@ pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The bench's scene as it is asked for.
+/// Scene of the bench, by the command line.
 fn stage(arguments: &cli::Bench, size_px: [u32; 2]) -> Stage {
     let stage = Stage::default();
     Stage {

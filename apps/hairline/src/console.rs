@@ -27,8 +27,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Installs a hook by which a panic, which is a mistake of this program, is told of in one line, without the folders that it was
-/// built in.
+/// Installs a hook that reports a panic, which is a mistake of this program, in one line, without the folders of the build.
 pub fn tell_of_panics() {
     std::panic::set_hook(Box::new(|panic| tell(sentence(panic))));
 }

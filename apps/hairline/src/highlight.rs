@@ -11,7 +11,7 @@ use hairline_scene::text::shown;
 use crate::size_limit::SIDE_MAX_PX;
 use hairline_work::failure::Failure;
 
-/// Pixel of a wanted highlight, and its light.
+/// Pixel where a highlight should lie, and the light for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Highlight {
     /// The pixel, from the upper left corner.

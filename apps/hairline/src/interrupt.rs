@@ -1,4 +1,4 @@
-//! Ctrl-C, the signal that asks a process to end, and a terminal that hangs up: the first is a wish, the second an order.
+//! Signals: Ctrl-C, the signal to end a process, and the terminal's hang-up.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,7 +14,7 @@ pub fn cannot_listen(error: std::io::Error) -> Failure {
     Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}"))
 }
 
-/// Whether the user wants the work to stop.
+/// Whether the user has told the work to stop.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt {
     asked: Arc<AtomicBool>,
@@ -43,7 +43,7 @@ impl Interrupt {
     }
 }
 
-/// Whether who started this process wants it to go on when the terminal hangs up. Where the system does not say, all stays as it is.
+/// Whether the parent process has set hang-ups of the terminal to be ignored. Where the system does not say, all stays as it is.
 fn hang_ups_are_ignored() -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

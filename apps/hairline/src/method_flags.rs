@@ -70,7 +70,7 @@ pub enum Si {
 }
 
 impl MethodFlags {
-    /// The method that the flags ask for.
+    /// Method by the flags.
     ///
     /// # Errors
     /// Where they contradict one another.
@@ -108,7 +108,7 @@ impl MethodFlags {
         Ok(method)
     }
 
-    /// The fewest flags that ask for `method`.
+    /// Shortest set of flags for `method`.
     fn of(method: &Method) -> Self {
         let (whole, base) = match method.published {
             None => (Whole::Default, Method::default()),
@@ -150,7 +150,7 @@ impl MethodFlags {
     }
 }
 
-/// The fewest flags that ask for a method; nothing for the default.
+/// Text of the shortest set of flags for a method; empty for the default.
 pub fn flags_of(method: &Method) -> String {
     MethodFlags::of(method).given().join(" ")
 }
@@ -228,7 +228,7 @@ mod tests {
         }
     }
 
-    /// Every method is said in flags that ask for it again.
+    /// Every method has flags that lead to it again.
     #[test]
     fn flags_lead_there_and_back() {
         let structures = [Structure::Bvh, Structure::TriangleLists];

@@ -76,7 +76,7 @@ impl Drop for Progress {
     }
 }
 
-/// Listener that shows on stderr how work goes, with a bar while a part of it is in progress.
+/// Listener that prints the progress of work to stderr, with a bar while a part of it runs.
 #[derive(Default)]
 pub struct Terminal {
     bar: Mutex<Option<Progress>>,

@@ -139,7 +139,7 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
     Ok(Output::check(&path)?)
 }
 
-/// The transport that is asked for, else the default.
+/// Transport of light by the flags, else the default.
 pub fn transport(
     shadows: Option<Switch>,
     bounces: Option<u32>,

@@ -35,7 +35,7 @@ pub struct Overrides<'a> {
     pub tone_map: Option<ToneMap>,
     /// Place for a light's mirror image.
     pub highlight: Option<&'a Highlight>,
-    /// Whether other lights than its own show its scratches.
+    /// Whether the scene's lights are replaced by lights that show its scratches.
     pub is_lit_for_scratches: bool,
 }
 
@@ -45,7 +45,7 @@ pub struct Loaded {
     pub scene: Scene,
     /// Description that was built: the file's, with the flags' changes in it.
     pub description: Description,
-    /// Folder to which the paths in it are relative.
+    /// Folder from which paths in the scene start.
     pub folder: PathBuf,
     /// Builder of the scene, which keeps its parts.
     builder: SceneBuilder,

@@ -52,7 +52,7 @@ pub fn run(arguments: &cli::View) -> Result<(), Failure> {
     })
 }
 
-/// Checks a scene, or a model to be shown in one.
+/// Checks a scene, or a model that is shown in a scene of its own.
 fn check(path: &Path) -> Result<(), hairline_scene::Error> {
     match Description::is_model(path) {
         true => probe::mesh(path).map(drop),

@@ -72,7 +72,7 @@ impl Page {
         self.0.take(names.into_iter().zip(contents).collect());
     }
 
-    /// Opens the scene in the fragment of an address, if there is one in it.
+    /// Opens the scene in the fragment of an address, if the fragment holds one.
     #[wasm_bindgen(js_name = openLink)]
     pub fn open_link(&self, fragment: &str) {
         self.0.open_link(fragment);

@@ -60,7 +60,7 @@ fn main() {
 /// Activity while frames are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Scenario {
-    /// The picture is finished, the interface drawn as fast as it can be.
+    /// The picture is finished, and the interface is drawn as fast as possible.
     Still,
     /// The view turns.
     Orbit,
@@ -143,7 +143,7 @@ impl Probe {
         }
     }
 
-    /// The number of the newest picture, and whether it is the last one of its view.
+    /// Number of the newest picture, and whether it is the last one of its view.
     fn picture(&self) -> (u64, bool) {
         let frame = self.viewer.engine().latest();
         frame.map_or((0, false), |frame| {

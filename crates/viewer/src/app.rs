@@ -46,7 +46,7 @@ pub struct Options {
     pub backend: Backend,
     /// Folder for autosaves and the list of recent files; none: they are not kept.
     pub state_dir: Option<PathBuf>,
-    /// Whether to ask for files by the system's dialogs; else by a line in the window.
+    /// Whether files are chosen in the system's dialogs; else in a line of the window.
     pub native_dialogs: bool,
     /// Shadows and bounces, until they are switched.
     pub transport: Transport,
@@ -60,7 +60,7 @@ pub struct Viewer {
     files: Files,
     export: Export,
     compare: Compare,
-    /// The camera is to show all of the next scene that is built.
+    /// Whether the camera frames the next scene that is built.
     frame_when_built: bool,
     /// The window may close.
     is_closing: bool,
@@ -77,7 +77,7 @@ pub struct Viewer {
     built_in: &'static str,
     /// The description that the engine was given last, and when the notes about it were read.
     asked: Option<Arc<Description>>,
-    /// Revision of the document when the engine was last asked for a scene.
+    /// Revision of the document that the engine was last told to build.
     asked_revision: u64,
     /// Title that the window was given.
     title: String,
@@ -181,7 +181,7 @@ impl Viewer {
         &self.work.engine
     }
 
-    /// View that the engine was asked for last, for tests.
+    /// View that the engine was last told to paint, for tests.
     pub fn view(&self) -> Option<crate::engine::View> {
         self.viewport.view
     }
@@ -313,7 +313,7 @@ impl Viewer {
         self.dialogs.is_modal() || self.export.is_asking() || self.files.is_about_to_ask()
     }
 
-    /// Makes the window close, without a question, when `loss` is told.
+    /// Closes the window, without a question, when `loss` is reported.
     #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn watch(&mut self, loss: WindowLoss) {
         self.loss = loss;
@@ -377,7 +377,7 @@ impl eframe::App for Viewer {
     }
 }
 
-/// A scene file, or a model in a scene of its own.
+/// Opens a scene file, or a model in a scene of its own.
 fn open(path: &Path) -> Result<Document, hairline_scene::Error> {
     match Description::is_model(path) {
         true => {

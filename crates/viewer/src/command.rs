@@ -1,4 +1,4 @@
-//! Everything that a menu, a button or a key can ask for: one table, which the menus, the toolbar and the help read.
+//! All commands of menus, buttons and keys in one table, from which the menus, the toolbar and the help are made.
 
 mod key_text;
 

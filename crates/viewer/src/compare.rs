@@ -24,14 +24,14 @@ const STILL_S: f64 = 0.3;
 pub(crate) struct Compare {
     open: bool,
     side: Side,
-    /// Whether as many pixels are sampled as the window shows.
+    /// Whether the comparison has as many pixels as the window's picture.
     full_size: bool,
     /// Position of the divider from 0, left, to 1.
     divider: f32,
-    /// Comparison that was wanted in the last pass, and since when.
+    /// Comparison that was wanted in the last pass, and the time since which it is wanted.
     wanted: Option<(Wanted, f64)>,
     sampling: Option<Sampling>,
-    /// Jobs that were asked to stop, and have not ended yet.
+    /// Jobs that were told to stop, and have not ended yet.
     ending: Vec<Job>,
     kept: Arc<Mutex<Kept>>,
     refused: Option<String>,
@@ -90,7 +90,7 @@ impl Compare {
         self.texture.forget();
     }
 
-    /// Samples the wanted comparison once it has stood still. `now` is in seconds.
+    /// Starts sampling the wanted comparison once it has not changed for a while. `now` is in seconds.
     fn follow(&mut self, ctx: &egui::Context, wanted: Wanted, now: f64) {
         let since = match &self.wanted {
             Some((last, since)) if last.is_same(&wanted) => *since,
@@ -140,7 +140,7 @@ impl Compare {
         sampling.is_some_and(|sampling| sampling.job.is_over()) && !enough()
     }
 
-    /// Figures of the shown comparison.
+    /// Figures of the comparison that is shown.
     pub fn figures(&self) -> Option<Figures> {
         let shown = self.shown()?;
         Some(shown.compared.as_ref()?.figures.clone())

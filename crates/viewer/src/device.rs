@@ -5,7 +5,7 @@ use std::sync::Arc;
 use eframe::egui_wgpu::{RenderState, WgpuSetup, WgpuSetupCreateNew};
 use hairline_gpu::{Adapter, AdapterKind, Error, Gpu};
 
-/// Renderer that is asked for.
+/// Choice of the renderer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Renderer {
     /// The window's GPU; where that is a driver that computes on the CPU, the CPU renderer, which is faster.

@@ -54,7 +54,7 @@ pub(crate) use steps::SHADOW_SAMPLES;
 use in_turn::InTurn;
 use request::Shared;
 
-/// The two threads, or the work in turn that takes their place. Dropping it stops them, at once or after the pixels that they are at.
+/// Two threads, or the work by turns that replaces them. Dropping it stops them, at once or after the pixels that they are at.
 pub struct Engine {
     shared: Arc<Shared>,
     workers: Workers,
@@ -109,8 +109,8 @@ impl Engine {
         }
     }
 
-    /// Does a slice of the wanted work, where there are no threads for it: some 20 ms, but for the building of a scene, the first picture
-    /// of a movement and the time of a single row. Returns when to come again; none: when something is wanted.
+    /// Does a slice of the work, if there are no threads: some 20 ms, but for the building of a scene, the first picture of a movement and
+    /// the time of a single row. Returns when to come again; none: when something is wanted.
     pub fn work(&mut self) -> Option<Duration> {
         match &mut self.workers {
             #[cfg(not(target_arch = "wasm32"))]
@@ -129,13 +129,13 @@ impl Engine {
         self.shared.want_view(view);
     }
 
-    /// The view that is wanted.
+    /// The current view.
     pub fn view(&self) -> Option<View> {
         self.shared.view()
     }
 
-    /// Blocks until there is a picture of the view that is wanted and of the scene of this revision, something went wrong, or
-    /// `patience` is over. That picture wakes nobody. For an interface that can draw nothing else meanwhile.
+    /// Blocks until there is a picture of the current view and of the scene of this revision, something went wrong, or `patience` is over.
+    /// That picture does not call [`Wake`]. For an interface that can draw nothing else meanwhile.
     #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn wait_for_picture(&self, revision: u64, patience: Duration) {
         self.shared.wait_for_frame(revision, patience);

@@ -50,7 +50,7 @@ impl Export {
         self.form.is_some()
     }
 
-    /// Remembers the form, with which the next question of its kind begins.
+    /// Stores the form as the start of the next question of its kind.
     fn remember(&mut self, form: Form) {
         let kind = usize::from(form.is_turntable);
         self.earlier[kind] = Some(form);
@@ -107,8 +107,8 @@ impl Export {
         }
     }
 
-    /// Begins an export that has waited for its scene, tells of those that have ended, and shows the progress. `area` is
-    /// the picture's.
+    /// Begins an export that has waited for its scene, reports those that have ended, and shows the progress. `area` is the
+    /// picture's.
     pub fn show(&mut self, ctx: &egui::Context, work: &mut Workspace, area: Rect) {
         self.start(ctx, work);
         self.end(&mut work.notices);

@@ -19,7 +19,7 @@ use web_time::Instant;
 use crate::platform::HAS_THREADS;
 use watch::{Change, Watch};
 
-/// Use of a path that is asked for.
+/// Use of a path that the user chooses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
     Open,
@@ -46,7 +46,7 @@ impl Purpose {
         }
     }
 
-    /// Name and extensions of the files that are shown.
+    /// Name and extensions of the files that a dialog lists.
     fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Open => ("Hairline scenes and models", &["toml", "glb", "gltf"]),
@@ -161,7 +161,7 @@ impl Files {
         left
     }
 
-    /// Whether it is not known yet who asks for the path: the system, or a line in the window.
+    /// Whether it is still open which dialog appears for the path: the system's, or a line in the window.
     pub fn is_about_to_ask(&self) -> bool {
         let waiting = self.waiting.as_ref();
         waiting.is_some_and(|waiting| waiting.since.elapsed() <= NO_HAND)
@@ -192,7 +192,7 @@ impl Files {
         }
     }
 
-    /// Looks into a model or a map in a thread of its own: a large one takes its time. The answer comes by
+    /// Reads the head of a model or a map in a thread of its own, since a large file takes long. The answer comes from
     /// [`Self::chosen`].
     pub fn probe(&mut self, purpose: Purpose, path: PathBuf, wake: egui::Context) {
         let (sender, answer) = channel();
@@ -318,7 +318,7 @@ fn ask_system(
     let _ = std::thread::Builder::new().spawn(work);
 }
 
-/// A path as it is typed: `~` is the user's own folder.
+/// Path as typed, with `~` for the user's own folder.
 pub(crate) fn from_home(typed: &str) -> PathBuf {
     let path = Path::new(typed);
     match (path.strip_prefix("~"), std::env::home_dir()) {
@@ -327,7 +327,7 @@ pub(crate) fn from_home(typed: &str) -> PathBuf {
     }
 }
 
-/// Whether two names lead to one file, as far as that can be told.
+/// Whether two names lead to one file, as far as the system shows.
 pub(crate) fn is_same(a: &Path, b: &Path) -> bool {
     a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }

@@ -10,7 +10,7 @@ use hairline_scene::description::Camera;
 #[derive(Default)]
 pub(crate) struct FreeView {
     pub camera: Option<Camera>,
-    /// Point that was made sharp in it; none: the point that the scene's camera has in focus.
+    /// Point in focus, chosen in the view; none: the point in focus of the scene's camera.
     pub focused_m: Option<DVec3>,
     /// Whether navigation moves the scene's camera.
     pub moves_camera: bool,

@@ -86,8 +86,8 @@ impl Gallery {
     }
 }
 
-/// Renders the wanted pictures until there are none, or the gallery is gone: on one thread, since a menu can wait and the picture
-/// in the window cannot.
+/// Renders the pictures that are wanted until there are none left, or the gallery is closed: in one thread, since a menu can wait
+/// and the picture in the window cannot.
 fn work(desk: &Weak<Mutex<Desk>>, wake: &egui::Context) {
     crate::priority::lower();
     let pool = rayon::ThreadPoolBuilder::new()

@@ -9,7 +9,7 @@ use rayon::ThreadPoolBuilder;
 
 use crate::priority;
 
-/// Whether the work is still wanted.
+/// A flag that tells work to stop.
 #[derive(Clone, Default)]
 pub(crate) struct Stop(Arc<AtomicBool>);
 
@@ -80,7 +80,7 @@ impl Job {
         self.stop.ask();
     }
 
-    /// Asks it to stop, and leaves it to end when it can: nobody waits for that.
+    /// Tells the work to stop, and lets it end by itself, without waiting.
     pub fn leave(mut self) {
         self.stop.ask();
         self.thread = None;

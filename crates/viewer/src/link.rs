@@ -14,7 +14,7 @@ const MOST_BYTES: usize = 8 << 10;
 /// A short fragment must not fill the memory.
 const MOST_TEXT_BYTES: usize = 1 << 20;
 
-/// Reason why there is no link, or no scene in it.
+/// Reason why there is no link, or why a link holds no scene.
 #[derive(Debug, PartialEq, thiserror::Error)]
 pub(crate) enum Error {
     /// The scene does not fit.
@@ -26,7 +26,7 @@ pub(crate) enum Error {
         /// Length of the fragment.
         needed: usize,
     },
-    /// The link is cut short, or something in it was changed.
+    /// The link is cut short, or a part of it was changed.
     #[error(
         "the link holds no whole scene: it was cut short or changed on its way; ask for the whole of it"
     )]

@@ -15,7 +15,7 @@ pub(crate) enum Kind {
 struct Notice {
     kind: Kind,
     text: String,
-    /// Time at which it was first shown, or last while a scene was being built, seconds.
+    /// Time in seconds at which the notice was first shown, or last shown while a scene was being built.
     since: Option<f64>,
     /// Replaced by the next of the same topic.
     topic: &'static str,
@@ -35,7 +35,7 @@ pub(crate) struct Notices {
     list: Vec<Notice>,
 }
 
-/// A note goes by itself after this time, and as much longer for each further line as it takes to read it.
+/// Seconds after which a note disappears, and the additional time for each further line, which takes time to read.
 const NOTE_SECONDS: f64 = 5.0;
 const LINE_SECONDS: f64 = 3.0;
 /// Largest number of messages: more would hide the picture.

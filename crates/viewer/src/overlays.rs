@@ -5,7 +5,7 @@
 pub(crate) enum Overlay {
     /// Directions of the scratches of the selected layer.
     Directions,
-    /// Directions of the scratches of all layers that are shown.
+    /// Directions of the scratches of all visible layers.
     AllDirections,
     /// The edge of the brush on the surface.
     Brush,
@@ -17,7 +17,7 @@ pub(crate) enum Overlay {
     Names,
 }
 
-/// Kinds of overlays that are shown.
+/// Choice of the visible overlays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Overlays {
     shown: [bool; Overlay::ALL.len()],
@@ -71,7 +71,7 @@ impl Overlays {
         }
     }
 
-    /// Hides all, or shows those again that are switched on.
+    /// Hides all overlays, or shows those again that are switched on.
     pub fn toggle_all(&mut self) {
         self.are_hidden = !self.are_hidden;
     }

@@ -1,4 +1,4 @@
-//! The window in a page of a browser, and the page's calls to it.
+//! The window in a page of a browser, and its functions for the page.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -123,7 +123,7 @@ impl Page {
         });
     }
 
-    /// Opens the scene in the fragment of an address, if there is one in it.
+    /// Opens the scene in the fragment of an address, if the fragment holds one.
     pub fn open_link(&self, fragment: &str) {
         self.change(|viewer, context| viewer.open_link(context, fragment));
     }

@@ -25,7 +25,7 @@ use egui::Ui;
 use crate::command::Command;
 use crate::workspace::Workspace;
 
-/// A button that asks for a command.
+/// A button for a command.
 fn button(ui: &mut Ui, work: &mut Workspace, command: Command) {
     if ui.button(command.label()).clicked() {
         work.wished.push(command);

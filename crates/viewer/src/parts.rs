@@ -39,7 +39,7 @@ pub(crate) fn names(work: &Workspace, object: &str) -> Names {
     names
 }
 
-/// The material and the node that tell the part of an object in which a triangle lies from the others; none where there is one alone.
+/// Material and node that distinguish the part of an object with a triangle from the other parts; none if there is one part alone.
 pub(crate) fn at(
     scene: &Scene,
     described: &Object,

@@ -1,4 +1,4 @@
-//! Who goes first where threads want the same core.
+//! Priorities of threads on one core.
 
 #[cfg(not(target_arch = "wasm32"))]
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
@@ -8,8 +8,8 @@ use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_pr
 #[cfg(not(target_arch = "wasm32"))]
 const PRIORITY: u8 = 40;
 
-/// Lets the interface's threads go before this one, and before those that it starts, where the system hands the priority on. A browser has one
-/// thread, whose turns `engine::in_turn` keeps short.
+/// Gives this thread, and those that it starts if the system hands the priority on, a lower priority than the interface's threads. A browser
+/// has one thread, whose turns `engine::in_turn` keeps short.
 pub(crate) fn lower() {
     #[cfg(not(target_arch = "wasm32"))]
     if let Ok(priority) = ThreadPriorityValue::try_from(PRIORITY) {

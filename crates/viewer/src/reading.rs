@@ -35,7 +35,7 @@ pub(crate) struct ReadingState {
 }
 
 impl ReadingState {
-    /// Reading that the painter is asked for; `frame_px` is the size of the scene's picture in the window.
+    /// Reading for the painter; `frame_px` is the size of the scene's picture in the window.
     pub fn wanted(&self, frame_px: [u32; 2]) -> Wanted {
         Wanted {
             shows: self.shows,

@@ -16,17 +16,17 @@ use crate::notices::Notices;
 use crate::seen::makes_same_scene;
 use crate::viewport::canvas::CanvasTexture;
 
-/// A picture of a window takes some megabytes.
+/// Largest number of snapshots: the picture of a window takes some megabytes.
 const MOST: usize = 24;
 
 /// All snapshots, and which is being looked at.
 pub(crate) struct Snapshots {
     list: Vec<Snapshot>,
-    /// Counts those that were ever taken: names stay unique.
+    /// Number of all snapshots that were ever taken, from which names are made.
     taken: usize,
     /// Index of the one that was chosen last.
     chosen: Option<usize>,
-    /// Whether it is shown, in its way.
+    /// Whether the chosen snapshot is shown, in the way of `way`.
     is_shown: bool,
     way: Way,
     /// Position of the divider from 0, left, to 1.
@@ -79,7 +79,7 @@ struct Snapshot {
 }
 
 impl Snapshot {
-    /// Takes a picture if it is of this look and better than the one that is there.
+    /// Takes over a picture of the snapshot's look, unless the snapshot has a finished one.
     fn see(&mut self, frame: &Arc<Frame>) {
         let is_finished = |frame: &Frame| frame.painted.is_final;
         if self.frame.as_deref().is_some_and(is_finished) {
@@ -109,7 +109,7 @@ impl Snapshots {
         self.is_shown = false;
     }
 
-    /// Whether the snapshot is shown outside the place of the picture.
+    /// Whether the snapshot covers the whole picture.
     pub fn cover(&self) -> bool {
         self.is_shown && self.way != Way::Slider
     }

@@ -10,7 +10,7 @@ pub(crate) enum Tool {
     Select,
     /// Drag lays scratches along the stroke.
     Brush,
-    /// Drag takes scratches of the selected layer away.
+    /// Dragging removes scratches of the selected layer.
     Eraser,
     /// Click or drag moves the selected light so that its highlight falls there.
     PlaceLight,

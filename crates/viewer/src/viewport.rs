@@ -1,4 +1,4 @@
-//! The picture, and the mouse in it.
+//! The picture, and the handling of the mouse in it.
 
 mod area;
 pub(crate) mod canvas;

@@ -49,7 +49,7 @@ pub fn open(options: Options, renderer: Renderer) -> Result<(), Error> {
     open_as(options, renderer, |viewer| Box::new(viewer))
 }
 
-/// Opens the window with the viewer in the hands of another program, such as one that takes its times.
+/// Opens the window with the viewer inside of another program, such as one that measures its times.
 ///
 /// # Errors
 /// [`Error::NoWindow`], [`Error::Lost`].
@@ -100,7 +100,7 @@ pub fn open_as(
     }
 }
 
-/// Makes `loss` told when the window's device is lost.
+/// Reports to `loss` when the window's device is lost.
 fn watch(state: Option<&RenderState>, backend: &Backend, loss: &WindowLoss) {
     let Some(state) = state else { return };
     loss.watch(&state.device);

@@ -40,9 +40,9 @@ pub(crate) struct Workspace {
     pub closed_lens: Option<(f64, Option<f64>)>,
     /// Files that the scene names and that were not there when it was to be built.
     pub missing: Vec<(FileUse, PathBuf)>,
-    /// Notes on the scene's models that were told last.
+    /// Notes on the scene's models that were shown last.
     pub model_notes: Vec<String>,
-    /// Commands that panels ask for, to be done once all are shown.
+    /// Commands of panels, to be run once all panels are shown.
     pub wished: Vec<Command>,
 }
 
@@ -52,7 +52,7 @@ impl Workspace {
         self.document.selection()
     }
 
-    /// Applies an action as one step, or tells why it was refused.
+    /// Applies an action as one step, or shows why it was refused.
     pub fn apply(
         &mut self,
         label: &str,
@@ -138,7 +138,7 @@ impl Workspace {
         self.document.path().is_some_and(|own| is_same(own, path))
     }
 
-    /// The ways of light that the window asks for.
+    /// Transport of light that the window orders.
     pub fn wanted_transport(&self) -> Transport {
         match self.transport.shadows {
             true => self.transport,

@@ -20,7 +20,7 @@ use crate::listener::Listener;
 pub use fine::FINE_SAMPLES;
 use on_gpu::OnGpu;
 
-/// Renderer that the user asks for.
+/// Choice of the renderer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Backend {
     /// A GPU if there is one, else the CPU renderer.
@@ -37,7 +37,7 @@ pub enum Backend {
 pub struct Task {
     /// Method by which scratches are rendered.
     pub method: Method,
-    /// Renderer that the user asks for.
+    /// Choice of the renderer.
     pub backend: Backend,
     /// Samples of each pixel on an edge.
     pub samples: u32,
@@ -55,11 +55,11 @@ pub struct Rendered {
     pub image: Image,
     /// Samples of each pixel with shadows, or of each pixel on an edge.
     pub samples: u32,
-    /// Samples that were asked for; there are fewer if the work was stopped.
+    /// Number of samples in the task; the picture has fewer if the work was stopped.
     pub wanted: u32,
 }
 
-/// Reason why a [`Task`] cannot be done as it is asked for.
+/// Reason why a [`Task`] cannot be done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
     /// Bounces without shadows: the light that an object hides would be counted beside its own.
@@ -68,7 +68,7 @@ pub enum Refusal {
     ShadowsOfPublished,
 }
 
-/// The ways of light that are asked for; where nothing is, the default as far as the method has it.
+/// Transport of light from the user's choices, with the method's defaults for those that are left open.
 ///
 /// # Errors
 /// Why no renderer does what is asked for.
@@ -135,7 +135,7 @@ enum OpenRenderer<'a> {
 }
 
 impl<'a> Painter<'a> {
-    /// Builds the structures for rendering, chooses the renderer, and tells in one line which and why. `Auto` takes a GPU if there is one, else the CPU
+    /// Builds the structures for rendering, chooses the renderer, and reports in one line which and why. `Auto` takes a GPU if there is one, else the CPU
     /// renderer.
     ///
     /// # Errors
@@ -194,7 +194,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Renders all that the scene shows.
+    /// Renders all rays that the camera sees.
     fn render_visible(
         &mut self,
         scene: &Scene,
@@ -376,7 +376,7 @@ impl<'a> OpenRenderer<'a> {
     }
 }
 
-/// Trees and tables, also those that only some methods look up: built now, and not again for each picture.
+/// Builds trees and tables, also those that only some methods use: once, and not again for each picture.
 fn prepared<'a>(scene: &'a Scene, method: &Method, listener: &dyn Listener) -> Box<Prepared<'a>> {
     let prepared = sorted(listener, |watch| Prepared::watched(scene, watch));
     if method

@@ -1,5 +1,5 @@
-//! The work that is asked for by the command line and by Python: rendering a scene, and references that can be stopped
-//! and continued. The caller is told of the progress by a [`Listener`], and shows it in its own way.
+//! Work of the command line and of Python: rendering a scene, and references that can be stopped and continued. The
+//! caller is told of the progress by a [`Listener`], and shows it in its own way.
 
 #![warn(unreachable_pub)]
 

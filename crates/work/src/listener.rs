@@ -1,11 +1,11 @@
-//! Who is told how work goes.
+//! Listener to the progress of work.
 
 /// Listener to long work, from any thread.
 pub trait Listener: Sync {
     /// Tells a sentence once: the renderer and the reason for it.
     fn tell(&self, line: &str);
 
-    /// Something is not as it should be, and the work goes on.
+    /// Reports a problem that does not stop the work.
     fn warn(&self, warning: &str);
 
     /// A part of the work begins, at nothing done. A verb: "sorting scratches".

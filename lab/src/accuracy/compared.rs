@@ -37,13 +37,13 @@ pub struct LayerFigures {
     pub rms: Figure,
     /// Relative rms of the noise alone.
     pub noise: f64,
-    /// Mean FLIP, where the layer is shown in colour. The noise is in it.
+    /// Mean FLIP, for layers with colours. It includes the noise.
     pub flip: Option<f64>,
     /// Verdict of the z-test, in words.
     pub verdict: String,
 }
 
-/// `image` against `reference`, one of which at least is a Monte Carlo estimate.
+/// Compares `image` with `reference`; at least one of them is a Monte Carlo estimate.
 pub fn compared(image: &Image, reference: &Image, display: &Display) -> Compared {
     let mask = away_from_silhouettes(image, reference, SILHOUETTE_DEPTH);
     let (a, b) = (Layers::from(image), Layers::from(reference));

@@ -21,8 +21,8 @@ impl Figure {
         }
     }
 
-    /// Formats the number with as many digits as its error leaves it: two of the error, and at most `most`
-    /// decimals.
+    /// Formats the number with as many digits as its error allows: two digits of the error, and at most
+    /// `most` decimals.
     pub fn text(self, scale: f64, most: f64) -> String {
         let (value, error) = (scale * self.value, scale * self.error);
         let decimals = if error > 0.0 {

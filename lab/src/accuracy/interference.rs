@@ -31,9 +31,9 @@ const SPACINGS_UM: [f64; 11] = [
     2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 50.0, 70.0, 100.0,
 ];
 const PIXELS_UM: [f64; 6] = [10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0];
-/// The spacing of the row that is shown over angle, and of the random grooves that are shown over pixels.
+/// Spacing of the row in the figure over angle, and of the random grooves in the figure over pixels.
 const SHOWN_UM: f64 = 10.0;
-/// Random grooves are seen along so long a way, but at least along that of so many grooves, at places so far apart.
+/// Length of the stretch of random grooves, which has at least WAY_GROOVES grooves; places on it are STEP_UM apart.
 const WAY_UM: f64 = 1000.0;
 const WAY_GROOVES: f64 = 60.0;
 const STEP_UM: f64 = 5.0;
@@ -58,7 +58,7 @@ pub struct Interference {
 #[derive(Serialize, Deserialize)]
 pub struct Profile {
     pub random: bool,
-    /// q in direction cosines, with all phases, and without those between grooves.
+    /// q in direction cosines, the response with all phases, and that without phases between grooves.
     pub points: Vec<[f64; 3]>,
 }
 
@@ -189,8 +189,8 @@ impl SeenResponses {
         }
     }
 
-    /// Responses that pixels of this size see: one for all places of a period, else one at each place far enough from the
-    /// ends.
+    /// Responses seen by pixels of this size: one for all places in a period, else one at each place that is far enough
+    /// from the ends.
     fn pixels(&self, pixel_um: f64) -> Vec<Vec<Response>> {
         let average = |weights: &dyn Fn(usize) -> f64| {
             let mut sum = vec![Response::default(); Q_COUNT];

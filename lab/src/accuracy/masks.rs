@@ -24,7 +24,7 @@ const BUDGET: Budget = Budget {
     goal: (Layer::Beauty, 0.0),
 };
 
-/// A mirror seen from a little aside, a tenth of it covered.
+/// A mirror seen from a little to the side, with a tenth of it covered.
 fn mirror() -> Stage {
     Stage {
         size_px: 8,

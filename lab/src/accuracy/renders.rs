@@ -67,8 +67,8 @@ impl Renders {
         if self.quick { quick } else { thorough }
     }
 
-    /// A Monte Carlo picture, with as many samples as the budget asks for until it is as sure as it should be against
-    /// `closed`. `label` tells whoever waits.
+    /// Renders a Monte Carlo picture, with more samples until the budget's goal against `closed` is met. `label`
+    /// tells whoever waits.
     pub fn reference(
         &self,
         label: &str,
@@ -137,7 +137,7 @@ pub fn closed_form(scene: &Scene, samples: u32, mask: Mask) -> Image {
     )
 }
 
-/// Text that is digested as it is written.
+/// Hash of a text that is written to it.
 struct Digest(blake3::Hasher);
 
 impl Write for Digest {

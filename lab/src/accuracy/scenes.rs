@@ -15,7 +15,7 @@ use super::renders::{Budget, Renders, closed_form};
 
 /// A crop's size: few pixels, of which many samples can be had.
 const CROP_PX: [u32; 2] = [32, 18];
-/// Size of the crop for the full model, which takes a hundred times as long, and that of a quick run.
+/// Size of the crop for the full model, which takes a hundred times as long, and size for a quick run.
 const FULL_PX: [u32; 2] = [16, 9];
 const FULL_QUICK_PX: [u32; 2] = [8, 5];
 /// A whole picture's size.
@@ -34,8 +34,8 @@ const WHOLE_BUDGET: Budget = Budget {
     goal: (Layer::Scratches, 0.01),
 };
 
-/// A scene file and the part of it to look at: where scratches are lit, but not in the middle of a light's
-/// reflection.
+/// A scene file and the part of its picture that is measured: where scratches are lit, but not in the
+/// middle of a light's reflection.
 struct View {
     name: &'static str,
     file: &'static str,
@@ -204,7 +204,7 @@ fn crop(scene: &Scene, middle: DVec2, size_px: [u32; 2]) -> Scene {
     crop
 }
 
-/// The median side of a pixel at the depth of its surface.
+/// Median side of a pixel at the depth of its surface, in micrometres.
 fn pixel_um(scene: &Scene, image: &Image) -> f64 {
     let frame = scene.camera.frame(scene.render.size_px);
     let mut depths: Vec<f32> = image.depth_m.iter().copied().filter(|z| *z > 0.0).collect();

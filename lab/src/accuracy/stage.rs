@@ -43,7 +43,7 @@ pub struct Stage {
     pub width_um: f64,
     pub depth_nm: f64,
     pub length_um: f64,
-    /// Scratches lie within this angle of the plane of incidence; a quarter turn is every direction.
+    /// Largest angle of scratches to the plane of incidence; a quarter turn is every direction.
     pub spread_rad: f64,
     pub seed: u64,
 }

@@ -21,7 +21,7 @@ const FULL_BUDGET: Budget = Budget {
     most: 256,
     goal: (Layer::Scratches, 0.015),
 };
-/// The picture's side for the full model, which takes a hundred times as long. And for a look alone.
+/// Side of the picture for the full model, which takes a hundred times as long, and for a quick run.
 const FULL_PX: u32 = 20;
 const FULL_QUICK_PX: u32 = 6;
 const BASE_BUDGET: Budget = Budget {
@@ -127,7 +127,7 @@ fn rough(stage: Stage, roughness: f64, lamp: Lamp) -> Stage {
 /// Figures at one value of a knob.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct SweepPoint {
-    /// The knob's value, in the unit of its name.
+    /// Value of the varied parameter, in the unit of its name.
     pub x: f64,
     /// Closed form against separable.
     pub closed: Compared,

@@ -16,7 +16,7 @@ const TEMPLATE: &str = include_str!("accuracy.md.jinja");
 /// Results that `tests/peers/peer.py` wrote: it needs Python and Mitsuba, and is not run here.
 const PEERS: &str = include_str!("../../../tests/peers/results.md");
 
-/// Figures by which the words of the text are decided.
+/// Figures that decide the wording of the text.
 #[derive(Serialize)]
 struct Facts {
     scenes: Option<SceneFacts>,
@@ -48,7 +48,7 @@ struct SweepFacts {
     worst: Vec<(String, f64, Figure)>,
 }
 
-/// Rms errors of the incoherent sum for the smallest and the largest light, at the spacing that is shown.
+/// Rms errors of the incoherent sum for the smallest and the largest light, at the spacing in the figure.
 #[derive(Serialize)]
 struct InterferenceFacts {
     lights: [f64; 2],

@@ -14,12 +14,12 @@ use super::search::{grid, nelder_mead, uniform_direction};
 const N: usize = ENVIRONMENT_TAPS;
 /// Slopes from the mirror direction over alpha, then logarithms of alphas over that of the surface.
 type Places = [f64; 2 * N];
-/// Shares to which those are drawn that the lobes leave open, and the strength of this, relative to the lobe.
+/// Usual shares, to which shares are drawn where the fit leaves them open, and the strength of this pull, relative to the lobe.
 const USUAL_SHARES: [f64; N] = [0.2661, 0.2399, 0.2399, 0.1271, 0.1271];
 const SHARES_HELD: f64 = 1e-4;
 /// The least share of the first, from which the mean is taken on.
 const FIRST_SHARE: f64 = 0.004;
-/// Strength with which places are held to those of the nodes before.
+/// Strength of the pull of places towards those of the nodes before.
 const PLACES_HELD: f64 = 2e-5;
 /// Bounds of the logarithms. Narrower look-ups would fit narrow lobes better, as a row of dots.
 const NARROWEST: f64 = -1.5;

@@ -14,7 +14,7 @@ const PATIENCE: u64 = 10;
 /// A message of one line is no longer than this.
 const LONGEST_MESSAGE: usize = 4096;
 
-/// Memory of the program itself, and of what its estimate of a scene may leave out, in MiB.
+/// Memory of the program itself and tolerance of its estimate of a scene, in MiB.
 const UNCOUNTED_MEBIBYTES: u64 = 192;
 
 /// Limits of time and memory of a case.
@@ -70,7 +70,7 @@ pub fn judge(
     Ok(None)
 }
 
-/// The most memory that a process has had at once, where the system tells.
+/// Peak memory of a process, in MiB; 0 where the system does not report it.
 fn resident_mebibytes(process: u32) -> u64 {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
@@ -91,7 +91,8 @@ fn estimated_mebibytes(program: &Path, folder: &Path, limits: &Limits) -> Result
     Ok((bytes.context("no estimate_bytes")? / f64::from(1 << 20)) as u64)
 }
 
-/// The program with limits of its processor time and memory, where there is a shell that sets them.
+/// Command that runs the program with limits of processor time and memory, where there is a shell that
+/// sets them.
 fn limited(program: &Path, limits: &Limits) -> Command {
     if cfg!(unix) {
         let mut shell = Command::new("sh");

@@ -95,7 +95,7 @@ const WEBP: [&[u8]; 2] = [image!("lossy.webp"), image!("lossless.webp")];
 /// Row by row, with colours of half the size and marks to begin again at; and in passes.
 const JPEG: [&[u8]; 2] = [image!("baseline.jpg"), image!("progressive.jpg")];
 
-/// All of them, made once.
+/// All original files, made once.
 pub struct Originals {
     exr: Vec<u8>,
     hdr: Vec<u8>,
@@ -227,7 +227,8 @@ fn one<'a>(images: &[&'a [u8]], random: &mut Pcg64) -> &'a [u8] {
     images[random.random_range(0..images.len())]
 }
 
-/// A packed model, mostly with one of its pieces changed, and its text by that; now and then with its text changed.
+/// Changes a packed model: three times in four one of its pieces, whose new length goes into its text, else the
+/// text.
 fn repacked(original: &Packed, random: &mut Pcg64) -> Vec<u8> {
     let mut changed = original.clone();
     if random.random_range(0..4) > 0 {

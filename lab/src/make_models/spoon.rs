@@ -11,8 +11,7 @@ use super::spline::{Spline, smooth_step};
 pub const LENGTH_MM: f64 = 179.0;
 /// Place where the bowl's mesh ends and the handle's begins.
 pub const JOINT_MM: f64 = 72.0;
-/// Height by which the tip's frame is lifted so that the spoon rests on its back, on the bowl and the end of the handle, and
-/// its turn about y.
+/// Height of the tip's frame, and turn about y, at which the spoon rests on its back, on the bowl and the end of the handle.
 pub const ON_BACK_MM: f64 = 11.04;
 /// See [`ON_BACK_MM`].
 pub const ON_BACK_RAD: f64 = 0.0106;
@@ -25,7 +24,7 @@ pub const ON_FACE_RAD: f64 = -0.0753;
 const AROUND: usize = 48;
 const ALONG_BOWL: usize = 76;
 const ALONG_HANDLE: usize = 76;
-/// The half of the handle's texture that shows this much of y to either side shows its upper face, the other half its lower.
+/// Largest |y| in the handle's texture: one half of the texture shows the upper face, the other half the lower one.
 pub const TEXTURE_HALF_WIDTH_MM: f64 = 10.0;
 /// Step of the differences that stand for derivatives, mm and radians.
 const DIFFERENCE: f64 = 1e-5;

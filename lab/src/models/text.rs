@@ -100,7 +100,7 @@ fn lacking(out: &mut String, sources: &[Source]) {
     }
 }
 
-/// The extensions that files list, and whether each is told of.
+/// Writes the table of the extensions in the files, and whether a note reports each.
 fn extensions(out: &mut String, sources: &[Source]) {
     let mut counts: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
     for file in all(sources).filter(|file| file.outcome == Outcome::Rendered) {

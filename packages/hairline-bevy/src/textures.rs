@@ -49,8 +49,8 @@ pub struct ScratchedTextures<'w> {
 }
 
 impl ScratchedTextures<'_> {
-    /// Makes a material for a mesh in the frame of which `scratches` are. `metal` gives their spectrum, and how its reflectance goes with
-    /// the angle; none is a metal or a lacquer by its base colour. Takes 0.1 s for a metal's first.
+    /// Makes a material for a mesh, in whose frame `scratches` are. `metal` gives their spectrum, and how its reflectance goes with the
+    /// angle; none is a metal or a lacquer by its base colour. Takes 0.1 s for a metal's first.
     pub fn scratched(&mut self, metal: Option<Metal>, scratches: &Scratches) -> Scratched {
         let texels = &scratches.texels;
         let rows = texels.len() / scratch_tree::WIDTH;

@@ -1,4 +1,4 @@
-//! Closed forms that light reaches by way of other objects against the path tracer with as many bounces.
+//! Closed forms with light from other objects against the path tracer with as many bounces.
 
 use super::environment::over;
 use super::pictures::{LINEAR, compared, sampled};

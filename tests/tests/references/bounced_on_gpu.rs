@@ -1,4 +1,4 @@
-//! Light by way of other objects on the GPU against the CPU's, which the path tracer bears out (`bounced.rs`).
+//! Light from other objects on the GPU against the CPU's, which is tested against the path tracer (`bounced.rs`).
 
 use super::bounced::{a_wall_in_a_mirror, along_an_axis_in_a_mirror, scenes};
 use super::shadowed::bounced;

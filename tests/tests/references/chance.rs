@@ -59,7 +59,7 @@ fn twice_the_samples_half_the_variance() {
     }
 }
 
-/// Pictures of other seeds scatter by what each of them predicts.
+/// Pictures of different seeds scatter as much as each of them predicts.
 #[test]
 fn pictures_scatter_by_their_variance() {
     let scene = scene();

@@ -291,7 +291,7 @@ fn disks_and_stars() {
     }
 }
 
-/// Each point of a light has a cone of its own; closed forms have that of its middle for all. The plate lies in the fall-off.
+/// Each point of a light has its own cone; closed forms use the cone of the light's middle for all. The plate lies in the fall-off.
 #[test]
 fn cones() {
     let view = View {

@@ -43,7 +43,7 @@ fn mean_over_texel(size_px: [u32; 2], i: u32, value: impl Fn(DVec3) -> f64) -> f
     places.sum::<f64>() / f64::from(EACH_WAY * EACH_WAY)
 }
 
-/// The environment as it stands over the plate.
+/// The environment at its orientation over the plate.
 pub fn over(environment: Environment) -> Environment {
     environment.with_up(DVec3::Z, 0.7)
 }

@@ -81,7 +81,7 @@ fn single_grooves(field: GrooveField, coherence_um: f64, jitter: f64) -> Scene {
     scene
 }
 
-/// Light comes from the places of single grooves, in windows that show them.
+/// Light is right for the places of single grooves, in windows that show them.
 #[test]
 fn single_grooves_lie_where_they_are() {
     let field = grated(row(40.0, 4.0, 0.0, 0.0), 0.0, 0.1).objects[0].gratings[0].field;
@@ -210,7 +210,7 @@ fn small_spots_show_their_mean() {
     }
 }
 
-/// Spots that pixels tell apart: the mean of many pixels is that of Monte Carlo.
+/// Pixels show single spots: the mean of many pixels is that of Monte Carlo.
 #[test]
 fn spots_keep_their_mean() {
     for spacing_um in [83.0, 209.0] {

@@ -1,4 +1,4 @@
-//! Comparison of the masks with the highlight that the whole field leaves.
+//! Comparison of the masks with the highlight that remains by the whole field.
 
 use super::pictures::{mean, sampled};
 use super::scenes::{View, plate, scratch_alike, sphere};

@@ -104,7 +104,7 @@ fn a_soft_box_on_a_coat() {
     assert!(failures.is_empty(), "{failures:?}");
 }
 
-/// Grooves in order and grooves that lie about a little, without scratches and under some.
+/// Regular grooves and slightly displaced grooves, without scratches and under some.
 #[test]
 fn a_soft_box_on_a_grating() {
     let mut failures = Vec::new();

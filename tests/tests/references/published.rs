@@ -190,7 +190,7 @@ fn each_switch_alone() {
     assert!((0.02..0.5).contains(&base));
 }
 
-/// The talk's mask takes the share that lies within the pixel, whatever the scratches' depth, and never more than all.
+/// The talk's mask takes the share that lies within the pixel, independent of the scratches' depth, and never more than all.
 #[test]
 fn the_published_mask_is_the_density() {
     let mut scene = aslant();

@@ -235,7 +235,7 @@ fn under(scene: &Scene, environment: Environment) -> Scene {
     scene
 }
 
-/// One of [`scenes`] in a studio whose soft boxes are lights for scratches, as those of a file are.
+/// One of [`scenes`] in a studio whose soft boxes light scratches as a file's lights do.
 pub(super) fn in_a_studio() -> (&'static str, Scene) {
     let map = BuiltInMap::Studio.picture([256, 128]);
     let studio = Environment::with_lamps_parted(map, 0.0, 1.0, false);

@@ -97,7 +97,7 @@ fn what_rays_find_is_what_the_cpus_find() {
     }
 }
 
-/// Rays find the same on edges, whose samples share scratches, and rays by way of these.
+/// Rays give equal light on edges, whose samples share scratches and the rays off them.
 #[test]
 fn on_edges_rays_find_what_the_cpus_find() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/lid.toml");

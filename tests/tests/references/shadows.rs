@@ -44,7 +44,7 @@ const WHITE: Base = Base::Dielectric {
     base_color: [0.9, 0.7, 0.5],
 };
 
-/// Columns from one on, as many as are asked for.
+/// Columns of the image, `count` from `first` on.
 fn columns(image: &Image, first: u32, count: u32) -> Image {
     picked(image, [count, image.size_px[1]], |x, y| [first + x, y])
 }

@@ -156,8 +156,7 @@ fn coverage_is_that_of_images_and_vertices() {
     }
 }
 
-/// A black sheet between lamp, floor and camera takes its share of the light that falls, and again of the light that comes back; so in all
-/// renderers.
+/// A black sheet between lamp, floor and camera takes its share of the light on its way down, and again on its way up, in all renderers.
 #[test]
 fn sheets_take_their_share_of_the_light() {
     let mut open = floor([1.0; 3]);

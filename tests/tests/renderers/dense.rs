@@ -13,7 +13,7 @@ use hairline_scene::{Base, Light, Scene};
 /// Number of samples on edges.
 const SAMPLES: u32 = 4;
 
-/// A disk of steel under a sphere, seen from so far away.
+/// A disk of steel under a sphere, seen from `distance_m`.
 fn disk(size_px: [u32; 2], distance_m: f64, count: u32) -> Scene {
     let radius = "disk = { radius_m = 0.05 }";
     SceneFile::seen_from([0.0, -0.5 * distance_m, 0.866 * distance_m])

@@ -31,7 +31,7 @@ fn sky(w: DVec3) -> DVec3 {
     DVec3::new(0.2 + 0.6 * up, 0.25 + 0.55 * up, 0.5 + 0.3 * up) + 0.2 * w.x
 }
 
-/// A disk of the given angular radius with an edge a fifth of it wide.
+/// Radiance of a disk of the given angular radius, with an edge that is a fifth of it wide.
 fn disk(w: DVec3, towards: DVec3, radius_rad: f64) -> f64 {
     let t = (1.1 - w.angle_between(towards.normalize()) / radius_rad) / 0.2;
     let t = t.clamp(0.0, 1.0);

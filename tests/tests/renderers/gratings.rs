@@ -65,7 +65,7 @@ fn a_white_furnace_stays_white() {
     }
 }
 
-/// The mean wavelength of a first order in the picture, found by the angles there, is the one that the eye sees of it.
+/// The mean wavelength of a first order, computed from its angles in the picture, is the one that the eye's response gives.
 #[test]
 fn orders_lie_where_the_grating_equation_says() {
     // Of a compact disc orders 1 and 2 overlap beyond 0.47, and what the eye sees of the second begins at 0.5; of a DVD all wavelengths are within.
@@ -100,7 +100,7 @@ fn orders_lie_where_the_grating_equation_says() {
     }
 }
 
-/// An object under a strip lamp, and the size of all of it.
+/// An object under a strip lamp, and the width of the scene.
 struct Grooved {
     size_m: f64,
     object: &'static str,
@@ -317,7 +317,7 @@ fn disc(pitch_um: f64, side_px: u32) -> Scene {
         .scene()
 }
 
-/// A [`disc`] of which a pixel shows `pixel_um`, seen `aside_px` pixels further along x.
+/// A [`disc`] at `pixel_um` per pixel, with the camera moved by `aside_px` pixels along x.
 fn zoom(disc: &Scene, pixel_um: f64, aside_px: f64) -> Scene {
     let mut scene = disc.clone();
     let half = 0.5 * f64::from(scene.render.size_px[0]) * pixel_um * 1e-6 / 0.3;
@@ -422,7 +422,7 @@ fn flicker(pitch_um: f64, first_um: f64, filter_std_px: f64) -> f64 {
     most
 }
 
-/// Frames do not flicker where single grooves begin to show either, a few pixels apart. Pixels that look at points see other grooves in each frame there.
+/// Frames do not flicker either where single grooves, a few pixels apart, become visible. Pixels that look at points see other grooves in each frame there.
 #[test]
 fn frames_of_a_zoom_do_not_flicker() {
     for (pitch_um, limit) in [(1.6, 0.02), (30.0, 0.05)] {

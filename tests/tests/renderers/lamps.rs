@@ -90,7 +90,7 @@ fn both_renderers_see_the_same_shapes() -> Result<(), String> {
     Ok(())
 }
 
-/// Shapes hide nothing from one another's light, and lit objects show it once.
+/// Shapes of lamps hide no light of other lamps, and lit objects show each lamp once.
 #[test]
 fn what_they_light_stays_as_it_is() {
     let [seen, unseen] = [lamps(true), lamps(false)];
@@ -118,7 +118,7 @@ fn what_they_light_stays_as_it_is() {
     }
 }
 
-/// Monte Carlo shows a lamp as bright, and lit objects show it once, with bounces too.
+/// Monte Carlo shows a lamp as bright, and lit objects show it once, also with bounces.
 #[test]
 fn both_references_see_them() {
     for model in [Model::Separable, Model::Full] {
@@ -291,7 +291,7 @@ fn both_renderers_see_the_same_sun() -> Result<(), String> {
     Ok(())
 }
 
-/// A display shows white of whatever is bright enough, so that the linear mean of a pixel is white where the least part of it is.
+/// The linear mean of a pixel with a very bright part, however small, displays as white.
 #[test]
 fn a_bright_lamp_has_as_soft_an_outline_as_a_dim_one() {
     let lamp = |radiance: f64| {

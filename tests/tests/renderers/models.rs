@@ -224,7 +224,7 @@ fn what_is_cut_out_is_seen_through_and_lets_light_by() {
     assert!(seen.iter().all(|count| *count > 400), "{seen:?}");
 }
 
-/// A map of occlusion lets by exactly its share of the light of an environment that is the same all around.
+/// A map of occlusion passes exactly its share of the light of an environment that is the same all around.
 #[test]
 fn occlusion_takes_its_share_of_the_environment() {
     let mut open = white();
@@ -302,8 +302,8 @@ fn bumps(seed: u64) -> Texture {
     }
 }
 
-/// Clear layers with other normals than the surface under them, scratched, one of them with holes. What is under them glows and is brushed or
-/// not.
+/// Clear layers with other normals than the surface under them, scratched, one of them with holes. The surface under them glows and is
+/// brushed or not.
 #[test]
 fn balls_under_layers_of_other_normals() {
     let [coarse, fine] = [(0, 0.7), (1, 1.0)].map(Some);
@@ -362,7 +362,7 @@ fn balls_under_layers_of_other_normals() {
     }
 }
 
-/// Maps of reflections are factors on them, of which alpha is the weight and colours the colour: maps of one value are those of the products.
+/// Maps of reflections are factors on the reflection: alpha is the weight and the colours are the colour.
 #[test]
 fn maps_of_reflections_are_factors_on_them() {
     let mut mapped = white();

@@ -1,4 +1,4 @@
-//! The method of 2018 with each of its switches: the GPU against the CPU.
+//! The method of 2018 with each of its options: the GPU against the CPU.
 
 use conformance::two_renderers::compare;
 use conformance::{Sequence, middle};

@@ -8,7 +8,7 @@ use conformance::middle_of;
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use hairline_scene::{DEFAULT_SAMPLES, Scene};
 
-/// Widths of the whole picture and of its middle: whole pictures so small would see all scratches in each tile.
+/// Widths of the whole picture and of its middle: a whole picture of that size would have all scratches in each tile.
 const WIDTH_PX: u32 = 1280;
 const MIDDLE_PX: [u32; 2] = [120, 88];
 /// Scenes that are rendered twice.
@@ -73,7 +73,7 @@ fn no_scene_is_left_out() {
     }
 }
 
-/// The largest error that the comparison would let pass is less than one scratch of ten that is a tenth wider.
+/// The largest error that the comparison permits is less than that of one scratch in ten that is a tenth wider.
 #[test]
 fn a_wrong_scratch_is_seen() {
     let scene = middle("plate");

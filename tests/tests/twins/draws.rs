@@ -1,4 +1,4 @@
-//! Numbers by which random directions are drawn.
+//! Random numbers for directions.
 
 use super::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec2, DVec3};

@@ -1,4 +1,4 @@
-//! A million random configurations, many of them degenerate on purpose: whatever the input, numbers come out.
+//! A million random configurations, many of them degenerate on purpose: every result is a number.
 
 use super::twin::Sequence;
 use glam::{DVec2, DVec3};

@@ -441,7 +441,7 @@ fn footprints() {
 /// wo, three corners, a cap's sine, width, depth, offset, ends, blur, the pixel's sides.
 const AWKWARD: usize = 23;
 
-/// Rows of which many numbers are degenerate on purpose.
+/// Rows of numbers, many of them degenerate on purpose.
 fn awkward(count: usize) -> Vec<[f32; AWKWARD]> {
     let mut random = Sequence(8);
     let numbers = [0.0, -0.0, 1.0, -1.0, 1e-30, 1e-7, 1e9, -1e9];

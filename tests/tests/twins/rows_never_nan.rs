@@ -1,5 +1,4 @@
-//! A million random rows of grooves, views and lights, many of them at an end of their range: whatever the input, numbers come out, and no light is
-//! negative.
+//! A million random rows of grooves, views and lights, many of them at an end of their range: every result is a number, and no light is negative.
 
 use super::twin::Sequence;
 use glam::{DVec2, DVec3};
@@ -13,7 +12,7 @@ use std::sync::LazyLock;
 
 const CONFIGURATIONS: usize = 1_000_000;
 
-/// A number in a range that scene files allow, often at one of its ends.
+/// A random number in a range of scene files, often at one of its ends.
 fn within(random: &mut Sequence, low: f64, high: f64) -> f64 {
     match random.next() {
         r if r < 0.1 => low,

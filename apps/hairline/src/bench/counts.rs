@@ -14,7 +14,7 @@ pub struct Counts {
     pub tests: u64,
     /// Those pairs with a share of the pixel.
     pub pairs: u64,
-    /// (pair, light) that were asked for.
+    /// Pairs of (pair, light) that were tested.
     pub asked: u64,
     /// Those that are lit.
     pub lit: u64,

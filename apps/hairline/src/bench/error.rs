@@ -27,7 +27,7 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// A part of the picture, and not all of it.
+    /// Size of the measured part of the picture.
     pub fn crop_of(&self, scene: &Scene) -> [u32; 2] {
         [0, 1].map(|i| self.crop_px[i].min(scene.render.size_px[i].div_ceil(2)))
     }

@@ -138,7 +138,7 @@ depth_nm = {{ mean = 220.0, spread = 0.3 }}
             .map_err(|error| Failure::Work(anyhow!("{error}")))
     }
 
-    /// The camera and the lamps of this one before the disk of another.
+    /// Combines the camera and the lamps of this scene with the disk of another.
     pub fn of(self, worn: &Scene) -> Result<Scene, Failure> {
         let bare = Self {
             scratches: 0,

@@ -1,4 +1,4 @@
-//! The figures as a document of Markdown tables, which a terminal shows as well.
+//! Figures as a document of Markdown tables, which can be read in a terminal as well.
 
 use std::fmt::Write as _;
 

@@ -28,7 +28,7 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Whether the least that is measured would take too long where a strip takes so much.
+    /// Whether the least number of runs would take too long, given the time of a strip.
     fn is_exceeded_by(&self, strip: Duration) -> bool {
         let least = strip * STRIPS_LEAST * self.least as u32;
         least > LONG.max(self.cell.mul_f64(TOO_LONG))
@@ -144,7 +144,7 @@ fn warm_up(
     Ok(least)
 }
 
-/// The smaller of the rows so far and `count` strips.
+/// The smaller part of the picture: the rows until now, or `count` strips.
 fn fewer(rows: &PictureRows, height: u32, count: u32) -> PictureRows {
     match rows {
         PictureRows::Strips(so_far) if so_far.len() as u32 <= count => rows.clone(),
@@ -152,7 +152,7 @@ fn fewer(rows: &PictureRows, height: u32, count: u32) -> PictureRows {
     }
 }
 
-/// Strips of this number, spread evenly; the whole picture where they would cover it.
+/// Strips of the picture, `count` of them, spread evenly; the whole picture if they would cover it.
 fn strips(height: u32, count: u32) -> PictureRows {
     strips_of(strip_rows(), height, count)
 }

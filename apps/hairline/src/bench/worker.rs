@@ -66,7 +66,7 @@ pub struct Elapsed {
 }
 
 impl Worker {
-    /// A graphics adapter if there is one and nothing else is asked for.
+    /// Opens a graphics adapter if there is one and the backend allows it, else the CPU renderer.
     pub fn open(backend: Backend) -> Result<Self, Failure> {
         if backend == Backend::Cpu {
             return Ok(Self::Cpu);

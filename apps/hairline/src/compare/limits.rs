@@ -103,7 +103,7 @@ fn parse(
     })
 }
 
-/// Finds one of `all` by its name, or a hint at what the author probably meant.
+/// Finds one of `all` by its name, or a hint at the closest name.
 fn named<T: Copy, const N: usize>(
     what: &str,
     word: &str,

@@ -15,7 +15,7 @@ use crate::console::print;
 use crate::scene_file::{self, Loaded, Overrides};
 use hairline_work::failure::Failure;
 
-/// Everything about a scene that is worth knowing, in the units of its file.
+/// Summary of a scene, in the units of its file.
 #[derive(Serialize)]
 struct Contents {
     size_px: [u32; 2],
@@ -128,7 +128,7 @@ impl fmt::Display for Strength {
 #[derive(Serialize)]
 struct Environment {
     size_px: [u32; 2],
-    /// Lamps that were found in it, which light as lights do.
+    /// Lamps that were found in the map; they shine as lights do.
     lamps: Vec<Sun>,
     /// Windows and soft boxes, which light scratches as lights do.
     windows: Vec<Window>,
@@ -136,13 +136,13 @@ struct Environment {
 
 #[derive(Serialize)]
 struct Window {
-    /// Direction of its middle: unit, in the world.
+    /// Direction to the lamp's middle: unit, in the world.
     direction: [f64; 3],
     /// Above the horizon.
     elevation_deg: f64,
     /// Angular sizes from side to side.
     size_deg: [f64; 2],
-    /// Radiance beyond that of its surroundings.
+    /// Radiance above that of the surroundings.
     radiance: [f64; 3],
 }
 

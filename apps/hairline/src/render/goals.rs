@@ -9,7 +9,7 @@ use crate::cli;
 use crate::scene_file;
 use hairline_work::failure::Failure;
 
-/// Frames in a second if nothing else is asked for.
+/// Default number of frames in a second.
 const DEFAULT_FPS: u16 = 30;
 
 /// Destination of the pictures.
@@ -83,7 +83,7 @@ impl Goals {
         })
     }
 
-    /// Describes the files that are there after `whole` frames, and those that are not.
+    /// Describes which files exist after `whole` frames, and which do not.
     pub fn kept(&self, whole: usize) -> String {
         let mut parts = Vec::new();
         let name = |i: usize| self.pictures[i].path().display();

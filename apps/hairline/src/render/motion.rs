@@ -22,7 +22,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Motion that the flags ask for; none for a single picture.
+    /// Motion by the flags; none for a single picture.
     ///
     /// # Errors
     /// [`Failure::Input`] where they contradict one another.
@@ -68,7 +68,7 @@ impl Motion {
         }))
     }
 
-    /// Refuses a motion that leaves the ranges of scenes.
+    /// Refuses a motion outside of the ranges of scenes.
     ///
     /// # Errors
     /// [`Failure::Input`].

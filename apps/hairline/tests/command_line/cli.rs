@@ -281,7 +281,7 @@ fn the_documented_scene_renders() {
     assert!(brightest > 0.9, "{brightest}");
 }
 
-/// A signal in the middle of the work, minutes before its end, leaves nothing behind. Ctrl-C does the same by default, but a process
+/// A signal in the middle of the work, minutes before its end, leaves no file behind. Ctrl-C does the same by default, but a process
 /// that a script has started in the background ignores it, and so do those that it starts: the test itself may be one.
 #[cfg(unix)]
 #[test]

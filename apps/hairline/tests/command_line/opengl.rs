@@ -1,4 +1,5 @@
-//! Pictures by way of OpenGL, where there is no newer interface. Each is a process of its own: a context serves one thread.
+//! Pictures over OpenGL, for systems without a newer interface. Each is rendered by a process of its own, since a context
+//! serves one thread.
 
 use std::path::Path;
 
@@ -7,7 +8,7 @@ use assert_cmd::Command;
 use hairline_image::metrics::layer_difference;
 use hairline_image::{Layer, exr_file};
 
-/// A command that knows no other interface than OpenGL.
+/// A command that can use no interface but OpenGL.
 fn by_opengl(folder: &Path, arguments: &str) -> Command {
     let mut command = command(folder, arguments);
     command.env("WGPU_BACKEND", "gl");

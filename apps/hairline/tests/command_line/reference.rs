@@ -283,7 +283,7 @@ mod interrupted {
     use std::process::{Child, ChildStderr, Stdio};
     use std::time::Duration;
 
-    /// Starts work that takes minutes, and waits until it samples.
+    /// Starts work that takes minutes, and waits until the first samples.
     fn start(folder: &Path, arguments: &str) -> (Child, BufReader<ChildStderr>) {
         let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_hairline"))
             .current_dir(folder)
@@ -347,7 +347,8 @@ mod interrupted {
         }
     }
 
-    /// `nohup` and shells that let go of a job ask for it.
+    /// A hang-up is ignored if the parent process ignores it, as `nohup` and shells that disown a
+    /// job do.
     #[test]
     fn a_terminal_that_hangs_up_is_passed_over_where_it_is_to_be() {
         let folder = folder_with_scene();

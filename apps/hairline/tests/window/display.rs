@@ -22,7 +22,7 @@ pub struct Display {
     name: String,
     connection: RustConnection,
     root: Window,
-    /// The opcode of its extension for input by programs.
+    /// Opcode of XTEST, the extension for input by programs.
     xtest: u8,
     size_px: [u16; 2],
     /// Keysyms of each keycode from the first.
@@ -129,8 +129,8 @@ impl Display {
         self.rest();
     }
 
-    /// Waits until the program has taken in all that was sent to it and has drawn its effect: time alone would be too short on some
-    /// machine. It answers a ping once it has taken in what came before, then draws; so that the next but one is answered after a
+    /// Waits until the program has handled all events and has drawn their effect: a fixed time would be too short on some machine.
+    /// The program answers a ping once it has handled the events before, then draws, so the next answer but one comes after a
     /// frame.
     fn rest(&self) {
         for _ in 0..3 {
@@ -199,7 +199,7 @@ impl Display {
         self.rest();
     }
 
-    /// Presses the left button and leaves it held. Unlike the others, this and the next two wait for nothing.
+    /// Presses the left button and holds it. This and the next two functions do not wait for the program.
     pub fn press(&self, at: Pos2) {
         self.hurry_to(at);
         self.send(xproto::BUTTON_PRESS_EVENT, 1);
@@ -245,7 +245,7 @@ impl Display {
         first + at.unwrap_or_else(|| panic!("no key for {name:?}")) as u8
     }
 
-    /// Pressed one after the other and let go in the opposite order.
+    /// Presses the keys one after the other, and releases them in the opposite order.
     pub fn keys(&self, names: &[&str]) {
         for name in names {
             self.send(xproto::KEY_PRESS_EVENT, self.keycode(name));

@@ -17,7 +17,7 @@ use crate::{Window, keep};
 const BUILT_IN: &str = include_str!("../../src/built_in_scene.toml");
 const PLATE: &str = include_str!("../../../../scenes/plate.toml");
 
-/// Lamps whose handles lie in the picture, but not in the middle, where changes are looked for.
+/// Positions of lamps whose handles lie in the picture, but not in its middle, where changes are measured.
 const LAMP_IN_PLATE_M: [f64; 3] = [-0.07, 0.07, 0.04];
 const LAMP_IN_BUILT_IN_M: [f64; 3] = [-0.1, 0.1, 0.055];
 

@@ -1,4 +1,4 @@
-//! Positions of widgets in the window, as the same interface tells when it runs without one.
+//! Positions of widgets in the window, found by running the same interface without a window.
 
 use std::path::Path;
 use std::time::Instant;
@@ -22,7 +22,7 @@ pub struct Layout {
 /// A light of that name.
 #[derive(Clone, Copy, Debug)]
 pub struct Lamp {
-    /// Position of its line in the outliner.
+    /// Position of the lamp's line in the outliner.
     pub line: Pos2,
     /// Position of the handle that moves it across the view, once it is selected.
     pub handle: Pos2,
@@ -99,7 +99,7 @@ impl Layout {
         self.width
     }
 
-    /// The light called "lamp", where there is one.
+    /// The light called "lamp", if there is one.
     pub fn lamp(&self) -> Option<Lamp> {
         self.lamp
     }

@@ -16,12 +16,12 @@ use crate::{Window, display, keep};
 /// The built-in scene, with a name.
 const SCENE: &str = include_str!("../../src/built_in_scene.toml");
 const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/models/spoon.glb");
-/// A picture that still changes after so long is taken as it is.
+/// Time after which a picture is taken even if it still changes.
 const LONGEST: Duration = Duration::from_secs(300);
 /// One that stood still for so long is finished.
 const STILL: Duration = Duration::from_secs(20);
 
-/// A window with the scene, and where things are in it.
+/// A window with the scene, and the positions of its widgets.
 struct Studio<'d> {
     display: &'d Display,
     layout: Layout,
@@ -43,7 +43,7 @@ impl<'d> Studio<'d> {
         self.layout.picture().center()
     }
 
-    /// The pointer lies where it hides nothing.
+    /// Moves the pointer to a place where it hides nothing.
     fn step_aside(&self) {
         let corner = self.layout.picture().left_top();
         self.display.move_to(corner + Vec2::splat(20.0));

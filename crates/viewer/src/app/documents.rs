@@ -17,7 +17,7 @@ use crate::snapshots::Snapshots;
 use crate::tools::Tool;
 
 impl Viewer {
-    /// Fulfils a wish that would lose unsaved changes, or asks first.
+    /// Carries out a wish, or first asks about unsaved changes, which it would lose.
     pub(super) fn wish(&mut self, ctx: &egui::Context, wish: Wish) {
         if self.work.document.is_modified() {
             self.dialogs.ask(Question::Unsaved(wish));
@@ -42,7 +42,7 @@ impl Viewer {
         }
     }
 
-    /// Writes the scene to its file, or asks for one.
+    /// Writes the scene to its file, or opens a dialog for the path.
     pub(super) fn save(&mut self, ctx: &egui::Context) {
         if self.work.document.path().is_none() {
             self.ask_path(ctx, Purpose::SaveAs);
@@ -52,8 +52,8 @@ impl Viewer {
         self.saved(ctx, done);
     }
 
-    /// Writes the scene to another file, or asks first where that is there. A dialog of the system `has_asked` about it, if the
-    /// name is the one that was chosen in it.
+    /// Writes the scene to another file, or first asks whether to replace an existing one. `has_asked` is true if a dialog of
+    /// the system asked about this name already.
     pub(super) fn save_as(&mut self, ctx: &egui::Context, chosen: &Path, has_asked: bool) {
         let path = match chosen.extension() {
             Some(_) => chosen.to_owned(),
@@ -99,7 +99,7 @@ impl Viewer {
         }
     }
 
-    /// Puts a link to the scene, as the window shows it, into the clipboard.
+    /// Copies a link to the scene, as the window shows it, to the clipboard.
     pub(super) fn copy_link(&mut self, ctx: &egui::Context) {
         let Some(address) = platform::page_address() else {
             return;
@@ -130,7 +130,7 @@ impl Viewer {
         }
     }
 
-    /// Opens the scene in the fragment of an address, if there is one. What is wrong with it is told, and then nothing changes.
+    /// Opens the scene in the fragment of an address, if there is one. If it is broken, shows the error and changes nothing.
     pub fn open_link(&mut self, ctx: &egui::Context, fragment: &str) {
         let path = Path::new("scene.toml");
         match link::text(fragment) {
@@ -143,7 +143,7 @@ impl Viewer {
         }
     }
 
-    /// Puts another document in the place of this one.
+    /// Replaces the document by another one.
     pub(super) fn replace_document(&mut self, document: Document) {
         self.files.reopen();
         (self.asked, self.typed, self.sought) = (None, None, None);
@@ -205,7 +205,7 @@ impl Viewer {
         }
     }
 
-    /// Closing the window with unsaved changes asks first.
+    /// Asks before the window closes with unsaved changes.
     pub(super) fn watch_close(&mut self, ctx: &egui::Context) {
         let is_asked = ctx.input(|input| input.viewport().close_requested());
         if is_asked && !self.is_closing && self.work.document.is_modified() {

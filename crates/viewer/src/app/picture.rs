@@ -52,7 +52,7 @@ impl Viewer {
         shown.inner
     }
 
-    /// Shows everything that lies over the picture and is done in it.
+    /// Shows the overlays and tools over the picture, and handles the mouse in it.
     fn show_over(&mut self, ui: &mut Ui, area: &Area, response: &Response) {
         if let Some(frame) = self.work.engine.latest() {
             area.paint_frame(ui);

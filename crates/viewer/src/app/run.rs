@@ -15,7 +15,7 @@ use crate::tools::Tool;
 const BRUSH_STEP: f64 = 1.25;
 
 impl Viewer {
-    /// Runs a command, or tells why not.
+    /// Runs a command, or shows why it cannot be run.
     pub(super) fn run(&mut self, ctx: &egui::Context, command: Command) {
         if !self.work.can(command) {
             return;

@@ -2,7 +2,7 @@
 
 use egui::{Key, KeyboardShortcut};
 
-/// A shortcut as it stands on the keyboard.
+/// Text of a shortcut, as on the keys of the keyboard.
 pub(crate) fn key_text(shortcut: &KeyboardShortcut) -> String {
     let is_mac = cfg!(target_os = "macos");
     let names = match is_mac {

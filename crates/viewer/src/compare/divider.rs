@@ -7,7 +7,7 @@ use egui::{
 
 /// A hand finds it.
 const GRIP: f32 = 12.0;
-/// Range of the divider, which never leaves the picture.
+/// Range of the divider, which always stays in the picture.
 const RANGE: std::ops::RangeInclusive<f32> = 0.02..=0.98;
 /// A press of an arrow.
 const STEP: f32 = 0.02;

@@ -21,8 +21,8 @@ pub struct Figures {
 pub struct LayerFigures {
     /// The rms difference over the rms of the reference.
     pub relative_rms: f64,
-    /// The part of it that the reference's noise alone would be. None before each pixel has two
-    /// batches.
+    /// The part of the relative difference that the reference's noise explains. None before each
+    /// pixel has two batches.
     pub relative_noise: Option<f64>,
     /// Mean of the picture, over all pixels and channels: radiance.
     pub mean: f64,

@@ -25,7 +25,7 @@ pub(super) struct Wanted {
     pub shown_px: [u32; 2],
     pub filter_std_px: f64,
     pub transport: Transport,
-    /// Whether the comparison is as large as the picture, however long that takes.
+    /// Whether the comparison has the picture's size, however long it takes.
     pub full_size: bool,
 }
 
@@ -64,7 +64,8 @@ fn scaled(shown_px: [u32; 2], most_px: f64) -> [u32; 2] {
     shown.map(|side| ((side * scale).round() as u32).max(1))
 }
 
-/// A straight piece takes some 200 bytes in the tree and while it is built: this is 600 MB, built in a few seconds.
+/// Largest number of straight pieces of a comparison. A piece takes some 200 bytes in the tree and while it is built: this is
+/// 600 MB, built in a few seconds.
 const MOST_PIECES: usize = 3_000_000;
 
 /// Reason why there can be no reference of the scene, in words for the artist.
@@ -159,10 +160,10 @@ pub(super) fn is_enough(samples: f64) -> bool {
 
 /// Samples of the closed form on edges.
 const PICTURE_SAMPLES: u32 = 16;
-/// Pixels of its first band.
+/// Number of pixels in its first band.
 const BAND_PX: u32 = 1 << 12;
 
-/// Samples until there are enough or `stop` is asked, which it heeds within a batch.
+/// Adds samples until there are enough or `stop` is set, which is checked within each batch.
 pub(super) fn run(wanted: &Wanted, stop: &Stop, report: &Report, kept: &Mutex<Kept>) {
     let built = &wanted.built;
     let earlier = lock(kept).of(built);
@@ -260,7 +261,7 @@ struct Sampled {
 }
 
 impl Sampled {
-    /// Comparison as the window shows it. Pixels without samples are those of `coarse`, and have no error.
+    /// Comparison as the window shows it. Pixels without samples have the colours of `coarse`, and no error.
     fn shown(&self, number: u64, coarse: &Image) -> Shown {
         let size_px = self.reference.size_px;
         let noise = self.reference.noise.as_ref();
@@ -294,7 +295,7 @@ impl Sampled {
     }
 }
 
-/// Colours that are meant for the display already.
+/// Display settings for colours that are tone-mapped already.
 const AS_IT_IS: Display = Display {
     exposure_ev: 0.0,
     tone_map: ToneMap::None,
@@ -302,7 +303,7 @@ const AS_IT_IS: Display = Display {
 /// A colour that the error map does not have.
 const UNKNOWN: Color32 = Color32::from_gray(70);
 
-/// The pixel of a smaller picture where pixel `i` of one of `size_px` lies.
+/// Colour of the pixel of a smaller picture at the place of pixel `i` of a picture of `size_px`.
 fn nearest(picture: &Picture, size_px: [u32; 2], i: usize) -> [f32; 3] {
     let width = size_px[0].max(1) as usize;
     let at = [i % width, i / width];

@@ -6,7 +6,7 @@ use hairline_editor::autosave::Pending;
 
 use crate::files::Purpose;
 
-/// Action that was asked for while there were unsaved changes.
+/// Action that waits for an answer about unsaved changes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Wish {
     New,

@@ -1,4 +1,4 @@
-//! A question with some answers, of which one is chosen by a button or a key.
+//! A question with some answers, one of which is chosen by a button or a key.
 
 use egui::{Context, Id, Key, Modal};
 

@@ -1,4 +1,4 @@
-//! A line in the window that asks for a path, where the system has no dialog for it.
+//! A line of the window for a path, where the system has no dialog.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use egui::{Context, Event, Id, Key, Modal, TextEdit};
 use super::answer::Answer;
 use crate::files::{Purpose, from_home};
 
-/// The path of a file, as it is typed.
+/// The line, with the path as typed.
 pub(crate) struct PathLine {
     purpose: Purpose,
     text: String,

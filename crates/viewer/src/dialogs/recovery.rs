@@ -14,7 +14,7 @@ pub(crate) struct Recovery {
     pending: Vec<Pending>,
     /// Small pictures; none until they are first shown.
     thumbnails: Option<Thumbnails>,
-    /// One that somebody wants to throw away, and has to say so again.
+    /// Index of an autosave to be deleted, which must be confirmed.
     going: Option<usize>,
 }
 

@@ -62,7 +62,7 @@ impl Thumbnails {
 }
 
 impl Drop for Thumbnails {
-    /// The window does not wait for a picture that nobody wants any more.
+    /// Stops the rendering without waiting for it.
     fn drop(&mut self) {
         if let Some(job) = self.job.take() {
             job.leave();

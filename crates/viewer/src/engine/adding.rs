@@ -6,7 +6,7 @@ use super::View;
 use super::request::Order;
 use super::steps::SHADOW_SAMPLES;
 
-/// The batches of one order so far.
+/// Batches of one order that are done.
 #[derive(Default)]
 pub(super) struct Adding(Option<(Order, Batches)>);
 

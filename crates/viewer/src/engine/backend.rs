@@ -11,14 +11,14 @@ use super::pool;
 pub enum Backend {
     /// The CPU renderer, on threads of low priority.
     Cpu,
-    /// A device of its own, whose pictures are copied to the window's, for a window on another adapter.
+    /// A device other than the window's, whose pictures are copied: the window is on another adapter.
     Gpu(Gpu),
     /// The window's own device: its pictures are shown where they are.
     Shared(Gpu),
 }
 
 impl Backend {
-    /// Part of the wanted transport that is rendered while something moves: what takes longer than a movement lasts is left out.
+    /// Part of the transport that is rendered while something moves. Passes that take longer than a movement are left out.
     pub fn counts_in_motion(&self, wanted: Transport) -> Transport {
         if self.is_software() {
             Transport::DIRECT

@@ -11,7 +11,7 @@ use web_time::Instant;
 
 use super::Built;
 
-/// Amount that is painted between two looks at whether something newer is wanted.
+/// Amount of work between two checks for newer orders.
 #[derive(Clone, Copy)]
 pub(super) struct BandSize {
     /// The first, pixels.
@@ -20,7 +20,7 @@ pub(super) struct BandSize {
     fewest_rows: u32,
     /// Bands that take less become larger, bands that take more become smaller.
     times: [Duration; 2],
-    /// Whether a band ends at once, without a result, where something newer is wanted; else it is worked to its end.
+    /// Whether a band ends at once, without a result, if there is a newer order; else it is finished.
     pub breaks_off: bool,
 }
 

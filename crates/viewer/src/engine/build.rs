@@ -15,7 +15,7 @@ use super::sketch::Sketch;
 pub struct Built {
     /// Revision of the description.
     pub revision: u64,
-    /// Time at which the interface asked for it.
+    /// Time of the interface's order.
     pub asked: Instant,
     /// Description that it was made from.
     pub description: Arc<Description>,
@@ -29,7 +29,7 @@ pub struct Built {
     pub tables: Arc<ScratchTables>,
     /// Number of pieces of scratches that are looked at for a picture.
     pub segments: usize,
-    /// Weights of its scratches, if these are but a few of all.
+    /// Weights of its scratches, if the scene has only some of them.
     pub(crate) sketch: Option<Sketch>,
     /// Time of each stage.
     pub stages: BuildStages,
@@ -49,12 +49,12 @@ pub struct BuildStages {
 }
 
 impl Built {
-    /// Whether it has but a few of the scratches, which stand for all of them.
+    /// Whether the scene has only some of the scratches, which stand for all of them.
     pub fn is_sketch(&self) -> bool {
         self.sketch.is_some()
     }
 
-    /// Numbers of its scratches and straight pieces.
+    /// Numbers of scratches and of straight pieces in the scene.
     pub fn scratch_counts(&self) -> (usize, usize) {
         self.scene
             .objects
@@ -226,7 +226,7 @@ fn has_same_meshes(a: &Scene, b: &Scene) -> bool {
         && std::iter::zip(&a.objects, &b.objects).all(|(a, b)| Arc::ptr_eq(&a.mesh, &b.mesh))
 }
 
-/// Scratches know the coherence of the material under them.
+/// Whether two scenes have equal scratches. These depend on the coherence of the material under them.
 fn has_same_scratches(a: &Scene, b: &Scene) -> bool {
     has_same_meshes(a, b)
         && std::iter::zip(&a.objects, &b.objects).all(|(a, b)| {

@@ -1,4 +1,4 @@
-//! The building of scenes, by a thread of its own where there are threads.
+//! Building of scenes, in a thread of its own if there are threads.
 
 use super::build::Workshop;
 #[cfg(not(target_arch = "wasm32"))]
@@ -22,7 +22,7 @@ pub(super) fn run(shared: &Shared) {
     }
 }
 
-/// Builds one, and hands it over or tells why there is none.
+/// Builds a scene, and hands it over or reports why there is none.
 pub(super) fn build(shared: &Shared, workshop: &mut Workshop, wanted: WantedScene) {
     let has_sketch = matches!(shared.backend(), Backend::Cpu)
         && pool::Crew::Drafter.install(|| sketch(shared, workshop, &wanted));

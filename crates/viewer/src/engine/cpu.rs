@@ -22,7 +22,7 @@ use super::request::Order;
 use super::steps::Step;
 use crate::reading::{Findings, Shows, develop};
 
-/// A picture that is finished in part is shown as often.
+/// Interval between pictures of an unfinished one.
 const REFRESH: Duration = Duration::from_millis(600);
 
 /// Keeps the last picture, so that another exposure costs next to nothing, and one that was interrupted, to go on with it.
@@ -34,7 +34,7 @@ pub(super) struct CpuEasel {
     remembered: Option<Remembered>,
     drafts: Drafts,
     band_size: BandSize,
-    /// Whether a picture is shown before it is finished, which takes time of its own.
+    /// Whether unfinished pictures are shown, which takes time of its own.
     shows_parts: bool,
 }
 
@@ -47,7 +47,7 @@ struct Last {
     order: Order,
     /// Samples of the picture.
     samples: u32,
-    /// Picture and findings as they were shown last, and by which view.
+    /// Picture and findings that were shown last, with their view.
     shown: RefCell<Option<(super::View, Picture, Findings)>>,
 }
 
@@ -65,7 +65,7 @@ impl CpuEasel {
         Self::new(super::bands::OF_A_THREAD)
     }
 
-    /// Easel that takes turns with the interface.
+    /// Easel for the interface's own thread, between its passes.
     pub fn in_turn() -> Self {
         Self::new(IN_TURN)
     }

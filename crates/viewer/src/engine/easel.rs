@@ -32,7 +32,7 @@ pub(super) trait Easel {
     fn kind(&self) -> &'static Kind;
 }
 
-/// Picture that an easel has to show.
+/// A picture of an easel, ready to be shown.
 pub(super) struct Shown {
     pub picture: Picture,
     pub size_px: [u32; 2],

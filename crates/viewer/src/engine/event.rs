@@ -1,11 +1,11 @@
-//! Events that the engine tells the interface.
+//! Events of the engine for the interface.
 
 use std::sync::Arc;
 
-/// An event that went wrong or is worth a line, in the order of its coming.
+/// A failure or a note, in the order of time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
-    /// The description of this revision makes no scene; the last good one stays in the picture.
+    /// The description of this revision makes no scene; the last good scene stays in the picture.
     NotBuilt {
         /// Revision of the description.
         revision: u64,
@@ -28,5 +28,5 @@ pub enum Event {
     },
 }
 
-/// Callback by which the interface is told that something new is there.
+/// Callback that wakes the interface when there is something new.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;

@@ -1,4 +1,4 @@
-//! A picture that is ready to be shown, and how it came about.
+//! A picture ready to be shown, with its settings and times.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -12,15 +12,16 @@ use super::{BuildStages, Built, View};
 pub struct Frame {
     /// Counts up.
     pub number: u64,
-    /// Scene that it shows.
+    /// Scene of the picture.
     pub built: Arc<Built>,
-    /// View that was wanted. Its size is the one that was wanted; `painted.size_px` may be smaller.
+    /// View that the picture was painted for. Its size is the one that was wanted;
+    /// `painted.size_px` may be smaller.
     pub view: View,
     /// Picture to be drawn.
     pub picture: Picture,
     /// Settings with which it was painted.
     pub painted: Painted,
-    /// Findings about the picture, as far as the view asked for them.
+    /// Findings about the picture that the view selects.
     pub findings: crate::reading::Findings,
 }
 
@@ -38,13 +39,13 @@ pub enum Picture {
 pub struct Painted {
     /// Width and height of the picture.
     pub size_px: [u32; 2],
-    /// Samples that are in it, for pixels on edges at least.
+    /// Number of samples in the picture, at least for pixels on edges.
     pub samples: u32,
     /// Samples of shadows that are to come together; none where they do not add up.
     pub of_samples: Option<u32>,
-    /// The ways of light that are in it.
+    /// Transport of light in the picture.
     pub transport: Transport,
-    /// One scratch of so many is in it and stands for all of them.
+    /// Ratio of all scratches to those in the picture, each of which stands for so many.
     pub thin: u32,
     /// The share that is there; the rest is of a coarser picture.
     pub done: f64,
@@ -69,6 +70,6 @@ pub struct Latency {
     pub upload: Duration,
     /// The first picture, after the upload.
     pub paint: Duration,
-    /// Time of all of it, from the wish of the interface to the picture in its hands.
+    /// Total time, from the interface's order to the picture in its hands.
     pub total: Duration,
 }

@@ -20,7 +20,7 @@ use super::steps::Step;
 use super::{Backend, Built};
 use crate::reading::{Findings, develop};
 
-/// Pixels of one submission on a software driver, between two looks at whether something newer is wanted.
+/// Pixels of one submission on a software driver, between two checks for newer orders.
 const SOFTWARE_BAND_PX: u32 = 1 << 16;
 /// Pixels of a band on a GPU: well below what any system takes for hung.
 const HARDWARE_BAND_PX: u32 = 1 << 20;
@@ -41,7 +41,7 @@ pub(super) struct GpuEasel {
     /// Step of the canvas.
     step: Option<Step>,
     adding: Adding,
-    /// Mean of the batches so far, of which the canvas has the last one, and its number of samples.
+    /// Mean of the batches that are done, and its number of samples. The canvas holds the last batch.
     mean: Option<(Image, u32)>,
 }
 

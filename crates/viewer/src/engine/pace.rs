@@ -7,7 +7,7 @@ use std::time::Duration;
 pub(super) struct Level {
     /// Share of the full size, on each side.
     pub scale: f64,
-    /// One scratch of so many is drawn, and stands for all of them.
+    /// Ratio of all scratches to those that are drawn, each of which stands for so many.
     pub thin: u32,
 }
 
@@ -31,8 +31,8 @@ pub(super) const WHOLE: Kind = Kind {
     segment_px: 0.0,
 };
 
-/// Levels of a renderer that can draw a few scratches for all of them: the time of a coarse picture is that of its scratches and
-/// not of its pixels.
+/// Levels of a renderer that can draw a few scratches in place of all: the time of a coarse picture depends on its scratches
+/// more than on its pixels.
 pub(super) const THINNED: Kind = Kind {
     levels: &[
         level(1.0, 1),
@@ -62,7 +62,7 @@ pub(super) struct Kind {
     target: Duration,
     /// Seconds a pixel that are assumed before anything is known: a small picture soon beats a large one late.
     first_seconds_per_px: f64,
-    /// Cost of a piece of a scratch wherever it lies, in pixels.
+    /// Cost of a straight piece of a scratch, in pixels.
     segment_px: f64,
 }
 
@@ -73,7 +73,7 @@ impl Kind {
     }
 }
 
-/// A finer step is taken only if it would leave this share of the time free, so that the picture does not go to and fro.
+/// Share of the time that a finer step must leave free, so that the picture does not go to and fro.
 const SLACK: f64 = 0.7;
 
 /// Choice of the level by the cost of a pixel in the last pictures.

@@ -1,4 +1,4 @@
-//! The painting, by a thread of its own where there are threads: a coarse picture at once, then finer ones for as long as nothing moves.
+//! Painting, in a thread of its own if there are threads: a coarse picture at once, then finer ones as long as nothing moves.
 
 use std::time::Duration;
 
@@ -22,7 +22,7 @@ use super::{Backend, Event};
 
 /// Time for which a view must stand still before it is refined.
 pub(super) const STILL: Duration = Duration::from_millis(150);
-/// Number of times that a lost device is opened anew before the CPU takes over.
+/// Largest number of times that a lost device is opened again before the CPU takes over.
 #[cfg(not(target_arch = "wasm32"))]
 const REOPENINGS: u32 = 2;
 

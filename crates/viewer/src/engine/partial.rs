@@ -58,7 +58,7 @@ impl Backdrop {
     }
 }
 
-/// The two texels of `from` that a pixel of `to` lies between, and how near it is to the second.
+/// The two texels of `from` next to pixel `at` of `to`, and the weight of the second.
 fn between(at: u32, to: u32, from: usize) -> (usize, usize, f32) {
     let place = (at as f32 + 0.5) * from as f32 / to as f32 - 0.5;
     let place = place.clamp(0.0, (from - 1) as f32);

@@ -28,7 +28,7 @@ struct State {
     view: Option<View>,
     frame: Option<Arc<Frame>>,
     events: Vec<Event>,
-    /// The revision of the newest scene that was asked for.
+    /// Revision of the newest scene that the interface ordered.
     asked: u64,
     /// The revision of the last one that could not be built.
     failed: Option<u64>,
@@ -45,7 +45,7 @@ impl State {
         })
     }
 
-    /// Whether the newest picture is one of the view that is wanted and of the scene of this revision.
+    /// Whether the newest picture shows the current view and the scene of this revision.
     #[cfg(not(target_arch = "wasm32"))]
     fn has_frame_of(&self, revision: u64) -> bool {
         self.frame.as_ref().is_some_and(|frame| {
@@ -58,7 +58,7 @@ impl State {
 
 pub(super) struct Shared {
     state: Mutex<State>,
-    /// Something new is wanted.
+    /// Signals something new.
     news: Condvar,
     stopped: AtomicBool,
     backend: Mutex<Backend>,
@@ -73,7 +73,7 @@ pub(super) struct Order {
 }
 
 impl Order {
-    /// Whether a picture of `other` is one of this too, but for exposure and tone curve.
+    /// Whether a picture of `other` has the same radiances; exposure and tone curve may differ.
     pub fn has_same_pixels(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.built, &other.built) && self.view.has_same_pixels(&other.view)
     }
@@ -139,8 +139,8 @@ impl Shared {
         self.lock().view
     }
 
-    /// Whether a finer picture of `order` is wanted no more. One that is painted `on_cores` also gives way to the building of a newer scene, which
-    /// would wait for the same cores; it goes on where nothing comes of that.
+    /// Whether a finer picture of `order` is outdated. One that is painted `on_cores` also gives way to the building of a newer scene, which would
+    /// wait for the same cores; it goes on if the building fails.
     pub fn is_outdated(&self, order: &Order, on_cores: bool) -> bool {
         let state = self.lock();
         let is_building = state.is_building || state.wanted_scene.is_some();
@@ -150,7 +150,7 @@ impl Shared {
                 .is_none_or(|newest| !newest.has_same_pixels(order))
     }
 
-    /// The scene that is to be built next, if there is one.
+    /// Takes the scene that is to be built next, if there is one.
     pub fn take_scene(&self) -> Option<WantedScene> {
         self.lock().wanted_scene.take()
     }
@@ -168,12 +168,12 @@ impl Shared {
         wanted
     }
 
-    /// Whether a newer scene than the one in hand is wanted.
+    /// Whether there is an order for a newer scene than the one in hand.
     pub fn wants_scene(&self) -> bool {
         self.lock().wanted_scene.is_some()
     }
 
-    /// Blocks until a newer scene is wanted, it is time to end, or `patience` is over. Not at all where there are no threads.
+    /// Blocks until there is an order for a newer scene, it is time to end, or `patience` is over. Returns at once where there are no threads.
     pub fn wait_for_scene(&self, patience: Duration) {
         if cfg!(target_arch = "wasm32") {
             return;
@@ -253,7 +253,7 @@ impl Shared {
         }
     }
 
-    /// Blocks until there is a frame of the wanted view and of this revision, an event, or until `patience` is over.
+    /// Blocks until there is a frame of the current view and of this revision, an event, or until `patience` is over.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn wait_for_frame(&self, revision: u64, patience: Duration) {
         let mut state = self.lock();

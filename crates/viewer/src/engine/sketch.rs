@@ -1,9 +1,9 @@
-//! A scene with a few of its scratches, which is laid while a hand is on a slider, before the whole of it.
+//! A scene with some of its scratches, which is laid while a slider moves, before the whole scene.
 
 use hairline_scene::Description;
 use hairline_scene::description::{Amount, Layer};
 
-/// A sketch has about so many scratches of those that are strewn.
+/// Approximate number of random scratches in a sketch.
 const SCRATCHES: u64 = 700;
 /// A layer keeps at least so many.
 const FEWEST: u64 = 48;

@@ -21,10 +21,10 @@ pub(super) struct Step {
     pub size_px: [u32; 2],
     /// Samples of the finished picture; 1 looks through the pixels' centres.
     pub samples: u32,
-    /// One scratch of so many stands for all of them.
+    /// Ratio of all scratches to those in the picture, each of which stands for so many.
     pub thin: u32,
     pub transport: Transport,
-    /// Batch of samples that is added to those before; none: the picture stands by itself.
+    /// Batch of samples that is added to the picture before; none: a picture by itself.
     pub batch: Option<Batch>,
 }
 

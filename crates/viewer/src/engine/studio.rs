@@ -11,10 +11,10 @@ use super::pace::{Kind, Pace};
 use super::request::{Order, Shared};
 use super::steps::{Step, steps};
 
-/// A first picture that takes longer is given up for a coarser one.
+/// Longest time of a first picture; if it takes longer, a coarser one is painted in its place.
 const FIRST_AT_MOST: Duration = Duration::from_millis(160);
 
-/// The place of a step among those of an order.
+/// Place of a step within its order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Turn {
     First,
@@ -25,9 +25,9 @@ pub(super) enum Turn {
 pub(super) struct Studio {
     pace: Pace,
     number: u64,
-    /// Time of the unfinished step so far.
+    /// Time that the unfinished step has taken.
     spent: Duration,
-    /// The revision whose latency was told.
+    /// Revision whose latency was reported last.
     latency_told: Option<u64>,
 }
 
@@ -41,7 +41,8 @@ impl Studio {
         }
     }
 
-    /// The first picture of an order, as coarse as it must be; returns the steps that are left.
+    /// Paints the first picture of an order, as coarse as necessary; returns the steps that are
+    /// left.
     pub async fn first(
         &mut self,
         shared: &Shared,

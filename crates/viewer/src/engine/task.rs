@@ -56,7 +56,7 @@ impl Task {
         });
     }
 
-    /// Puts the bench back once the work is done, or leaves the painting to the CPU.
+    /// Puts the bench back once the work is done, or lets the CPU take over the painting.
     fn spawn(
         &self,
         shared: &Arc<Shared>,

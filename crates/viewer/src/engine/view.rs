@@ -15,9 +15,9 @@ pub struct View {
     pub display: Display,
     /// Standard deviation of the pixel's Gaussian filter.
     pub filter_std_px: f64,
-    /// Shadows and bounces that are wanted; the renderer may leave out a part of them.
+    /// Shadows and bounces of the view; the renderer may leave out a part of them.
     pub transport: Transport,
-    /// Reading of the picture that is wanted: a change of it paints nothing anew either.
+    /// Reading of the picture; a change of it does not paint anew.
     pub reading: crate::reading::Wanted,
 }
 
@@ -30,7 +30,7 @@ impl View {
             && self.transport == other.transport
     }
 
-    /// Whether the same pixels are shown in the same way.
+    /// Whether the same pixels are shown alike.
     pub fn is_shown_as(&self, other: &Self) -> bool {
         self.display == other.display && self.reading == other.reading
     }

@@ -14,7 +14,7 @@ const SIDE_PX: std::ops::RangeInclusive<u32> = 1..=16_384;
 const MOST_PX: u64 = 1 << 26;
 const LARGE_PX: [u32; 2] = [3840, 2160];
 
-/// Settings of the export that is asked for.
+/// Settings of an export.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Form {
     pub is_turntable: bool,
@@ -26,11 +26,11 @@ pub(super) struct Form {
     pub is_transparent: bool,
     pub frames: u32,
     pub degrees: f64,
-    /// The path, as it is typed.
+    /// Path as typed.
     pub path: String,
     /// Reason why it cannot be done so.
     pub refused: Option<String>,
-    /// Path that a dialog of the system has asked about: its file may be replaced.
+    /// Path whose file may be replaced, since a dialog of the system has asked about it.
     pub agreed: Option<PathBuf>,
     /// Whether files that are there may be replaced; none while that is not asked.
     question: Option<String>,

@@ -44,7 +44,7 @@ pub(super) struct Wish {
     /// Whether the background is transparent; the environment is not seen then.
     pub is_transparent: bool,
     pub motion: Motion,
-    /// Path as it was asked for; a turntable's pictures have numbers in their names.
+    /// Path of the export; a turntable's pictures have numbers in their names.
     pub path: PathBuf,
     pub backend: Backend,
 }
@@ -148,7 +148,7 @@ impl Report {
     }
 }
 
-/// Renders and writes all pictures, or those until `stop` is asked; blocks, which only a thread may.
+/// Renders and writes all pictures, or fewer once `stop` is set. Blocks, which only a thread may.
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) fn run_to_the_end(wish: &Wish, built: &Built, stop: &Stop, report: &Report) {
     let working = run(wish, built, stop, report);
@@ -158,7 +158,7 @@ pub(super) fn run_to_the_end(wish: &Wish, built: &Built, stop: &Stop, report: &R
     }
 }
 
-/// Renders and writes all pictures, or those until `stop` is asked.
+/// Renders and writes all pictures, or fewer once `stop` is set.
 pub(super) async fn run(wish: &Wish, built: &Built, stop: &Stop, report: &Report) {
     let end = match frames(wish, built, stop, report).await {
         Ok(true) => End::Complete,

@@ -20,7 +20,7 @@ pub(crate) struct Change {
     pub of: PathBuf,
 }
 
-/// Looks at files from a thread of its own, which ends with it.
+/// Watches files from a thread of its own, which ends when this is dropped.
 pub(crate) struct Watch {
     files: Sender<Vec<PathBuf>>,
     changed: Receiver<Change>,
@@ -86,9 +86,9 @@ impl Stamp {
 
 struct Watched {
     path: PathBuf,
-    /// The file that was asked for.
+    /// File of the document that names this one, or this file itself.
     of: PathBuf,
-    /// Version that was told last, or at the first look.
+    /// Version that was reported last, or found at the first look.
     told: Option<Stamp>,
     /// Version at the last look.
     last: Option<Stamp>,
@@ -142,7 +142,7 @@ fn look(wanted: &Receiver<Vec<PathBuf>>, tell: &Sender<Change>, wake: impl Fn())
     }
 }
 
-/// The files and those that they name in turn. What is known of them from before stays.
+/// The files and those that they name in turn. Files from before keep their versions.
 fn all_of(files: &[PathBuf], mut before: Vec<Watched>) -> Vec<Watched> {
     let named = |file: &PathBuf| match Description::is_model(file) {
         true => inputs::of_model(file),

@@ -14,7 +14,8 @@ use hairline_scene::{Description, Environment, Loader};
 
 use super::thumb::Thumb;
 
-/// A shallow dome of steel, seen from above at a slant under a lamp, whose reflection lies a little behind its middle.
+/// A shallow dome of steel under a lamp, seen from above at a slant. The lamp's reflection lies a little behind the
+/// dome's middle.
 const DOME: &str = r#"
 [camera]
 position_m = [0.0, -0.058, 0.068]
@@ -67,7 +68,7 @@ material = "m"
 /// Diagonal of the dome's box.
 const DOME_DIAGONAL_M: f64 = 0.051;
 
-/// Renderer of small pictures, which keeps the map that several of them need.
+/// Renderer of small pictures. It keeps the map that several of them use.
 #[derive(Default)]
 pub(super) struct Studio {
     map: Option<Environment>,
@@ -253,7 +254,7 @@ mod tests {
         }
     }
 
-    /// All of them on one sheet, to be looked at.
+    /// Writes all pictures on one sheet, to look at.
     fn write_sheet(pictures: &[(Thumb, ColorImage)], folder: &Path) {
         const COLUMNS: usize = 9;
         let side = pictures[0].1.size[0];

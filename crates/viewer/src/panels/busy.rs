@@ -2,7 +2,7 @@
 
 use egui::{Response, Role, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
 
-/// Interval between two of its steps, seconds.
+/// Interval between two steps of the sign, seconds.
 const STEP_S: f64 = 0.15;
 const DOTS: usize = 8;
 

@@ -1,4 +1,4 @@
-//! The camera, and how the picture is shown.
+//! Controls for the camera and for the display of the picture.
 
 use std::path::Path;
 use std::sync::Arc;

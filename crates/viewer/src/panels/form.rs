@@ -317,7 +317,7 @@ fn share(ui: &Ui, n: usize) -> f32 {
     ((ui.available_width() - gaps) / n as f32).max(40.0)
 }
 
-/// Box for one of several numbers in a row, which are shown alike.
+/// Box for one of several numbers in a row, all with one unit.
 fn small_box(
     ui: &mut Ui,
     width: f32,
@@ -360,7 +360,7 @@ fn naming_id() -> Id {
     Id::unique("the name in the panel is to be typed anew")
 }
 
-/// The name in the panel gets the keyboard, all of it selected.
+/// Moves the keyboard's focus to the name in the panel, and selects all of the name.
 pub(crate) fn name_anew(ctx: &Context) {
     ctx.data_mut(|data| data.insert_temp(naming_id(), ()));
     ctx.request_repaint();
@@ -372,7 +372,7 @@ pub(super) fn end_naming(ctx: &Context) -> bool {
         .is_some()
 }
 
-/// Moves the keyboard's focus to a text of `count` characters, and selects all of it.
+/// Moves the keyboard's focus to a text of `count` characters, and selects all characters.
 fn select_all(response: &Response, count: usize) {
     response.request_focus();
     let ctx = &response.ctx;

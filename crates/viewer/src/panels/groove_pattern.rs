@@ -108,8 +108,7 @@ impl Kind {
         }
     }
 
-    /// The pattern on an object of this size with the properties that it shares with the one before: the axis and the scatter
-    /// of angles stay.
+    /// Makes the pattern for an object of this size, with the axis and the scatter of angles of the pattern before.
     fn begin(self, before: &GroovePattern, diagonal_m: f64) -> GroovePattern {
         let around = match before {
             GroovePattern::Circular(around)

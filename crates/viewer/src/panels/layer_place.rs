@@ -1,4 +1,4 @@
-//! Controls for the places of its object on which a layer of scratches lies, and its density.
+//! Controls for the parts of its object on which a layer of scratches lies, and for its density.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -105,7 +105,7 @@ fn tiles(form: &mut Form, place: &mut LayerPlaces) {
     tile(form, &mut place.tile_m);
 }
 
-/// Control for the width of pictures that do not lie by texture coordinates.
+/// Control for the width of pictures that do not follow texture coordinates.
 pub(super) fn tile(form: &mut Form, tile_m: &mut Option<f64>) {
     let mut is_tiled = tile_m.is_some();
     form.toggle(

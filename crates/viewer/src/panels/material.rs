@@ -13,7 +13,7 @@ use crate::command::Command;
 use crate::gallery::{Thumb, cards, metal_swatches};
 use crate::workspace::Workspace;
 
-/// The kinds by name, each as it begins.
+/// Kinds of materials, each with its defaults.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Measured,

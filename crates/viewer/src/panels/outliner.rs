@@ -124,7 +124,7 @@ fn layer_line(ui: &mut Ui, work: &mut Workspace, description: &Description, i: u
     });
 }
 
-/// A line with a box that hides and shows its part.
+/// A line of the list with a box that hides and shows the part.
 struct Switched<'n> {
     selection: Selection,
     name: &'n str,
@@ -153,7 +153,7 @@ impl Switched<'_> {
     }
 }
 
-/// Names a control that shows no text, for screen readers and tests.
+/// Names a control without text, for screen readers and tests.
 fn name_node(ui: &Ui, response: &egui::Response, name: &str) {
     ui.ctx()
         .accesskit_node_builder(response.id, |node| node.set_label(name));

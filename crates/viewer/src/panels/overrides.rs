@@ -31,7 +31,7 @@ pub(super) fn section(ui: &mut Ui, work: &mut Workspace, index: usize) {
     }
 }
 
-/// A material as it was built.
+/// A material of the built scene.
 fn made(work: &Workspace, object: &Object, name: &str) -> Option<Material> {
     let built = work.engine.built()?;
     let scene = &built.scene;

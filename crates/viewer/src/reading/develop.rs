@@ -1,4 +1,4 @@
-//! Conversion of a render to the picture that is shown, by the wanted reading.
+//! Conversion of a render to the picture on the screen, by a reading.
 
 use egui::ColorImage;
 use hairline_image::{Display, Image, png};
@@ -6,12 +6,12 @@ use hairline_image::{Display, Image, png};
 use super::histogram::Histogram;
 use super::layer_view::{self, Shows};
 
-/// Reading of the picture that the interface wants.
+/// Choice of what is read from a render: a layer or a false colour, and findings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wanted {
-    /// Layer or false colour that is shown.
+    /// Layer or false colour on the screen.
     pub shows: Shows,
-    /// Whether its histogram is wanted: of the part in the middle that is this wide and high, which is the scene's picture.
+    /// Width and height of the middle part, which is the scene's picture, for its histogram; none without a histogram.
     pub histogram_px: Option<[u32; 2]>,
 }
 
@@ -25,7 +25,7 @@ impl Wanted {
 /// Findings about a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
-    /// Histogram, if it was wanted.
+    /// Histogram, if the reading includes one.
     pub histogram: Option<Histogram>,
     /// Nearest and farthest surface of a picture of depths, metres.
     pub depths_m: Option<[f32; 2]>,
@@ -36,8 +36,8 @@ pub struct Findings {
 /// One pixel of so many is looked at.
 const LOOKED_AT: usize = 7;
 
-/// Converts a render to the picture that is shown, with the findings about it. `full_px` is the size of a picture that is not
-/// coarse.
+/// Converts a render to the picture on the screen, with the findings about it. `full_px` is the size of a picture at full
+/// resolution.
 pub(crate) fn develop(
     image: &Image,
     full_px: [u32; 2],

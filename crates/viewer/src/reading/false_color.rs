@@ -37,7 +37,7 @@ pub(super) fn color(stops: f32) -> [u8; 3] {
     })
 }
 
-/// Stops from middle grey of a radiance as it is exposed; negative infinity for none.
+/// Number of stops from middle grey of a radiance after exposure; negative infinity for zero.
 pub(super) fn stops(radiance: [f32; 3], display: &Display) -> f32 {
     let luminance = tone_sanitize(tone_luminance(radiance)).max(0.0);
     display.exposure_ev as f32 + (luminance / MIDDLE_GREY).log2()

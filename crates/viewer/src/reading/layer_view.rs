@@ -4,7 +4,7 @@ use hairline_image::{Display, Image, Picture, png};
 
 use super::false_color;
 
-/// Layer or false colour that the window shows of a render.
+/// Layer or false colour of a render on the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shows {
     /// The picture.
@@ -12,9 +12,9 @@ pub enum Shows {
     Beauty,
     /// The picture's exposure in stops from middle grey.
     FalseColor,
-    /// Light by way of the base and the background.
+    /// Light off the base and of the background.
     Base,
-    /// Light by way of the scratches.
+    /// Light off the scratches.
     Scratches,
     /// The share of the base's light that the scratches take.
     Density,

@@ -20,9 +20,9 @@ use crate::jobs::Job;
 pub struct Reading {
     /// Column and row of the window's picture.
     pub at_px: [u32; 2],
-    /// Light by way of the base. Linear Rec.709 radiance, W sr^-1 m^-2.
+    /// Light off the base. Linear Rec.709 radiance, W sr^-1 m^-2.
     pub base: [f32; 3],
-    /// Light by way of the scratches, the same.
+    /// Light off the scratches. Linear Rec.709 radiance, W sr^-1 m^-2.
     pub scratches: [f32; 3],
     /// The share of the base's light that the scratches take.
     pub density: [f32; 3],
@@ -32,7 +32,7 @@ pub struct Reading {
     pub normal: [f32; 3],
     /// The object and its material under the pixel's centre.
     pub under: Option<Under>,
-    /// Segments of scratches with a share in it.
+    /// Number of segments of scratches with a share in the pixel.
     pub segments: f64,
     /// Samples that the pixel took.
     pub samples: u32,
@@ -57,13 +57,13 @@ impl Reading {
         std::array::from_fn(|i| self.base[i] + self.scratches[i])
     }
 
-    /// The codes that a display shows.
+    /// Codes of the display for the pixel's colour, 0 to 255.
     pub fn codes(&self, display: &Display) -> [u8; 3] {
         let encoded = display.apply(self.beauty());
         encoded.map(|value| (value * 255.0).round().clamp(0.0, 255.0) as u8)
     }
 
-    /// Stops from middle grey as it is exposed; negative infinity where there is no light.
+    /// Number of stops from middle grey after exposure; negative infinity without light.
     pub fn stops(&self, display: &Display) -> f32 {
         false_color::stops(self.beauty(), display)
     }

@@ -37,7 +37,7 @@ impl Snapshots {
         }
     }
 
-    /// Draws the one that is shown; `now` on `canvas` is the current look.
+    /// Draws the snapshot that is shown; `now` on `canvas` is the current look.
     fn draw(
         &mut self,
         ui: &mut Ui,

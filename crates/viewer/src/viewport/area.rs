@@ -1,4 +1,4 @@
-//! Place of the picture on the screen, and the camera that sees all of it.
+//! Place of the picture on the screen, and the camera that renders all of it.
 
 use egui::Rect;
 use glam::DVec2;
@@ -9,8 +9,8 @@ use hairline_scene::{Camera, description};
 pub(crate) struct Area {
     /// Rectangle of the whole area.
     pub rect: Rect,
-    /// The part that the scene's own picture shows: as large as fits, in the middle. What is seen around it is not in the
-    /// picture that is rendered or exported.
+    /// The part with the scene's own picture: as large as fits, in the middle. The surroundings are in no picture that is
+    /// rendered or exported.
     pub frame: Rect,
     pub pixels_per_point: f32,
 }
@@ -81,7 +81,7 @@ impl Area {
     }
 }
 
-/// The scene's own camera, that of its frame.
+/// Camera of the scene, for its frame.
 pub(crate) fn camera(camera: &description::Camera) -> Camera {
     Camera {
         position_m: camera.position_m.into(),

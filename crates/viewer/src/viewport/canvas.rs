@@ -18,7 +18,7 @@ pub(crate) struct CanvasTexture {
     is_stale: bool,
 }
 
-/// A picture of another view is shown for so long without a sign: while something moves there is a new one before.
+/// Time for which a picture of another view is shown without a sign: while something moves, a new picture comes earlier.
 const STALE_S: f64 = 0.4;
 /// Tint of a picture that is out of date.
 const STALE: Color32 = Color32::from_gray(110);
@@ -26,7 +26,7 @@ const STALE: Color32 = Color32::from_gray(110);
 enum Held {
     Nothing,
     Copied(TextureHandle),
-    /// The renderer's own, by the name that egui knows it under.
+    /// The renderer's own texture, by its id in egui.
     Registered(TextureId),
 }
 

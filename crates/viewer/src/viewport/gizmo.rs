@@ -46,7 +46,7 @@ struct Grab {
     start: Arc<Description>,
     /// Aim where the button went down. The picture may be elsewhere by now: panels are as wide as what they show.
     pressed: Aim,
-    /// Motion of the pointer so far.
+    /// Motion of the pointer since the start of the drag.
     motion: Option<Motion>,
     /// The document's, as this drag left it: a change by others, such as undo, ends the drag.
     revision: u64,
@@ -199,7 +199,7 @@ impl Gizmo {
     }
 }
 
-/// Whether any of it can be seen and reached.
+/// Whether a part of it can be seen and reached.
 fn is_in_picture(placed: &[Placed], area: &Area) -> bool {
     placed.iter().any(|placed| area.rect.contains(placed.knob))
 }

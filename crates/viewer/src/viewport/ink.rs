@@ -7,7 +7,7 @@ use crate::style::UNDER_WORDS;
 /// Width of the halo beyond the line, points.
 const HALO: f32 = 2.5;
 
-/// Colour of the halo under a line of this colour: dark enough that a light line is seen on white.
+/// Colour of the halo under a line of this colour: so dark that a light line is visible on white.
 fn halo(color: Color32) -> Color32 {
     Color32::from_black_alpha((f32::from(color.a()) * 0.8) as u8)
 }

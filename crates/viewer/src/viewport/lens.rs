@@ -73,7 +73,7 @@ impl Lens {
             .filter(|pos| pos.is_finite())
     }
 
-    /// The part of a segment that lies before the pinhole, on the screen.
+    /// Projects the part of a segment before the pinhole to the screen.
     pub fn segment(&self, from_m: DVec3, to_m: DVec3) -> Option<[Pos2; 2]> {
         let (from, to) = (self.depth_m(from_m), self.depth_m(to_m));
         let near = NEAR * from.abs().max(to.abs());
@@ -93,7 +93,7 @@ impl Lens {
         self.depth_m(point_m).abs() * per_px * self.px_per_point.y
     }
 
-    /// Direction on the screen in which a point lies from the middle, be it behind the pinhole.
+    /// Direction on the screen from the middle to a point, even if the point lies behind the pinhole.
     pub fn towards(&self, point_m: DVec3) -> egui::Vec2 {
         let from_eye = point_m - self.eye_m();
         let right = from_eye.dot(self.frame.per_px_x);

@@ -21,11 +21,11 @@ use crate::workspace::Workspace;
 use super::lens::Lens;
 use super::{Area, ink};
 
-/// Length of a stroke that lies across the view, points.
+/// Length of a stroke across the view, points.
 const LENGTH: f64 = 15.0;
 /// Width of a stroke, points.
 const WIDTH: f32 = 1.75;
-/// The view is laid out in squares of this side, each with one stroke.
+/// Side of the squares of the view, each of which has one stroke, points.
 const CELL: f32 = 27.0;
 /// No more strokes than this.
 const MOST: usize = 400;
@@ -90,7 +90,7 @@ const COLORS: [Color32; 5] = [
 ];
 const SELECTED: Color32 = Color32::from_rgb(255, 246, 220);
 
-/// The layers whose directions are wanted: the selected one, or all that are shown.
+/// Layers whose directions are drawn: the selected one, or all visible ones.
 fn wanted(work: &Workspace) -> Vec<usize> {
     // Under the brush they would cover what it lays.
     let is_wanted = matches!(
@@ -249,7 +249,7 @@ impl Layer {
             })
     }
 
-    /// A place on one of its scratches, another for each number, all over the layer.
+    /// Place on a scratch of the layer, by a number; consecutive numbers are spread over the layer.
     fn mark(&self, number: usize) -> Option<Mark> {
         // Parts of the golden ratio and of the plastic number: evenly spread, and no two alike for long.
         let part = |step: f64| (0.5 + step * number as f64).fract();
@@ -273,7 +273,7 @@ impl Layer {
 }
 
 impl Mark {
-    /// Whether the surface shows this side and nothing is before it.
+    /// Whether the camera sees the surface from this side, with nothing before it.
     fn is_seen(&self, built: &Built, lens: &Lens) -> bool {
         let way = self.point_m - lens.eye_m();
         let distance_m = way.length();

@@ -158,7 +158,7 @@ fn pick_part(work: &mut Workspace, hit: &Picked) {
     });
 }
 
-/// Selects the part under a click of the right button, and shows its menu.
+/// Selects the part under a click of the right button, and opens its menu.
 fn context_menu(work: &mut Workspace, area: &Area, response: &Response) {
     if work.toolbox.tool != Tool::Select {
         return;

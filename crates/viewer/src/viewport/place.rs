@@ -17,7 +17,8 @@ use crate::workspace::Workspace;
 const MARGIN: f64 = 0.02;
 /// Distances from its highlight that are tried for a light, over the one that it had: nearer, then farther.
 const SHARES: [f64; 11] = [1.0, 0.85, 0.7, 0.55, 0.4, 0.3, 0.2, 0.1, 1.3, 1.8, 2.5];
-/// A ray leaves a surface so far off it, in its distance to the light: else it would meet the surface itself.
+/// Distance between a surface and the start of a ray that leaves it, relative to the distance to the light, so that the ray does not meet
+/// the surface itself.
 const OFF_SURFACE: f64 = 1e-4;
 
 impl Viewport {

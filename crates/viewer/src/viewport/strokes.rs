@@ -18,7 +18,7 @@ use super::lens::Lens;
 use super::pick::{self, Picked};
 use draw_brush::{Drawn, color, show_drawn, show_ring, show_way, stroke_count};
 
-/// Rays between two places of the pointer lie so far apart, points.
+/// Distance of rays between two places of the pointer, points.
 const SPACING: f32 = 3.0;
 /// The distance between two rays is halved so often before a surface counts as torn: to a twentieth of a point.
 const HALVINGS: u32 = 6;
@@ -33,7 +33,7 @@ pub(super) struct StrokeTool {
     before: Option<Pos2>,
     /// Escape was pressed; nothing is drawn until the button is up.
     is_cancelled: bool,
-    /// Strokes that were drawn last, until a picture shows them.
+    /// Strokes that were drawn last, kept until a picture shows them.
     drawn: Option<Drawn>,
 }
 
@@ -225,7 +225,7 @@ impl Going {
         }
     }
 
-    /// Paths of all strokes so far.
+    /// Paths of all strokes of this drag.
     fn ways_m(&self) -> impl Iterator<Item = &[DVec3]> {
         let done = self.done.iter().map(|(_, way_m)| way_m.as_slice());
         let open = self.open.iter().map(|(recorder, _)| recorder.way_m());

@@ -6,7 +6,7 @@ use egui::Color32;
 
 use crate::engine::{Engine, View};
 
-/// A picture in motion takes less where nothing else runs. What takes longer is shown when it is there.
+/// Time to wait for a picture, before the window is drawn without it. A picture in motion takes less if nothing else runs.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Behaviour of such a window that differs from one that a GPU draws.

@@ -17,8 +17,8 @@ impl Workspace {
         self.toolbox.brush = Some(brush);
     }
 
-    /// The brush as it was set by hand; before that, as it fits the object that it was over last, or the selected object in
-    /// the middle of the view.
+    /// Brush with the settings made by hand, or else fitted to the object that it was over last, or to the selected object
+    /// in the middle of the view.
     pub fn brush(&self) -> BrushSettings {
         let fitted = || {
             let camera = self.camera();
@@ -34,7 +34,7 @@ impl Workspace {
         self.selection().object(self.document.description())
     }
 
-    /// The brush for a place on an object, as it is seen in the view.
+    /// Brush that fits a place on an object, as seen in the view.
     pub fn fitting_brush(&self, object: Option<usize>, point_m: DVec3) -> BrushSettings {
         let height_m = navigate::view_height_m(&self.camera(), point_m);
         BrushSettings::for_view(height_m, self.diagonal_m(object))
@@ -92,7 +92,7 @@ impl Workspace {
         }
     }
 
-    /// Whether it is one of those, by its place among the objects that were built.
+    /// Whether a built object, by its index, is part of the scene's subject.
     pub fn is_of_subject(&self, object: usize) -> bool {
         self.subject().contains(&object)
     }
@@ -120,7 +120,7 @@ impl Workspace {
         is_built.then(|| self.bounds_of(|i| i < objects.len()))?
     }
 
-    /// Lights that show scratches, in the place of those that there are.
+    /// Replaces the scene's lights by lights that show its scratches.
     pub fn light_for_scratches(&mut self) {
         let built = self.engine.built();
         match (built, self.built_bounds_m()) {

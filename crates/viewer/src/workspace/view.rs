@@ -61,7 +61,7 @@ impl Workspace {
         }
     }
 
-    /// The pinhole of it.
+    /// Pinhole of the view's camera.
     pub fn eye_m(&self) -> DVec3 {
         self.camera().position_m.into()
     }

@@ -98,12 +98,12 @@ pub fn wait_built(harness: &mut Harness<'static, Viewer>) {
     harness.run_steps(2);
 }
 
-/// The scene as it is.
+/// The current description of the scene.
 pub fn description(harness: &Harness<'static, Viewer>) -> Arc<Description> {
     Arc::clone(harness.state().document().description())
 }
 
-/// Light `i` as it is.
+/// The current state of light `i`.
 pub fn light(harness: &Harness<'static, Viewer>, i: usize) -> Light {
     description(harness).lights[i].clone()
 }
@@ -113,8 +113,8 @@ pub fn picture(harness: &Harness<'static, Viewer>) -> Rect {
     harness.get_by_role_and_label(Role::Image, "Picture").rect()
 }
 
-/// Clicks on what has this label, as soon as it is there and no longer moves: what another thread tells of is seen a pass
-/// later, and may push it to another place.
+/// Clicks on the widget with this label, as soon as it exists and has stopped moving: news of another thread is shown a
+/// pass later, and may push the widget to another place.
 pub fn click_on(harness: &mut Harness<'static, Viewer>, label: &str) {
     let start = Instant::now();
     let place =

@@ -194,7 +194,7 @@ fn menus_hold_what_keys_do() {
     assert!(harness.query_all_by_label_contains("Undo").count() >= 2);
 }
 
-/// However many of them a slow pass has gathered, and in their order.
+/// All commands run, however many a slow pass has gathered, and in their order.
 #[test]
 fn each_press_of_undo_and_redo_in_one_pass_is_a_step() {
     let mut harness = viewer(SMALL);

@@ -13,7 +13,7 @@ use hairline_scene::Scene;
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Figures, LayerFigures, Options, Viewer};
 
-/// A window in which the panels leave little room for the picture, so that samples are soon there.
+/// A window whose panels leave little room for the picture, so that samples come soon.
 fn viewer(scene: &'static str, width: f32) -> Harness<'static, Viewer> {
     sized_viewer(scene, [width, 400.0])
 }
@@ -69,7 +69,7 @@ fn rendered(text: &str, size_px: [u32; 2]) -> Image {
 }
 
 /// The built-in scene with a tenth of its scratches: from afar each pixel sees thousands of them, which takes the closed form
-/// its time.
+/// long.
 fn thinned() -> &'static str {
     let text = common::BUILT_IN.replace("count = 3400", "count = 340");
     assert_ne!(text, common::BUILT_IN);

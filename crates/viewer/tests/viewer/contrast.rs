@@ -17,7 +17,8 @@ fn contrast(text: Color32, ground: Color32) -> f32 {
     a.max(b) / a.min(b)
 }
 
-/// Rectangles drawn so far, with their colours. Pictures count as white, on which light text is hardest to read.
+/// Rectangles drawn until now, with their colours. Pictures count as white, on which light text is hardest to
+/// read.
 type Grounds = Vec<(Rect, Color32)>;
 
 fn ground(grounds: &Grounds, at: Pos2) -> Color32 {

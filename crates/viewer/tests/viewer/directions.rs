@@ -1,4 +1,4 @@
-//! The strokes that show which way the scratches of a selected layer run.
+//! Strokes that show the directions of the scratches of a selected layer.
 
 use crate::common;
 

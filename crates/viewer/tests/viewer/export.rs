@@ -202,7 +202,7 @@ fn whole_pictures(folder: &Path) -> usize {
     names.len()
 }
 
-/// A turntable of which some pictures are there, and by far not all.
+/// A turntable of which some pictures are done, and by far not all.
 fn begun(folder: &Path) -> Harness<'static, Viewer> {
     let mut harness = viewer(MODEST);
     export_turntable(&mut harness, &folder.join("t.png"), 2000);
@@ -335,7 +335,8 @@ fn a_transparent_picture_has_alpha_and_is_taken_from_where_the_window_looks() {
     }
 }
 
-/// The question is asked once, answered no by Escape and yes by the button; the next export asks again.
+/// The question is asked once, and answered no by Escape and yes by the button; the next export asks
+/// again.
 #[test]
 fn a_picture_that_is_there_is_replaced_only_after_a_question() {
     let folder = tempfile::tempdir().unwrap();
@@ -375,7 +376,7 @@ fn pictures_of_a_turntable_that_are_there_are_counted_before_they_are_replaced()
     );
 }
 
-/// A lens takes the number of samples that was asked for, and the dialog says how few of them look.
+/// A lens takes the given number of samples, and the dialog says how few of them look.
 #[test]
 fn a_lens_has_the_samples_that_were_asked_for() {
     let folder = tempfile::tempdir().unwrap();

@@ -19,7 +19,7 @@ fn shows_what_is_wanted(viewer: &Viewer) -> bool {
     })
 }
 
-/// Presses a key and waits for the picture that it asks for; returns how long that took.
+/// Presses a key and waits for the resulting picture; returns the time that it took.
 fn press(harness: &mut Harness<'static, Viewer>, key: Key) -> Duration {
     let before = harness.state().view();
     harness.key_press(key);

@@ -74,7 +74,7 @@ fn the_scene_is_seen_by_a_camera_of_its_models_file() {
     assert_eq!(description(&harness).camera, before);
 }
 
-/// Contents of a model that the picture does not have are told when it is opened, and once.
+/// Contents of a model that are not in the picture are reported when the model is opened, and once.
 #[test]
 fn what_of_a_model_is_left_out_is_told() {
     let dir = tempfile::tempdir().unwrap();

@@ -228,7 +228,7 @@ fn errors_of_scenes_that_are_gone_are_not_told() {
     }
 }
 
-/// The panel tells of the sun that was taken out of a map.
+/// The panel mentions the sun that was taken out of a map.
 #[test]
 fn a_sun_in_the_environment() {
     let folder = tempfile::tempdir().unwrap();

@@ -15,7 +15,7 @@ fn key(harness: &mut Harness<'static, Viewer>, modifiers: Modifiers, key: Key) {
     harness.run_steps(2);
 }
 
-/// The finished picture of the view as it is.
+/// The finished picture of the current view.
 fn finished(harness: &mut Harness<'static, Viewer>) -> Arc<Frame> {
     wait_until(harness, "a finished picture", |viewer| {
         let frame = viewer.engine().latest();

@@ -8,7 +8,7 @@ use egui_kittest::kittest::Queryable;
 use hairline_editor::Selection;
 use hairline_viewer::Viewer;
 
-/// The layers of this order that are seen.
+/// Rectangles of the visible layers of this order.
 fn shown(harness: &Harness<'static, Viewer>, order: Order) -> Vec<Rect> {
     harness.ctx.memory(|memory| {
         let areas = memory.areas();

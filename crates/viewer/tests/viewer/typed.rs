@@ -31,7 +31,7 @@ fn labels(harness: &Harness<'static, Viewer>, role: Role) -> Vec<String> {
         .collect()
 }
 
-/// Types into the control of this place in the panel, and leaves it by Enter.
+/// Types into the control with this index in the panel, and presses Enter.
 fn type_into(harness: &mut Harness<'static, Viewer>, role: Role, place: usize, text: &str) {
     {
         let picture = crate::common::picture(harness);

@@ -195,7 +195,7 @@ fn wheel(harness: &mut Harness<'static, Viewer>, at: egui::Pos2) {
     }
 }
 
-/// Zooming beside the object leaves target and focus at its depth, and K takes them over.
+/// Zooming beside the object leaves target and focus at the object's depth, and K takes both over.
 #[test]
 fn a_zoom_at_the_ground_leaves_target_and_focus_where_they_are() {
     for focus_m in [None, Some(0.5)] {

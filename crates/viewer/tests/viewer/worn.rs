@@ -1,4 +1,4 @@
-//! Light in which wear shows.
+//! Light that shows wear.
 
 use crate::common::{self, click_on, description, viewer, wait_built, wait_until};
 use egui_kittest::kittest::Queryable;

@@ -208,7 +208,7 @@ picture = "lamp.png"
         }
     }
 
-    /// A flag may give a seed beyond those of a scene file.
+    /// A flag may give a seed outside of the range of scene files.
     #[test]
     fn all_seeds_have_one() {
         let folder = folder();

@@ -38,7 +38,7 @@ fn mask_name(settings: &Settings) -> &'static str {
     }
 }
 
-/// Notes on everything that two runs must have in common for their samples to be those of one picture.
+/// Notes on everything that two runs must have in common so that their samples make one picture.
 pub fn notes(settings: &Settings, scene_fingerprint: &str) -> Notes {
     let values = [
         format!(
@@ -56,7 +56,7 @@ pub fn notes(settings: &Settings, scene_fingerprint: &str) -> Notes {
     names.zip(values).collect()
 }
 
-/// The reference in a file, for more samples of the picture that `wanted` notes and a size describe.
+/// Reads the reference in a file, to add samples of the picture that `wanted` notes and a size describe.
 ///
 /// # Errors
 /// [`Failure::Input`] where it is another picture, naming what differs, or no reference at all.
@@ -79,7 +79,8 @@ pub fn read_to_resume(path: &Path, size_px: [u32; 2], wanted: &Notes) -> Result<
     Ok(image)
 }
 
-/// Whether samples may be added to an image with its notes, of the picture that `wanted` notes and a size describe.
+/// Checks whether samples of the picture that `wanted` notes and a size describe may be added to an image with its
+/// notes.
 ///
 /// # Errors
 /// Why not, naming what differs.

@@ -23,7 +23,7 @@ pub struct Limits {
     pub save_every: Duration,
 }
 
-/// Samples for each pixel if neither they nor a time are asked for.
+/// Number of samples for each pixel if neither a number nor a time is given.
 const DEFAULT_SAMPLES: u32 = 1024;
 
 impl Limits {

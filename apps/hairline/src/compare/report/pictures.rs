@@ -7,7 +7,7 @@ use image::{ExtendedColorType, ImageEncoder, ImageResult};
 
 use super::values;
 
-/// A linear picture that is meant for the display as it is.
+/// Display settings for a picture that is tone-mapped already.
 const AS_IT_IS: Display = Display {
     exposure_ev: 0.0,
     tone_map: ToneMap::None,
@@ -26,8 +26,8 @@ pub fn is_light(layer: Layer) -> bool {
     matches!(layer, Layer::Beauty | Layer::Base | Layer::Scratches)
 }
 
-/// Returns two versions of a layer as a display shows them, both in the same way: light by the tone curve, shares as
-/// they are, depths from near (white) to far, normals as colours.
+/// Returns two versions of a layer for a display, with one scale for both: light by the tone curve, shares
+/// unchanged, depths from near (white) to far, normals as colours.
 pub fn shown(
     size_px: [u32; 2],
     layer: Layer,
@@ -147,7 +147,7 @@ impl Kind {
 /// Largest z of the colours.
 pub const Z_MAX: f64 = 6.0;
 
-/// Colour from blue by way of black to orange, in even steps of the sRGB codes.
+/// Colour from blue over black to orange, in even steps of the sRGB codes.
 fn z_color(index: u8) -> [u8; 3] {
     let z = (f64::from(index) - 127.5) / 127.5;
     let end: [f64; 3] = if z < 0.0 {

@@ -12,8 +12,8 @@ use half::f16;
 /// Up to this size the linear values are embedded; beyond, a page would take tens of megabytes and long to open.
 pub const LINEAR_MAX_PX: usize = 600_000;
 
-/// Channels as planes of half floats, high bytes before low ones (equal exponents lie together and compress), zlib, base64.
-/// The page's script undoes it.
+/// Packs channels as planes of half floats, high bytes before low ones (equal exponents lie together and compress), zlib,
+/// base64. The page's script unpacks them.
 pub fn packed(values: &[[f32; 3]], channels: usize) -> std::io::Result<String> {
     let mut bytes = Vec::with_capacity(values.len() * channels * 2);
     for channel in 0..channels {
@@ -45,8 +45,8 @@ pub fn plain(bytes: &[u8]) -> String {
     BASE64.encode(bytes)
 }
 
-/// A tone curve with the display's encoding as a table of colours, so that the page's script can apply any curve that
-/// Hairline has without a second version of it.
+/// Samples a tone curve with the display's encoding as a table of colours, by which the page's script can apply any of
+/// Hairline's curves.
 ///
 /// Node `i` of an axis stands for the exposed linear value `expm1(i ln(1 + GAIN MAX) / (NODES - 1)) / GAIN`: even steps
 /// in darkness, even ratios in light. Between nodes the script interpolates linearly. Colours outside the display's gamut

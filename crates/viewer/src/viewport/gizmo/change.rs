@@ -7,7 +7,7 @@ use hairline_scene::description::{Light, Object};
 
 use super::motion::Motion;
 
-/// Applies a motion to the body, as it was at the `start`.
+/// Applies a motion to the body in its state at the `start`.
 pub(super) fn change(
     description: &mut Description,
     start: &Description,

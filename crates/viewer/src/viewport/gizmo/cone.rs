@@ -63,7 +63,7 @@ impl Spot {
         }
     }
 
-    /// The point at an angle from the axis, so far around it.
+    /// Point of a rim at an angle from the axis and an angle around it.
     fn point_m(&self, lens: &Lens, rim: Rim, angle_rad: f64, around_rad: f64) -> DVec3 {
         let points = match rim {
             Rim::Outer => OUTER,
@@ -80,7 +80,7 @@ impl Spot {
         step as f64 / STEPS as f64 * std::f64::consts::TAU
     }
 
-    /// A rim as it is seen, closed; none where a part of it lies behind the eye.
+    /// Outline of a rim on the screen, closed; none if a part of the rim lies behind the eye.
     pub fn rim(&self, lens: &Lens, rim: Rim) -> Option<Vec<Pos2>> {
         let angle_rad = self.angle_rad(rim);
         let point = |step| self.point_m(lens, rim, angle_rad, Self::around_rad(step));
@@ -104,7 +104,7 @@ impl Spot {
         lively.map(|(step, now, _)| (step, now)).collect()
     }
 
-    /// Position at which a rim is to be met by those who do not see it.
+    /// Position of a rim's handle for users of a screen reader, where the rim can be dragged.
     pub fn knob(&self, lens: &Lens, rim: Rim) -> Option<Pos2> {
         let lively = self.lively(lens, rim);
         let right = lively.iter().max_by(|a, b| a.1.x.total_cmp(&b.1.x));
@@ -156,7 +156,7 @@ impl Spot {
         angles.min_by(|a, b| far(*a).total_cmp(&far(*b)))
     }
 
-    /// The whole angle of the cone after a drag of its outer rim, degrees.
+    /// Whole angle of the cone after a drag of its outer rim, degrees.
     pub fn opened_deg(&self, lens: &Lens, from: Pos2, to: Pos2) -> Option<f64> {
         let half_rad = self.dragged_rad(lens, Rim::Outer, from, to)?;
         let (least, most) = limits::CONE_DEG.into_inner();
@@ -164,7 +164,7 @@ impl Spot {
         Some(((deg * 10.0).round() / 10.0).clamp(least, most))
     }
 
-    /// The softness after a drag of its inner rim.
+    /// Softness after a drag of the inner rim.
     pub fn softened(&self, lens: &Lens, from: Pos2, to: Pos2) -> Option<f64> {
         let inner_rad = self.dragged_rad(lens, Rim::Inner, from, to)?;
         let softness = 1.0 - inner_rad / self.half_rad;

@@ -7,7 +7,7 @@ use super::handles::{Handle, Placed};
 use crate::viewport::lens::Lens;
 use crate::viewport::{Area, ink};
 
-/// Red, green and blue, so muted that they tell the axes and nothing else.
+/// Muted red, green and blue for the axes, so that they draw no attention to themselves.
 const AXES: [Color32; 3] = [
     Color32::from_rgb(214, 112, 104),
     Color32::from_rgb(134, 184, 112),
@@ -105,7 +105,7 @@ fn boxed(painter: &Painter, at: Pos2, align: Align2, words: &str, color: Color32
     painter.galley(rect.min, galley, color);
 }
 
-/// Draws a mark towards a body that the picture does not show.
+/// Draws a mark at the edge of the picture towards a body outside of it.
 pub(super) fn draw_off_screen(painter: &Painter, lens: &Lens, body: &Body, area: &Area) {
     let way = lens.towards(body.center_m);
     let inside = area.rect.shrink(18.0);

@@ -10,7 +10,7 @@ use super::body::Body;
 use super::cone::{Rim, Spot};
 use crate::viewport::lens::Lens;
 
-/// Length of an arrow that lies across the view, points.
+/// Length of an arrow across the view, points.
 const ARROW: f32 = 84.0;
 /// Start of an arrow: the middle has a handle of its own.
 const GAP: f32 = 12.0;
@@ -146,7 +146,8 @@ pub(super) fn place(body: &Body, lens: &Lens) -> Option<Vec<Placed>> {
     Some(placed)
 }
 
-/// A ring can be met anywhere, but those who do not see it are shown one place, which should be no other handle's.
+/// Moves apart the positions of rings' handles for screen readers, so that none lies on another handle. With a
+/// mouse a ring can be dragged anywhere.
 fn clear_knobs_of_rings(placed: &mut [Placed]) {
     for i in 0..placed.len() {
         if !matches!(placed[i].handle, Handle::Ring(_)) {

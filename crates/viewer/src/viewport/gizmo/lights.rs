@@ -16,7 +16,7 @@ use crate::viewport::lens::Lens;
 const REACH: f32 = 8.0;
 /// A lamp is never seen smaller than this.
 const SMALLEST: f32 = 6.0;
-/// Distance from the camera's target to the sign of a sun, were it to lie across the view, points.
+/// Distance from the camera's target to the sign of a sun whose direction is across the view, points.
 const SUN_REACH: f32 = 120.0;
 /// Length of the tick on the side on which a polygon shines.
 const TICK: f32 = 18.0;

@@ -52,8 +52,8 @@ impl Aim {
     }
 }
 
-/// Motion by a drag of the handle from one place to another, on the body as it was at the first; none where the
-/// pointer's ray does not tell.
+/// Motion by a drag of the handle from one place to another, for the body in its state at the first; none if
+/// the pointer's ray gives no motion.
 pub(super) fn of(body: &Body, handle: Handle, from: &Aim, to: &Aim, snaps: bool) -> Option<Motion> {
     let center_m = body.center_m;
     let eye_m = from.lens.eye_m();
@@ -130,7 +130,7 @@ fn turn_rad(center_m: DVec3, axis: DVec3, from: &Aim, to: &Aim) -> Option<f64> {
 }
 
 impl Motion {
-    /// Length of the motion, to be shown beside the pointer.
+    /// Text of the motion's length, shown beside the pointer.
     pub fn words(&self, handle: Handle) -> Option<String> {
         Some(match (*self, handle) {
             (Self::Move(delta_m), Handle::Axis(i)) => {

@@ -10,10 +10,10 @@ use crate::viewport::pick::Picked;
 use crate::viewport::{Area, ink};
 use crate::workspace::Workspace;
 
-/// Strokes that the scene has and no picture shows yet: on a slow machine laying them takes a while.
+/// Strokes of the scene that no picture shows yet, since laying takes long on a slow machine.
 pub(super) struct Drawn {
     pub ways_m: Vec<Vec<DVec3>>,
-    /// The document's, with the strokes in it.
+    /// Revision of the document with the strokes.
     pub revision: u64,
     /// Number of strokes that the scene has with them: with fewer, they were taken away again.
     pub strokes: usize,
@@ -72,7 +72,7 @@ pub(super) fn show_ring(
     ink::line(painter, points.collect(), 1.5, color);
 }
 
-/// A stroke so far.
+/// Shows the stroke that is being drawn.
 pub(super) fn show_way(painter: &Painter, lens: &Lens, way_m: &[DVec3], color: Color32) {
     let [r, g, b, _] = color.to_array();
     let color = Color32::from_rgba_unmultiplied(r, g, b, 160);
