@@ -194,7 +194,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Renders all rays that the camera sees.
+    /// Renders the scene with its background.
     fn render_visible(
         &mut self,
         scene: &Scene,

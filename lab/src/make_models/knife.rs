@@ -131,7 +131,7 @@ fn half_at_bevel(x: f64) -> f64 {
     BEVEL_HALF_MM * bevel(x) / BEVEL_MM
 }
 
-/// Section of the handle: its middle along y, and half its size along and across z.
+/// Section of the handle: its middle along y, and its half sizes across and along z.
 fn section(x: f64) -> [f64; 3] {
     let t = (x - END_MM) / (BOLSTER_MM - END_MM);
     let swell = libm::sin(PI * t);

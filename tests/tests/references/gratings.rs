@@ -81,7 +81,7 @@ fn single_grooves(field: GrooveField, coherence_um: f64, jitter: f64) -> Scene {
     scene
 }
 
-/// Light is right for the places of single grooves, in windows that show them.
+/// Closed form and Monte Carlo agree on the places of single grooves, in windows that show them.
 #[test]
 fn single_grooves_lie_where_they_are() {
     let field = grated(row(40.0, 4.0, 0.0, 0.0), 0.0, 0.1).objects[0].gratings[0].field;

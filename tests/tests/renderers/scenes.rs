@@ -73,7 +73,7 @@ fn no_scene_is_left_out() {
     }
 }
 
-/// The largest error that the comparison permits is less than that of one scratch in ten that is a tenth wider.
+/// The comparison's largest permitted error is less than that of making one scratch in ten a tenth wider.
 #[test]
 fn a_wrong_scratch_is_seen() {
     let scene = middle("plate");

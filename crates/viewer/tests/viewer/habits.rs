@@ -369,7 +369,8 @@ fn the_help_fits_and_reads_as_the_keyboard_does() {
     }
 }
 
-/// Uses no sign of egui's own that needs a special font: a test panics where a sign has no glyph.
+/// egui's own sign of a colour picker needs a special font; the test panics where a sign has no
+/// glyph.
 #[test]
 fn the_colour_picker_has_all_its_signs() {
     let mut harness = viewer(SMALL);
