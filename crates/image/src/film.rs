@@ -178,7 +178,7 @@ impl Image {
         }
     }
 
-    /// The picture of the closed forms alone, if rays found something beside them.
+    /// Returns the picture of the closed forms alone, if rays added found light.
     pub fn open(&self) -> Option<Self> {
         let found = self.found.as_ref()?;
         let (base, scratches) = found

@@ -41,7 +41,7 @@ pub(super) struct CpuEasel {
 /// The last picture that was done.
 struct Last {
     image: Image,
-    /// With what is remembered of the picture before it.
+    /// The picture completed from the remembered one.
     completed: Option<Image>,
     step: Step,
     order: Order,
@@ -225,14 +225,14 @@ impl Easel for CpuEasel {
 }
 
 impl CpuEasel {
-    /// A picture with what it lacks of the one before, if there is something. It is remembered itself.
+    /// Completes a picture from the remembered one, if that suits it, and remembers a picture at full resolution.
     fn complete(&mut self, order: &Order, step: &Step, image: &Image) -> Option<Image> {
         let before = self.remembered.as_ref().filter(|it| it.is_of(order));
         if order.built.is_sketch() || !step.is_whole(&order.view) {
             return before?.sharpen(image, order);
         }
         let (completed, remembered) = match image.open() {
-            // It has rays of its own.
+            // The picture has rays of its own.
             Some(open) => (None, Remembered::new(order, &open, Some(image))),
             None => {
                 let completed = before.and_then(|it| it.shade(image, order));
@@ -252,7 +252,7 @@ impl Last {
         let (_, picture, findings) = match shown.take() {
             Some(shown) if shown.0.is_shown_as(view) => shown,
             _ => {
-                // Readings are of the picture itself.
+                // Other readings show the picture without additions.
                 let completed = self.completed.as_ref();
                 let completed = completed.filter(|_| view.reading.shows == Shows::Beauty);
                 let image = completed.unwrap_or(&self.image);

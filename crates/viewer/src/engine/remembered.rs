@@ -1,5 +1,5 @@
-//! The last refined picture, moved to where the camera is now. A coarse picture takes its detail from it, and one without rays its shadows and
-//! reflections, until they have their own (W. Mark, L. McMillan, G. Bishop, *Post-Rendering 3D Warping*, 1997).
+//! The last refined picture, reprojected to the current camera. A coarse picture takes its detail from it, and a picture without rays takes its
+//! shadows and reflections, until it has its own (W. Mark, L. McMillan, G. Bishop, *Post-Rendering 3D Warping*, 1997).
 
 use std::sync::{Arc, Weak};
 
@@ -18,14 +18,14 @@ use warp::{Place, Warp, is_same_depth};
 mod cells;
 mod warp;
 
-/// Pixels of a picture in motion at most: two cores move so many in some 15 ms.
+/// Largest number of pixels of a picture in motion: two cores reproject so many in some 15 ms.
 const MOST_PX: f64 = 200_000.0;
-/// Pixels to a side over which light is averaged where single pixels tell too little.
+/// Side in pixels of the blocks over which light is averaged where single pixels are missing or too noisy.
 const BLOCK_PX: u32 = 8;
-/// Surfaces whose normals differ by a smaller cosine from one coarse pixel to the next are seen there by chance.
+/// Least cosine between the normals of neighbouring coarse pixels on one surface: below it the pixel sees the surface only by chance.
 const EVEN_COS: f32 = 0.95;
 
-/// A picture with all pixels and all scratches.
+/// A picture at full resolution and with all scratches.
 pub(super) struct Remembered {
     built: Weak<Built>,
     triangles: Weak<TriangleIndex>,
@@ -33,7 +33,7 @@ pub(super) struct Remembered {
     camera: CameraFrame,
     places: Vec<Place>,
     pixels: Vec<Pixel>,
-    /// Whether it has shadows and reflections.
+    /// Whether `shown` includes shadows and reflections.
     has_rays: bool,
 }
 
@@ -41,28 +41,28 @@ pub(super) struct Remembered {
 struct Pixel {
     base: Layer,
     scratches: Layer,
-    /// The share of its light that a display shows.
+    /// Share of the pixel's light that a display shows.
     tone: f32,
 }
 
-/// The light of a layer. Linear Rec.709 radiance.
+/// Light of a layer, linear Rec.709 radiance.
 #[derive(Clone, Copy, Default)]
 struct Layer {
-    /// By the closed form.
+    /// Light by the closed form.
     open: Vec3,
-    /// With shadows and reflections.
+    /// Light with shadows and reflections.
     shown: Vec3,
 }
 
 impl Layer {
-    /// The closed form of another picture with the shadows and reflections of this one.
+    /// Applies the shadows and reflections of this picture to the closed form `open` of another.
     fn shade(&self, open: Vec3) -> Vec3 {
         changed(open, self.open, self.shown)
     }
 }
 
 impl Remembered {
-    /// Keeps a picture of an order: `open` has its closed forms, `shown` its shadows and reflections too, if there are some.
+    /// Stores a picture of an order: `open` has its closed forms, `shown` also its shadows and reflections, if it has any.
     pub fn new(order: &Order, open: &Image, shown: Option<&Image>) -> Self {
         let has_rays = shown.is_some();
         let shown = shown.unwrap_or(open);
@@ -93,20 +93,20 @@ impl Remembered {
         }
     }
 
-    /// Whether it shows the same surfaces with the same scratches, from wherever and in whatever light.
+    /// Whether the picture shows the same surfaces with the same scratches, from any camera and in any light.
     pub fn is_of(&self, order: &Order) -> bool {
         let built = &order.built;
         self.triangles.ptr_eq(&Arc::downgrade(&built.triangles))
             && self.scratches.ptr_eq(&Arc::downgrade(&built.scratches))
     }
 
-    /// Whether its shadows and reflections are those of an order, too.
+    /// Whether the picture's shadows and reflections are right for an order, too.
     fn has_rays_of(&self, order: &Order) -> bool {
         let transport = order.view.transport;
         self.has_rays && transport.shadows && self.built.ptr_eq(&Arc::downgrade(&order.built))
     }
 
-    /// A coarse picture with the detail, shadows and reflections of this one; none where the coarse one is as fine as what it would become.
+    /// Adds the detail, shadows and reflections of this picture to a coarse one; none if the coarse one has as many pixels as the result would have.
     pub fn sharpen(&self, coarse: &Image, order: &Order) -> Option<Image> {
         let full_px = order.view.size_px;
         let count = f64::from(full_px[0]) * f64::from(full_px[1]);
@@ -149,7 +149,8 @@ impl Remembered {
         })
     }
 
-    /// A picture of closed forms that has all pixels, with the shadows and reflections of this one; none where it has none, or those of other light.
+    /// Adds the shadows and reflections of this picture to one of closed forms at full resolution; none if this picture has none, or if they are of
+    /// other light.
     pub fn shade(&self, open: &Image, order: &Order) -> Option<Image> {
         if !self.has_rays_of(order) {
             return None;
@@ -165,13 +166,13 @@ impl Remembered {
             let mean = Pixel::mean(means.at(warp.place(i)));
             let pixel = self.pixels.get(warp.pixels[i]).unwrap_or(&mean);
             *base = pixel.base.shade((*base).into()).into();
-            // Other scratches glint than did.
+            // Scratches that glint now are not those that glinted before.
             *scratches = mean.scratches.shade((*scratches).into()).into();
         });
         Some(image)
     }
 
-    /// The light of base and scratches that each pixel of a coarse picture had and has, without rays.
+    /// Light of base and scratches, without rays, at each pixel of a coarse picture: before and now.
     fn changes(
         &self,
         coarse: &Image,
@@ -183,13 +184,13 @@ impl Remembered {
         let (base, scratches) = (light(&coarse.base), light(&coarse.scratches));
         let before =
             |i: usize| means.values[i].map_or(scratches[i], |it| Pixel::mean(it).scratches.open);
-        // Few scratches stand for all.
+        // A coarse picture has few scratches, which stand for all.
         let scratches_before = Cells::new(coarse.size_px, before).smooth().smooth();
         let scratches_now = Cells::new(coarse.size_px, |i| scratches[i]);
         let scratches_now = scratches_now.without_spikes().smooth().smooth();
         let middles = Cells::new(coarse.size_px, |_| ());
         let base_before = Cells::new(coarse.size_px, |i| {
-            // Of the same point: a mean would have other surfaces in it. What is a rim in the coarse picture is seen by chance.
+            // Light of the same point, since a mean would include other surfaces. A rim in the coarse picture is seen only by chance.
             let at = warp.pixel_at(middles.middle(i));
             let is_same = is_same_depth(warp.depth_m[at], coarse.depth_m[i]) && is_even(coarse, i);
             let before = self.pixels.get(warp.pixels[at]).filter(|_| is_same);
@@ -208,7 +209,7 @@ impl Remembered {
         })
     }
 
-    /// The mean light in each of so many parts of the picture, as [`Pixel::mean`] takes it; none where nothing is known.
+    /// Mean light in each of `parts` blocks of the picture, as [`Pixel::mean`] takes it; none where no pixel is known.
     fn means(&self, parts: [u32; 2], warp: &Warp) -> Cells<Option<[Vec3; 4]>> {
         let mut sums = Cells::new(parts, |_| ([Vec3::ZERO; 4], 0));
         for (i, pixel) in warp.pixels.iter().enumerate() {
@@ -232,7 +233,7 @@ impl Remembered {
 }
 
 impl Pixel {
-    /// Of mean light: of the base and the scratches, each by the closed form and as it was shown.
+    /// Makes a pixel from mean light: of the base and of the scratches, each by the closed form and as shown.
     fn mean([base, base_shown, scratches, scratches_shown]: [Vec3; 4]) -> Self {
         let layer = |open, shown| Layer { open, shown };
         Self {
@@ -243,7 +244,7 @@ impl Pixel {
     }
 }
 
-/// Whether the pixels beside one see a surface that goes on.
+/// Whether a pixel and its neighbours see one continuous surface.
 fn is_even(coarse: &Image, i: usize) -> bool {
     let [width, height] = coarse.size_px.map(|side| side as usize);
     let (x, y) = (i % width, i / width);
@@ -259,8 +260,8 @@ fn is_even(coarse: &Image, i: usize) -> bool {
     })
 }
 
-/// A value that changes as another one does: it falls by the same factor and grows by the same difference. So nothing bright is made of what was
-/// nearly black.
+/// Changes a value as another one changes from `from` to `to`: by the same factor if that falls, by the same difference if that grows. A factor for
+/// growth would make something bright of a nearly black value.
 fn changed(value: Vec3, from: Vec3, to: Vec3) -> Vec3 {
     let factor = Vec3::select(from.cmpgt(Vec3::ZERO), to / from, Vec3::ONE);
     value * factor.clamp(Vec3::ZERO, Vec3::ONE) + (to - from).max(Vec3::ZERO)

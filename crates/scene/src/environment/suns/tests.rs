@@ -157,7 +157,7 @@ fn windows_are_no_suns() {
     }
 }
 
-/// The same suns are found however many threads look for them.
+/// Equal suns are ordered by their place, however many threads search.
 #[test]
 fn equals_are_told_apart_by_their_place() {
     let toward = [DVec3::X, DVec3::NEG_X, DVec3::Y];

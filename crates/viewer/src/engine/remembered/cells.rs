@@ -2,15 +2,15 @@
 
 use glam::Vec3;
 
-/// A grid; places are from 0 to 1 over the picture.
+/// A grid over a picture; positions are from 0 to 1 over the picture.
 pub(super) struct Cells<T> {
     size: [usize; 2],
-    /// Row by row.
+    /// Values of the cells, row by row.
     pub values: Vec<T>,
 }
 
 impl<T: Copy> Cells<T> {
-    /// With a value for each number of a cell.
+    /// Makes the grid from a function of the cell's index.
     pub fn new(size: [u32; 2], value: impl Fn(usize) -> T) -> Self {
         let size = size.map(|side| side as usize);
         Self {
@@ -19,19 +19,19 @@ impl<T: Copy> Cells<T> {
         }
     }
 
-    /// The place of the middle of a cell.
+    /// Position of a cell's middle.
     pub fn middle(&self, i: usize) -> [f32; 2] {
         let at = [i % self.size[0], i / self.size[0]];
         [0, 1].map(|c| (at[c] as f32 + 0.5) / self.size[c] as f32)
     }
 
-    /// That of the cell at a place.
+    /// Value of the cell at a position.
     pub fn get_mut(&mut self, at: [f32; 2]) -> &mut T {
         let [x, y] = [0, 1].map(|c| ((at[c] * self.size[c] as f32) as usize).min(self.size[c] - 1));
         &mut self.values[y * self.size[0] + x]
     }
 
-    /// Cells of which each is made of those around it, itself among them.
+    /// Computes each cell from its 3 x 3 neighbourhood.
     fn around<U: Copy>(&self, of: impl Fn(usize, &mut dyn Iterator<Item = T>) -> U) -> Cells<U> {
         let [width, height] = self.size;
         let near = |at: usize, side: usize| at.saturating_sub(1)..(at + 2).min(side);
@@ -48,7 +48,7 @@ impl<T: Copy> Cells<T> {
 }
 
 impl Cells<Vec3> {
-    /// Means over the cells around.
+    /// Means over each cell's 3 x 3 neighbourhood.
     pub fn smooth(&self) -> Self {
         self.around(|_, cells| {
             let (sum, count) = cells.fold((Vec3::ZERO, 0.0), |(s, n), it| (s + it, n + 1.0));
@@ -58,7 +58,7 @@ impl Cells<Vec3> {
 }
 
 impl Cells<Vec3> {
-    /// No value is larger than the third of those around, itself among them.
+    /// Limits each value to the third largest of its 3 x 3 neighbourhood.
     pub fn without_spikes(&self) -> Self {
         self.around(|i, cells| {
             let mut largest = [Vec3::NEG_INFINITY; 3];
@@ -73,7 +73,7 @@ impl Cells<Vec3> {
 }
 
 impl<const N: usize> Cells<[Vec3; N]> {
-    /// Between the middles of the cells.
+    /// Bilinear value at a position.
     pub fn at(&self, at: [f32; 2]) -> [Vec3; N] {
         let [(x0, x1, u), (y0, y1, v)] = [0, 1].map(|c| {
             let at = (at[c] * self.size[c] as f32 - 0.5).clamp(0.0, (self.size[c] - 1) as f32);
@@ -93,7 +93,8 @@ impl<const N: usize> Cells<[Vec3; N]> {
 }
 
 impl<const N: usize> Cells<Option<[Vec3; N]>> {
-    /// Cells without a value take the mean of those around, from one to the next; zeros where there is no value at all.
+    /// Fills cells without a value by the mean of their neighbours, step by step; with zeros if there is no value at
+    /// all.
     pub fn filled(mut self) -> Cells<[Vec3; N]> {
         while self.values.iter().any(Option::is_none) && self.values.iter().any(Option::is_some) {
             self = self.around(|i, cells| {

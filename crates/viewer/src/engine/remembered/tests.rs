@@ -1,4 +1,5 @@
-//! Detail, shadows and reflections of a remembered picture make another view's nearer to what it becomes.
+//! Tests that detail, shadows and reflections of a remembered picture bring a picture of another view
+//! nearer to its final state.
 
 use std::path::Path;
 
@@ -16,7 +17,7 @@ use super::*;
 
 const FULL_PX: [u32; 2] = [240, 160];
 
-/// A matt plate with scratches and a ball on it, under two lamps, one of this radiance.
+/// A matt plate with scratches and a ball on it, under two lamps, one of them of this radiance.
 fn built(shop: &mut Workshop, radiance: f64) -> Arc<Built> {
     let description = SceneFile::seen_from([0.0, -0.21, 0.18])
         .metal("steel", "steel")
@@ -40,7 +41,7 @@ fn built(shop: &mut Workshop, radiance: f64) -> Arc<Built> {
     Arc::new(built.unwrap().unwrap())
 }
 
-/// From where the scene's own camera is, turned about what it looks at.
+/// Order for the scene's own camera, turned about its target.
 fn order(built: &Arc<Built>, degrees: f64) -> Order {
     let camera = built.scene.camera;
     let turn = DQuat::from_axis_angle(camera.up, degrees.to_radians());
@@ -70,7 +71,8 @@ fn picture(order: &Order, size_px: [u32; 2], transport: Transport) -> Image {
     render(&order.built, &scene, 4, transport, None, 1 << 14, &|_| true).unwrap()
 }
 
-/// The mean difference of what is shown, which a bright highlight does not outweigh.
+/// Mean difference of the shown light, limited to 1 so that a bright highlight does not outweigh the
+/// rest.
 fn error(a: &Image, b: &Image) -> f64 {
     let shown = |it: &Image, i: usize| {
         (Vec3::from(it.base[i]) + Vec3::from(it.scratches[i])).min(Vec3::ONE)
@@ -81,7 +83,7 @@ fn error(a: &Image, b: &Image) -> f64 {
     f64::from(sum) / a.pixel_count() as f64
 }
 
-/// Each pixel as large as so many to a side.
+/// Enlarges a picture: each pixel becomes `times` x `times` pixels.
 fn enlarged(image: &Image, times: u32) -> Image {
     let size_px = image.size_px.map(|side| side * times);
     let mut large = Image::new(size_px);

@@ -1,4 +1,4 @@
-//! Which pixels of a picture are seen in those of another camera's.
+//! Reprojection of a picture to another camera.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -6,26 +6,26 @@ use glam::{DVec2, Vec3};
 use hairline_scene::camera::CameraFrame;
 use rayon::prelude::*;
 
-/// Depths that differ by a larger share are those of other surfaces.
+/// Largest relative difference of depths of one surface.
 const SAME_DEPTH: f32 = 0.02;
-/// Pixels to a side that a pixel covers at most, where the camera has come nearer.
+/// Largest side, in pixels, of a reprojected pixel, where the camera has come nearer.
 const MOST_SIDE_PX: f32 = 4.0;
-/// Pixels that rounding may make too large.
+/// Tolerance, in pixels, for rounding of a pixel's size.
 const ROUNDING: f32 = 0.01;
 /// Distance of the background, metres.
 const FAR_M: f64 = 1e6;
 
-/// Where the surface of a pixel is.
+/// Position of a pixel's surface.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
-    /// From the camera, metres.
+    /// Vector from the camera, metres.
     to_m: Vec3,
-    /// Along the axis of the camera.
+    /// Depth along the camera's axis, metres.
     depth_m: f32,
 }
 
 impl Place {
-    /// Of a depth of 0 it is the background.
+    /// Finds the position of a pixel's surface; depth 0 is the background.
     pub fn new(camera: &CameraFrame, at_px: DVec2, depth_m: f32) -> Self {
         let ray = camera.camera_ray(at_px);
         let depth_m = match depth_m {
@@ -39,27 +39,27 @@ impl Place {
     }
 }
 
-/// Whether two depths, 0 for the background, are those of one surface.
+/// Whether two depths, 0 for the background, can be of one surface.
 pub(super) fn is_same_depth(a_m: f32, b_m: f32) -> bool {
     let far_m = 0.5 * FAR_M as f32;
     let is_far = |m: f32| m == 0.0 || m > far_m;
     (a_m - b_m).abs() < SAME_DEPTH * b_m || is_far(a_m) && is_far(b_m)
 }
 
-/// The pixels of a picture in those of another one.
+/// For each pixel of a new picture, the pixel of the old one that it shows.
 pub(super) struct Warp {
     size: [usize; 2],
-    /// By number; [`usize::MAX`] where none is seen.
+    /// Index of the old pixel; [`usize::MAX`] where there is none.
     pub pixels: Vec<usize>,
-    /// Along the axis of the new camera; NaN where none is seen.
+    /// Depth along the axis of the new camera; NaN where there is no pixel.
     pub depth_m: Vec<f32>,
 }
 
-/// Nothing.
+/// Entry of an empty pixel.
 const EMPTY: u64 = u64::MAX;
 
 impl Warp {
-    /// From one camera's picture, whose pixels see these places, to another's. The nearest place is seen.
+    /// Reprojects a picture, whose pixels have these places, from one camera to another. The nearest place wins.
     pub fn new(places: &[Place], from: &CameraFrame, to: &CameraFrame) -> Self {
         let size = [to.size_px.x as usize, to.size_px.y as usize];
         let nearest: Vec<AtomicU64> = (0..size[0] * size[1])
@@ -69,7 +69,7 @@ impl Warp {
         let [right, down] = [to.per_px_x, to.per_px_y].map(|it| (it / (per_px * per_px)).as_vec3());
         let (forward, middle_px) = (to.forward.as_vec3(), to.middle_px.as_vec2());
         let moved_m = (from.position_m - to.position_m).as_vec3();
-        // Of a pixel there to one here, at the same depth.
+        // Ratio of the sizes of old and new pixels at one depth.
         let larger = (from.per_px_x.length() / per_px) as f32;
         places.par_iter().enumerate().for_each(|(i, place)| {
             let to_m = place.to_m + moved_m;
@@ -84,7 +84,7 @@ impl Warp {
                     let first = (middle + to_m.dot(axis) / depth_m - 0.5 * side + 0.5).floor();
                     first.max(0.0) as usize..(first + side).max(0.0) as usize
                 });
-            // Depths are positive: their bits have their order.
+            // Positive floats have the order of their bits.
             let entry = u64::from(depth_m.to_bits()) << 32 | i as u64;
             for y in rows.start..rows.end.min(size[1]) {
                 for x in columns.start..columns.end.min(size[0]) {
@@ -107,7 +107,7 @@ impl Warp {
         }
     }
 
-    /// Forgets pixels that lie elsewhere than what the new picture sees.
+    /// Drops pixels whose depth differs from that of the new picture.
     pub fn keep_those_at(&mut self, depth_m: &[f32]) {
         for (i, pixel) in self.pixels.iter_mut().enumerate() {
             if !is_same_depth(self.depth_m[i], depth_m[i]) {
@@ -116,20 +116,21 @@ impl Warp {
         }
     }
 
-    /// The middle of a pixel, from 0 to 1 over the picture.
+    /// Position of a pixel's middle, from 0 to 1 over the picture.
     pub fn place(&self, i: usize) -> [f32; 2] {
         let at = [i % self.size[0], i / self.size[0]];
         [0, 1].map(|c| (at[c] as f32 + 0.5) / self.size[c] as f32)
     }
 
-    /// The pixel at a place from 0 to 1.
+    /// Index of the pixel at a position from 0 to 1.
     pub fn pixel_at(&self, at: [f32; 2]) -> usize {
         let [x, y] = [0, 1].map(|c| ((at[c] * self.size[c] as f32) as usize).min(self.size[c] - 1));
         y * self.size[0] + x
     }
 }
 
-/// A pixel's entry; in a gap between two others the farther of them: neighbours are drawn apart where the camera comes nearer.
+/// Entry of a pixel, or in a gap between two opposite neighbours the farther one's: pixels move apart where the camera comes
+/// nearer.
 fn closed(entries: &[u64], [width, height]: [usize; 2], i: usize) -> u64 {
     let (x, y) = (i % width, i / width);
     let is_inside = x > 0 && y > 0 && x + 1 < width && y + 1 < height;
