@@ -168,7 +168,7 @@ fn blocks(row: &Grating, places_um: Places, rows: u32) -> Vec<SentLight> {
 fn full(row: &Grating, places_um: Places, rows: u32, block: u32) -> SentLight {
     let all = (0..rows).into_par_iter().map(|number| {
         let mut random = Pcg64::seed_from_u64(u64::from(BLOCKS * number + block) + SEED);
-        // Where the row lies: evenly over the rows.
+        // Place of the row: evenly over the rows.
         let phase = (f64::from(number) + random.random::<f64>()) / f64::from(rows);
         let places_um = places_um(row, phase, &mut random);
         one_row(row, &places_um, &mut random)

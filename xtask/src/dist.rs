@@ -127,7 +127,7 @@ fn copy_licences(root: &Path, metadata: &Value, to: &Path) -> anyhow::Result<()>
     for package in packages {
         let text = |key: &str| package[key].as_str().unwrap_or_default();
         let name = format!("{} {}", text("name"), text("version"));
-        // What has no source is Hairline's own.
+        // Packages without a source are Hairline's own.
         if package["source"].is_null() || !linked.contains(&name) {
             continue;
         }

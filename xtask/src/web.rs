@@ -130,7 +130,7 @@ fn compile(root: &Path, is_quick: bool) -> anyhow::Result<PathBuf> {
     let profile = if is_quick { "web-quick" } else { "web" };
     // All browsers with WebGPU have it, and the program is a fifteenth smaller.
     let simd = "-C target-feature=+simd128";
-    // What only a browser compiles no other check sees.
+    // Code for browsers alone is compiled by no other check.
     let flags = if is_quick {
         format!("{simd} -D warnings")
     } else {

@@ -49,7 +49,7 @@ impl Wheel {
             .arg(&environment))?;
         let programs = environment.join("bin");
         let python = || Command::new(programs.join("python"));
-        // What is imported is compiled then.
+        // Imported modules are compiled at that time.
         let quietly = [
             "-m",
             "pip",
@@ -81,14 +81,14 @@ impl Wheel {
         };
         let (wheel, types) = beside(make, check_types)?;
         let (wheel, ()) = (wheel?, types?);
-        // What the stubs say of the compiled part is what it has.
+        // The stubs agree with the compiled part.
         let stubs = ["-m", "mypy.stubtest", "hairline._hairline", "--concise"];
         run(python()
             .current_dir(&package)
             .args(stubs)
             .args(["--mypy-config-file", "pyproject.toml"]))?;
 
-        // From elsewhere: the package that is tested is the one that was installed.
+        // Another folder than the sources, so that the installed package is tested.
         let target = root.join("target");
         let target = std::env::var_os("CARGO_TARGET_DIR").map_or(target, PathBuf::from);
         let tests = |which: &[&str]| {

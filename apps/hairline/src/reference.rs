@@ -73,7 +73,7 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
         }
         (None, _) => "from the start".to_owned(),
     };
-    // From here on there is something to lose.
+    // Work from here on should not be lost by Ctrl-C.
     let interrupt = Interrupt::listen().map_err(cannot_listen)?;
     tell(format_args!(
         "{}: {from}",

@@ -222,7 +222,7 @@ impl Source {
         let model = Description::is_model(path).then(|| Description::for_model(path));
         let model = model.transpose()?;
         Ok(Self {
-            // What an error's line is counted in; a model has none.
+            // Text whose lines errors count; a model has none.
             text: match model {
                 Some(_) => String::new(),
                 None => reading::scene_text(path)?,

@@ -39,7 +39,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         while !interrupt.is_asked() && Stamps::of(scene) == before {
             std::thread::sleep(EVERY);
         }
-        // What is being written is let be until it stays the same.
+        // A file that is being written is left alone until it no longer changes.
         let mut last = Stamps::of(scene);
         while !interrupt.is_asked() {
             std::thread::sleep(EVERY);

@@ -55,7 +55,7 @@ impl TileLists {
                 counts
             })
             .collect();
-        // Where each part writes in each tile: tile by tile, and in a tile part by part.
+        // Offsets at which each part writes in each tile: tile by tile, and in a tile part by part.
         let mut starts = Vec::with_capacity(tiles + 1);
         let mut end = 0;
         for tile in 0..tiles {
@@ -129,7 +129,7 @@ impl Grid {
         // The line's unit normal; none for a point, which the boxes bound well.
         let per_length = if length > 1e-3 { 1.0 / length } else { 0.0 };
         let (nx, ny) = (-dy * per_length, dx * per_length);
-        // As far as a tile's corners are from its middle along the normal.
+        // Distance of a tile's corners from its middle along the normal, in addition to the reach.
         let aside = reach + 0.5 * tile * (nx.abs() + ny.abs());
         let floor = |px: f32, least: usize, end: usize| {
             // Below zero it is zero, beyond all numbers the largest one.

@@ -100,7 +100,7 @@ fn width_m(point: &SurfacePoint, distance_m: f64, direction: DVec3, solid_angle_
     let [right, down] = point.footprint_axes_m;
     let here_m = (right.cross(down).dot(direction)).abs().sqrt();
     let turns = point.normal_turns.map(DVec3::length_squared);
-    // Of a disk, half its radius.
+    // Spread of a disk of this solid angle: half its radius.
     let drawn_rad2 = 0.25 * solid_angle_sr / std::f64::consts::PI;
     let spread_rad = here_m / point.distance_m + (2.0 * (turns[0] + turns[1]) + drawn_rad2).sqrt();
     here_m + distance_m * spread_rad

@@ -191,7 +191,7 @@ impl<'p, 'a> Base<'p, 'a> {
         Self {
             point,
             under_coat,
-            // What the surface does not reflect reaches the body.
+            // The body gets the light that the surface does not reflect.
             body: point.diffuse * (DVec3::ONE - lobe.albedo).max(DVec3::ZERO),
             lobe,
             coat: coat.map(|it| (it.weight, layer(it))),

@@ -65,7 +65,7 @@ impl ShadedGratings {
             );
             let scale = density / covered.max(1.0);
             let around = views.views.len();
-            // Of a source, or of what the base loses.
+            // Adds the light of a source, or without a source the energy that the base loses.
             let mut add = |source: Option<usize>, row: &RowAt, sent: DVec3| {
                 let sent = scale * row.share * sent;
                 let pick = || row.pick(scale);

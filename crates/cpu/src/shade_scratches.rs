@@ -164,7 +164,7 @@ impl Shading<'_, '_> {
             let Some(mut share) = seen.share(lane, width_um) else {
                 continue;
             };
-            // As many scratches, each of which is as long a line.
+            // A weight counts as that many scratches, each with the line's full length.
             share.segment *= weight;
             self.counts.pairs += 1;
             let point = &self.points[first + lane];

@@ -389,7 +389,7 @@ impl<'a> Picture<'a> {
             .collect();
         let (done, all) = (AtomicUsize::new(0), parts.len());
         let is_cancelled = AtomicBool::new(false);
-        // What a tile needs is dear to allocate, and threads take other tiles than they began with.
+        // Rooms are reused: they take long to allocate, and a thread goes from tile to tile.
         let rooms: Mutex<Vec<Tile>> = Mutex::default();
         parts.into_par_iter().for_each(|(row, mut layers)| {
             let first = self.rows.start.max(row * SIDE) - row * SIDE;

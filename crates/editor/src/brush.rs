@@ -203,7 +203,7 @@ pub fn apply_stroke(
             };
             if let Selection::Layer(i) = place {
                 description.scratches[i].strokes.push(stroke);
-                // What is drawn is to be seen.
+                // A layer that is drawn on becomes visible.
                 let has_solo = description.scratches.iter().any(|layer| layer.solo);
                 description.scratches[i].hidden = false;
                 description.scratches[i].solo |= has_solo;

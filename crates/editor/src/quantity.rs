@@ -212,7 +212,7 @@ pub struct QuantityError {
 
 impl fmt::Display for QuantityError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // What was pasted may be long.
+        // Pasted text may be long.
         let mut typed: String = self.typed.chars().take(40).collect();
         if typed.len() < self.typed.len() {
             typed.push('…');

@@ -145,7 +145,7 @@ mod tests {
             sums[0] < sums[2] && sums[2] < sums[1] && sums[1] == sums[3],
             "{sums:?}"
         );
-        // What was changed by hand has no grade.
+        // Wear that was changed by hand has no grade.
         description.scratches[1].layer = before.scratches[0].layer.clone();
         assert_eq!(wear_of(&description, "pan"), None);
         set_wear(&mut description, 0, 0.28, Wear::New).unwrap();

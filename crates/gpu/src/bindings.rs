@@ -39,7 +39,7 @@ impl Layouts {
             .map(|i| match i {
                 0 => entry(i, both, storage(true)),
                 i if i < FIRST_ROWS => entry(i, compute, storage(true)),
-                // What is cut out of triangles is a matter of their materials.
+                // Materials decide which parts of triangles are cut out.
                 MATERIALS => entry(i, compute | ShaderStages::FRAGMENT, integers()),
                 i => entry(i, compute, integers()),
             })
@@ -66,7 +66,7 @@ impl Layouts {
             })
             .collect();
         Self {
-            // Which sample it is decides what is cut out of surfaces that cover their share.
+            // The sample's number decides which surfaces with partial coverage it meets.
             frame: layout(
                 gpu,
                 "frame",

@@ -56,7 +56,7 @@ impl Call<'_> {
         rows: &[[f32; N]],
     ) -> Result<Vec<[f32; M]>, Error> {
         let mut results = Vec::with_capacity(rows.len());
-        // What one dispatch may hold: workgroups in one dimension, and bytes in one binding.
+        // Limits of one dispatch: workgroups in one dimension, and bytes in one binding.
         let limits = gpu.limits();
         let by_groups = u64::from(limits.max_compute_workgroups_per_dimension * WORKGROUP);
         let by_bytes = limits.max_storage_buffer_binding_size / (4 * N.max(M).max(1) as u64);

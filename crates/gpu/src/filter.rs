@@ -125,7 +125,7 @@ impl FilterPasses {
                 rows: rows.len() as u32,
                 ..whole
             };
-            // From the film into the first textures, then by turns.
+            // The first pass reads the film and writes the first textures, then both sets take turns.
             for (rows, film) in &films {
                 let from = Inputs::of(&room, film, 1);
                 let size = all([size_px[0], rows.len() as u32]);

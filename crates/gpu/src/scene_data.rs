@@ -58,7 +58,7 @@ impl SceneData {
         last: Option<&Self>,
     ) -> Result<Self, Error> {
         check_size(gpu, source)?;
-        // What lies on a device that was lost is of no use to the next one.
+        // Arrays on a lost device cannot be used on the next one.
         let last = last.filter(|last| last.device == gpu.device);
         let (last_buffers, last_textures) = (
             last.map(|last| &last.buffers),

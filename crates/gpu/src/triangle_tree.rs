@@ -89,7 +89,7 @@ pub fn packed(scene: &Scene, index: &TriangleIndex, origin_m: DVec3) -> Vec<[u32
         .map(|(_, _, corners)| corners.map(|corner| relative(corner, origin_m).into()))
         .collect();
     let mut boxes = vec![[Vec3::INFINITY, Vec3::NEG_INFINITY]; nodes.len()];
-    // What lies below a node comes after it.
+    // Children come after their parents in the list.
     for (i, node) in nodes.iter().enumerate().rev() {
         let own = &triangles[node.triangles.start as usize..node.triangles.end as usize];
         let mut around = boxes[i];

@@ -197,7 +197,7 @@ mod tests {
                 .collect();
             assert_eq!(codes, quantize(&grey(level), &display));
         }
-        // What knows no animations sees the first.
+        // A program that supports no animations shows the first picture.
         let still = crate::png::read_picture(&path).unwrap();
         assert_eq!(still.size_px, SIZE_PX);
     }

@@ -199,7 +199,7 @@ impl Guides {
             z if z > 0.0 => 1.0 / z,
             _ => 0.0,
         };
-        // Of both sides the one that changes less: the other one may lie beyond an edge.
+        // Takes the side with the smaller change: the other side may lie beyond an edge.
         let slope = |i: usize, before: Option<usize>, after: Option<usize>| {
             let object = found.pixels[i].object;
             let step = |from: usize, to: usize, other: usize| {

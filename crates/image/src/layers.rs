@@ -118,7 +118,7 @@ impl Layers {
     pub fn displayed(&self, display: &Display) -> Self {
         let alpha = self.get(Layer::Alpha).map(|held| &held.values);
         let shown = |(i, &rgb): (usize, &[f32; 3])| {
-            // As files have it, colours are multiplied by the shares; the curve is of the colours alone.
+            // Files have colours multiplied by alpha; the curve applies to the colours alone.
             let share = alpha.map_or(1.0, |alpha| alpha[i][0]);
             if !(share > 0.0) {
                 return [0.0; 3];

@@ -174,7 +174,7 @@ fn resolve(path: &Path) -> Result<PathBuf, Error> {
 
 /// Target of symbolic links that end at a name where no file is yet.
 fn end_of_links(path: &Path) -> PathBuf {
-    // As many as Linux follows.
+    // Limit of Linux.
     const MOST_LINKS: usize = 40;
     let mut end = path.to_owned();
     for _ in 0..MOST_LINKS {

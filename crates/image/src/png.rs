@@ -64,7 +64,7 @@ pub fn quantize_image(image: &Image, display: &Display) -> Result<Vec<u8>, Strin
     let pixels = codes.chunks_exact(3).zip(alpha);
     let with_alpha = pixels.flat_map(|(rgb, &share)| {
         let code = (share.clamp(0.0, 1.0) * 255.0).round() as u8;
-        // What is not seen has no colour, dithered or not.
+        // A transparent pixel has no colour, dithered or not.
         let rgb = if code == 0 { &[0; 3] } else { rgb };
         [rgb[0], rgb[1], rgb[2], code]
     });

@@ -33,7 +33,7 @@ pub(crate) fn beside(path: &Path, target: &Path) -> Result<NamedTempFile, Error>
     builder.prefix(&prefix).suffix(SUFFIX);
     #[cfg(unix)]
     {
-        // As any new file: the umask takes its share. The default would be private to the user.
+        // Permissions of a new file, less those in the umask. The default would be private to the user.
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }

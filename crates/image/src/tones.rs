@@ -95,7 +95,7 @@ mod tests {
 
     #[test]
     fn an_edge_of_a_lamp_is_half_way_to_white() {
-        // Of a lamp of 1000 and black: each shows as 1 and 0, so the mean shows as 1/2, which is what a luminance of 1 does.
+        // A lamp of 1000 and black show as 1 and 0, so their mean shows as 1/2, as a luminance of 1 does.
         let tone = mean(&[1000.0, 0.0], 1.0);
         let shown = tone.luminance * tone.share(1.0);
         assert!((shown - 1.0).abs() < 0.01, "{shown}");

@@ -156,7 +156,7 @@ fn main() {
         }
         for (i, (name, step)) in STEPS.iter().zip(&row.steps).enumerate() {
             let (wall, cpu) = (step.wall.as_secs_f64(), step.cpu.as_secs_f64());
-            // Of the wall time over the number: 1 is in proportion.
+            // Growth of the wall time over that of the number: 1 is proportional.
             let growth = last.as_ref().map_or("–".to_owned(), |last| {
                 let times = wall / last.steps[i].wall.as_secs_f64();
                 let (n, before) = (row.count as f64, last.count as f64);

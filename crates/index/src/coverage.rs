@@ -85,7 +85,7 @@ mod tests {
                     Coverage::of_sample([pixel, 7], sample).meets(alpha, pixel % 5, 0)
                 });
                 let met = met.count();
-                // Of sixteen samples within one of what is expected, in each pixel.
+                // The number of hits of sixteen samples is within one of its expectation, in each pixel.
                 assert!((met as f64 - 16.0 * alpha).abs() < 1.0, "{alpha}: {met}");
                 all += met;
             }

@@ -52,7 +52,7 @@ const SHARED_PIECES: usize = 1 << 16;
 /// The layers of an object, in their order, by the trees that they go to: a large one for itself, small ones together.
 pub(crate) fn groups<'a>(scene: &'a Scene, object: &'a Object) -> Vec<Vec<LayerRun<'a>>> {
     let mut groups: Vec<Vec<LayerRun>> = Vec::new();
-    // Of the last group.
+    // Pieces in the last group.
     let mut pieces = 0;
     for run in LayerRun::of(scene, object) {
         let own = run.piece_count();

@@ -157,7 +157,7 @@ impl TriangleReach {
             self.in_plane(segment.start_m.as_dvec3()),
             self.in_plane(segment.end_m.as_dvec3()),
         );
-        // What the walk's box leaves of the normal direction and of any other.
+        // Extent of the walk's box along the normal and in any other direction.
         let farthest = 3f64.sqrt() * self.walk_um;
         let (lowest, highest) = (start.z.min(end.z), start.z.max(end.z));
         if lowest > farthest || highest < -farthest {

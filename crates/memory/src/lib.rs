@@ -24,7 +24,7 @@ pub fn budget_bytes() -> u64 {
 /// `12.30 GiB`, `4.0 MiB`.
 pub fn in_words(bytes: f64) -> String {
     const KIB: f64 = 1024.0;
-    // What rounds to 1024 of a unit is 1 of the next.
+    // A number that rounds to 1024 of a unit is written as 1 of the next.
     const MOST: f64 = 1023.95;
     match bytes {
         ..1024.0 => format!("{bytes:.0} bytes"),

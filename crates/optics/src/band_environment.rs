@@ -113,7 +113,7 @@ pub fn environment_cells(line: BandLine, width_um: f64) -> [EnvironmentCell; ENV
 
 /// The cells of a line for a grating, from the arc's end to its start in q.
 pub fn row_cells(line: BandLine) -> [EnvironmentCell; ROW_CELLS] {
-    // Of the middles, too.
+    // Twice as many steps as cells, for their middles too.
     let step = std::f64::consts::PI / (2 * ROW_CELLS) as f64;
     let at = |i: usize| line.offset - line.radius * (step * i as f64).cos();
     std::array::from_fn(|i| {

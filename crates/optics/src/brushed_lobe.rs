@@ -465,7 +465,7 @@ impl BrushedLobe {
             if inside > 0.0 {
                 let reach = inside.sqrt().copysign(a1);
                 let q = -(a1 + reach);
-                // Of two forms of the nearer end the one that cancels less.
+                // The nearer end has two forms; the one that cancels less is used.
                 let near = if 2.0 * reach.abs() < a1.abs() {
                     (reach - a1) / a2
                 } else {
@@ -548,11 +548,11 @@ impl BrushedLobe {
         };
         let curved = if k > 0.0 { 1.0 } else { -1.0 };
         if (value_a > 0.0) != (value_b > 0.0) {
-            // From the side from which Newton's steps do not overshoot.
+            // Newton's steps start on the side where they do not overshoot.
             let from = if value_a * curved > 0.0 { 0.0 } else { 1.0 };
             crossed(from, if value_b > value_a { 1.0 } else { -1.0 });
         } else if value_a * curved > 0.0 {
-            // Where it turns, it may be on the other side.
+            // The edge may cross twice, on both sides of its turning point.
             let d2 = d.length_squared().max(1e-30);
             let sine = -step / (k * d2.sqrt());
             if sine * sine >= 1.0 {

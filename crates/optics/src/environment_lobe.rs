@@ -110,7 +110,7 @@ impl EnvironmentLobe {
             self.mirror,
             self.middle + from_middle * self.sharp * self.axis.x / self.axis.length(),
         );
-        // Where the pixel's normals spread it the surface hides more of it, or less.
+        // Masking at the spread direction over that at the unspread one.
         let masking = |cos: f64| ggx_g1(cos.max(MASKING_MIN_COS), self.sharp);
         let shown = (masking(direction.z) / masking(equal_cos)).min(SHOWN_MAX);
         EnvironmentTap {

@@ -69,7 +69,7 @@ pub(crate) fn filtered_facets(
     if mean <= 0.0 {
         return (surface, 0.0);
     }
-    // Of the spread.
+    // Long axis of the spread.
     let axis = DVec2::from_angle(0.5 * covariance.atan2(half));
     let along = [axis, axis.perp()].map(|axis| {
         let (x, y) = (axis.dot(surface.along), axis.perp_dot(surface.along));
@@ -127,7 +127,7 @@ pub struct FilteredLobe {
 /// one GGX has 6 to 37 % (test `pixels_blur_the_core_and_not_the_tails`).
 pub fn filtered_lobe(alpha: f64, spread: SlopeSpread, cos_o: f64) -> FilteredLobe {
     let (variance, covariance) = spread.bounded(cos_o);
-    // By the axes of the spread.
+    // Variances along the axes of the spread.
     let (mean, half) = (
         0.5 * (variance.x + variance.y),
         0.5 * (variance.x - variance.y),
@@ -142,7 +142,7 @@ pub fn filtered_lobe(alpha: f64, spread: SlopeSpread, cos_o: f64) -> FilteredLob
     // The tails of an elliptic lobe, in the mean over all directions about it.
     let excess = 1.0 - 2.0 * sharp2 / (wide2.x + wide2.y);
     let cos2 = cos_o * cos_o;
-    // How far the arc that such normals reflect to lies off its chord, in slopes.
+    // Distance, in slopes, from the chord to the arc to which such normals reflect.
     let bend = DVec2::new(cos2 * variance.y, covariance);
     let bend2 = (1.0 - cos2).max(0.0) / (cos2 * sharp2).max(1e-12) * bend.length_squared();
     FilteredLobe {

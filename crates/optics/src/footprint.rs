@@ -81,7 +81,7 @@ pub fn scratch_share(
     let per_variance = 1.0 / variance;
     let across = (-0.5 * offset_um * offset_um * per_variance).exp()
         * (per_variance * (1.0 / (2.0 * PI))).sqrt();
-    // Where the footprint is slanted, the part of it that lies on the scratch is displaced along it.
+    // A slanted footprint: its part on the scratch is displaced along the scratch.
     let shift = offset_um * footprint.cross_um2 * per_variance;
     let along_variance = footprint.along_um2
         - footprint.cross_um2 * footprint.cross_um2 * per_variance

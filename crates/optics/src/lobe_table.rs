@@ -211,7 +211,7 @@ mod tests {
 
     #[test]
     fn shares_lie_where_cosines_are() {
-        // Of a mirror all at the viewer's own.
+        // The light of a mirror is all at the viewer's own angle.
         for column in [4, 12, 31] {
             let (_, cos_o) = lobe_table_node(0, column);
             let mean: f64 = (0..FRESNEL_NODES)

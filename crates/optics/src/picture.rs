@@ -125,7 +125,7 @@ impl PicturePlane {
         across_std: f64,
     ) -> PictureLook {
         let length = self.picture_uv(low).distance(self.picture_uv(high));
-        // Of the chord; across it the picture is about as far away.
+        // Share of the chord's length; across the chord the picture is about as far away.
         let share = across_std / low.distance(high).max(1e-30);
         PictureLook {
             uv: self.picture_uv(middle),

@@ -193,7 +193,7 @@ fn sptd_complement(cap: SphericalCap) -> SphericalCap {
 
 /// The intersection of two caps.
 pub fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
-    // Of each cap the side that is at most a hemisphere.
+    // Replaces each cap by its complement if it is larger than a hemisphere.
     let (flip_a, flip_b) = (a.cosine < 0.0, b.cosine < 0.0);
     let small_a = if flip_a { sptd_complement(a) } else { a };
     let small_b = if flip_b { sptd_complement(b) } else { b };
@@ -327,6 +327,6 @@ fn sptd_mean(lobe: &SptdLobe, region: SphericalRegion) -> f64 {
     for offset in [u, v, -u, -v] {
         add(RING_WEIGHT, height * centre + radius * offset);
     }
-    // Of a sliver at the horizon rounding may leave no point above it; GGX ends there.
+    // Rounding may leave no point of a sliver at the horizon above it; GGX ends there.
     sum / weights.max(1e-30)
 }

@@ -256,7 +256,7 @@ mod tests {
     #[test]
     fn the_table_equals_quadrature() {
         let gold = ScratchTable::new(|nm| Metal::Gold.reflectance(1.0, nm));
-        // From whole lobes to the chord of a light of 0.002 rad on a scratch of 1 um.
+        // Ranges from whole lobes down to the chord of a light of 0.002 rad on a scratch of 1 um.
         for (step, bound) in [(5.0, 3e-3), (0.5, 3e-3), (0.05, 3e-3), (0.004, 3e-3)] {
             let (mirror, gold) = (
                 rms_error(&MIRROR, None, step, 10.0),

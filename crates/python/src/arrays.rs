@@ -179,7 +179,7 @@ impl ScratchArray {
         }
         let made: Result<_, Error> = py.detach(|| {
             let arrays = ScratchArrays::new(bytemuck::cast_slice(ends_m).to_vec(), slices)?;
-            // As they are kept, so that a copy has the same name.
+            // Sizes in the precision of the stored layer, so that a copy has the same name.
             let sizes = (0..keys.len()).flat_map(|place| arrays.size(place));
             let sizes: Vec<f32> = sizes.collect();
             let name = name(&[bytemuck::cast_slice(ends_m), bytemuck::cast_slice(&sizes)]);

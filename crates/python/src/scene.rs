@@ -161,7 +161,7 @@ impl Builder {
                 cancelled: &|| told.is_cancelled(),
                 ..Loader::default()
             };
-            // What a panic left is as good as nothing.
+            // A builder that panicked may be broken.
             let mut builder = self.builder.lock().unwrap_or_else(|left| {
                 let mut builder = left.into_inner();
                 *builder = SceneBuilder::new();

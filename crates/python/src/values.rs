@@ -75,7 +75,7 @@ impl Stock {
                     "" => name.clone(),
                     key => format!("{key}.{name}"),
                 };
-                // As if it were not there: TOML has no such value.
+                // None counts as missing: TOML has no such value.
                 if !value.is_none() {
                     read.insert(name, self.value(&value, &key, depth + 1)?);
                 }

@@ -55,7 +55,7 @@ impl GrooveView {
             width_um: groove.profile.width_um as f64,
             depth_nm: groove.profile.depth_nm as f64,
         };
-        // Where along the groove the window ends.
+        // Place along the groove at which the window ends.
         let nearest_um = 0.0_f64.clamp(piece.start_um, piece.end_um);
         let reach_um = reach_sigma * sigma_um + 0.5 * piece.width_um;
         if piece.offset_um.abs() > reach_um || nearest_um.abs() > reach_um {

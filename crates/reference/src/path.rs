@@ -244,7 +244,7 @@ impl Integrator<'_> {
                 sum += hit.radiance * value / pdf;
             }
         }
-        // What the drawn direction meets: the next surface, or the environment.
+        // Hit of the drawn direction: the next surface, or the environment.
         let next = drawn.and_then(|(direction, ..)| self.next_surface(vertex, direction));
         if let (Some(environment), Some(sampler)) = (&self.scene.environment, &self.environment) {
             let [u, v, ..] = vertex.random.four(Purpose::Environment);

@@ -151,7 +151,7 @@ mod tests {
                 }
             }
             let count = f64::from(batches * BATCH_SAMPLES);
-            // Of independent numbers: a standard deviation of 1/12/sqrt(count); five of them.
+            // Five standard deviations of the covariance of independent numbers, 1/12/sqrt(count) each.
             assert!((covariance / count).abs() < 5.0 / 12.0 / count.sqrt());
         }
     }

@@ -132,7 +132,7 @@ mod tests {
             .map(|i| Wavelengths::new((i as f64 + 0.5) / count as f64))
             .map(|w| w.weight.iter().sum::<DVec3>())
             .sum();
-        // As the weights themselves do: spectrum.rs, `weights_as_a_density_integrate_to_one`.
+        // Same tolerance as for the weights themselves: spectrum.rs, `weights_as_a_density_integrate_to_one`.
         assert!((sum / count as f64 - DVec3::ONE).abs().max_element() < 3e-4);
     }
 }

@@ -110,7 +110,7 @@ impl Estimate {
         let Some(described) = &description.environment else {
             return;
         };
-        // What is wrong with it is told where it is read.
+        // Errors in the map are reported when it is read.
         let (key, size_px) = match &described.map {
             Map::File(file) => ("file", environment::size_px(&base_dir.join(file))),
             Map::BuiltIn(_) => ("builtin", Ok(environment::BUILT_IN_SIZE_PX)),

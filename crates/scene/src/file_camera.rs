@@ -86,7 +86,7 @@ const LEAST_RISE: f64 = 0.05;
 /// Converts a file's camera to that of a description. Models stand by the axis nearest to its `up`, which therefore has to stay.
 fn camera(seen: &FileCamera, before: &Camera, world_up: DVec3) -> Result<Camera, mesh_file::Flaw> {
     let right = seen.forward.cross(seen.up);
-    // Of all vectors that are up in this picture the one nearest to the axis; of a camera that looks straight down, one that leans a little.
+    // Up vector nearest to the axis among those that are up in this picture; for a camera that looks straight down, one that leans a little.
     let rise = world_up.dot(seen.up);
     let up = world_up - right * world_up.dot(right) + seen.up * (LEAST_RISE - rise).max(0.0);
     if vertical_axis(up, seen.forward) != world_up {

@@ -265,7 +265,7 @@ impl Grating {
         if share <= 0.0 {
             return None;
         }
-        // As if it saw one spot: across a rim grooves turn by any angle, which is no width of a fan.
+        // Grooves as if the pixel saw one spot: across a rim they turn by any angle, which is no width of a fan.
         let field = self.field.about(point_m);
         let course = field.course(ground, point_m, normal, axes_m);
         let tangent = field.tangent_by(course.here, point_m, normal)?;
@@ -452,7 +452,7 @@ mod tests {
         assert!(share(0.02) < 1e-6 && share(0.06) < 1e-6);
         assert!((share(0.04) - 0.5).abs() < 1e-6);
         assert!((share(0.023) - 0.25).abs() < 1e-6 && (share(0.058) - 0.25).abs() < 1e-6);
-        // Of parallel ones from their middle, in all directions.
+        // Radii of parallel grooves are measured from their middle, in all directions.
         let mut parallel = grating(Bearing::Circular, [0.0, 0.02]);
         parallel.field = GrooveField::Along {
             direction: DVec3::X,

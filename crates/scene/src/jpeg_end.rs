@@ -14,7 +14,7 @@ pub(crate) fn is_cut_off(bytes: &[u8]) -> bool {
     }
     let mut at = 2;
     loop {
-        // What lies between segments is passed over, and so is the coded data of a scan, in which a mark is followed by 0 or the number of a restart.
+        // Bytes between segments are skipped, and so is the coded data of a scan, in which a mark is followed by 0 or the number of a restart.
         let Some(mark) = mark_from(bytes, at) else {
             return true;
         };
@@ -58,7 +58,7 @@ mod tests {
             .unwrap();
         let bytes = file.into_inner();
         assert!(!is_cut_off(&bytes));
-        // What programs append is none of it.
+        // Bytes that programs append are not part of the picture.
         assert!(!is_cut_off(&[&bytes[..], b"more"].concat()));
         for end in 2..bytes.len() - 1 {
             assert!(is_cut_off(&bytes[..end]), "{end} of {}", bytes.len());

@@ -102,7 +102,7 @@ impl Head<'_> {
         }
         let scheme = self.u32(44)?;
         if scheme == BASIS_LZ {
-            // Of the endpoints, the selectors, the tables; and of the slices of each level.
+            // Ranges of the endpoints, the selectors and the tables, then of the slices of each level.
             for at in [4, 8, 12] {
                 self.within(self.u32(shared + at)?.into())?;
             }

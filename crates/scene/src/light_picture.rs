@@ -33,7 +33,7 @@ impl LightPicture {
             return picture.map_or_else(|error| Err(error.to_string()), Self::of_linear);
         }
         let image = texture::read(path, free_bytes)?;
-        // What is transparent sends no light, by as much as it is.
+        // Transparent texels send less light, in proportion to alpha.
         let texels = image.texels.into_iter().map(over_black).collect();
         Ok(Self {
             texture: Texture::of_colors(image.size_px, texels),
@@ -43,7 +43,7 @@ impl LightPicture {
 
     /// Makes the picture of linear radiances.
     fn of_linear(picture: Picture) -> Result<Self, String> {
-        // What is no radiance counts as none.
+        // Values that are no radiance count as zero.
         let channels = || picture.rgb.iter().flatten().copied();
         let brightest = channels().filter(|c| c.is_finite()).fold(0.0, f32::max);
         if !(brightest > 0.0) {

@@ -259,7 +259,7 @@ fn parse(bytes: &[u8], kept: OptionalElements) -> Result<Gltf, Flaw> {
     root::find_images(&mut json)?;
     root::find_packed_views(&mut json);
     leniency::loosen(&mut json);
-    // What the crate's own validation takes for granted.
+    // Checks that the crate's own validation omits.
     let accessors = json.accessors.len();
     let mut primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
     if primitives.any(|p| p.attributes.values().any(|a| a.value() >= accessors)) {
@@ -287,7 +287,7 @@ fn parts(bytes: &[u8]) -> Result<GltfChunks<'_>, Flaw> {
     if !bytes.starts_with(b"glTF") {
         return Ok((Cow::Borrowed(bytes), None));
     }
-    // What follows the length that it says is not its own.
+    // Bytes beyond the file's stated length do not belong to it.
     let length = u32::from_le_bytes([bytes[8], bytes[9], bytes[10], bytes[11]]);
     let bytes = &bytes[..bytes.len().min(length as usize)];
     let glb = gltf::binary::Glb::from_slice(bytes).map_err(|error| {

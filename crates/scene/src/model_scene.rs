@@ -68,7 +68,7 @@ impl Description {
             // Those that are fitted are moved.
             fit_m.get_or_insert(extent_m);
         }
-        // From y up to z up.
+        // Rotation from y up to z up.
         let turned = |p: DVec3| factor * DVec3::new(p.x, -p.z, p.y);
         let from_middle = |p: DVec3| turned(p - summary.moved_from.unwrap_or(DVec3::ZERO));
         let lights = mesh_file::lights(path)
@@ -114,7 +114,8 @@ impl Description {
                 lamps = subject.lights(&camera, render.size_px);
                 Environment::dark_room()
             }
-            // Whose strength is not known.
+            // The model has lights of its own, but their strength is unknown, so the studio's map lights it as
+            // well.
             false => Environment {
                 map: Map::BuiltIn(BuiltInMap::Studio),
                 rotation_deg: STUDIO_ROTATION_DEG,

@@ -34,7 +34,7 @@ pub fn three_sides(
 ) -> ([DVec2; 3], [f64; 3]) {
     let p = tiles_from_world.transform_point3(point_m);
     let rows = tiles_from_world.transpose();
-    // As normals go: by the transpose of the way back. Sharp, so that few places mix two sides.
+    // Normals transform by the transpose of the inverse. The shares are sharp, so that few places mix two sides.
     let shares = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| {
         let row = row.truncate();
         (row.dot(normal) / row.length_squared()).powi(4)

@@ -152,7 +152,7 @@ impl Subject<'_> {
             } => (1.0 - metallic) * mean(base_color),
         };
         let of_texture = material.base_color_texture.map_or(1.0, |texture| {
-            // As bright as a display shows them.
+            // Linear values from the displayed ones.
             let some = self.textures[texture].some_texels();
             let linear =
                 |texel: &[u8; 4]| mean([0, 1, 2].map(|c| (f64::from(texel[c]) / 255.0).powf(2.2)));

@@ -311,7 +311,7 @@ impl<'a> Plan<'a> {
             return true;
         };
         let chance = self.laying.middle(index).map_or(0.0, |it| place.chance(it));
-        // Of another stream than all else of the scratch, which stays as it is without.
+        // A separate stream, so that the scratch itself stays as it is without a density.
         let seed = LOT ^ self.table.layer.seed().unwrap_or(0);
         Stream::new(seed, self.table.number, index).uniform() < chance
     }

@@ -65,7 +65,7 @@ impl Surface {
             !mesh.other_uvs.is_empty() || is_used(|vertex| vertex.other_uv != Vec2::ZERO);
         let has_colors = !mesh.colors.is_empty() || is_used(|vertex| vertex.color != Vec4::ONE);
         if has_other_uvs {
-            // Of what came before.
+            // Fills up for the vertices before these.
             mesh.other_uvs.resize(first as usize, Vec2::ZERO);
             mesh.other_uvs
                 .extend(self.vertices.iter().map(|vertex| vertex.other_uv));

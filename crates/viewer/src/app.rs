@@ -225,7 +225,7 @@ impl Viewer {
         }
         self.hear_engine();
         self.work.turn_view(&ctx);
-        // What is dropped onto a page the page itself takes.
+        // Files that are dropped onto a page are handled by the page.
         let dropped = if HAS_DISK {
             dropped_files(&ctx)
         } else {
@@ -246,7 +246,7 @@ impl Viewer {
         }
         // It closes what is open and ends what is typed, and egui has taken the keyboard from a text by now.
         let escape_is_taken = has_popup || self.was_typing;
-        // What is typed after the key of a command that asks something belongs to the answer.
+        // Keys typed after that of a command that asks a question belong to the answer.
         while !self.is_asking()
             && let Some(command) = Command::next_pressed(&ctx, escape_is_taken)
         {
@@ -370,7 +370,7 @@ impl eframe::App for Viewer {
 
     fn on_exit(&mut self) {
         self.loss.close();
-        // What a lost window kept is for the next start.
+        // Work of a lost window is kept for the next start.
         if self.loss.reason().is_none() {
             self.files.close();
         }

@@ -278,7 +278,7 @@ impl Command {
             .copied()
             .filter(|(command, _)| command.is_here());
         let mut keys: Vec<_> = own.chain(also).collect();
-        // Of two shortcuts where one's modifiers include the other's, the larger comes first.
+        // A shortcut comes before another one whose modifiers it includes.
         let modifiers = |keys: &Modifiers| {
             [keys.command, keys.shift, keys.alt]
                 .into_iter()

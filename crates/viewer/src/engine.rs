@@ -70,7 +70,7 @@ impl Engine {
     /// Starts with nothing to paint.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn start(backend: Backend, wake: Wake) -> Self {
-        // From this thread, whose priority theirs is: those that build and refine lower their own.
+        // Threads inherit this thread's priority; those that build and refine lower their own.
         pool::start();
         let shared = Arc::new(Shared::new(backend, wake));
         let spawn = |name: &str, work: fn(&Shared)| {
@@ -179,7 +179,7 @@ impl Drop for Engine {
             #[cfg(not(target_arch = "wasm32"))]
             Workers::Threads(threads) => {
                 for thread in threads.drain(..) {
-                    // What panics in it is told in the window.
+                    // A panic of the thread is shown in the window.
                     let _ = thread.join();
                 }
             }

@@ -79,7 +79,7 @@ impl Export {
                     .unwrap_or_default();
                 let path = folder.join(purpose.proposal(&work.document));
                 let size_px = work.document.description().render.size_px;
-                // As many as the window adds up.
+                // As many samples as the window adds up.
                 let has_lens = has_lens(work.document.description());
                 let samples = match work.transport.shadows || has_lens {
                     true => SHADOW_SAMPLES,

@@ -173,7 +173,7 @@ impl Files {
         if self.waiting.is_some() {
             return;
         }
-        // What is chosen there comes as if it were dropped onto the window.
+        // Files chosen there arrive as if they were dropped onto the window.
         #[cfg(target_arch = "wasm32")]
         if !purpose.writes() {
             crate::script::pick(&purpose.filter().1.join(","));

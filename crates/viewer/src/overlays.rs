@@ -91,7 +91,7 @@ mod tests {
                 .into_iter()
                 .any(|overlay| overlays.has(overlay))
         );
-        // What is asked for is seen.
+        // A selected overlay is visible.
         overlays.toggle(Overlay::Names);
         assert!(overlays.has(Overlay::Names) && overlays.has(Overlay::Lights));
         overlays.toggle(Overlay::Lights);

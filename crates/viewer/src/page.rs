@@ -36,7 +36,7 @@ impl Page {
         lost: impl Fn(&str) + 'static,
     ) -> Result<Self, JsValue> {
         let mut web = WebOptions {
-            // As on the desktop: the picture is dithered when it is made.
+            // No dithering by egui, as on the desktop: the picture is dithered when it is made.
             dithering: false,
             ..Default::default()
         };

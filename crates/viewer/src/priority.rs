@@ -13,7 +13,7 @@ const PRIORITY: u8 = 40;
 pub(crate) fn lower() {
     #[cfg(not(target_arch = "wasm32"))]
     if let Ok(priority) = ThreadPriorityValue::try_from(PRIORITY) {
-        // Where the system refuses, the interface is a little less smooth.
+        // If the system refuses, the interface is a little less smooth.
         let _ = set_current_thread_priority(ThreadPriority::Crossplatform(priority));
     }
 }

@@ -28,7 +28,7 @@ pub(crate) fn set(ctx: &egui::Context) {
     visuals.widgets.inactive.fg_stroke.color = Color32::from_gray(205);
     visuals.weak_text_color = Some(Color32::from_gray(150));
     visuals.error_fg_color = ERROR;
-    // What cannot be chosen now is read as well.
+    // Disabled controls should be legible as well.
     visuals.disabled_alpha = 0.65;
     ctx.set_visuals_of(egui::Theme::Dark, visuals);
     ctx.all_styles_mut(|style| {

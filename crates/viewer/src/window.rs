@@ -106,7 +106,7 @@ fn watch(state: Option<&RenderState>, backend: &Backend, loss: &WindowLoss) {
     loss.watch(&state.device);
     let loss = loss.clone();
     match backend {
-        // Which hears of it for the engine.
+        // The shared device calls one listener, which reports to the engine as well.
         Backend::Shared(gpu) => gpu.on_lost(move |reason| loss.tell(reason)),
         _ => state
             .device

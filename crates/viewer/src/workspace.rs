@@ -71,7 +71,7 @@ impl Workspace {
         let mut changed = Description::clone(before);
         change(&mut changed);
         match flaw(&changed) {
-            // What was wrong before is none of this change's.
+            // An error that was there before is not this change's.
             Some(error) if flaw(before).as_ref() != Some(&error) => {
                 let why = format!("{label}: {}; {}.", error.found(), error.right());
                 self.notices.error("change", why);

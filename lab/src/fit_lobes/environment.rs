@@ -234,7 +234,7 @@ impl RoundLobe {
             alpha,
             per_integral: 1.0,
         };
-        // By the reciprocal of what stands squared in the density: steps of equal weight.
+        // Steps of equal weight: even in the reciprocal of the term that is squared in the density.
         let rest = (1.0 - alpha * alpha).max(1e-6);
         let [from, to] = [0.5, 0.0].map(|half_sine2| 1.0 / (alpha * alpha + rest * half_sine2));
         let steps = 48;

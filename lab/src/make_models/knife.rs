@@ -169,7 +169,7 @@ fn add_face(
     for i in 0..=cells_u {
         for j in 0..=cells_v {
             let (u, v) = (i as f64 / cells_u as f64, j as f64 / cells_v as f64);
-            // Where a face closes to a point its neighbourhood says how it faces.
+            // Where a face closes to a point, its normal is that of the neighbourhood.
             let at = (u.clamp(2e-3, 1.0 - 2e-3), v);
             let along = point(at.0 + DIFFERENCE, at.1) - point(at.0 - DIFFERENCE, at.1);
             let across = point(at.0, at.1 + DIFFERENCE) - point(at.0, at.1 - DIFFERENCE);

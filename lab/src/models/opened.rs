@@ -82,7 +82,7 @@ impl Opened {
                 let text = cause.downcast_ref::<&str>().map(|text| (*text).to_owned());
                 let text = text.or_else(|| cause.downcast_ref::<String>().cloned());
                 opened.outcome = Outcome::Panicked(text.unwrap_or_default());
-                // What it kept may be half of something.
+                // The builder may hold incomplete parts.
                 *builder = SceneBuilder::new();
             }
         }

@@ -94,7 +94,7 @@ fn setup(
             near: 0.01,
             ..default()
         }),
-        // By this a luminance of 1 is 1 before the tone curve.
+        // Exposure by which a luminance of 1 is 1 before the tone curve.
         Exposure {
             ev100: -1.2_f32.log2(),
         },

@@ -291,7 +291,7 @@ fn spawn_camera(world: &mut World, scene: &Scene, turn: Transform) -> Handle<Ima
         }),
         Tonemapping::None,
         Msaa::Off,
-        // By this a luminance of 1 is 1 in the picture.
+        // Exposure by which a luminance of 1 is 1 in the picture.
         Exposure {
             ev100: -1.2_f32.log2(),
         },

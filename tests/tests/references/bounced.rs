@@ -112,7 +112,7 @@ fn light_by_way_of_objects_is_that_of_the_path_tracer() {
         let of_scratches = if name.contains("rows") { 0.09 } else { 0.04 };
         for (layer, limit) in [(Layer::Base, 0.02), (Layer::Scratches, of_scratches)] {
             if luminance(&reference, layer).iter().sum::<f64>() == 0.0 {
-                // Of what is seen in a mirror all is its base.
+                // Light in a mirror belongs to its base alone.
                 continue;
             }
             let name = format!("{name}, {bounces}");

@@ -76,7 +76,7 @@ fn pictures_scatter_by_their_variance() {
         let mean = |v: &[Vec<f64>], pixel: usize| {
             v.iter().map(|run| run[pixel]).sum::<f64>() / v.len() as f64
         };
-        // Of each pixel: the variance between the runs, and the one that they predict.
+        // Variance of each pixel between the runs, and the predicted variance.
         let (found, predicted): (Vec<f64>, Vec<f64>) = (0..images[0].pixel_count())
             .map(|pixel| {
                 let middle = mean(&values, pixel);

@@ -177,7 +177,7 @@ fn a_window_in_the_sky() {
         toward.dot(middle) > 0.0 && at.x.abs() < 0.25 && at.y.abs() < 0.15
     };
     for (i, texel) in map.rgb.iter_mut().enumerate() {
-        // As a camera sees it: texels on an edge are lit in part. Of texels that are lit or not a chord would be 0.9 % shorter.
+        // Texels as a camera sees them: those on an edge are lit in part. With texels that are either lit or dark, a chord would be 0.9 % shorter.
         let covered = mean_over_texel(SIZE_PX, i as u32, |toward| {
             f64::from(u8::from(is_within(toward)))
         });

@@ -65,7 +65,7 @@ fn scratches_in_half_shadow_stay_sharp() {
             (after / before - 1.0).abs() < 0.05,
             "{name}: {before} {after}"
         );
-        // Of the mean of five pixels in a row the comparison fails.
+        // The comparison fails for the mean of five pixels in a row.
         let blurred: Vec<f64> = (0..truth.len())
             .map(|i| mean(&truth[i.saturating_sub(2)..(i + 3).min(truth.len())]))
             .collect();

@@ -82,7 +82,7 @@ fn two_parallel_scratches_draw_fringes() {
         }
         let [full, separable] =
             [FULL, LINEAR].map(|settings| mean(&sampled(&scene, settings, 16).scratches)[1]);
-        // What each wavelength sends, and how it interferes.
+        // Light of each wavelength, and its interference.
         let (mut sum, mut alone) = (0.0, 0.0);
         for sample in spectrum::samples() {
             let um = sample.wavelength_nm * 1e-3;

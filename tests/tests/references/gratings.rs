@@ -272,7 +272,7 @@ fn rows_of_grooves_with_all_phases() {
         let (off, error) = compared(&name, &exact, &reference);
         assert!(off < limit + 2.0 * error && error < 0.03, "{name}: {off}");
     }
-    // What single scratches would send instead is seen.
+    // The comparison rejects the light of single scratches.
     let scene = grated(row(1.6, 0.6, 0.0, 0.0), 0.0, 0.02);
     let reference = sampled(&scene, FULL, 4);
     let mut wrong = scene.clone();

@@ -181,8 +181,8 @@ fn each_switch_alone() {
             "{what}"
         );
     }
-    // What the base alone tells: the pivot's lobe is off by 4.6 % in the mean, and by more at the foot of the highlight, beside what the
-    // density takes.
+    // Error of the base alone: the pivot's lobe is off by 4.6 % in the mean, and by more at the foot of the highlight, in addition to
+    // the density's share.
     let published = self::by(&aslant, Method::PUBLISHED);
     let own = self::by(&aslant, Method::default());
     let base = distance(&published, &own, Layer::Base);

@@ -36,7 +36,7 @@ fn rays_come_to_the_cpus_shadows() {
         for layer in [Layer::Scratches, Layer::Base] {
             let of = |image: &Image| luminance(image, layer);
             let (open, cpu_open, truth) = (of(&open), of(&cpu_open), of(&truth));
-            // What differs without shadows, by rounding, is not theirs.
+            // Differences without shadows, by rounding, are removed.
             let there: Vec<f64> = (0..truth.len())
                 .map(|i| truth[i] * (open[i] / cpu_open[i].max(1e-30)))
                 .collect();

@@ -202,7 +202,7 @@ fn normal_maps_in_a_furnace() {
     let mut random = Sequence(7);
     let mut texel = || {
         let xy = [0; 2].map(|_: u8| random.between(88.0, 168.0) as u8);
-        // How far the slopes spread stands in the last.
+        // The last channel holds the spread of slopes.
         [xy[0], xy[1], 245, random.between(0.0, 120.0) as u8]
     };
     let levels =

@@ -68,7 +68,7 @@ fn a_white_furnace_stays_white() {
 /// The mean wavelength of a first order, computed from its angles in the picture, is the one that the eye's response gives.
 #[test]
 fn orders_lie_where_the_grating_equation_says() {
-    // Of a compact disc orders 1 and 2 overlap beyond 0.47, and what the eye sees of the second begins at 0.5; of a DVD all wavelengths are within.
+    // Orders 1 and 2 of a compact disc overlap beyond 0.47, and the visible part of the second begins at 0.5; those of a DVD have all wavelengths within.
     for (pitch_um, within) in [(1.6, 0.23..0.485), (0.74, 0.49..1.0)] {
         let plate = Grooved {
             size_m: 1.0,

@@ -102,7 +102,7 @@ fn what_they_light_stays_as_it_is() {
             ..Default::default()
         };
         let [a, b] = [&seen, &unseen].map(|scene| render(scene, &options, &|_| {}));
-        // Where the table is seen in both.
+        // Pixels that show the table in both pictures.
         let mut table = 0;
         let (mut error, mut sum) = (0.0, 0.0);
         for i in 0..a.depth_m.len() {
@@ -170,7 +170,7 @@ fn barn_doors_end_the_light() -> Result<(), String> {
     };
     let [open, shaded] = ["", "barn_doors_deg = [30.0, 90.0, 90.0, 45.0]"].map(scene);
     let [of_open, of_shaded] = [&open, &shaded].map(|scene| on_the_cpu(scene, 1));
-    // As seen from the target, with y up, right is at -x.
+    // Right is at -x, as seen from the target with y up.
     let share = |x: f64, y: f64| {
         let point_m = [x, y, 0.0];
         f64::from(at(&of_shaded, &shaded, point_m)[1] / at(&of_open, &open, point_m)[1])
@@ -320,7 +320,7 @@ fn a_bright_lamp_has_as_soft_an_outline_as_a_dim_one() {
         let is_between = |code: &&u8| (0.15 * white..0.85 * white).contains(&f32::from(**code));
         codes.iter().step_by(3).filter(is_between).count()
     };
-    // Of radiance 1 its inside is nearly white.
+    // A sphere of radiance 1 is nearly white inside.
     let dim = between(&on_the_cpu(&lamp(1.0), 16).shown());
     let bright = on_the_cpu(&lamp(1000.0), 16);
     let (linear, soft) = (between(&bright.beauty()), between(&bright.shown()));

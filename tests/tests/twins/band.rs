@@ -277,7 +277,7 @@ fn bands_of_all_scratches_move_at_once() {
             let cap = Cap { axis: v(x[8], x[9], x[10]), sin_radius: 0.6, cos_radius: 0.8 }.turned(frame);
             [moved, cap.axis.x, cap.axis.y, cap.axis.z, cap.sin_radius, cap.cos_radius]
         },
-        // Of terms that may cancel: each is up to 0.1, or as large as the turn.
+        // Sum of terms that may cancel: each is up to 0.1, or as large as the turn.
         tolerance: Tolerance { absolute: 1e-6, relative: 1e-4 },
     }
     .check(&rows, 0);

@@ -257,7 +257,7 @@ fn all_around_brushed_lobes() {
             y[0] = e.x; y[1] = e.y; y[2] = e.z; y[3] = e.w;
             y[4] = tap.direction.x; y[5] = tap.direction.y; y[6] = tap.direction.z;
             y[7] = tap.roughness; y[8] = tap.reflected.x;
-            // What reflects next to nothing may lie anywhere.
+            // A tap without light may lie anywhere.
             let counts = min(10.0 * tap.reflected.x, 1.0);
             y[4] *= counts; y[5] *= counts; y[6] *= counts; y[7] *= counts;"
         ),

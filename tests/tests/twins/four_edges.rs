@@ -146,7 +146,7 @@ fn twin(expected: &dyn Fn([f64; INPUTS]) -> [f64; 5]) -> Twin<'_, INPUTS, 5> {
         snippet: SNIPPET,
         tables: &[],
         expected,
-        // Where a line touches an edge its root is the square root of a difference that is rounded to 1e-7, and the
+        // At a line that touches an edge, the root is the square root of a difference that is rounded to 1e-7, and the
         // antiderivative is up to 13 times as steep as q.
         tolerance: Tolerance {
             absolute: 4e-3,

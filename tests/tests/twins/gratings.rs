@@ -75,7 +75,8 @@ fn grooves_under_pixels() {
             let normal = random.direction(-1.0);
             row[1..4].copy_from_slice(&random.direction(-1.0));
             row[4..7].copy_from_slice(&normal);
-            // From a hundredth of a millimetre to a metre from the axis; pixels up to a tenth as wide.
+            // Distances from the axis of a hundredth of a millimetre to a metre; pixels up to a tenth as
+            // wide.
             let reach_m = 10f32.powf(random.between(-5.0, 0.0));
             row[7..10].copy_from_slice(&random.direction(-1.0).map(|x| x * reach_m));
             for at in [10, 13] {
@@ -146,7 +147,7 @@ fn grooves_under_pixels() {
             relative: 1e-3,
         },
     }
-    // Where they end within a pixel, rounding of the place counts.
+    // Rounding of the place counts where grooves end within a pixel.
     .check(&rows, rows.len() / 500);
 }
 
@@ -216,7 +217,8 @@ fn single_grooves() {
             relative: 5e-3,
         },
     }
-    // Where a surface stands so that grooves neither near nor part, what turns them cancels.
+    // The terms that turn grooves cancel where the surface stands so that grooves neither converge nor
+    // diverge.
     .check(&rows, rows.len() / 2000);
 }
 

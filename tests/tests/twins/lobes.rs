@@ -335,7 +335,7 @@ fn elliptic_cones() {
             let scale = (1.0 + t1 * t1).sqrt() * (1.0 + t2 * t2).sqrt() / (t1 * t2);
             (irradiance_cone(&cone) * scale).to_array()
         },
-        // Of the smallest cones, of 1e-4, the arc above the horizon ends somewhere within 6e-8 of where it should.
+        // The arc above the horizon of the smallest cones, of 1e-4, ends within 6e-8 of its true end.
         tolerance: Tolerance { absolute: 3e-3, relative: 0.0 },
     }
     .check(&rows, 0);

@@ -26,7 +26,7 @@ fn rows(count: usize) -> Vec<[f32; INPUTS]> {
                 }
             });
             row[..3].copy_from_slice(&wo);
-            // What is a direction stays one; lengths and variances are not negative, ends are in order.
+            // Directions stay directions; lengths and variances are not negative, ends are in order.
             for at in [3, 6, 9] {
                 let direction = random.direction(-1.0);
                 row[at..at + 3].copy_from_slice(&direction);

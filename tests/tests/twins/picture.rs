@@ -26,7 +26,7 @@ fn look_ups() {
     let is_plain = |row: &[f32; 12]| {
         let v = |i: usize| DVec3::new(row[i].into(), row[i + 1].into(), row[i + 2].into());
         let normal = v(3).cross(v(6));
-        // Where a plane has no area, or is seen along itself, single precision looks elsewhere.
+        // Single precision is imprecise for a plane without area, or seen edge-on.
         normal.length() > 0.02 && (v(9).dot(normal) / normal.length()).abs() > 0.02
     };
     rows.retain(is_plain);

@@ -17,7 +17,7 @@ fn within(random: &mut Sequence, low: f64, high: f64) -> f64 {
     match random.next() {
         r if r < 0.1 => low,
         r if r < 0.2 => high,
-        // As many small ones as large ones.
+        // As many small numbers as large ones.
         r if low > 0.0 && r < 0.6 => low * (high / low).powf(f64::from(random.next())),
         _ => f64::from(random.between(low as f32, high as f32)).clamp(low, high),
     }

@@ -110,7 +110,7 @@ fn normals_that_face_the_viewer() {
             let bent = surface_face_viewer(normal, viewer);
             y[0] = dot(bent, viewer); y[1] = length(bent); y[2] = dot(bent, cross(normal, viewer));",
         tables: &[],
-        // As little as it takes: in the plane of both, with the least cosine or with its own.
+        // Least change of the normal: in the plane of both, to the least cosine or to its own.
         expected: &|[nx, ny, nz, wx, wy, wz]: [f64; 6]| {
             [v(nx, ny, nz).dot(v(wx, wy, wz)).max(0.01), 1.0, 0.0]
         },
@@ -248,7 +248,7 @@ fn frames_under_coats() {
             let [a, b, c, d, e, f] = all;
             [a, b, c, d, e, f, to_viewer.x, to_viewer.y, to_viewer.z]
         },
-        // As of the normal that is packed.
+        // Same as for the packed normal.
         tolerance: Tolerance {
             absolute: 2e-4,
             relative: 0.0,

@@ -22,7 +22,8 @@ fn outlines() {
         let b = a + along * f64::from(random.between(0.05, 2.0));
         let radius = random.between(0.01, 0.25);
         let height = a.cross(along).length();
-        // Where the far end just shows or hides, and from within, single precision may see it otherwise.
+        // Single precision may decide otherwise where the far end is barely visible or hidden, and from
+        // inside.
         let is_plain = height > 2e-3 && (height / f64::from(radius) - 1.0).abs() > 0.02;
         if is_plain && tube_outline(a, b, 1.05 * f64::from(radius)).is_some() {
             let corner = (random.next() * TUBE_CORNERS as f32).floor();

@@ -137,7 +137,7 @@ pub(super) fn wesl(module: &Module, all: &[&Module]) -> String {
         "// Units end names: _m metres, _um micrometres, _nm nanometres, _rad radians; _sq is squared. Binds nothing, has no entry point.\n"
     );
     let mut imported = BTreeSet::new();
-    // By the order of all, so that the first that declares a name is where it comes from.
+    // Modules in the order of all, so that a name comes from the first that declares it.
     for other in all.iter().filter(|other| other.name != module.name) {
         if !needs.iter().any(|need| need.name == other.name) {
             continue;

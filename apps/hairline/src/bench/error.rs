@@ -119,7 +119,7 @@ fn compared(image: &Image, reference: &Image) -> Option<CellError> {
     let standard_error = if beyond.mean_square > 0.0 {
         (high - relative_rms).max(relative_rms - low)
     } else {
-        // What an error may be and yet not show.
+        // Error that could be there without being found.
         beyond.mean_square_error.sqrt() / beyond.reference_rms
     };
     let noise = reference.noise.as_ref();

@@ -186,7 +186,7 @@ fn lamp(triangle: bool, place_m: DVec2, radiance: f64) -> String {
     let vector = |[x, y, z]: [f64; 3]| format!("[{x:.6}, {y:.6}, {z:.6}]");
     // A string takes everything.
     let _ = if triangle {
-        // As large as the disk that the sphere shows.
+        // Triangle with the area of the disk that the sphere shows.
         let corner_m = radius_m * (4.0 * std::f64::consts::PI / 27.0_f64.sqrt()).sqrt();
         let corners: Vec<String> = (0..3)
             .map(|i| {

@@ -61,7 +61,7 @@ pub fn run(
             loaded.go_to(time_s)?;
         }
         loaded.scene.camera.position_m = place(frame);
-        // What renders is told once.
+        // The renderer is reported once.
         let listener: &dyn Listener = if frame == 0 { terminal } else { &Quiet };
         let mut painter = Painter::open(&loaded.scene, task, listener)?;
         frames.add(frame, &loaded.scene, &mut painter)?;
@@ -95,7 +95,7 @@ impl Frames<'_> {
         let progress = &*(self.progress).get_or_insert_with(|| Progress::start("rendering"));
         let done =
             |share: f64| progress.set((frame as f64 + share) / f64::from(self.motion.frames));
-        // Of a frame's time, until its reference takes the rest.
+        // Share of a frame's time; its reference takes the rest.
         let own = match self.steadiness {
             Some(_) => 1.0 / f64::from(1 + FINE_SAMPLES),
             None => 1.0,

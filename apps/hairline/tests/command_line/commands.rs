@@ -456,7 +456,7 @@ fn the_viewer_says_in_one_sentence_what_it_lacks() {
             !text.contains(".rs") && !text.contains("{}") && text.lines().count() == 1,
             "{text}"
         );
-        // What is wrong with the scene comes first.
+        // Errors of the scene come first.
         let text = view("view wrong.toml", 1);
         assert!(text.contains("wrong.toml:27: lamp: unknown key"), "{text}");
     }

@@ -70,7 +70,7 @@ impl Normal {
 /// The picture as a Monte Carlo estimate: noise of the standard deviation given in base and scratches, and the variance.
 fn noisy(mut image: Image, deviation: f32) -> Image {
     let mut normal = Normal(7);
-    // As good as known exactly: a thousand batches.
+    // A thousand batches: noise known almost exactly.
     let mut noise = Noise::new(image.size_px, 1);
     noise.samples.fill(1000);
     for i in 0..image.pixel_count() {
@@ -249,7 +249,7 @@ fn values_that_are_not_finite_are_told_and_fail() {
         "{}",
         stderr_of(&assert)
     );
-    // Of no interest in a layer that was not asked for.
+    // Limits of a layer that is not compared are ignored.
     compare(
         folder.path(),
         "nan.exr b.exr --layer scratches --fail-above scratches.rms=10",

@@ -39,7 +39,7 @@ fn write(folder: &Path, name: &str, x: [f32; 2], is_animated: bool, more: [&str;
             r#"{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":4,"material":{material}}}]}}"#
         )
     };
-    // From 0.6 m before the one at 0 and, half a turn about y, from 0.2 m behind it.
+    // Points from 0.6 m before the camera at 0 and, half a turn about y, from 0.2 m behind it.
     let text = format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"children":[1,2,3,4]}},
             {{"mesh":0,"translation":[{},0,0]}},{{"mesh":1,"translation":[{},0,0]}},

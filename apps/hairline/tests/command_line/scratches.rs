@@ -31,7 +31,7 @@ fn laid_scratches_are_listed_as_they_lie() {
         first.starts_with("x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm,scratch,nx,ny,nz\n")
     );
     let pieces = rows(&first);
-    // From end to end, in pieces that lie on the plate.
+    // The scratch runs from end to end, in pieces that lie on the plate.
     let (begin, end) = (&pieces[0], &pieces[pieces.len() - 1]);
     for (found, given) in begin[..2]
         .iter()

@@ -63,7 +63,8 @@ fn the_screen_lights_the_table_from_below() {
     let file = folder.path().join("out.exr");
     let is_there = hairline_gpu::headless::test_gpu().is_some();
     for backend in ["cpu", "gpu"].into_iter().take(1 + usize::from(is_there)) {
-        // From the table to the screen's dark side, and from there to the table where the lamp is hidden.
+        // Light goes from the table to the screen's dark side, and from there to the table where the lamp
+        // is hidden.
         let [dark, lit] = [0, 2].map(|bounces| {
             let flags =
                 format!("--shadows on --samples 64 --bounces {bounces} --backend {backend}");

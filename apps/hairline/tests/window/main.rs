@@ -89,7 +89,7 @@ impl<'d> Window<'d> {
             .args(flags)
             .env("DISPLAY", display.name())
             .env_remove("WAYLAND_DISPLAY")
-            // What makes tests of shaders start sooner makes the window slow.
+            // Settings by which tests of shaders start sooner make the window slow.
             .env_remove("GALLIVM_PERF")
             .env_remove("LP_NATIVE_VECTOR_WIDTH")
             .spawn()

@@ -257,7 +257,7 @@ fn shadows_add_up_to_those_of_all_rays_at_once() {
         squares.sum::<f64>().sqrt()
     };
     let [one, few, many] = [1, 4, 64].map(|batches| off(&added_up(&scene, 256, batches)));
-    // As independent samples would, or better.
+    // Errors fall as those of independent samples do, or faster.
     assert!(few < 0.7 * one && many < 0.3 * few, "{one} {few} {many}");
 
     let image = added_up(&scene, 256, 64);

@@ -168,7 +168,7 @@ impl Group {
             let variance = variance[i] * per_length2;
             let per_variance = 1.0 / variance;
             let far2 = offset * offset * per_variance;
-            // Where the footprint is slanted, the part of it that lies on the scratch is displaced along it.
+            // A slanted footprint: its part on the scratch is displaced along the scratch.
             let slant = cross_um2 * per_variance;
             let shift = offset * slant;
             let left = (along_um2 - cross_um2 * slant + blur_um * blur_um).max(1e-12);

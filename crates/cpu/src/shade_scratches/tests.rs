@@ -172,7 +172,7 @@ fn lanes_see_the_closed_forms_share() {
             },
             blur_um: 16.0,
         };
-        // As the index rounds them.
+        // Single precision, as the index has it.
         let local = |v: Vec3| {
             point
                 .surface_from_world(v.as_dvec3() - point.position_m)

@@ -226,7 +226,7 @@ impl<'a> Shadows<'a> {
                 }
             };
             match (followed, to_source, by_lobes) {
-                // Who has followed the ray by the lobes knows what it meets; the other one is cast if it carries enough.
+                // The ray by the lobes has its hit already; the ray to the source is cast only if it carries enough light.
                 (Some(hit), to_source, by_lobes) => {
                     if let Some(it) = by_lobes {
                         let clear_m = self.clear_of_followed(drawn.as_ref(), source.light);

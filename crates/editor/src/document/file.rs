@@ -49,7 +49,7 @@ impl Document {
         let text = reading::scene_text(path)?;
         let description = Self::read(&text, path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        // From here on it is one that can be moved.
+        // The camera of a file becomes the scene's own here, so that it can be moved.
         let seen = description
             .with_its_camera(folder)
             .map_err(|error| error.in_scene_file(&text, path))?

@@ -86,7 +86,7 @@ fn merge_parts(text: &mut ArrayOfTables, before: &ArrayOfTables, after: &ArrayOf
             }
         };
         if !in_order {
-            // Of parts in one place the order of the list decides.
+            // Parts in one place keep the order of the list.
             place(&mut part, first);
         }
         parts.push(part);

@@ -80,7 +80,7 @@ proptest! {
         for point in &way {
             prop_assert!(distance_to_way(*point, &drawn) < 0.053 * RADIUS_M);
         }
-        // What the pointer did within an eighth may be left out.
+        // Movements of the pointer within an eighth of the radius may be left out.
         for point in &pointer {
             prop_assert!(distance_to_way(*point, &drawn) < 0.18 * RADIUS_M);
         }
@@ -162,7 +162,7 @@ fn paint_finds_its_layer() {
     assert_eq!(description.scratches[1].object, "a");
     assert_eq!(description.scratches[1].strokes.len(), 1);
     assert!(description.scratches[0].strokes.is_empty());
-    // From then on it is the one, whether it, its neighbour or its object is selected.
+    // The next stroke goes to the new layer, whether that, its neighbour or its object is selected.
     for selection in [
         Selection::Layer(1),
         Selection::Layer(0),

@@ -78,7 +78,7 @@ fn reload_and_revert_are_steps() {
     document.undo();
     assert_eq!(*document.description(), edited);
     assert!(document.is_modified());
-    // What is wrong in the file is told and changes nothing.
+    // A mistake in the file is reported and changes nothing.
     std::fs::write(&path, "[camera]\nposition_m = 3\n").unwrap();
     let error = document.reload().unwrap_err().to_string();
     assert!(error.contains("a.toml:2"), "{error}");

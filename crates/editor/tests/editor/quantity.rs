@@ -116,7 +116,7 @@ fn numbers_are_shown_in_the_unit_that_reads_best() {
         "0.8071"
     );
     assert_eq!(Unit::Metre.shown_together(&[0.0; 3]).text(0.0), "0 mm");
-    // What is shown is read as the same number.
+    // A displayed number is read back as the same number.
     for value in [0.105, 4e-6, 2.5, -0.27, 1e-9, 1234.0] {
         let shown = Unit::Metre.shown(value);
         is(

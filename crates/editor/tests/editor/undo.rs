@@ -183,7 +183,7 @@ fn round_trip(
         holds_together(&document)?;
     }
     let end = (Arc::clone(document.description()), document.selection());
-    // What was undone at the end is forward of it.
+    // The steps that were undone at the end can be redone.
     let mut steps = 0;
     while undo(&mut document) {
         steps += 1;
@@ -231,7 +231,7 @@ fn undoing_all_is_the_beginning_and_redoing_all_the_end() {
 
 #[test]
 fn a_history_that_lost_a_step_is_noticed() {
-    // As if the first step had been dropped: the last one back is not taken.
+    // An editor that drops its first step: the last step back is missing.
     let forgetful = |document: &mut Document| {
         let taken = undo(document);
         if taken && document.undo_label().is_none() {
@@ -245,7 +245,7 @@ fn a_history_that_lost_a_step_is_noticed() {
         error.contains("undoing all is not the beginning"),
         "{error}"
     );
-    // As if a step forward led nowhere.
+    // An editor whose redo leads nowhere.
     let error = check(undo, |document| document.redo_label().is_some()).unwrap_err();
     assert!(error.contains("redoing all is not the end"), "{error}");
 }

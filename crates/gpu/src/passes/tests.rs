@@ -10,10 +10,10 @@ fn a_kind_is_compiled_once_for_all_renderers() {
     let Some(gpu) = headless::test_gpu() else {
         return;
     };
-    // What compiles soonest: a scene that has nothing.
+    // An empty scene compiles fastest.
     let has = Contents::default();
     let resolve = |method| {
-        // As another renderer, with layouts of its own.
+        // Another renderer would have layouts of its own.
         let (gpu, layouts) = (gpu.clone(), Layouts::new(gpu));
         let variant = ShadeVariant { method, has };
         let passes = gpu.block_on(ScenePasses::new(&gpu, &layouts, &variant));

@@ -17,7 +17,7 @@ fn one_bad_order_spoils_all() {
         has: Contents::default(),
     };
     let compile = |bad: Option<usize>| {
-        // As on a device that has compiled nothing.
+        // A device that has compiled nothing yet.
         let mut gpu = gpu.clone();
         gpu.pipelines = PipelineCache::default();
         let gpu = &gpu;

@@ -176,7 +176,7 @@ fn irradiance() {
     let Some(gpu) = test_gpu() else { return };
     let environment = Environment::from_map(map(), 0.0, 1.0, true);
     let blurred = environment.irradiance_map();
-    // As the host puts it: below a first level, here an empty one of its size.
+    // Layout of the host: below a first level, which is empty here and of that size.
     let [width, height] = blurred.size_px;
     let mut texels = vec![[0.0; 4]; (width * height) as usize];
     texels.extend(blurred.rgb.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]));

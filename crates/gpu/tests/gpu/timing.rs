@@ -86,6 +86,6 @@ fn passes_take_time_and_not_more_than_has_gone_by() {
             assert!(sum(&times) > 2 * least, "{times:?} after {least:?}");
         }
     }
-    // What was read is gone.
+    // Times are returned once.
     assert_eq!(times(&mut renderer), Some(Vec::new()));
 }

@@ -176,7 +176,7 @@ impl Pooled {
     pub(crate) fn of(blocks: &Blocks) -> Self {
         let mut count = 0;
         let mut max_z = 0.0_f64;
-        // By the block: its channels are not independent.
+        // Sums are taken over blocks, since a block's channels are not independent.
         let mut of_blocks = Vec::new();
         for block in blocks.iter() {
             let (mut z2, mut channels) = (0.0, 0.0);
@@ -247,7 +247,7 @@ impl Weighed {
                     variance += weighed.variance;
                     freedom = freedom.min(r.degrees_of_freedom);
                 }
-                // As in `BeyondNoise`: the spread of a normal number's square, and of the variance's estimate.
+                // Variance of a normal number's square plus that of the variance's estimate, as in `BeyondNoise`.
                 least_spread += 2.0 * variance * variance * (1.0 + 1.0 / freedom);
             }
             of_blocks.push((squares, variances));

@@ -114,7 +114,7 @@ fn noise_of_known_variance_is_explained() {
         );
         assert!((z.block_mean_z2 - 1.0).abs() < 0.25, "{z:?}");
         assert!(z.block_max_z < z.block_max_z_allowed(), "{z:?}");
-        // Which of the two has the noise makes no difference.
+        // Swapping the two images makes no difference.
         let back = test(&exact, &noisy.estimate());
         assert_eq!((back.mean_z2, back.verdict), (z.mean_z2, z.verdict));
         assert_eq!(back.picture_z, -z.picture_z);

@@ -80,7 +80,7 @@ fn only_the_layer_that_changed_is_grown_and_all_is_as_if_built_anew() {
         (with_width(description(), 0, 4.0), 2),
         (description(), 1),
         (shorter, 1),
-        // What lies further back moves to the front.
+        // A layer that lay further back moves to the front.
         (hidden, 1),
         (description(), 1),
         (turned, 0),

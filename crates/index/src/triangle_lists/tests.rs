@@ -16,7 +16,7 @@ const SHAPES: [(&str, u32, f64); 5] = [
         200,
         0.002,
     ),
-    // As wide as the reach, so that all sides are near one another.
+    // An object as wide as the reach, so that all its sides are near one another.
     (
         "lathe = { profile_m = [[0.0, 0.0002], [0.0001, 0.0002], [0.00015, 0.0001], [0.0001, 0.0], [0.0, 0.0]], segments = 12, smooth = false }",
         20,

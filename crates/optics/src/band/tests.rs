@@ -132,7 +132,7 @@ fn one_line_is_right_in_the_mean() {
             sphere_chord(line, cap).integral(line, |q| [chord_integral(q, width_um, NM * 1e-3); 3])
         };
         let count = 512;
-        // By xi_t, which shares no node with them.
+        // Quadrature over xi_t, which shares no node with the lines.
         let step = (highest - lowest) / f64::from(count);
         let density =
             |xi_t: f64, std: f64| (-0.5 * (xi_t / std).powi(2)).exp() / (std * (2.0 * PI).sqrt());
@@ -521,7 +521,7 @@ fn oblique_errors(radius: f64, near_horizon: bool) -> [f64; 2] {
 #[test]
 fn one_depth_serves_a_chord() {
     for near_horizon in [false, true] {
-        // What is left grows with the range of angles that one depth stands for.
+        // The remaining error grows with the range of angles for which one depth is used.
         for (radius, bound) in [
             (0.005, 0.001),
             (0.02, 0.003),

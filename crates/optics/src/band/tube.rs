@@ -49,7 +49,7 @@ pub fn tube_outline(a: DVec3, b: DVec3, radius: f64) -> Option<TubeOutline> {
     let sin2 = (1.0 - (radius / height).powi(2)).max(0.0);
     let end = |along: f64, sign: f64| {
         let distance = along.hypot(height);
-        // What is seen of the sphere ends before its middle.
+        // The visible part of the sphere ends before its middle.
         let share = 1.0 - (radius / distance).powi(2);
         let rim = radius * share.sqrt();
         let cos = sign * radius * along / (height * distance);

@@ -55,7 +55,7 @@ fn hidden_cells(pieces: &[GroovePiece], index: usize, coherence_um: f64) -> Vec<
         if !(common.area() > least_area) {
             continue;
         }
-        // What earlier ones hide of it already counts back: mostly nothing, and the whole stays a parallelogram.
+        // Parts that earlier grooves hide are subtracted: mostly there are none, and the whole stays a parallelogram.
         let tile = |part: &Polygon, sign: f64, cells: &mut Vec<Cell>| {
             for trapezoid in part.trapezoids(ROUNDING * coherence_um) {
                 trapezoid.cells(sign, coherence_um, cells);
@@ -112,7 +112,7 @@ fn rectangle(piece: &GroovePiece, frame_um: f64) -> Polygon {
 /// Two pieces of one groove that bends overlap on the inner side of the bend and gape as much on the outer: nothing of
 /// them is hidden.
 fn are_joined(a: &GroovePiece, b: &GroovePiece) -> bool {
-    // Where a piece ends, and which way that is.
+    // Ends of a piece, and the outward direction at each.
     let ends = |g: &GroovePiece| {
         [(g.start_um, -g.tangent), (g.end_um, g.tangent)]
             .map(|(s, outward)| (s * g.tangent + g.offset_um * g.tangent.perp(), outward))

@@ -74,7 +74,7 @@ impl Grating {
         let count = columns.q.len();
         let nodes: Vec<f64> = samples.iter().map(|s| s.wavelength_nm).collect();
         let orders = self.orders(&columns, &nodes, coherence_um);
-        // By wavelength: what goes with |E D|^2, and what goes with E |D|^2.
+        // Parts in proportion to |E D|^2, and to E |D|^2, for each wavelength.
         let parts: Vec<(Vec<Rise>, Vec<Rise>)> = nodes
             .iter()
             .zip(orders)
@@ -117,7 +117,7 @@ impl Grating {
     fn orders(&self, columns: &Columns, nodes: &[f64], coherence_um: f64) -> Vec<Vec<Rise>> {
         let count = columns.q.len();
         let mut sums = vec![vec![[0.0; 2]; count]; nodes.len()];
-        // By node, what has risen to its whole before each column.
+        // Weight of the orders that have risen fully before each column, for each node.
         let mut whole = vec![vec![0.0; count + 1]; nodes.len()];
         let last = (Q_MAX * self.pitch_um / (WAVELENGTH_MIN_NM * 1e-3)).ceil() as i32;
         for order in 1..=last {
@@ -147,7 +147,7 @@ impl Grating {
                     };
                     for (node, share) in [(low, 1.0 - f), (low + 1, f)] {
                         let share = share / parts as f64;
-                        // By q.
+                        // Derivative over q.
                         let rise = share * rise_per_turn / (nm * 1e-3);
                         let envelope = [share * weight, rise];
                         edge.add(columns, envelope, &mut sums[node], &mut whole[node]);

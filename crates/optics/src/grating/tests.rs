@@ -48,7 +48,7 @@ fn brute_force(row: &Grating, rows: usize, step: f64, count: usize, seed: u64) -
     let mut sums = vec![0.0; count];
     let reach = (4.5 * SIGMA_UM / row.pitch_um).ceil() as i64 + 3;
     for r in 0..rows {
-        // Where the row lies under the pixel.
+        // Place of the row under the pixel.
         let phase = (r as f64 + normal().1) / rows as f64;
         let grooves: Vec<(f64, f64)> = (-reach..=reach)
             .map(|j| {
@@ -144,7 +144,7 @@ fn the_table_is_the_sum_over_random_rows() {
                 100.0 * small,
                 100.0 * wide
             );
-            // Of one wavelength orders are as sharp as the table can hold: its columns cut their flanks.
+            // Orders of one wavelength are as sharp as the table can hold: its columns cut their flanks.
             let most = if is_random {
                 [0.05, 0.03]
             } else {

@@ -70,7 +70,7 @@ fn whole_cones_are_cones_that_nothing_cuts() {
             irradiance_cone(&ltc_cone_axes(&cone)),
         );
         let off = (whole - by_axes).length() / whole.length();
-        // Where half-angles end.
+        // Limit of half-angles.
         let t2 = ltc_cone_axes(&cone).t2;
         let tolerance = if t2 < 1e3 { 1e-9 } else { 1e-6 };
         assert!(off < tolerance, "{off:e} {sin2} {t2}");

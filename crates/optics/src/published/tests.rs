@@ -204,7 +204,7 @@ fn a_clipped_triangle_lies_above_the_horizon() {
 
 #[test]
 fn the_network_sorts() {
-    // By the 0-1 principle a network that sorts every row of zeros and ones sorts everything.
+    // 0-1 principle: a network that sorts every row of zeros and ones sorts everything.
     for bits in 0..256u32 {
         let row: [f64; 8] = std::array::from_fn(|i| (bits >> i & 1) as f64);
         assert!(bitonic_sort(row).is_sorted(), "{row:?}");

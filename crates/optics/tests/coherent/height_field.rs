@@ -241,7 +241,7 @@ fn one_floor_where_grooves_cross() {
                 "{name}, {wavelength_nm} nm, one floor: rms {:.1e}, worst {:.1e}; the plain sum {:.1e}, {:.1e}",
                 found.rms, found.worst, sum.rms, sum.worst
             );
-            // What is hidden is right to 1 %.
+            // The hidden part is right to 1 %.
             assert!(found.rms < BOUND + 0.01 * sum.rms, "{}", found.rms);
             assert!(sum.rms > 3.0 * BOUND, "{}", sum.rms);
         }

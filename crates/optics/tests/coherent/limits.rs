@@ -47,7 +47,7 @@ fn the_windows_fourier_integral_equals_quadrature() {
     let mut worst = [0.0_f64; 2];
     for _ in 0..3000 {
         let sigma = 10f64.powf(random.random_range(0.0..2.0));
-        // From within the band to a hundred times its width and beyond.
+        // Range from within the band to a hundred times its width.
         let kappa = 10f64.powf(random.random_range(-3.0..2.3)) / sigma;
         let a = sigma * random.random_range(-5.0..5.0);
         let b = a + sigma * 10f64.powf(random.random_range(-2.0..1.0));
@@ -349,7 +349,7 @@ fn numbers_come_out_whatever_goes_in() {
                 random.random_range(-1.0..1.0) * 10f64.powf(random.random_range(-6.0..4.0))
             }
         });
-        // What must be positive is, ends are in order, directions are finite.
+        // Quantities that must be positive are, ends are in order, directions are finite.
         let finite = |x: f64| if x.is_finite() { x } else { 1.0 };
         let groove = GroovePiece {
             tangent: DVec2::from_angle(finite(row[0])),

@@ -282,7 +282,7 @@ fn small_lamps_have_the_tails_of_a_sharp_lobe() {
     };
     let roughness = 0.055;
     let alpha = ggx_alpha(roughness);
-    // By the lobes in use, and by the difference of two alone.
+    // Errors of the lobes in use, and of the difference of two alone.
     let mut worst = [1.0f64; 2];
     for (t, across, correlation) in [
         (0.3, 1.0, 0.0),

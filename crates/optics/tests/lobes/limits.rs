@@ -239,7 +239,7 @@ fn lambert_polygons_match_cubature() {
         assert!((value - reversed).abs() < 1e-12);
         worst = worst.max((value - exact).abs() / exact.max(0.01));
     }
-    // What is left is the cubature at the horizon's kink.
+    // The remaining error is that of the cubature at the horizon's kink.
     println!("Lambert polygons: largest error {worst:.2e} (relative, above a form factor of 0.01)");
     assert!(worst < 2e-3, "{worst}");
 }
@@ -320,7 +320,7 @@ fn small_lights_are_ggx_times_solid_angle() {
 
 #[test]
 fn growing_lights_show_no_seam() {
-    // From point to hemisphere in steps of 1 %: the flux grows, and its rate of growth changes slowly.
+    // Lights from a point to the hemisphere in steps of 1 %: the flux grows, and its rate of growth changes slowly.
     // Beyond 80 degrees GGX rises so steeply at the horizon that a point of the correction's ring shows as a bend.
     for (roughness, wo) in surfaces(150).filter(|s| s.1.z > 0.17) {
         let axis = DVec3::new(-wo.x, -wo.y, wo.z);

@@ -361,7 +361,7 @@ fn coats_on_what_leans_are_drawn_as_they_are_weighed() {
                 mean += (s + d) / (lobes.pdf(wi) * (SIDE * SIDE) as f64);
             }
         }
-        // As above.
+        // Same tolerance as above.
         assert!((whole - kept).abs() < 8e-3, "{alpha} {cos}: {whole} {kept}");
         let off = (mean - light).abs().max_element();
         assert!(off < 8e-3, "{alpha} {cos}: {mean} {light}");

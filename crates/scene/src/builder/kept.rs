@@ -269,7 +269,7 @@ impl KeptSurface {
     }
 
     fn grounds(&self) -> MutexGuard<'_, Grounds> {
-        // What was pushed is whole, whoever panicked.
+        // The list is consistent even after a panic: items are pushed whole.
         self.grounds.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -206,7 +206,7 @@ impl Read for PathBuf {
         let Some(escaped) = name.chars().find(|c| c.is_control()) else {
             return Ok(name.into());
         };
-        // As it was typed, most likely: `models\new.glb` has a line end for TOML.
+        // Most likely what was typed: `models\new.glb` has a line end for TOML.
         let escape = typed(escaped);
         let typed: String = name.chars().map(typed).collect();
         let found =

@@ -76,7 +76,7 @@ fn mip_chain(sharp: &[Picture]) -> Vec<Mip> {
 fn blur(mips: &[Mip], level: usize) -> Vec<Picture> {
     let size = LEVEL_HALVINGS[level];
     let finest = FINEST[size];
-    // What a coarse map adds changes slowly.
+    // The light of a coarse map changes slowly and needs no fine grid.
     let grid = |mip: usize| size.max(mip);
     let mut sum: Option<Mip> = None;
     for on in (size..=grid(COARSEST)).rev() {

@@ -131,7 +131,7 @@ impl Brightness {
         let (value, i) = texels
             .filter(|(_, (_, seen))| !**seen)
             .map(|(i, (texel, _))| (value(*texel), i))
-            // Of equals the first, however threads share the work.
+            // The first of equal texels wins, however threads share the work.
             .reduce_with(|a, b| if (b.0, a.1) > (a.0, b.1) { b } else { a })?;
         (value > BRIGHT * self.mean).then_some(i)
     }
@@ -212,13 +212,13 @@ impl BrightSpot {
         if !(sum > SHARE * total) {
             return None;
         }
-        // Of an even disc this is its solid angle; dim glare around it hardly counts.
+        // Solid angle of an even disc of this light; dim glare around it hardly counts.
         let solid_angle = sum * sum / sum_of_squares;
         let radius_rad = (1.0 - solid_angle / TAU).acos();
         if !(radius_rad < RADIUS_MOST_RAD) {
             return None;
         }
-        // What is no disc would be seen in another shape in a polished surface.
+        // Another shape than a disc would be visible in a polished surface.
         let direction_of_sun = toward.normalize();
         let within = |i: &&usize| direction(map, **i).angle_between(direction_of_sun) < radius_rad;
         let inside: f64 = self

@@ -41,7 +41,7 @@ pub(super) fn part(map: &Picture) -> Option<(Vec<Window>, Picture)> {
     if windows.is_empty() {
         return None;
     }
-    // As fine as look-ups are: between the texels of a coarse map its edges are soft, and those of the windows are not.
+    // Resampled to the resolution of look-ups: between the texels of a coarse map its edges are soft, and those of the windows are not.
     let mut rest = resample(map, LEVEL_0_SIZE_PX);
     let windows = windows
         .into_iter()

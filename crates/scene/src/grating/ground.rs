@@ -97,7 +97,7 @@ impl GrooveGround<'_> {
         let (_, edges) = self.uv(point_m);
         let along = |step_m| self.along(field, point_m + step_m, normal, edges, axes_m);
         let [u, v] = [DVec2::X, DVec2::Y].map(|of| {
-            // By the triangle's plane: what weights change along each axis is a gradient's part.
+            // Gradient in the triangle's plane: changes of the weights along each axis.
             let part = |axis: DVec3| {
                 let [b, c] = self.weights_along(axis);
                 of.dot(edges[0] * b + edges[1] * c)

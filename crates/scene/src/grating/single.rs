@@ -259,7 +259,7 @@ mod tests {
             let along_m = point_m + tangent * 40e-6;
             let there = at(along_m);
             assert_eq!(there.number, here.number);
-            // Where the direction leaves the plane of the surface, cuts turn by a few degrees.
+            // Cuts turn by a few degrees where the direction leaves the plane of the surface.
             assert!(
                 (there.offset_um - here.offset_um).abs() < 2.0,
                 "{here:?} {there:?}"

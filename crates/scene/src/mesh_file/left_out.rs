@@ -202,7 +202,7 @@ impl LeftOutCounts {
         for name in attributes.into_iter().flatten().map(|it| it.0) {
             let (meaning, matters) = match name.as_str() {
                 "POSITION" | "NORMAL" | "TANGENT" => continue,
-                // What does not use a set of coordinates does not miss it.
+                // Images that do not use a set of coordinates do not need it.
                 name if name.starts_with("TEXCOORD_") => continue,
                 // Read with a skin; without one they move nothing.
                 name if name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") => continue,

@@ -182,7 +182,7 @@ mod tests {
                 assert_eq!(turn * turn.transpose(), DMat3::IDENTITY);
             }
         }
-        // As `rotation_deg = [90, 0, 0]` did.
+        // Same turn as `rotation_deg = [90, 0, 0]`.
         assert_eq!(quarter_turn(DVec3::Y, DVec3::Z) * DVec3::X, DVec3::X);
     }
 }

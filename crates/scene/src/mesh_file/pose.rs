@@ -165,7 +165,7 @@ impl NodeTransform {
             (Property::Scale, &[x, y, z]) => self.scale = DVec3::new(x, y, z),
             (Property::Rotation, &[x, y, z, w]) => self.rotation = unit([x, y, z, w]),
             (Property::MorphTargetWeights, weights) => self.weights = Some(weights.to_vec()),
-            // As many numbers as no key of this property has.
+            // No key of this property has that many numbers.
             _ => return Err(Flaw::new("its animation is broken", "export it again")),
         }
         Ok(())

@@ -52,7 +52,7 @@ pub(super) fn read(
         None => None,
     };
     let ways = UvMappings::of(&primitive.material());
-    // Of a surface without images those that another material may use.
+    // A surface without images keeps the first set, which another material may use.
     let first = ways.first.unwrap_or(UvMapping::new(0, None));
     let [uvs, other_uvs] = [Some(first), ways.second].map(|way| match way {
         Some(way) => {

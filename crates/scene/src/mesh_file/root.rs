@@ -36,7 +36,7 @@ pub(super) fn read(text: &[u8], kept: OptionalElements) -> Result<Root, Flaw> {
         Ok(root) => return Ok(root),
         Err(error) => error,
     };
-    // Where the model is at rest, its animations may have any form.
+    // Animations may have any form if the model is at rest.
     let Some(members) = value
         .as_object_mut()
         .filter(|it| !kept.animations && it.contains_key("animations"))
@@ -123,7 +123,7 @@ pub(super) fn find_images(root: &mut Root) -> Result<(), Flaw> {
             texture.source = Index::new(source);
             continue;
         }
-        // What has an image that is not read says by which extension.
+        // A texture whose image is not read is reported with the image's extension.
         let mut others = others.into_iter().flatten();
         let other = others.find(|it| !IMAGES_BY.contains(&it.0.as_str()) && named(it.0).is_some());
         return Err(match other {

@@ -53,7 +53,7 @@ impl Buffers {
         let whole = buffers.collect::<Result<Vec<_>, _>>()?;
         let is_packed =
             |view: &View| whole[view.buffer().index()].is_none() && meshopt::is_packed(view);
-        // What stands in for packed bytes was counted before the file was read.
+        // Stand-ins for packed bytes were counted before the file was read.
         let stand_ins = gltf
             .document
             .buffers()
@@ -118,7 +118,7 @@ pub(super) fn resource(
     }
     let right = "must be a file, by a path relative to the glTF file";
     let name = percent_decoded(uri);
-    // As a path of Windows begins, wherever this runs.
+    // Start of a path of Windows, on any system.
     let has_drive = name.get(1..3).is_some_and(|it| it == ":\\" || it == ":/");
     if uri.contains("://") || uri.starts_with("file:") || name.starts_with(['/', '\\']) || has_drive
     {

@@ -89,7 +89,7 @@ impl Guide {
                 direction,
                 jitter_rad,
             } => {
-                // Where the surface stands across the direction, its projection is noise.
+                // The projection is noise where the surface stands across the direction.
                 const LEAST_PART: f64 = 1e-3;
                 let along = facet.in_plane(direction);
                 (along.length() > LEAST_PART * direction.length())

@@ -193,7 +193,7 @@ impl Path {
     /// Position of the brush for scratch `nth` of the stroke; the last two arguments are uniform draws. `None` where the brush
     /// is out of reach.
     fn touch(&self, ground: &Ground, nth: u64, along: f64, across: f64) -> Option<Touch> {
-        // What the brush touches lies within its radius of its middle.
+        // The brush touches points within its radius of its middle.
         let most_m = (REACH + 1.0) * self.radius_m;
         let normal_at = |point_m| {
             let (spot, _) = ground.closest().find_within(point_m, most_m)?;

@@ -262,7 +262,7 @@ fn closes(
     walked_m: f64,
     reach_m: f64,
 ) -> Option<f64> {
-    // What single precision vertices make of a ring: facets are tilted by some 1e-5, at random.
+    // Error of a ring by vertices in single precision: facets are tilted by some 1e-5, at random.
     let tolerance_m = (1e-6 * walked_m).max(1e-7);
     if walked_m <= tolerance_m {
         return None;

@@ -43,7 +43,7 @@ pub(super) fn surface(size_m: DVec3, rounding_m: f64) -> Surface {
         let out = right.cross(up);
         let along = |axis: DVec3, size_m: DVec3| axis.abs().dot(size_m);
         let [columns, rows] = [right, up].map(|axis| places(along(axis, inner_m), rounding_m));
-        // From 0 to 1 over the box without roundings.
+        // Coordinate from 0 to 1 over the box without roundings.
         let part = |(at, slope): EdgePlace, axis: DVec3| {
             0.5 * (1.0 + (at + rounding_m * slope) / along(axis, half_m))
         };

@@ -390,7 +390,7 @@ fn a_large_layer_is_given_up_after_a_few_of_its_scratches() {
         panic!("no strewn layer");
     };
     laid.amount = Amount::Count(50_000);
-    // As soon as it is told that more are laid than those that tell of the memory.
+    // Stops as soon as it is reported that more scratches are laid than those for the memory's estimate.
     let (laid, asked) = (Cell::new(0), Cell::new(0));
     let loader = Loader {
         progress: &|progress| {

@@ -526,7 +526,7 @@ fn a_key_without_effect_is_noted() {
             "old.toml:14: render.gather: this key has no effect any more; every scratch counts for itself"
         ]
     );
-    // What is saved has it no more.
+    // The saved file has no such key.
     let description = Description::from_toml(&text, Path::new("old.toml")).unwrap();
     assert!(!description.to_toml().unwrap().contains("gather"));
 }

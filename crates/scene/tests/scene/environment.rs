@@ -316,7 +316,7 @@ fn a_small_window_lights_every_normal_as_its_integral_says() {
     const WIDTH_DEG: f64 = 11.25;
     const HEIGHT_DEG: f64 = 5.625;
     for low_deg in [2.8125, 22.5, 45.0, 78.75, -22.5] {
-        // Of 256 texels a turn: 8 by 4 of them.
+        // The window covers 8 by 4 texels, of 256 a turn.
         let map = map_of([256, 128], |d| {
             let [azimuth, elevation] = [d.x.atan2(-d.z), d.y.asin()].map(f64::to_degrees);
             let inside = azimuth.abs() < 0.5 * WIDTH_DEG
@@ -526,7 +526,7 @@ fn radiances_of_any_unit_are_kept() {
         "{}",
         radiance(300)
     );
-    // What no light can be is cut, and counted.
+    // Values that no light can have are cut, and counted.
     assert!((6e10..7e10).contains(&radiance(301)), "{}", radiance(301));
     assert_eq!(environment.repaired_texels(), 2);
 }

@@ -9,7 +9,7 @@ use hairline_scene::{Base, Description, Error, Mesh, Scene};
 /// Loads a scene whose only object is a mesh file, with more keys for its table.
 fn load(path: &Path, more: &str) -> Result<Scene, Error> {
     let file = path.file_name().unwrap().to_str().unwrap();
-    // As the file has its axes, unless it is said otherwise.
+    // Axes are the file's unless `more` sets them.
     let up = match more.contains("up = ") {
         true => "",
         false => "up = \"z\"\n",
@@ -970,7 +970,7 @@ fn files_stand_upright_and_fit() {
     assert_eq!(own / own.x, DVec3::new(1.0, 2.0, 3.0));
     let upright = of("up = \"y\"");
     assert_eq!(upright / upright.x, DVec3::new(1.0, 3.0, 2.0));
-    // As the rotation did that scenes had to have.
+    // Same turn as by the rotation that scenes had to have before.
     assert_eq!(upright, of("rotation_deg = [90, 0, 0]"));
     let fitted = of("up = \"y\"\nfit_m = 0.3");
     assert!(
@@ -1126,7 +1126,7 @@ fn lights_of_a_file_light_its_scene() {
         panic!("{:?}", scene.lights)
     };
     assert_eq!(description.lights[0].name.as_deref(), Some("bulb"));
-    // What falls on a surface that faces it: of a sphere of radiance L and radius r at d that is L pi r^2 / d^2.
+    // Irradiance on a surface that faces a sphere of radiance L and radius r at distance d: L pi r^2 / d^2.
     let irradiance = |light: &hairline_scene::Light, at_m: DVec3| {
         let (center_m, radius_m) = light.bounding_sphere();
         let share = light
@@ -1204,7 +1204,7 @@ fn a_camera_of_a_file_is_seen_by() {
     );
     assert!((camera.fov_y_deg - 0.5_f64.to_degrees()).abs() < 1e-5);
     assert_eq!(camera.up, [0.0, 0.0, 1.0]);
-    // By its number, too.
+    // The camera can be selected by its number, too.
     let by_name = description.camera.clone();
     description.see_by("0", dir.path()).unwrap();
     assert_eq!(description.camera, by_name);

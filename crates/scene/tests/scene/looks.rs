@@ -180,7 +180,7 @@ fn extensions_change_what_a_surface_reflects() {
     // It lies as it should; its tangents are those of the other map.
     let expected = "it.glb: tangents of clearcoatNormalTexture (1) left out; its bumps turn by the texture coordinates of normalTexture";
     assert_eq!(bumpy.notes, [expected]);
-    // Of three ways the coat's normals go without theirs, and not the colour.
+    // A material with three mappings: the coat's normals lose theirs, and the colour does not.
     let crowded = scene(
         r#""pbrMetallicRoughness":{"baseColorTexture":{"index":2,"texCoord":1}},"normalTexture":{"index":2},
             "extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatNormalTexture":{"index":2,
@@ -344,7 +344,7 @@ fn images_of_basis_universal_are_textures() {
 #[test]
 fn images_of_jpeg_and_webp_are_textures() {
     let images = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scene/images/");
-    // What losses there are, and whether there is an alpha.
+    // Name, largest difference by lossy coding, and whether there is an alpha.
     let files = [
         ("baseline.jpg", 10, false),
         ("progressive.jpg", 4, false),

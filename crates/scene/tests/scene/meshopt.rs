@@ -169,7 +169,7 @@ fn views_packed_by_meshoptimizer_are_unpacked() {
         let unpacked = mesh(&edited_cube_file(strides, modes, |_| {}, |text| text), "");
         assert_eq!(sorted_corners(&unpacked), expected, "{modes:?}");
     }
-    // By the newer name of the extension, and where a buffer without bytes does not say that it is a stand-in.
+    // Same with the newer name of the extension, and with a buffer without bytes that does not say that it is a stand-in.
     for [from, to] in [
         ["EXT_meshopt", "KHR_meshopt"],
         [r#""fallback":true"#, r#""fallback":false"#],

@@ -82,7 +82,8 @@ fn scratches_end_where_a_mask_does() {
             assert!(u > 0.5 - 1e-5, "{u}");
         }
     }
-    // What is left is all that lay there: 20 m in each half, and a hundredth of a scratch for each that is cut.
+    // All the length that lay there remains: 20 m in each half, and a hundredth of a scratch for each that is
+    // cut.
     let split = |segment: &Segment| {
         let [a, b] = ends_m(segment).map(|end_m| uv(&all, segment, end_m).x - 0.5);
         match (a > 0.0, b > 0.0) {
@@ -128,7 +129,7 @@ fn scratches_are_as_thick_as_a_picture_is_light() {
 #[test]
 fn edges_wear_first() {
     let dir = temporary_dir();
-    // How far a middle is from the nearest edge of the box.
+    // Distance of a middle from the nearest edge of the box.
     let off_m = |segment: &Segment| {
         let mut beside = middle_m(segment).abs().to_array();
         beside.sort_by(f64::total_cmp);

@@ -142,7 +142,7 @@ fn nodes_move_beside_what_pointers_move() {
         let found = middle(&mesh(&bytes, "time_s = 0.5"));
         assert!(found.abs_diff_eq(vec3(2.0, 0.0, 0.0), 1e-5), "{found}");
     }
-    // What is broken otherwise is refused where it is wanted, and only there.
+    // Other errors are refused where the animation is used, and only there.
     glb.more =
         format!(r#","animations":[{{"channels":[{move_node}],"samplers":[{{"input":0}}]}}]"#);
     let bytes = glb.bytes(&mesh_text, r#"{"mesh":0}"#);
@@ -185,7 +185,7 @@ fn joints_and_morph_targets_move_vertices() {
         {"translation":[-1,0,0]},{"translation":[1,0,0],"scale":[1,2,1]}"#;
     glb.more = r#","skins":[{"joints":[2,3]}]"#.to_owned();
     let moved = mesh(&glb.bytes(&mesh_text, nodes), "");
-    // Where the node stands does not matter. Morphed by half of 3 first: z from 1 to 2.
+    // The node's own place does not matter. Morphed by half of 3 first: z from 1 to 2.
     let (least, most) = moved.bounds_m();
     assert!(least.abs_diff_eq(vec3(-1.5, -1.0, 1.0), 1e-5), "{least}");
     assert!(most.abs_diff_eq(vec3(1.5, 1.0, 2.0), 1e-5), "{most}");

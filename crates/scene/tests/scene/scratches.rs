@@ -520,7 +520,8 @@ fn scratches_lie_on_a_material_or_below_a_node() {
     ] {
         let scene = load(keys).unwrap();
         let object = &scene.objects[0];
-        // As many as on that area but for seeds at its border, all within it, each on the triangle that it says.
+        // The number is that of the area but for seeds at its border, all scratches lie within it, each on the triangle
+        // that it names.
         let many = (100.0 * (to - from)) as usize;
         assert!(
             (many - 2..=many).contains(&object.scratches.len()),

@@ -271,7 +271,7 @@ fn erasing_takes_exactly_what_is_within_the_brush() {
                 }
             }
         }
-        // What is outside is all there: by small steps along the whole layer.
+        // All the length outside of the eraser remains, by small steps along the whole layer.
         let mut expected_m = 0.0;
         let mut erased_m = 0.0;
         for piece in whole.segments.iter() {
@@ -306,7 +306,7 @@ fn a_ring_that_is_cut_is_open_and_in_one_piece() {
     let layer_with = |strokes| vec![layer(Layer::Laid(laid.clone()), strokes)];
     let whole = built(DISK, layer_with(vec![]));
     assert!(whole.scratches.iter().all(|scratch| scratch.closed));
-    // From outside of the axis to beyond the rim: each ring outside of 5 mm is cut once.
+    // An eraser from outside of the axis to beyond the rim cuts each ring outside of 5 mm once.
     let line = [[0.006, 0.0, 0.0], [0.1, 0.0, 0.0]];
     let cut = built(DISK, layer_with(vec![erase(&line, 0.001)]));
     assert_eq!(cut.scratches.len(), whole.scratches.len());
@@ -350,7 +350,7 @@ fn strokes_do_not_change_those_before_them() {
         assert_eq!(more.scratches[..600], one.scratches[..]);
         assert_eq!(more.segments[..one.segments.len()], one.segments[..]);
     }
-    // What is drawn over an erasure stays whole.
+    // Scratches that are drawn over an erasure stay whole.
     let over = of(vec![first.clone(), across, second]);
     let crossing = |y: f64| {
         over.segments

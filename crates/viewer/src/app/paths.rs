@@ -14,7 +14,7 @@ use crate::platform::HAS_DISK;
 impl Viewer {
     pub(super) fn ask_path(&mut self, ctx: &egui::Context, purpose: Purpose) {
         self.files.ask(purpose, &self.work.document, ctx.clone());
-        // Where the system is not asked the line is there at once, for what is typed next.
+        // Without a dialog of the system the line appears at once, for the keys typed next.
         if let Some(choice) = self.files.chosen() {
             self.take_choice(ctx, choice);
         }

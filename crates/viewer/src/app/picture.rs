@@ -66,7 +66,7 @@ impl Viewer {
             } = &mut self.work;
             snapshots.show(ui, document, area, &seen, now);
         }
-        // What lies over the picture is not where the pointer is.
+        // The pointer is over the snapshot, not over the picture.
         if self.work.snapshots.cover() {
             if response.dragged() || response.clicked() {
                 self.work.snapshots.show_current();
@@ -106,7 +106,7 @@ impl Viewer {
         let notices = &mut self.work.notices;
         for event in self.work.engine.events() {
             match event {
-                // Of a scene that is another by now nobody wants to know: it may be right again.
+                // An error of an outdated scene is not shown: the scene may be right again.
                 Event::NotBuilt { revision, message } => {
                     if revision == self.asked_revision {
                         self.work.missing = match HAS_DISK {

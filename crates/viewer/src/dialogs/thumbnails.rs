@@ -32,7 +32,8 @@ impl Thumbnails {
                 if stop.is_asked() {
                     return;
                 }
-                // What cannot be read or built has no picture; why is told when it is opened.
+                // A scene that cannot be read or built has no picture; the reason is shown when it
+                // is opened.
                 let document = entry.recover().ok();
                 let picture = document.and_then(|document| picture(&document, stop));
                 if let Some(picture) = picture {

@@ -110,7 +110,7 @@ impl Workshop {
         }
         let (few, sketch) = Sketch::of(description)?;
         let scenes = self.sketches.get_or_insert_with(|| self.scenes.clone());
-        // What is wrong with it is told of the whole scene.
+        // Errors are reported for the whole scene.
         let scene = scenes.build(&Loader::default(), &few, base_dir).ok()?;
         if self.last.is_none() {
             // Surfaces and maps are read once.

@@ -26,7 +26,7 @@ pub(super) fn run(shared: &Shared) {
 pub(super) fn build(shared: &Shared, workshop: &mut Workshop, wanted: WantedScene) {
     let has_sketch = matches!(shared.backend(), Backend::Cpu)
         && pool::Crew::Drafter.install(|| sketch(shared, workshop, &wanted));
-    // Where there is a sketch to be seen, the whole of what is outdated already need not be built.
+    // With a sketch on the screen, the whole of an outdated scene need not be built.
     let cancelled = || shared.is_stopped() || has_sketch && shared.wants_scene();
     if has_sketch && workshop.has_built() {
         // A moment to see whether the hand goes on.

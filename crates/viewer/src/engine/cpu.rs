@@ -127,7 +127,7 @@ impl Easel for CpuEasel {
             let draft = crew.install(|| self.drafts.of(&order.built, step.thin));
             prepared = prepared.with_draft(draft);
         }
-        // What the rows that are left look like meanwhile.
+        // Picture for the rows that are left.
         let before = before
             .filter(|last| {
                 !is_coarse && self.shows_parts && !bands.only_edges && !last.step.is_added()

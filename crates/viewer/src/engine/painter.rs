@@ -147,7 +147,7 @@ impl Progress {
                 }
             }
             _ => {
-                // What begins to move is answered at once; what moves already is as fine as it can be in time.
+                // The first picture of a movement comes at once; in a movement pictures are as fine as they can be in time.
                 let begins = self.done.is_none() || self.steps.len() < self.steps_first;
                 self.steps = studio.first(shared, easel, &order, begins).await?;
                 self.steps_first = self.steps.len();

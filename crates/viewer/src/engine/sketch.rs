@@ -27,7 +27,7 @@ impl Sketch {
             .map(|table| match &table.layer {
                 Layer::Laid(laid) if !table.hidden => match laid.amount {
                     Amount::Count(count) => count,
-                    // Of an area that only the builder knows: some thousands.
+                    // Only the builder knows the area: some thousands of scratches.
                     Amount::DensityPerM2(_) => 4 * SCRATCHES,
                 },
                 _ => 0,

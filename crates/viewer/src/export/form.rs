@@ -215,7 +215,7 @@ impl Form {
     fn replace_buttons(&mut self, ui: &mut Ui, question: &str) -> Option<Answer> {
         ui.colored_label(ui.visuals().warn_fg_color, question);
         let answer = ui.horizontal(|ui| {
-            // Where the button that asked was: a double click on that replaces nothing.
+            // This button lies where the one that opened the question was: a double click there replaces nothing.
             if ui.button("Choose another name").clicked() {
                 return Some(None);
             }

@@ -81,7 +81,7 @@ impl Studio {
             Thumb::Layer(preset) => {
                 let mut dome = dome(&layer(preset));
                 if matches!(preset, LayerPreset::PolishedWatch | LayerPreset::SpunDisk) {
-                    // What runs to the middle lights up between it and a lamp beside it.
+                    // Scratches that run to the middle light up between it and a lamp beside it.
                     dome.lights[0] = mirrored(dome.lights[0].clone(), &dome, BESIDE_M);
                 }
                 (dome, None)
@@ -147,7 +147,7 @@ impl Studio {
             Environment::from_map(picture, rotation_rad, 1.0, false).with_up(DVec3::Z, rotation_rad)
         };
         match map {
-            // That of all materials and shapes.
+            // Map of the pictures of all materials and shapes.
             BuiltInMap::Studio => self.map.get_or_insert_with(|| make(map)).clone(),
             other => make(other),
         }

@@ -28,7 +28,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     form.vector(Parameter::CameraTarget, &mut camera.target_m);
     form.vector(Parameter::CameraUp, &mut camera.up);
     if let Some(change) = form.change() {
-        // What is changed here is to be seen; the exposure is everywhere.
+        // Changes here should be visible, so the free view ends; the exposure is the same in all views.
         if camera.exposure_ev == work.document.description().camera.exposure_ev {
             work.free_view.end();
         }
@@ -133,7 +133,7 @@ fn lens(
         (camera.aperture_mm, camera.focus_distance_m) = (Some(aperture_mm), focus_m);
     }
     let mut focus_m = camera.lens().focus_m;
-    // By default a hundredth of the distance of what is in focus.
+    // Default: a hundredth of the focus distance.
     let aperture_mm = *camera.aperture_mm.get_or_insert(10.0 * focus_m);
     // A closed one has no f-stop.
     if let Some(before) = camera.f_stop(size_px) {

@@ -193,7 +193,7 @@ impl<'a> Form<'a> {
         let scope = self.scope;
         self.row(label, tooltip, |ui, text| {
             let id = ui.make_persistent_id((scope, label));
-            // What is being typed lives in egui's memory until it is done.
+            // Unfinished input is in egui's memory.
             let mut typed = ui
                 .data(|data| data.get_temp::<String>(id))
                 .unwrap_or_else(|| value.clone());
@@ -210,7 +210,7 @@ impl<'a> Form<'a> {
             let is_given_up = ui.input(|input| input.key_pressed(egui::Key::Escape));
             let changed = response.lost_focus() && typed != *value && !is_given_up;
             if changed {
-                // What was pasted may have ends of lines, which names and paths of scene files have not.
+                // Pasted text may have line ends, which names and paths of scene files have not.
                 typed.retain(|c| !c.is_control());
                 *value = typed;
             }

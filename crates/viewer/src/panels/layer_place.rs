@@ -63,7 +63,7 @@ fn places(form: &mut Form, place: &mut LayerPlaces) {
     form.number(Parameter::Edges, &mut place.edges);
     match place.edges > 0.0 {
         true => {
-            // As the scene has it where nothing is said.
+            // The scene's default.
             let mut width_m = place.edge_width_m.unwrap_or(0.02 * form.diagonal_m);
             let before_m = width_m;
             form.number(Parameter::EdgeWidth, &mut width_m);

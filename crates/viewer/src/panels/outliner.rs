@@ -225,7 +225,7 @@ fn add_light(ui: &mut Ui, work: &mut Workspace) {
 
 fn add_material(ui: &mut Ui, work: &mut Workspace) {
     if let Some(preset) = material_cards(ui, work) {
-        // What is selected is made of it.
+        // The selected object is made of the new material.
         let object = work.selected_object();
         work.apply("Add a material", |d, _| {
             let selection = materials::add(d, preset.material());

@@ -58,7 +58,7 @@ impl Snapshots {
             Way::Flip => {
                 ui.painter().rect_filled(rect, 0.0, Color32::BLACK);
                 picture(ui, fitting(rect, size_px), texture);
-                // As the current look, or the two differ where the looks do not.
+                // Same frame as for the current look, so that the two differ only where the looks do.
                 area.paint_frame(ui);
                 caption(ui, rect, &name);
             }
@@ -82,7 +82,7 @@ impl Snapshots {
                 ui.scope(|ui| {
                     ui.set_clip_rect(right.intersect(ui.clip_rect()));
                     picture(ui, fitting(rect, size_px), texture);
-                    // As on the left.
+                    // Same frame as on the left.
                     area.paint_frame(ui);
                 });
                 divider::names(ui, rect.with_max_y(rect.max.y - 20.0), x, ["Now", &name]);

@@ -84,7 +84,7 @@ impl Gizmo {
         let pointer = ui.input(|input| input.pointer.latest_pos());
         let over = pointer.filter(|_| ui.rect_contains_pointer(area.rect));
         let near = held.or_else(|| over.and_then(|pos| handles::under(&placed, pos)));
-        // What is met last lies on top.
+        // The handle under the pointer is drawn last, on top.
         placed.sort_by_key(|placed| Some(placed.handle) == near);
         let mut hovered = None;
         let mut is_held = false;

@@ -89,7 +89,7 @@ impl StrokeTool {
             let pos = pos.filter(|_| work.overlays.has(Overlay::Brush));
             if let Some(hit) = pos.and_then(|pos| pick::along(&built, &lens, pos)) {
                 let going_on = self.going_on.as_ref();
-                // What was begun keeps its width.
+                // A stroke keeps the width that it began with.
                 let radius_m = match going_on.map(|going| going.settings.radius_m) {
                     Some(radius_m) => radius_m,
                     None => settings(work, &hit).radius_m,

@@ -94,7 +94,7 @@ pub fn wait_built(harness: &mut Harness<'static, Viewer>) {
                 built.description.objects == viewer.document().description().objects
             })
     });
-    // What picking and gizmos show of it.
+    // Time for picking and gizmos to show the new state.
     harness.run_steps(2);
 }
 

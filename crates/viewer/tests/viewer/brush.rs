@@ -204,7 +204,7 @@ fn the_first_brush_fits_the_object_and_the_view_and_not_the_table() {
     let near = strokes(&harness)[1].clone();
     assert!(near.radius_m < 0.6 * far.radius_m);
     assert!((share_of_view(&harness, &near) / share - 1.0).abs() < 0.2);
-    // What was set by hand stays.
+    // Settings made by hand stay.
     common::key(&mut harness, egui::Key::CloseBracket);
     common::drag(&mut harness, from, from + vec2(120.0, 10.0), 6);
     let larger = strokes(&harness)[2].radius_m;

@@ -136,7 +136,7 @@ fn keys_move_the_view_and_nothing_else() {
 /// Presses a key and sees the view change, and the scene stay.
 fn moves(harness: &mut Harness<'static, Viewer>, selection: Selection, key: Key) {
     harness.state_mut().document_mut().select(selection);
-    // From the scene's own camera.
+    // Back to the scene's own camera.
     press(harness, Modifiers::NONE, Key::Num0);
     let (scene, view) = (description(harness), harness.state().camera());
     press(harness, Modifiers::NONE, key);

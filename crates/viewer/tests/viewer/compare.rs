@@ -95,7 +95,7 @@ fn the_built_in_scene_agrees_with_its_reference_and_another_scene_does_not() {
     assert!(agrees(&beauty, beauty.mean, 0.15), "{figures:?}");
     // The closed form is within a few percent of the integral where scratches are many.
     assert!(agrees(&scratches, scratches.mean, 0.03), "{figures:?}");
-    // What the window compares is what the renderer makes.
+    // The comparison's picture is the renderer's.
     let right = rendered(text, figures.size_px);
     assert!((mean(&right, Layer::Scratches) / scratches.mean - 1.0).abs() < 1e-6);
 

@@ -285,7 +285,7 @@ fn the_scene_may_change_meanwhile() {
     let mut harness = viewer(TINY);
     export_turntable(&mut harness, &folder.path().join("t.exr"), 8);
     harness.run_steps(2);
-    // From above: another camera than that of the export.
+    // A view from above differs from the export's camera.
     common::key(&mut harness, Key::Num5);
     wait_exported(&mut harness);
     let last = exr_file::read_image(&folder.path().join("t-0008.exr")).unwrap();

@@ -57,7 +57,7 @@ fn every_control_of_a_grating_is_live() {
         names
     };
     add(&mut harness, GratingPreset::Foil);
-    // What is hidden takes no table and no file: none is made for each change.
+    // A hidden grating takes no table and no file: none is made for each change.
     toggle(&mut harness, "Hidden");
     assert!(grating(&harness).hidden);
 

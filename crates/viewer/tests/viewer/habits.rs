@@ -238,7 +238,7 @@ fn a_new_name_and_an_unused_material_leave_the_picture() {
         assert!(!harness.state().engine().is_building(), "edit {i}");
         assert_eq!(revision(&harness), before, "edit {i}");
     }
-    // What is seen is built.
+    // A visible change is built.
     let document = harness.state_mut().document_mut();
     document.edit("by the test", |d| {
         d.objects[0].material = Some("gold".to_owned())

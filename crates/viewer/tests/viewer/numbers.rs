@@ -76,7 +76,7 @@ fn what_cannot_be_read_is_told_and_changes_nothing() {
     type_into(&mut harness, "Width", "4");
     assert_eq!(width_um(&harness), 4.0);
     assert!(harness.state().messages().is_empty());
-    // What the scene does not allow is said, too.
+    // A value that the scene does not allow is reported, too.
     type_into(&mut harness, "Width", "1 m");
     let told = harness.state().messages().join(" ");
     assert!(told.contains("at most 100 µm"), "{told:?}");

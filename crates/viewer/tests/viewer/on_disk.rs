@@ -59,7 +59,7 @@ fn a_scene_that_another_program_wrote_is_loaded_again() {
     wait_until(&mut harness, "the other scene", |v| fov_y_deg(v) == 21.0);
     assert!(!harness.state().document().is_modified());
     assert!(harness.state().messages().join(" ").contains("a.toml"));
-    // What is wrong in it is told, and the scene stays.
+    // A mistake in the file is reported, and the scene stays.
     replace(&path, &SMALL.replace("fov_y_deg = 30.0", "fow_y_deg = 1.0"));
     wait_until(&mut harness, "a message", |viewer| {
         viewer

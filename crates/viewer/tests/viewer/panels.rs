@@ -188,7 +188,7 @@ fn the_environment() {
     });
     select(&mut harness, Selection::Environment);
     assert_eq!(every_number_is_live(&mut harness), 2);
-    // What is not there is told of, and the picture stays.
+    // A missing file is reported, and the picture stays.
     common::wait_until(&mut harness, "the scene is looked at", |viewer| {
         viewer.engine().has_failed()
     });

@@ -45,7 +45,7 @@ fn a_light_is_put_neither_below_the_ground_nor_into_an_object() {
         common::undo(&mut harness);
         assert_eq!(*description(&harness), *before);
     }
-    // Where nothing is in the way it is as far off as it was.
+    // Without an obstacle the light keeps its distance.
     common::click_at(&mut harness, middle - vec2(0.0, 0.5 * radius));
     harness.run_steps(2);
     let center = place_light::center(&light(&harness, 0));

@@ -81,7 +81,7 @@ fn the_probe_reads_the_pixel_that_the_picture_shows() {
         scratched += u32::from(under.layers == ["turned"]);
     }
     assert!(scratched > 0);
-    // What a row tells stands beside its name.
+    // The value of a row stands beside its name.
     harness.run_steps(2);
     let row = harness.get_by_label("Layers").rect();
     let beside = |rect: &Rect| rect.left() > row.right() && row.y_range().contains(rect.center().y);
@@ -155,7 +155,7 @@ fn layers_and_exposure_are_shown_and_the_scene_stays() {
     }
     seen.sort_by_key(|color| color.to_array());
     seen.dedup();
-    // Where no scratch is lit, the picture is the base.
+    // The picture is the base where no scratch is lit.
     assert!(seen.len() >= 5, "{seen:?}");
     common::click_on(&mut harness, "Back to the picture");
     key(&mut harness, Modifiers::NONE, Key::X);

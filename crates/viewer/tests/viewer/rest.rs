@@ -11,7 +11,7 @@ fn a_finished_picture_leaves_the_window_at_rest() {
         let frame = viewer.engine().latest();
         frame.is_some_and(|frame| frame.painted.is_final)
     });
-    // What fades or slides comes to its end.
+    // Fading and sliding widgets come to rest.
     harness.run_steps(20);
     let delay = harness.output().viewport_output[&ViewportId::ROOT].repaint_delay;
     assert!(delay.as_secs() >= 1, "the next pass is wanted in {delay:?}");

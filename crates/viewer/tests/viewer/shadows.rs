@@ -121,7 +121,7 @@ fn a_saved_picture_has_the_shadows_and_bounces_of_the_window() {
     let (shadowed, _) = save(&mut harness, "shadowed.exr");
     assert_eq!(none, None);
     assert!(shadowed < 0.98 * open, "{shadowed} {open}");
-    // From the table to the screen and back.
+    // Light goes from the table to the screen and back.
     click_on(&mut harness, "shadows");
     let number = harness.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Bounces");
     number.set_value_accesskit(2.0);

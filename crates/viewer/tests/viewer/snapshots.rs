@@ -76,7 +76,7 @@ fn a_snapshot_that_is_flipped_to_has_the_frame_of_the_picture() {
             Shape::Rect(rect) => rect.brush.is_some(),
             _ => false,
         } && shape.visual_bounding_rect().contains(middle);
-        // What lies over the last picture there.
+        // Shapes over the last picture there.
         let mut count = 0;
         for shape in shapes {
             match shape {

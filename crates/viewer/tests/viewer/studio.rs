@@ -66,7 +66,7 @@ fn lights_in_the_place_of_the_studio_light_the_same_picture() {
     assert!(now.studio.hidden && now.environment == Some(described.studio.room()));
     let first = Selection::Light(0);
     assert_eq!(harness.state().document().selection(), first);
-    // As it is saved.
+    // State after saving and reading.
     let text = now.to_toml().unwrap();
     let read = Description::from_toml(&text, std::path::Path::new("saved")).unwrap();
     assert_eq!(read, *now);

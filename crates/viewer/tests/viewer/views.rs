@@ -250,7 +250,7 @@ fn focus_here_makes_what_is_under_the_pointer_sharp() {
     let at_target_m = before.camera.lens().focus_m;
     assert!(focus_m < at_target_m - 0.01 && focus_m > 0.4, "{focus_m}");
     assert!(harness.state().messages().is_empty());
-    // By the key, at another place: farther away.
+    // Focus by the key at another place, which is farther away.
     harness.hover_at(at - vec2(0.0, 90.0));
     harness.run_steps(2);
     key(&mut harness, Modifiers::SHIFT, Key::F);

@@ -85,7 +85,7 @@ fn the_mean_of_radiance_over_density_is_the_integral() {
         mean /= (SIDE * SIDE) as f64;
         let error = (mean / expected - DVec3::ONE).abs().max_element();
         println!("{name}: {mean} of {expected}, relative error {error:.1e}");
-        // What the midpoint rule errs by next to the poles, and on a map of two texels.
+        // Error of the midpoint rule next to the poles, and on a map of two texels.
         assert!(error < 2e-3, "{name}");
     }
 }
@@ -142,7 +142,7 @@ fn samples_are_spread_as_the_density_says() {
             let (direction, pdf) = sampler.sample(draw.two());
             assert!((direction.length() - 1.0).abs() < 1e-12);
             let again = sampler.pdf(direction);
-            // Where the blend goes to zero, rounding is large against it.
+            // Rounding is relatively large where the blend goes to zero.
             assert!(
                 (pdf - again).abs() < 1e-6 * pdf + 1e-9,
                 "{name}: {pdf} {again}"

@@ -279,7 +279,7 @@ impl PolygonLight {
             }
             // Shorter arcs rise above their ends by less than the slack.
             if n2 > 1e-12 {
-                // Where the arc's great circle comes nearest to the axis.
+                // Point at which the arc's great circle is nearest to the axis.
                 let on = n.dot(axis);
                 let nearest = axis * n2 - n * on;
                 let extreme = (1.0 - on * on / n2).max(0.0).sqrt();

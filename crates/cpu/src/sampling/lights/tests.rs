@@ -399,7 +399,7 @@ fn samples_are_spread_as_the_hits_of_even_directions_are() {
             &histogram(&samples, bound.axis, reach),
             &histogram(&hits, bound.axis, reach),
         );
-        // How many directions hit is the solid angle.
+        // The share of directions that hit is proportional to the solid angle.
         let share = hits.len() as f64 / TRIES as f64;
         let expected = 1.0 / (lights.pdf(0, from, DVec3::Z) * 2.0 * PI * versine);
         let deviation = (expected * (1.0 - expected).max(1e-12) / TRIES as f64).sqrt();

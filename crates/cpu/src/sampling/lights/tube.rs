@@ -103,7 +103,7 @@ impl TubeLight {
     /// (direction, distance, density)
     pub fn sample(&self, from: DVec3, u: DVec2) -> Option<(DVec3, f64, f64)> {
         let (x, y) = self.axis.any_orthonormal_pair();
-        // Of a sphere cut in two, and of the wall between, height is even.
+        // Height is evenly distributed over a sphere cut in two and over the wall between the halves.
         let height_m = u.x * (self.length_m + 2.0 * self.radius_m) - self.radius_m;
         let (sin, cos) = (2.0 * PI * u.y).sin_cos();
         let past_m = height_m - height_m.clamp(0.0, self.length_m);

@@ -124,7 +124,7 @@ impl RowPair<'_> {
     /// Returns the longitude up to which the lobe may reach into the row on either side. None if it does not reach
     /// it.
     fn turn_rad(&self) -> Option<f64> {
-        // By half a texel more.
+        // Reach of the part plus half a texel.
         let reach_rad = (self.lobe.reach_rad() + self.texel_rad).min(PI);
         if (self.rows.polar_rad - self.middle_rad).abs() > reach_rad {
             return None;

@@ -141,7 +141,7 @@ impl Patch {
             }
         }
         let all = all.get().unwrap_or_default();
-        // Of an outline of a few texels the rim is in none. A window with a bright frame is not as bright as that.
+        // The rim of an outline of a few texels contains no texel. A window with a bright frame is not as bright as the frame.
         rim.get().unwrap_or(all).min(all).max(DVec3::ZERO)
     }
 }

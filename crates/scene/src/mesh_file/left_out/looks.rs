@@ -122,7 +122,7 @@ fn sampler(root: &Value, texture: &Value) -> ([u64; 2], bool) {
     let texture = element("textures", texture.get("index"));
     let sampler = texture.and_then(|it| element("samplers", it.get("sampler")));
     let number = |name: &str| sampler.and_then(|it| it.get(name)?.as_u64());
-    // As the specification has them: REPEAT is the default, 9728 is NEAREST.
+    // Defaults of the specification: 10497 is REPEAT; 9728 is NEAREST.
     let wrap = ["wrapS", "wrapT"].map(|name| number(name).unwrap_or(10497));
     (wrap, number("magFilter") == Some(9728))
 }

@@ -135,7 +135,7 @@ mod tests {
                 words([0, (-100 << 24) | 0x7f_ffff]),
                 floats([0.0, 8_388_607.0 / 2_f32.powi(100)]),
             ),
-            // Of 8 bits, and of 4: 17 is a step then.
+            // Colours of 8 bits, and of 4 bits, with steps of 17.
             (
                 "COLOR",
                 bytes([100, 100, 0, 0xc0]),

@@ -40,7 +40,7 @@ fn change_light(light: &mut Light, before: &Light, motion: &Motion) {
         Motion::Turn(axis, angle_rad) => place_light::rotate(&mut changed, axis, angle_rad),
         Motion::Resize(factor) => place_light::resize(&mut changed, factor),
         Motion::Corner(i, to_m) => {
-            // Where the polygon would cross itself, the corner stays at the last good place.
+            // If the polygon would cross itself, the corner stays at the last good place.
             if place_light::move_vertex(&mut changed, i, to_m).is_err() {
                 return;
             }

@@ -126,7 +126,7 @@ impl Spot {
         let ways = outer[1..].iter().map(|p| *p - apex);
         let middle = ways.fold(Vec2::ZERO, |sum, way| sum + way);
         if middle.length() > STEPS as f32 {
-            // As far aside as can be, seen from the apex.
+            // Distance to the side, as seen from the apex.
             let aside = |p: &Pos2| middle.rot90().dot((*p - apex).normalized());
             let left = outer.iter().min_by(|a, b| aside(a).total_cmp(&aside(b)));
             let right = outer.iter().max_by(|a, b| aside(a).total_cmp(&aside(b)));

@@ -113,7 +113,7 @@ pub(super) fn draw_off_screen(painter: &Painter, lens: &Lens, body: &Body, area:
     if way == Vec2::ZERO || half.min_elem() <= 0.0 {
         return;
     }
-    // As far from the middle as the edge is.
+    // Distance from the middle to the edge in this direction.
     let reach = (half.x / way.x.abs().max(1e-6)).min(half.y / way.y.abs().max(1e-6));
     let tip = inside.center() + way * reach;
     let (back, aside) = (way * 12.0, way.rot90() * 7.0);
