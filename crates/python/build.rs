@@ -3,7 +3,7 @@
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     match std::env::var("CARGO_CFG_TARGET_OS").as_deref() {
-        // Without the names of its own functions, which nobody looks up.
+        // Strips the names of functions, which nobody needs.
         Ok("linux") => println!("cargo::rustc-link-arg-cdylib=-s"),
         // The interpreter that loads it brings the functions of Python.
         Ok("macos") => {

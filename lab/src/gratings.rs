@@ -70,7 +70,7 @@ impl Gratings {
                     depth_spread: 0.0,
                     jitter_um: jitter * pitch_um,
                 };
-                // Without chance rows differ in their place alone.
+                // Rows without jitter differ in their place alone.
                 let rows = if jitter == 0.0 { 48 } else { self.rows };
                 let blocks = blocks(&row, row_places_um, rows);
                 let table = row.table(COHERENCE_UM, |_| 1.0);

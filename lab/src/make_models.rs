@@ -93,7 +93,7 @@ fn spoons() -> Result<Vec<u8>> {
         { "name": "handle", "primitives": [handle] },
     ]);
 
-    // In f32, where the last bits of sines, which platforms do not agree on, are gone.
+    // In f32 the last bits of sines, which differ between platforms, are gone.
     let rotation = |rotation: DQuat| json!(rotation.as_quat().to_array());
     let on_back = DQuat::from_rotation_z(0.12) * DQuat::from_rotation_y(spoon::ON_BACK_RAD);
     let on_face = DQuat::from_rotation_z(-0.16)

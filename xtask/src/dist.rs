@@ -48,7 +48,7 @@ impl Dist {
         }
         fs::create_dir(&folder)?;
 
-        // With the whole workspace, as `.ci/run` builds it: alone it would have other features and be compiled again.
+        // Builds the whole workspace, as `.ci/run` does: alone the program would have other features and be compiled again.
         cargo(&root, &["build", "--release", "--workspace", "--bins"])?;
         let metadata = metadata(&root)?;
         let target = metadata["target_directory"]

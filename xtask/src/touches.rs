@@ -25,7 +25,7 @@ struct Thing {
 const THINGS: [Thing; 2] = [
     Thing {
         what: "a parameter of a groove",
-        // Those of gratings among them.
+        // The count includes the tables of gratings.
         most: 28,
         names: &[
             &["width_um", "depth_nm"],

@@ -52,7 +52,8 @@ impl Web {
         let output = self.output.canonicalize()?;
         let built = compile(&root, self.quick)?;
         features::check(&built)?;
-        // It is as new as the library, to the last digit: both share a crate of which there is one version at a time.
+        // wasm-bindgen's version is the library's, to the last digit: both share a crate of which there is one
+        // version at a time.
         Bindgen::new()
             .input_path(&built)
             .web(true)?
@@ -128,7 +129,7 @@ fn command_line(root: &Path) -> anyhow::Result<PathBuf> {
 fn compile(root: &Path, is_quick: bool) -> anyhow::Result<PathBuf> {
     let folder = root.join("target/browser");
     let profile = if is_quick { "web-quick" } else { "web" };
-    // All browsers with WebGPU have it, and the program is a fifteenth smaller.
+    // All browsers with WebGPU support SIMD, and the program is a fifteenth smaller with it.
     let simd = "-C target-feature=+simd128";
     // Code for browsers alone is compiled by no other check.
     let flags = if is_quick {

@@ -133,7 +133,7 @@ pub fn load(
         description.light_for_scratches(&scene);
     }
     if overrides.highlight.is_some() || overrides.is_lit_for_scratches {
-        // Nothing but the lights is made again.
+        // Only the lights are built again.
         let built = builder.build(&loader, &description, &source.folder);
         scene = built.map_err(wrong)?;
     }

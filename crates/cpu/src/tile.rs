@@ -311,7 +311,7 @@ impl<'a> Tile<'a> {
                                 && prepared.is_scratched(hit)
                             {
                                 light.scratches = shadows.by_picks(&at, &picks[i], &mut self.rooms);
-                                // To the bit, where nothing is hidden.
+                                // Exact to the bit if nothing is hidden.
                                 light.scratches.open = sums.radiance.into();
                                 light.scratches = light.scratches.times(DVec3::splat(samples));
                             }

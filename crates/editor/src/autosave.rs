@@ -203,7 +203,7 @@ pub fn pending(folder: &Path) -> Vec<Pending> {
                 let Ok(text) = std::fs::read_to_string(&file) else {
                     continue;
                 };
-                // Not every scene file in there is one.
+                // Other scene files may lie in the folder.
                 let Some(origin) = header(&text, ORIGIN) else {
                     continue;
                 };

@@ -157,7 +157,7 @@ mod tests {
     fn a_grade_takes_the_place_of_the_one_before() {
         let mut description = Description::from_toml(SCENE, Path::new("scene.toml")).unwrap();
         set_wear(&mut description, 0, 0.28, Wear::Used).unwrap();
-        // One's own layers around it, and one in its middle.
+        // Layers of the user's own around the wear, and one in its middle.
         let own = Scratches {
             name: Some("own".to_owned()),
             ..description.scratches[0].clone()

@@ -25,7 +25,8 @@ impl LightRanges {
     pub(crate) async fn upload(gpu: &Gpu, scene: &Scene) -> Result<Self, Error> {
         let mut dispatches = Vec::new();
         for (kind, lights) in lights::ranges(scene) {
-            // One at least: for the environment, which is no light of the list, and for the mask.
+            // At least one range: for the environment, which is no light of the list, and for the
+            // mask.
             for first in
                 (lights.start..lights.end.max(lights.start + 1)).step_by(LIGHTS_AT_ONCE as usize)
             {

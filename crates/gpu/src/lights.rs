@@ -215,7 +215,7 @@ pub(crate) fn packed(scene: &Scene, array: &TextureArray, origin_m: DVec3) -> Ve
         let (center_m, radius_m) = light.bounding_sphere();
         let own = vertices_m(light);
         let first_vertex = vertices.len() as u32;
-        // Those of a tube have its radius with them.
+        // Vertices of a tube hold its radius too.
         let w = match light.shape {
             LightShape::Tube { radius_m, .. } => radius_m as f32,
             _ => 0.0,

@@ -92,7 +92,7 @@ impl ShadowRoom {
             .min(gpu.largest_array())
             .saturating_sub(states);
         let room = left / (PICK_BYTES * points.max(1));
-        // One always fits: what there is for sums is more.
+        // One pick always fits: there is more room than that for sums.
         let count = room.clamp(1, PICKS_MOST).min(u64::from(wanted.max(1)));
         let bytes = states + PICK_BYTES * points * count;
         if self.picks_bytes < bytes {

@@ -82,7 +82,7 @@ impl StripShader {
         let rows = strip.len() as u32;
         let tiles = tile_count(room.width_px, rows);
         if let Some(scratches) = passes.scratches() {
-            // Those of the first step serve the others.
+            // Lists of the first step serve the other steps.
             let made = room.lists.made.as_ref();
             let kept = view.step > 0 && made.is_some_and(|made| made.rows == *strip);
             if !kept

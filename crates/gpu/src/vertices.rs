@@ -136,7 +136,7 @@ fn origin(meshes: &[PlacedMesh]) -> DVec3 {
     };
     let (min, max) = (min.as_dvec3(), max.as_dvec3());
     let (middle, extent) = (min.midpoint(max), (max - min).max_element());
-    // Nothing but empty meshes, or a point.
+    // The scene has nothing but empty meshes, or a point.
     if !middle.is_finite() {
         return DVec3::ZERO;
     }

@@ -438,7 +438,7 @@ impl Around {
             return own;
         }
         let value = luminance([r, g, b]);
-        // One round tells no variance.
+        // One round gives no variance.
         let noise = if rounds > 1 { variance.sqrt() } else { value };
         let likely = self.mean() + OUTLIER_STD * self.spread().sqrt();
         let most = likely.max(value - NOISE_STD * noise);

@@ -205,7 +205,7 @@ mod tests {
     #[test]
     fn white_stays_white_and_rec_709_stays_what_it_is() {
         assert_eq!(Primaries::REC_709.to_rec_709(), Ok(None));
-        // Those that Radiance writes where nobody asks for others: white is that of equal energy.
+        // Radiance's default primaries, with the white of equal energy.
         let radiance =
             Primaries::of_numbers([0.640, 0.330, 0.290, 0.600, 0.150, 0.060, 0.333, 0.333]);
         let white = radiance.to_rec_709().unwrap().unwrap().color([2.0; 3]);

@@ -126,7 +126,7 @@ impl Moments {
         let cos = 1.0 / (1.0 + tan * tan).sqrt();
         let sine = tan.abs() * cos;
         let cubed = cos * cos * cos;
-        // Beyond it, on its side of the middle.
+        // The tail beyond the tangent, on its side of the middle.
         let tail = (cos.atan2(sine) - sine * cos) / PI;
         let tail_second = 0.25 * tail + sine * cubed * 0.5 / PI;
         let towards = if tan > 0.0 { -sign } else { sign };

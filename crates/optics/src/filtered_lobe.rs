@@ -80,7 +80,7 @@ pub(crate) fn filtered_facets(
         widening((mean - apart).max(0.0), along[1]),
     );
     let own = surface.alphas * surface.alphas;
-    // In the surface's axes.
+    // Spread in the surface's axes.
     let (cos, sin) = (axis.dot(surface.along), axis.perp_dot(surface.along));
     let xx = own.x + added.x * cos * cos + added.y * sin * sin;
     let yy = own.y + added.x * sin * sin + added.y * cos * cos;
@@ -179,7 +179,7 @@ impl LobePart {
         }
         let (alphas, shear) = self.first;
         let per_first = self.lobe.alphas / alphas;
-        // In the first lobe's space.
+        // Vector in the first lobe's space.
         let x = vector.x * per_first.x;
         let y = (vector.y + self.lobe.shear * vector.x) * per_first.y - shear * x;
         let widths = x.hypot(y) / vector.z.max(1e-30);

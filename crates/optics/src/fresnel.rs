@@ -112,7 +112,7 @@ impl FresnelCurve {
     /// t in three channels, and s.
     pub(crate) fn lookup(&self, cos_theta: f64) -> [f64; 4] {
         let at = unit_clamp(cos_theta).sqrt() * (FRESNEL_NODES - 1) as f64;
-        // Not negative: to cut off is to round down.
+        // The place is not negative, so truncation rounds down.
         let i = (at as usize).min(FRESNEL_NODES - 2);
         let share = at - i as f64;
         let (low, high) = (self.nodes[i], self.nodes[i + 1]);

@@ -74,7 +74,7 @@ impl LobeTable {
         let last = (LOBE_TABLE_SIZE - 1) as f64;
         let x = unit_clamp(cos_o).sqrt() * last;
         let y = unit_clamp(roughness) * last;
-        // Neither is negative: to cut off is to round down.
+        // Neither coordinate is negative, so truncation rounds down.
         let [x0, y0] = [x, y].map(|at| (at as usize).min(LOBE_TABLE_SIZE - 2));
         let (fx, fy) = (x - x0 as f64, y - y0 as f64);
         let node = |dx: usize, dy: usize| self.texels[(y0 + dy) * LOBE_TABLE_SIZE + x0 + dx];

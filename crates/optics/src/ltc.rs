@@ -341,7 +341,7 @@ fn ltc_cone(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> LtcCone {
 /// [`LtcCone::root`], from the squares of `centre` and the squared lengths.
 fn ltc_cone_root(centre2: DVec3, size2: DVec2) -> f64 {
     let level = centre2.x + centre2.y;
-    // One pole at the mean of the two.
+    // Both poles are replaced by one at their mean.
     let mean = centre2.xy().dot(size2) / level.max(1e-30);
     let mut root = ltc_one_pole(level, mean, centre2.z);
     for _ in 0..CONE_ROUNDS {
@@ -397,7 +397,7 @@ fn ltc_cone_axes(cone: &LtcCone) -> EllipticCone {
     let size = DVec2::new(cone.size2.x.sqrt(), cone.size2.y.sqrt());
     let boost = -per_length * middle.xy() * size;
     let forward = boost / (1.0 + per_length);
-    // In the frame of u, v and n.
+    // Vectors in the frame of u, v and n.
     let of_c = |k: f64| cone.centre * k;
     let u = of_c(boost.x)
         + DVec3::new(

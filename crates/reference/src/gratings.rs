@@ -124,7 +124,7 @@ impl RowView {
             let piece = GroovePiece {
                 tangent: self.frame.tangent,
                 offset_um,
-                // Beyond what the window shows.
+                // Ends beyond the window.
                 start_um: -END_SIGMA * coherence_um,
                 end_um: END_SIGMA * coherence_um,
                 width_um,

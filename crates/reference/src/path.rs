@@ -407,7 +407,8 @@ impl Integrator<'_> {
         if self.scene.environment.is_some() || bounces {
             let directions = field.directions(|_| (-1.0, 1.0));
             let draws = f64::from(ENVIRONMENT_DRAWS);
-            // One of the draws goes on, or paths would multiply. Each has its own part of the mixture: any of them may be it.
+            // One of the draws continues the path, or paths would multiply. Each draw has its own part of the mixture, so any
+            // of them may.
             let [goes_on, ..] = vertex.random.four(Purpose::Bounce);
             let goes_on = (goes_on * draws) as u32;
             for draw in 0..ENVIRONMENT_DRAWS {

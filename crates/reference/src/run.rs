@@ -75,8 +75,8 @@ impl Integrator<'_> {
                 stop.store(true, Ordering::Relaxed);
             }
         };
-        // In rounds over the whole picture, so that a run that is stopped is noisy everywhere rather than done in a part.
-        // Each round ends in idle cores: rounds grow until that is a small part of them.
+        // Rounds go over the whole picture, so that a stopped run is noisy everywhere rather than finished in a part. Each round
+        // ends in idle cores: rounds grow until that is a small part of them.
         let mut round = Round {
             up_to: fewest.unwrap_or(target),
             batches: 1,

@@ -106,7 +106,7 @@ pub fn framing(points_m: &[DVec3], [right, up, forward]: [DVec3; 3], tan: DVec2)
         nearest = nearest.min(depth);
     }
     let cz = ((least - most) / (2.0 * tan)).min_element();
-    // Nothing else holds the camera back from entering what is flat and seen along itself.
+    // A limit that keeps the camera out of a flat object that is seen edge-on.
     let cz = cz.min(nearest - 10.0 * limits::SMALLEST_M);
     let mut c = 0.5 * (least + most);
     // Along the axis that has room to spare, as much of it on either side: steps too short to overshoot.

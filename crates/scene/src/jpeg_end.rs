@@ -21,7 +21,7 @@ pub(crate) fn is_cut_off(bytes: &[u8]) -> bool {
         at = mark + 1;
         match bytes[mark] {
             END => return false,
-            // These have no length: restarts and 1.
+            // Marks without a length: restarts and 1.
             0x01 | 0xd0..=START => {}
             _ => {
                 let Some(length) = bytes.get(at..at + 2) else {

@@ -73,7 +73,7 @@ pub(crate) fn mesh(kind: &LightKind, material: u32) -> Mesh {
             });
             disk.bake(&place, material, &mut mesh);
         }
-        // It has no shape that could be seen; a scene refuses a visible one.
+        // A sun has no shape that could be seen; a scene refuses a visible one.
         LightKind::Sun { .. } => {}
         // Flat, with corners.
         _ => {
@@ -91,7 +91,7 @@ pub(crate) fn mesh(kind: &LightKind, material: u32) -> Mesh {
 fn flat(corners_m: &[DVec3], axis: DVec3) -> Surface {
     let tangent = axis.any_orthonormal_vector();
     let across = axis.cross(tangent);
-    // Those of a rectangle's picture; others have none.
+    // Texture coordinates of a rectangle's picture; other lights have none.
     let uvs = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].map(glam::Vec2::from);
     let places_on = uvs.into_iter().chain(std::iter::repeat(glam::Vec2::ZERO));
     let vertices = corners_m

@@ -65,7 +65,7 @@ impl Description {
             ));
         }
         if summary.moved_from.is_some() {
-            // Those that are fitted are moved.
+            // Fitted models are moved.
             fit_m.get_or_insert(extent_m);
         }
         // Rotation from y up to z up.
@@ -131,7 +131,7 @@ impl Description {
             camera,
             render,
             environment: Some(environment),
-            // In lights and an object of their own, which can be changed one by one.
+            // The scene gets lights and an object in place of the studio, so that each can be changed.
             studio: Studio::NONE,
             ground: None,
             materials: vec![ground_material],

@@ -140,7 +140,7 @@ fn is_metal(material: &Material, textures: &[Texture]) -> bool {
 /// What is wrong with the file.
 pub fn environment(path: &Path) -> Result<EnvironmentSummary, Error> {
     let map = environment::read(path).map_err(|error| {
-        // It says the path itself.
+        // The message names the path already.
         let message = error.to_string();
         let found = message.strip_prefix(&format!("{}: ", path.display()));
         let right = "must be an equirectangular .hdr or .exr";

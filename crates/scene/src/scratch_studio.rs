@@ -232,7 +232,7 @@ impl Lamps<'_> {
 /// Whether a triangle lies between a point of a surface and a lamp: all are tried, for a few lamps.
 fn is_hidden(meshes: &[&Mesh], from_m: DVec3, lamp_m: DVec3) -> bool {
     let way = lamp_m - from_m;
-    // Not the surface itself.
+    // The ends are left out: the surface itself lies there.
     let (first, last) = (1e-3, 1.0 - 1e-3);
     meshes.iter().any(|mesh| {
         mesh.triangles.iter().any(|corners| {

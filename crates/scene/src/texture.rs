@@ -231,7 +231,7 @@ fn halved(texels: &[[f32; 4]], size: [u32; 2], half: [u32; 2]) -> Vec<[f32; 4]> 
 
 /// Texels of `n` that lie under texel `i` of `half`, with their shares of it: two, or three if `n` is odd.
 fn covered(i: u32, n: u32, half: u32) -> Vec<(u32, f32)> {
-    // In units of 1 / half of a texel everything is a whole number.
+    // All numbers are whole in units of 1 / half of a texel.
     let (from, to) = (i * n, (i + 1) * n);
     (from / half..to.div_ceil(half))
         .map(|texel| {

@@ -244,7 +244,7 @@ impl Viewer {
         if !self.is_asking() {
             self.viewport.cancel_on_escape(&ctx, &mut self.work);
         }
-        // It closes what is open and ends what is typed, and egui has taken the keyboard from a text by now.
+        // Escape closes popups and ends typing, and egui has taken the keyboard from a text by now.
         let escape_is_taken = has_popup || self.was_typing;
         // Keys typed after that of a command that asks a question belong to the answer.
         while !self.is_asking()

@@ -66,7 +66,7 @@ fn decoded(encoded: &str) -> Result<String, Error> {
     let bytes = URL_SAFE_NO_PAD.decode(encoded.trim_end_matches('='));
     let bytes = bytes.map_err(|_| Error::Damaged)?;
     let mut text = Vec::with_capacity(MOST_TEXT_BYTES);
-    // It ends behind its checksum, and at what is left of the room.
+    // The data ends behind its checksum, or where the room ends.
     let status = Decompress::new(true).decompress_vec(&bytes, &mut text, FlushDecompress::Finish);
     match status {
         Ok(Status::StreamEnd) => String::from_utf8(text).map_err(|_| Error::Damaged),

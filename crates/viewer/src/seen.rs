@@ -25,7 +25,7 @@ pub(crate) fn makes_same_scene(a: &Description, b: &Description) -> bool {
     camera.up == b.camera.up
         && *environment == b.environment
         && *studio == b.studio
-        // It stands as the camera does.
+        // The studio turns with the camera.
         && (studio.hidden || *camera == b.camera)
         && *ground == b.ground
         && alike(objects, &b.objects, |x, y| is_same_object((a, x), (b, y)))

@@ -23,7 +23,7 @@ pub(crate) fn set(ctx: &egui::Context) {
     visuals.selection.bg_fill = Color32::from_gray(70);
     visuals.selection.stroke.color = Color32::from_gray(240);
     visuals.hyperlink_color = Color32::from_gray(210);
-    // All text can be read: 4.5 : 1 at least against what it stands on, faint text too.
+    // Contrast of all texts against their grounds is 4.5 : 1 or more, for faint ones too.
     visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(190);
     visuals.widgets.inactive.fg_stroke.color = Color32::from_gray(205);
     visuals.weak_text_color = Some(Color32::from_gray(150));
@@ -47,7 +47,7 @@ fn fonts() -> egui::FontDefinitions {
         ("signs", include_bytes!("../assets/signs.ttf")),
     ];
     for (name, bytes) in files {
-        // They have no hints, and those that egui makes up take bars off letters.
+        // The fonts have no hints, and egui's own hinting takes bars off letters.
         let tweak = FontTweak {
             hinting: Some(false),
             ..FontTweak::default()

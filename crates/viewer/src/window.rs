@@ -159,7 +159,7 @@ mod tests {
     fn the_icon_is_a_picture_and_the_window_fits_a_small_screen() {
         let icon = icon();
         assert_eq!([icon.width, icon.height], [128, 128]);
-        // Its corners are seen through, its middle is not.
+        // The icon's corners are transparent, its middle is not.
         assert_eq!((icon.rgba[3], icon.rgba[4 * (64 * 128 + 64) + 3]), (0, 255));
         // A title and a panel of 40 points each.
         const { assert!(SIZE[0] <= 1440.0 - 20.0 && SIZE[1] <= 900.0 - 80.0) };

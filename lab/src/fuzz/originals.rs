@@ -178,7 +178,7 @@ impl Originals {
                 file("list.csv", mutate::text(CSV, random)),
             ],
             Kind::Glb => {
-                // Either the text in it or the whole.
+                // Changes either the text in the file or the whole file.
                 let glb = match random.random_range(0..2) {
                     0 => glb(&mutate::text(&json(None, "tile.png"), random), &self.bin),
                     _ => mutated(&glb(json(None, "tile.png").as_bytes(), &self.bin), random),

@@ -38,7 +38,7 @@ fn setup(
     mut materials: ResMut<Assets<ScratchedMaterial>>,
     mut textures: ScratchedTextures,
 ) -> Result {
-    // In the xy plane, which looks to z.
+    // A disk in the xy plane that faces +z.
     let plate = Mesh::from(Circle::new(0.09).mesh().resolution(128));
     // The keys of scene files. Widths that hardly differ keep the orders of the rainbow apart.
     let turned = "

@@ -134,7 +134,7 @@ fn draw(scene: &Scene, is_turned: bool) -> Vec<[f32; 3]> {
         .map(|v| Vec3::from_array(v.to_array()))
         .collect();
     let indices: Vec<u32> = object.mesh.triangles.iter().flatten().copied().collect();
-    // In its own frame, in which its scratches are.
+    // A mesh in its own frame, as its scratches are.
     let mesh = Mesh::new(
         PrimitiveTopology::TriangleList,
         RenderAssetUsages::default(),
@@ -177,7 +177,7 @@ fn draw(scene: &Scene, is_turned: bool) -> Vec<[f32; 3]> {
         .add(ScratchedMaterial { base, extension });
     let mesh = world.resource_mut::<Assets<Mesh>>().add(mesh);
     world.spawn((Mesh3d(mesh), MeshMaterial3d(material), turn));
-    // All else is turned with it.
+    // Everything else is turned with the mesh.
     spawn_lights(world, scene, turn, is_turned);
     let target = spawn_camera(world, scene, turn);
     world.spawn(Readback::texture(target)).observe(

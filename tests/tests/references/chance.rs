@@ -50,7 +50,8 @@ fn twice_the_samples_half_the_variance() {
     {
         let (ratio, error) = ratio(once, twice);
         println!("variance of n over that of 2n samples, {layer}: {ratio:.3} +- {error:.3}");
-        // Neither as the standard deviation would (1.41) nor as its square (4).
+        // The ratio is 2: neither that of the standard deviations (1.41) nor that of the squared
+        // variances (4).
         assert!(error < 0.14, "{layer}: too noisy to tell: {error}");
         assert!(
             (ratio - 2.0).abs() < 4.0 * error,

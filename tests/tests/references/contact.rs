@@ -53,7 +53,7 @@ fn a_lamp_in_the_plane_of_a_ceiling_lights_the_floor() {
         for (by, open, image) in by_each(&scene, 8) {
             for (open, left) in open.base.iter().zip(&image.base) {
                 assert!(open[1] > 0.1, "{by}: {name}: {open:?}");
-                // All rays see it: no noise, but for rounding.
+                // All rays see the light: there is no noise but for rounding.
                 let share = left[1] / open[1];
                 assert!((share - 1.0).abs() < 1e-5, "{by}: {name}: {share}");
             }
@@ -304,7 +304,7 @@ fn set_ball(scene: &mut Scene, slices: u32, stacks: u32, radius_m: f32) {
     let cells = (0..stacks).flat_map(|i| (0..slices).map(move |j| i * row + j));
     mesh.triangles = cells
         .flat_map(|a| [[a, a + row, a + row + 1], [a, a + row + 1, a + 1]])
-        // Those of the poles' cells have no area.
+        // Triangles at the poles have no area.
         .filter(|t| {
             let [a, b, c] = t.map(|i| mesh.positions_m[i as usize]);
             (b - a).cross(c - a).length() > 1e-6 * radius_m * radius_m

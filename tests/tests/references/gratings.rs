@@ -214,7 +214,7 @@ fn small_spots_show_their_mean() {
 #[test]
 fn spots_keep_their_mean() {
     for spacing_um in [83.0, 209.0] {
-        // Not along the pixels, which would meet the same places of many spots.
+        // Rows of spots do not run along the pixels, which would meet the same places of many spots.
         let along_row = DVec3::new(0.89, 0.45, 0.0).normalize();
         let scene = spots(along_row, spacing_um, 100.0, 0.3, 0.2);
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 24));
@@ -252,7 +252,7 @@ fn rows_of_grooves() {
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 40));
         let name = format!("{row:?}, angles {angle_std_rad}, light of {light_rad} rad");
         let (off, error) = compared(&name, &exact, &reference);
-        // One depth for a chord, as for scratches, is the most of it.
+        // Most of the error is that of one depth for a chord, as for scratches.
         assert!(off < 0.03 + 2.0 * error && error < 0.02, "{name}: {off}");
     }
 }

@@ -140,7 +140,7 @@ fn a_soft_box_on_a_grating() {
         );
         failures.extend(wrong(&name, &scene, &even, [0.02, 0.03]));
         if jitter_um > 0.0 {
-            // With one depth for all of a chord this is 5 %.
+            // The error is 5 % with one depth for the whole chord.
             let reference = sampled(&even, LINEAR, 8);
             let even = compared("even", &closed(&even), &reference, Layer::Scratches);
             let [at_least, _] = even.beyond.relative_rms_within(2.0);

@@ -55,7 +55,7 @@ fn the_camera_sees_their_radiance() {
         // Beyond the corner of the L.
         ([0.07, 0.0, 0.13], [0.0; 3]),
         ([0.12, 0.0, 0.12], [spot; 3]),
-        // It shines away.
+        // The light shines away from this point.
         ([0.17, 0.0, 0.115], [0.0; 3]),
         ([0.0, -0.05, 0.15], [0.7; 3]),
     ] {

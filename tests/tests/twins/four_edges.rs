@@ -112,7 +112,7 @@ fn expected(x: [f64; INPUTS]) -> [f64; 5] {
         let (low, high) = view.band_extent(frame, wo);
         let range = view.range(frame, line);
         let below = view.directions.iter().all(|d| d.z <= 0.0);
-        // Nothing of it is seen: any order that says so.
+        // No part of the light is seen: any order that says so is right.
         let (low, high) = if below {
             (9.0, -9.0)
         } else {
@@ -159,7 +159,8 @@ fn twin(expected: &dyn Fn([f64; INPUTS]) -> [f64; 5]) -> Twin<'_, INPUTS, 5> {
 #[test]
 fn roots_and_extents() {
     let rows = rows(40_000);
-    // All is met: lights that wrap, that are below the horizon, that hold the tangent; darts that a line crosses twice.
+    // The rows include lights that wrap, that are below the horizon and that hold the tangent, and darts that a line
+    // crosses twice.
     let count = |is: fn(&[f64; 5]) -> bool| {
         let all = rows.iter().map(|row| expected(row.map(f64::from)));
         all.filter(is).count() as f64 / rows.len() as f64

@@ -301,7 +301,7 @@ fn elliptic_cones() {
         let [x, y, z] = random.direction(-1.0);
         let t1 = 10f32.powf(random.between(-4.0, 2.0));
         let t2 = t1 * 10f32.powf(random.between(0.0, 2.0) * random.next());
-        // One in four is cut by the horizon.
+        // The horizon cuts one cone in four.
         let z = if random.next() < 0.25 {
             random.between(-1.0, 1.0) * (t2 / (1.0 + t2))
         } else {

@@ -50,7 +50,7 @@ fn rays_meet_the_same_triangles() {
         let at = [-0.09, -0.09, 0.001].map(|low| random.between(low, 0.09));
         let mut towards = random.direction(-1.0);
         if i % 2 == 0 {
-            // At the ball's middle, and past its edge.
+            // Rays to the ball's middle, and past its edge.
             let to = [0.01, 0.0, 0.03].map(|c: f32| c + random.between(-0.02, 0.02));
             let v = Vec3::from(to) - Vec3::from(at);
             towards = v.normalize_or(Vec3::X).to_array();
@@ -74,7 +74,7 @@ fn rays_meet_the_same_triangles() {
             y[0] = select(-1.0, hit.distance_m, hit.triangle != 0u);
             y[1] = f32(tree_hit(table_0, ray, x[6], 0u, true).triangle != 0u);
             y[2] = select(-1.0, f32(hit.object), hit.triangle != 0u);
-            // Not the triangle that was met, but what lies behind it.
+            // The ray skips the triangle that was met and finds the surface behind it.
             let next = tree_hit(table_0, ray, 1e30, hit.triangle, false);
             y[3] = f32(next.distance_m >= hit.distance_m && (hit.triangle == 0u || next.triangle != hit.triangle));",
         tables: &[Table {

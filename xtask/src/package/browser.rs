@@ -101,7 +101,7 @@ fn start(profile: &Path, address: &str) -> anyhow::Result<Child> {
                 "--disable-extensions",
                 "--enable-unsafe-webgpu",
                 "--use-webgpu-adapter=swiftshader",
-                // Without these a canvas takes the process of the GPU along.
+                // Without these flags a canvas crashes the browser's GPU process.
                 "--enable-features=Vulkan",
                 "--use-vulkan=swiftshader",
                 "--use-angle=swiftshader",

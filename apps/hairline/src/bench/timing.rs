@@ -164,7 +164,7 @@ fn strips_of(strip_rows: u32, height: u32, count: u32) -> PictureRows {
     let strip = |i: u32| -> Range<u32> {
         let middle = f64::from(height) * (f64::from(i) + 0.5) / f64::from(count);
         let first = middle as u32 - (strip_rows / 2).min(middle as u32);
-        // At a tile's edge.
+        // Strips begin at a tile's edge.
         let first = first - first % TILE_PX;
         first..(first + strip_rows).min(height)
     };
@@ -211,7 +211,7 @@ impl Runs {
         };
         Outcome::Timing(Timing {
             wall_ms: spread(&self.wall),
-            // Without the clock's word on every run there is none.
+            // Device times are reported only if every run has one.
             device_ms: (self.device.len() == self.wall.len()).then(|| spread(&self.device)),
             passes_ms: self
                 .passes

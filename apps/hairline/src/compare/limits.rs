@@ -41,7 +41,7 @@ impl Limit {
         } else {
             (found <= self.value, "above")
         };
-        // Not the other way round: NaN keeps no limit.
+        // NaN keeps no limit, so the test is for kept and not for broken.
         if kept {
             return Finding::Kept;
         }

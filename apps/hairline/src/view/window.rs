@@ -30,7 +30,7 @@ pub fn failure(reason: &str) -> Failure {
         let reason = reason.to_lowercase();
         words.iter().any(|word| reason.contains(word))
     };
-    // One of four, and the message does not say which.
+    // One of four libraries is missing, and the message does not say which.
     let sentence = if reason.contains("xlib's shared libraries") {
         format!(
             "no window could be opened: a library of the X Window System is missing; install them (on Debian and Ubuntu \
@@ -83,7 +83,7 @@ fn missing_library(text: &str) -> Option<&str> {
         .map(|word| word.trim_end_matches('.'))
         .find(|word| word.starts_with("lib") && word.contains(".so"));
     library.or_else(|| {
-        // Its name without the file's.
+        // Names of the libraries, without the files' endings.
         [
             "xkbcommon-x11",
             "xkbcommon",

@@ -323,7 +323,7 @@ fn missing_layers_and_tone_mapped_pictures_are_told() {
     let figures = json_of(folder.path(), "b.exr plain.png");
     // The same picture but for the PNG's eight bits: rounding has an rms of 1/sqrt(12) of a step, dither as much again.
     assert!(figures["layers"]["beauty"]["psnr"].as_f64().unwrap() > 50.0);
-    // Its tone curve cannot be undone, so there is no exposure to choose.
+    // A picture as displayed has a tone curve that cannot be undone, so there is no exposure to choose.
     let page = fs::read_to_string(folder.path().join("shown.html")).unwrap();
     assert!(page.contains("compared as displayed") && !page.contains("id=\"exposure\""));
 }
@@ -482,7 +482,7 @@ fn a_report_is_whole_and_needs_nothing_else() {
         }
     }
 
-    // For those who do not see it: names, roles, a reachable slider; and names are not code.
+    // Accessibility: names, roles, a slider that the keyboard reaches; and names are not code.
     let slider = elements
         .iter()
         .find(|e| e.attribute("role") == Some("slider"))

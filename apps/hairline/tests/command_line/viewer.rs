@@ -77,7 +77,7 @@ fn a_view_that_stands_still_is_the_picture_that_is_rendered() {
     let shown: Vec<u8> = (pixels.pixels.iter())
         .flat_map(|pixel| [pixel.r(), pixel.g(), pixel.b()])
         .collect();
-    // Its rays come in other batches, of which each has samples of its own on edges.
+    // The window's rays come in other batches, each with its own samples on edges.
     let off = |other: &[u8]| {
         let pairs = shown.iter().zip(other);
         let squares = pairs.map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2));

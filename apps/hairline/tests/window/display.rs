@@ -44,7 +44,7 @@ impl Display {
             .stderr(Stdio::null())
             .spawn()
             .ok()?;
-        // It says its number when it is ready.
+        // The server prints its number when it is ready.
         let mut line = String::new();
         BufReader::new(server.stdout.as_mut()?)
             .read_line(&mut line)

@@ -207,7 +207,8 @@ fn a_picture_is_given_up_after_the_tiles_in_hand() {
     for at in [0, 1, 20, tiles / 2, tiles - 1] {
         let (is_there, after) = asked_after(at);
         assert!(!is_there, "{at}");
-        // Each thread once; the first question is that of the picture, and one more is whether there is one.
+        // Each thread asks once more; the first call is the picture's, and one more asks whether there is a
+        // picture.
         assert!(after <= threads + 2, "{at}: {after} further tiles");
     }
 }
@@ -266,7 +267,7 @@ fn shadows_add_up_to_those_of_all_rays_at_once() {
     for i in 0..all.base.len() {
         if all.base[i] == open.base[i] && all.scratches[i] == open.scratches[i] {
             lit += usize::from(open.base[i][1] > 0.0);
-            // On edges other samples of a batch stand for the scratches of all.
+            // On edges one sample of a batch shades the scratches of all.
             assert!((image.base[i][1] - open.base[i][1]).abs() <= 0.02 * open.base[i][1]);
         }
         half += usize::from(noise.base[i][1] > 0.0);

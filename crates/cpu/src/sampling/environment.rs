@@ -193,7 +193,7 @@ const OFF_EDGE: f64 = 1e-12;
 /// The interval of cumulative `sums` that a share `u` of the last falls into, and how far into it: never all the way.
 fn pick(sums: &[f64], u: f64) -> (usize, f64) {
     let target = u * sums[sums.len() - 1];
-    // Not past the first that reaches the total: what follows is empty.
+    // At most the first entry that reaches the total: those behind it are empty.
     let last = sums.partition_point(|s| *s < sums[sums.len() - 1]);
     let i = sums.partition_point(|s| *s <= target).min(last);
     let begin = if i == 0 { 0.0 } else { sums[i - 1] };

@@ -129,7 +129,7 @@ impl ScratchLight<'_> {
         let motion = self.motion(place, views, view);
         let wo = self.wo + motion.shift * DVec3::X;
         let stds = motion.band(*stds).stds;
-        // One line of each part of the band, and of these one by what comes along it.
+        // Draws one line in each part of the band, and one of these lines by the light along it.
         match light {
             LightView::Sphere { cap, .. } => {
                 let mut offers = Offers::new(pick_u);

@@ -261,7 +261,7 @@ impl<'a> ScratchLight<'a> {
             (1, None) => picture.across(variance),
             _ => picture,
         });
-        // One cosine for all lines, that of the middle one.
+        // One cosine for all lines: that of the middle line.
         let middle = lines.middle_line(wo);
         let spectrum = self.outline_spectrum(outline, middle, middle_roots);
         Some(lines.integral(wo, |line| {

@@ -145,8 +145,8 @@ impl<'a> Shadows<'a> {
         let (light, bound) = taken?;
         let per_chance = choice.total() / bound;
         let Some(light) = light else {
-            // One ray cannot tell what hides the dark half of an environment from what hides its bright half: without a closed form it brings what it
-            // sees.
+            // One ray cannot tell whether the bright half of an environment is hidden or the dark one: without a closed form the ray brings the light
+            // that it meets.
             return Some(Source {
                 light: None,
                 open: BaseRadiance::default(),
@@ -245,7 +245,7 @@ impl<'a> Shadows<'a> {
                         }
                     }
                 }
-                // One of both stands for the other (J. Talbot, D. Cline, P. Egbert, Importance Resampling for Global Illumination, 2005).
+                // One of the two stands for both (J. Talbot, D. Cline, P. Egbert, Importance Resampling for Global Illumination, 2005).
                 (None, Some(a), Some(b)) => {
                     let (of_a, of_b) = (sent(&a), sent(&b));
                     let all = of_a + of_b;

@@ -87,7 +87,7 @@ pub fn delete(
         let layer = description.scratches.get(*i);
         layer.is_some_and(|layer| layer.object == object)
     };
-    // Its place is the next layer's now; else the nearest one before it.
+    // Selects the layer in its place, else the nearest one before it.
     let next = (index..description.scratches.len()).find(on_object);
     Ok(match next.or_else(|| (0..index).rev().find(on_object)) {
         Some(i) => Selection::Layer(i),

@@ -214,7 +214,7 @@ fn renaming_takes_references_along() {
             name: "brass".into()
         }
     );
-    // Its own name is no clash, and layers and lights may lose theirs.
+    // A part may keep its name, and layers and lights may lose theirs.
     materials::rename(&mut description, 1, "brass").unwrap();
     layers::rename(&mut description, 0, "wear").unwrap();
     lights::rename(&mut description, 0, "key").unwrap();

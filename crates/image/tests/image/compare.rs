@@ -26,7 +26,7 @@ fn equal_images() {
     let comparison = compare(&image, &image, &DISPLAY, None);
     assert_eq!(comparison.problems, []);
     let layers: Vec<Layer> = comparison.layers.iter().map(|l| l.layer).collect();
-    // None of both has alpha.
+    // Neither picture has alpha.
     assert_eq!(layers, Layer::ALL[..6]);
     for layer in &comparison.layers {
         assert_eq!(layer.difference.rms, 0.0);

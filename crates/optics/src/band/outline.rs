@@ -120,7 +120,7 @@ impl Outline<'_> {
         for edge in self.edges {
             let (a, e) = (along_tangent(t, edge.start), along_tangent(t, edge.across));
             (lowest, highest) = (lowest.min(a), highest.max(a));
-            // Beyond both ends where the edge turns back between them.
+            // The extreme lies beyond both ends if the edge turns back between them.
             if turns_back(a, e, edge, e) {
                 let extreme = (a * a + e * e).sqrt().min(1.0).copysign(e);
                 (lowest, highest) = (lowest.min(extreme), highest.max(extreme));

@@ -266,7 +266,7 @@ impl Cell {
         let phase = across.largest_abs() + (along * self.taper).largest_abs();
         let panels = (phase / PHASE_OF_NODES).ceil().max(1.0);
         if !(panels <= MOST_PANELS) {
-            // So far off that less than 1/phase of the part's size is left.
+            // At this distance less than 1/phase of the part's size is left.
             return Complexes::ZERO;
         }
         let nodes = 0.65 * phase / panels + 4.0 + 0.5 * self.lengths.len() as f64;

@@ -118,7 +118,7 @@ impl GrooveField {
     ) {
         for (nm, out) in wavelengths_nm.chunks(LANES).zip(out.chunks_mut(LANES)) {
             let lanes: Lanes<LANES> = Lanes(std::array::from_fn(|i| nm[i.min(nm.len() - 1)]));
-            // All that it calls is inlined, or would not be compiled for each kind of vectors.
+            // All called functions must be inlined, or they are not compiled for each kind of vectors.
             let sums = with_widest(
                 #[inline(always)]
                 || self.lanes(xi, cos_sum, lanes),

@@ -217,7 +217,7 @@ mod tests {
                 assert!((mean - 1.0).abs() < 0.06, "{radius_um} {std_um}: {mean}");
                 means.push(mean);
             }
-            // Nothing moves or begins at once; not where the number of grooves has doubled either.
+            // Grooves move and begin gradually, also where their number has doubled.
             for i in 0..500 {
                 let [here, there] =
                     [1.0, 1.0002].map(|s| density(f64::from(i) / 500.0, s * radius_um, 8.0));

@@ -267,7 +267,7 @@ fn hidden_by_slices(
         (0.932_469_514_203_152, 0.171_324_492_379_170_36),
     ];
     let (along, across) = (k_xi.dot(piece.tangent), k_xi.dot(normal));
-    // At flat angles what is hidden of a line moves fast.
+    // At flat angles the hidden part of a line changes fast.
     let flattest = deeper
         .iter()
         .map(|g| g.tangent.perp_dot(piece.tangent).abs())

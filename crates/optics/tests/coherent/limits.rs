@@ -379,7 +379,7 @@ fn numbers_come_out_whatever_goes_in() {
             (-1e-15..=1.0 + 1e-15).contains(&overlap),
             "{groove:?} {sigma}: {overlap}"
         );
-        // One floor for this groove and the two before it; fewer, as widths of 1e9 um want many slices.
+        // One floor for this groove and the two before it; in fewer rounds, since widths of 1e9 um take many slices.
         if round % 100 == 0 {
             let field = GrooveField::new(vec![before[0], groove, before[1]], sigma);
             let f = field.response(xi, 1.5, wavelength, true);

@@ -76,7 +76,8 @@ fn misplaced(wo: DVec3, roughness: f64, looked_up: &[(DVec3, f64, f64)]) -> f64 
 
 #[test]
 fn lobes_are_drawn_out() {
-    // At most so much is misplaced, in the order of the angles; what one round look-up about the mirror direction misplaces is printed.
+    // Bounds of the misplaced light, in the order of the angles; for comparison the test prints that of one round look-up about the mirror
+    // direction.
     let bounds = [
         (0.1, [0.01, 0.04, 0.07, 0.14, 0.39]),
         (0.2, [0.01, 0.04, 0.07, 0.14, 0.40]),

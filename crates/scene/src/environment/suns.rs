@@ -78,7 +78,7 @@ pub(super) fn part(map: &mut Picture) -> Parted {
             }
             Some((spot, around, sun?))
         });
-        // Not again, as a part of another.
+        // Each texel belongs to one spot at most.
         for i in looked_at {
             seen[i] = true;
         }

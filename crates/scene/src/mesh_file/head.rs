@@ -80,7 +80,7 @@ impl FileCounts {
         self.triangles += instances * triangles.floor();
         let vertices = match attribute(Semantic::Normals) {
             Some(_) => vertices,
-            // Each triangle has its own then.
+            // Without indices each triangle has its own vertices.
             None => 3.0 * triangles,
         };
         self.vertices += instances * vertices;

@@ -197,7 +197,7 @@ impl Own<'_> {
             converted.roughness = f64::from(metal.roughness);
             return Ok(());
         }
-        // Both lie as the first of them does.
+        // Both images use the mapping of the first.
         let way = spec_gloss::TEXTURES
             .into_iter()
             .find_map(|name| uv::of_json(extension.get(name)?));

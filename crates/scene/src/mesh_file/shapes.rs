@@ -92,7 +92,7 @@ impl<'a> Shapes<'a> {
             };
             let motion = Motion::of(placed, &self.placed, self.buffers)?;
             let places = match motion.file_from_rest {
-                // Its joints place it, wherever its node is.
+                // The joints place the mesh, wherever its node is.
                 Some(_) => vec![DMat4::IDENTITY],
                 None => node_from_instances(self.document, &placed.node, self.buffers)?
                     .into_iter()

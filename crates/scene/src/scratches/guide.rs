@@ -163,7 +163,7 @@ fn around(
         return None;
     }
     let circle = circle / speed_m;
-    // One over the distance in the plane to where the axis meets it, which lies to the left.
+    // Reciprocal of the distance, in the plane, to its intersection with the axis, which lies to the left.
     let circle_curvature = tilt.abs() / speed_m;
 
     // The bearing is the angle from the circle to the scratch, to the left; outwards is to the right.

@@ -41,7 +41,7 @@ fn told(dir: &Path, keys: &str) -> Vec<String> {
     ));
     let description = Description::from_toml(&text, Path::new("test.toml")).unwrap();
     let scene = Scene::build(&description, dir).unwrap();
-    // Without building it the same is known.
+    // The notes are known without building the scene.
     assert_eq!(scene.notes, description.model_notes(dir));
     scene.notes
 }

@@ -120,7 +120,7 @@ fn scratches_are_as_thick_as_a_picture_is_light() {
     let share = count(&some, true) / count(&all, true);
     assert!((share - 64.0 / 255.0).abs() < 0.04, "{share}");
     assert!(count(&all, false) - count(&some, false) < 10.0);
-    // They are some of those that there were.
+    // The scratches are some of those without the mask.
     for segment in some.segments.iter() {
         assert!(all.segments.contains(segment));
     }

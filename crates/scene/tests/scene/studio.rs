@@ -34,7 +34,7 @@ fn what_has_no_light_is_lit_on_a_ground() {
             panic!("{} objects", scene.objects.len())
         };
         assert_eq!((&*ball.name, &*ground.name), ("ball", "ground"));
-        // It carries the ball and faces up.
+        // The ground carries the ball and faces up.
         for (position_m, normal) in ground.mesh.positions_m.iter().zip(&ground.mesh.normals) {
             let below_m = (center_m - position_m.as_dvec3()).dot(up);
             assert!((0.05..0.0501).contains(&below_m), "{up}: {below_m}");

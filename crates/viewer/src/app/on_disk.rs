@@ -20,7 +20,7 @@ impl Viewer {
                 self.work.notices.note("reloaded", text);
             }
         }
-        // Not under somebody's hand.
+        // The scene does not change during a drag.
         let is_busy = self.dialogs.is_modal() || ctx.input(|input| input.pointer.any_down());
         if self.files.scene_changed && !is_busy {
             self.files.scene_changed = false;

@@ -90,7 +90,7 @@ impl InTurn {
             Painter::Gpu(task) => {
                 let pause = self.pause.before(&task.at_rest()?.progress, &order)?;
                 if pause.is_zero() {
-                    // It wakes the interface when it is done.
+                    // The task wakes the interface when it is done.
                     task.go_on(shared, order);
                     return None;
                 }

@@ -121,7 +121,7 @@ impl Studio {
         let time = self.spent + (start.elapsed() - uploaded);
         self.spent = if finished { Duration::ZERO } else { time };
         if let Some(shown) = last {
-            // One that gives way to the interface tells little of what a coarse one takes.
+            // The time of a picture that gave way to the interface says little about that of a coarse one.
             let gave_way =
                 turn != Turn::First && easel.kind().thins() && step.is_whole(&order.view);
             let moving = easel.backend().counts_in_motion(order.view.transport);

@@ -228,7 +228,7 @@ mod tests {
         let side_px = match std::env::var_os("HAIRLINE_GALLERY") {
             Some(_) => 96,
             None => {
-                // Those that cost most are like others.
+                // The most expensive pictures are like others.
                 let dense = &Wear::ALL[2..];
                 all.retain(|thumb| !matches!(thumb, Thumb::Wear(wear) if dense.contains(wear)));
                 16

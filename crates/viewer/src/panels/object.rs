@@ -102,7 +102,7 @@ fn make_of(ui: &mut Ui, work: &mut Workspace, object: usize) {
             materials::add(d, material.clone());
         }
         let same = d.materials.iter().find(|it| **it == material);
-        // Its own name may have been taken.
+        // The material's own name may have been taken.
         let given = same.or(d.materials.last()).map(|it| it.name.clone());
         d.objects[object].material = given;
         Ok(selection)

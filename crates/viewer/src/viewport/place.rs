@@ -51,7 +51,7 @@ pub(super) fn place_light(work: &mut Workspace, hit: &Picked) {
         work.notices.error("place", text);
         return;
     };
-    // All of a drag from where the light stood at first: its distance does not shrink from one obstacle to the next.
+    // The whole drag starts from the light's first place, so that its distance does not shrink from one obstacle to the next.
     let before = work.document.before_drag();
     let start = before.unwrap_or(work.document.description()).lights.get(i);
     let (Some(start), Some(built)) = (start.cloned(), work.engine.built()) else {

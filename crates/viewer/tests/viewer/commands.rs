@@ -185,7 +185,7 @@ fn menus_hold_what_keys_do() {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);
     click_on(&mut harness, "View");
-    // Its key stands behind it.
+    // The entry's key stands behind it.
     harness.get_by_label_contains("From above").click();
     harness.run_steps(3);
     assert_ne!(harness.state().camera(), description(&harness).camera);

@@ -31,7 +31,7 @@ fn add(harness: &mut Harness<'static, Viewer>, preset: GratingPreset) {
     let added = grating(harness);
     let name = added.name.as_deref().unwrap_or("grating");
     click_on(harness, &format!("{name}, {} µm", added.pitch_um));
-    // It unfolds in some passes.
+    // The panel unfolds in some passes.
     harness.run_steps(30);
 }
 

@@ -258,7 +258,7 @@ fn a_sun_in_the_environment() {
     });
     select(&mut harness, Selection::Environment);
     harness.get_by_label("One sun in it, 2.05° across");
-    // It is the map's: no light that could be moved.
+    // The sun belongs to the map, so it is no light that could be moved.
     assert_eq!(description(&harness).lights.len(), lights);
     assert_eq!(every_number_is_live(&mut harness), 2);
 }
@@ -360,7 +360,7 @@ fn names_are_typed_and_followed() {
     harness.run_steps(3);
     let after = description(&harness);
     assert_ne!(after.objects[0].name, "pan");
-    // Its layers follow.
+    // Layers follow their object's new name.
     assert_eq!(after.scratches[0].object, after.objects[0].name);
     after.check_references().unwrap();
 }

@@ -30,7 +30,7 @@ pub fn model_name(model: Model) -> &'static str {
 
 fn mask_name(settings: &Settings) -> &'static str {
     match (settings.model, settings.mask) {
-        // It knows by itself what scratches take.
+        // The full model has no mask: the field includes the energy that scratches take.
         (Model::Full, _) => "none",
         (Model::Separable, Mask::Energy) => "energy",
         (Model::Separable, Mask::Linear) => "linear",

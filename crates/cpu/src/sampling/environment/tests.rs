@@ -186,7 +186,7 @@ fn no_nan_at_poles_seams_and_ends_of_the_random_numbers() {
         for u in [(0.0, 0.0), (last, last), (0.0, last), (last, 0.0)] {
             let (direction, pdf) = sampler.sample(u.into());
             assert!(direction.is_normalized(), "{name} {direction}");
-            // At the very edge of what is lit too.
+            // Also at the very edge of the lit part.
             assert!(pdf > 0.0 && pdf.is_finite(), "{name} {pdf}");
         }
         let world_from_map = environment.map_from_world().transpose();

@@ -149,8 +149,8 @@ impl PolygonLight {
         if height_m == 0.0 {
             return None;
         }
-        // One pass: the next triangle takes over from the chosen one with the share that is its own of all so far, and what is
-        // left of the random number is stretched to [0, 1) again.
+        // One pass: each triangle replaces the chosen one with the probability of its share of the sum until then, and the
+        // remainder of the random number is stretched to [0, 1) again.
         let (mut whole, mut left, mut chosen) = (0.0, u.x, None);
         for triangle in &self.triangles {
             let spherical = self.spherical(triangle, from, height_m);

@@ -20,7 +20,7 @@ impl SphereLight {
     /// 1 - cos of the cone's half angle; `None` from inside. Written so that small cones keep their digits.
     fn versine(&self, from: DVec3) -> Option<f64> {
         let sin = self.radius_m / self.center_m.distance(from);
-        // At the surface and inside; also where the distance is 0.
+        // Points at the surface and inside, also at the distance 0.
         if !(sin < 1.0) {
             return None;
         }

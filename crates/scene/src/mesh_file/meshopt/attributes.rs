@@ -23,7 +23,7 @@ pub(super) fn unpacked(packed: &[u8], count: usize, stride: usize) -> Result<Vec
     let version = VERSIONS.iter().position(|it| Some(it) == first);
     let version = version.ok_or("it begins with another byte than its mode has")?;
     let is_newer = version == 1;
-    // At the end is the element before the first one, and how the differences of each four bytes are taken.
+    // The end holds the element before the first one, and the coding of the differences of each four bytes.
     let (tail, padded) = match is_newer {
         true => (stride + stride / 4, 24),
         false => (stride, 32),

@@ -49,7 +49,7 @@ impl Body {
 
     fn of_light(light: &Light, description: &Description) -> Self {
         if light.kind.sunbeam().is_some() {
-            // It stands nowhere: its rings lie about what the camera looks at.
+            // A sun has no place: its rings lie about the camera's target.
             return Self {
                 noun: "light",
                 center_m: description.camera.target_m.into(),

@@ -98,7 +98,7 @@ fn boxed(painter: &Painter, at: Pos2, align: Align2, words: &str, color: Color32
     let galley = painter.layout_no_wrap(words.to_owned(), FontId::proportional(13.0), color);
     let rect = align.anchor_size(at, galley.size());
     let inside = painter.clip_rect().shrink(8.0);
-    // Not over the picture's edge.
+    // Keeps the text within the picture.
     let shift = (inside.min - rect.min).max(Vec2::ZERO) + (inside.max - rect.max).min(Vec2::ZERO);
     let rect = rect.translate(shift);
     painter.rect_filled(rect.expand2(vec2(5.0, 2.0)), 3.0, crate::style::UNDER_WORDS);

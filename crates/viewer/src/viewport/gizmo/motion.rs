@@ -107,7 +107,7 @@ fn turn_rad(center_m: DVec3, axis: DVec3, from: &Aim, to: &Aim) -> Option<f64> {
     let lens = &from.lens;
     let to_eye = (lens.eye_m() - center_m).try_normalize()?;
     if to_eye.dot(axis).abs() > EDGE_ON {
-        // In the ring's plane, the angle between the two arms.
+        // Angle between the two arms in the ring's plane.
         let (a, b) = (
             from.on(center_m, axis)? - center_m,
             to.on(center_m, axis)? - center_m,
