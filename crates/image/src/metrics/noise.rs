@@ -94,7 +94,7 @@ impl BeyondNoise {
         over(self.rms(), self.reference_rms)
     }
 
-    /// Interval of [`Self::rms_within`] for [`Self::relative_rms`].
+    /// Interval around [`Self::relative_rms`] that lies `sigmas` standard errors apart from it on either side: 2 for 95 %.
     pub fn relative_rms_within(&self, sigmas: f64) -> [f64; 2] {
         self.rms_within(sigmas)
             .map(|rms| over(rms, self.reference_rms))
