@@ -15,7 +15,7 @@ function fail(message) {
   cover.hidden = false;
 }
 
-// What the viewer itself could only say in a window that it cannot draw.
+// Reasons that the viewer could show only in a window, which it cannot draw then.
 async function missing() {
   if (typeof WebAssembly !== "object") return "This browser has no WebAssembly, which Hairline is made of.";
   const browsers = "Chrome and Edge have WebGPU from version 113 on, Safari from 26 on, Firefox from 141 on; some of them not on Linux yet.";
@@ -83,7 +83,8 @@ async function fillGallery() {
   }
 }
 
-// What the viewer calls. It is in the middle of its own work then: what calls it in turn must wait.
+// Functions that the viewer calls, in the middle of its own work: calls back to the viewer must
+// wait.
 window.hairlinePage = {
   gallery() {
     gallery.showModal();

@@ -232,7 +232,7 @@ def test_stops_are_numbers(scene, tmp_path, exposure_ev, found):
     right = "exposure_ev: " + found + "; must be a number of stops from -64 to 64"
     with pytest.raises(hairline.SceneError, match=right):
         hairline.compare(image, image, exposure_ev=exposure_ev)
-    # None stands for the scene's own there.
+    # None stands for the scene's own value there.
     if exposure_ev is not None:
         with pytest.raises(hairline.SceneError, match=right):
             image.save(tmp_path / "picture.png", exposure_ev=exposure_ev)

@@ -75,7 +75,8 @@ CLASSES = {
     "grating": [hairline.Grating],
     "light": [hairline.Light, *hairline.Light.__subclasses__()],
 }
-# Of what lies within a key: shapes, strokes, rows of a list, overrides of materials and places. The kind of a light is its class.
+# Keys inside of other keys: shapes, strokes, rows of a list, overrides of materials and places. The
+# kind of a light is its class.
 INNER = {"disk", "kind", "lathe", "plane", "sphere", "profile_m", "segments", "size_m", "smooth", "density_per_m", "depth", "erase", "points_m"}
 INNER |= {"box", "cylinder", "dome", "rounding_m", "sweep", "torus", "text", "line", "depth_m", "radius_m", "width", "x0_m", "x1_m", "y0_m", "y1_m", "z0_m", "z1_m"}
 INNER |= {"base_color", "metal", "metallic", "roughness"}

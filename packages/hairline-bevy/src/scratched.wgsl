@@ -126,7 +126,7 @@ fn add_lights(lit: ptr<function, Lit>, in: PbrInput, view_z: f32, cluster: u32) 
         let away = (*light).position - in.world_position.xyz;
         let falloff = getRangeFalloff(dot(away, away), 1.0 / max((*light).range * (*light).range, 1e-4));
         let turn = (*lit).here.surface_from_view * mat3x3f(view.view_from_world[0].xyz, view.view_from_world[1].xyz, view.view_from_world[2].xyz);
-        // It shines to its own -z.
+        // The light shines to its own -z.
         let half_width = turn * ((*light).right * (0.5 * (*light).width));
         let half_height = turn * ((*light).up * (0.5 * (*light).height));
         add_rectangle(lit, falloff * (*light).color.rgb, quad_light(to_surface(lit, (*light).position), half_height, half_width, false));
@@ -149,7 +149,7 @@ fn add_environment(lit: ptr<function, Lit>, in: PbrInput, cluster: u32) {
         for (var j = 0u; j < ENVIRONMENT_CELLS; j += 1u) {
             let cell = scratched_cell(tables, 0u, wo, seen.tangent, seen.profile, j);
             let direction = world_from_surface * cell.direction;
-            // Of a mirror: Bevy would bend the direction of a rough one.
+            // Direction of a mirror: Bevy would bend that of a rough surface.
             let input = LayerLightingInput(direction, direction, 1.0, cell.roughness, 0.0);
             let found = compute_radiances(input, &ranges, in.world_position.xyz, true);
             (*lit).scratches += seen.share.segment * cell.response * found.radiance;

@@ -43,7 +43,7 @@ panel(new THREE.Color(1, 0.96, 0.92), 320, [0.9, 0.005], [0.06, 0.18, -0.4], [0.
 panel(new THREE.Color(0.85, 0.93, 1), 0.06, [6, 5.5], [0, 0.55, 0.25], [0, -0.45, 0.12]);
 panel(new THREE.Color(1, 0.95, 0.9), 3.2, [0.5, 0.5], [-0.8, 0.5, 0], [0, 0, 0]);
 
-// From the middle across the bottom, up the wall, over the rim and down again outside: radius and height, metres.
+// Profile from the middle across the bottom, up the wall, over the rim and down again outside: radius and height, metres.
 const profile = [
   [0, 0], [0.03, 0], [0.06, 0], [0.082, 0], [0.0865, 0.0005], [0.0905, 0.002], [0.0932, 0.0045], [0.0955, 0.0078], [0.0975, 0.011],
   [0.099, 0.0128], [0.1006, 0.0139], [0.1026, 0.0144], [0.1042, 0.0142], [0.1053, 0.0132], [0.1056, 0.0118], [0.104, 0.008], [0.101, 0.001],

@@ -132,7 +132,7 @@ class ScratchedLightingModel extends PhysicalLightingModel {
   }
 
   directRectArea({ lightColor, lightPosition, halfWidth, halfHeight }) {
-    // It shines to its own -z.
+    // The light shines to its own -z.
     const quad = { middle: lightPosition.toVar(), half_width: halfHeight.toVar(), half_height: halfWidth.toVar() };
     this.light(lightColor.toVar(), quad, baseByQuad, scratchesByQuad);
   }
@@ -253,7 +253,7 @@ export class ScratchedNodeMaterial extends MeshStandardNodeMaterial {
   }
 
   customProgramCacheKey() {
-    // Its textures are its own.
+    // Each material has its own textures.
     return `${super.customProgramCacheKey()}-${this.id}`;
   }
 

@@ -2,7 +2,7 @@
 import { wgsl, wgslFn } from 'three/tsl';
 import { hairlineWgsl } from './wgsl.js';
 
-// What all functions below take first: the arguments of pixel_frame().
+// First arguments of all functions below: those of pixel_frame().
 const PLACE = `position: vec3f, view_from_object: mat3x3f, position_view: vec3f, normal_view: vec3f, pixel: vec3f, ray_view: vec2f,
   move_x: vec3f, move_y: vec3f, turn_x: vec3f, turn_y: vec3f`;
 const HERE = `pixel_frame(position, view_from_object, position_view, normal_view, pixel, ray_view, move_x, move_y, turn_x, turn_y)`;

@@ -1,4 +1,4 @@
-// What the lights of three.js are to scratches: spheres at a place, or disks in the sky.
+// Lights of three.js as scratches see them: spheres at a place, or disks in the sky.
 
 /** Whether a light comes from one direction for all of the scene. Of other kinds only those at a place are known. */
 export function isFar(light) {

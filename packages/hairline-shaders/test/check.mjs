@@ -41,7 +41,7 @@ await compiles('make_scratch_table.wgsl', text('wgsl/make_scratch_table.wgsl'));
 const weslSrc = Object.fromEntries(readdirSync(join(folder, 'hairline-shaders/wesl')).map((file) => [file, text(join('wesl', file))]));
 for (const name of ['scratch_light', 'scratched_surface', 'lit_base', 'camera', 'tube', 'environment_lobe']) {
   const functions = [...weslSrc[`${name}.wesl`].matchAll(/^fn (\w+)\(/gm)].map((match) => match[1]);
-  // What no entry point reaches is left out, so each module is asked for as a root of its own.
+  // Code that no entry point reaches is left out, so each module is compiled as a root of its own.
   const { dest } = await link({ weslSrc, rootModuleName: name });
   for (const each of functions) assert.ok(dest.includes(`fn ${each}(`), `${name}: ${each} is missing`);
   await compiles(`${name}.wesl`, dest);

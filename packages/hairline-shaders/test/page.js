@@ -49,7 +49,7 @@ async function draw(renderer, name, tables) {
   const page = await get('scene.json', 'json');
   const geometry = geometryOf(await get('mesh.bin', 'arrayBuffer'), page);
   const scratches = readScratches(await get('scratches.csv', 'text'));
-  // As an instance of a mesh that is turned back, under spots, it is the same picture.
+  // The picture is the same for an instance of a mesh that is turned back, under spots.
   const turn = new THREE.Matrix4().makeRotationZ(0.5).setPosition(0.01, 0.02, 0);
   const { position, target, up, fov } = page.camera;
   const [width, height] = page.size;

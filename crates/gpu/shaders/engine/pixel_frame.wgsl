@@ -49,13 +49,13 @@ fn pixel_frame(
     let off = axes * (ray * (dot(position_view, n) / dot(ray, n)) - position_view);
     let is_near = dot(off, off) < dot(right, right) + dot(down, down);
     let shift = select(vec3f(0.0), off, is_near && !is_parallel);
-    // How the surface bends, from the quad: it changes less over a pixel than what a pixel covers does.
+    // Bend of the surface, from the quad: it changes less over a pixel than the surface's position does.
     let moves = mat2x2f((axes * move_x).xy, (axes * move_y).xy);
     let turns = mat2x3f(axes * turn_x, axes * turn_y);
     let exact = position_view + transpose(axes) * shift;
     let turned = normalize(n + transpose(axes) * pixel_turn(moves, turns, shift.xy));
     let surface_from_view = pixel_axes(turned, normalize(select(-exact, vec3f(0.0, 0.0, 1.0), is_parallel)));
-    // Of a turn with one scale, the inverse is the transpose over the square of the scale.
+    // The inverse of a rotation with one scale is the transpose over the square of the scale.
     let scale_sq = dot(view_from_object[0], view_from_object[0]);
     let view = SurfaceView(
         position + transpose(axes * view_from_object) * shift / max(scale_sq, 1e-20),

@@ -96,7 +96,7 @@ fn scratched_sums(tables: texture_2d_array<u32>, tree: texture_2d<u32>, point: S
     return sums;
 }
 
-// Those sums with the light that the functions below gave.
+// Returns the sums with the light that the functions below computed.
 fn scratched_with(sums: ScratchSums, radiance: vec3f) -> ScratchSums {
     return ScratchSums(sums.share, sums.share_by_line, radiance, sums.energy);
 }

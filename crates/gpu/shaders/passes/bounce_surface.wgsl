@@ -15,7 +15,7 @@ fn width_m(pixel: PixelPoint, direction: vec3f, distance_m: f32, solid_angle_sr:
     let um = pixel.footprint_um;
     let area_um2 = abs((um.x * um.w - um.y * um.z) * dot(pixel.normal, direction));
     let here_m = 1e-6 * sqrt(area_um2);
-    // Of a disk, half its radius.
+    // Spread of a disk of this solid angle: half its radius.
     let drawn_rad2 = 0.25 * solid_angle_sr / GGX_PI;
     let spread_rad = here_m / pixel.distance_m + sqrt(2.0 * dot(pixel.turns, pixel.turns) + drawn_rad2);
     return here_m + distance_m * spread_rad;

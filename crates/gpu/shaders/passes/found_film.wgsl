@@ -88,8 +88,8 @@ fn found_film(@builtin(global_invocation_id) id: vec3u) {
     }
     film_found[at].scratches = scratches;
     film.pixels[at].scratches = found_light(scratches);
-    // What a display averages. Each sample has the share of its closed forms that the whole pixel sees: single rays, and what they bring of other
-    // objects, are noise, which a curve would darken.
+    // Light that a display averages. Each sample has the share of its closed forms that the whole pixel sees: single rays, and the light of other
+    // objects that they bring, are noise, which a curve would darken.
     let seen = vec3f(seen_of(specular), seen_of(diffuse), seen_of(scratches));
     for (var i = first; i < first + count; i += 1u) {
         var light = 0.0;

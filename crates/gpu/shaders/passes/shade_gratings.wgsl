@@ -62,7 +62,7 @@ fn shade_gratings(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
             covered += place.share;
             continue;
         }
-        // What grooves take is of light from all around.
+        // The energy that grooves take is under light of radiance 1 from all around.
         let parts = grating_last_part(place);
         let last = select(min(parts, GRATING_PART_ACROSS), parts, lights_are_around() || (!PICKS && range.adds == 0u));
         for (var part = 0u; part <= last; part += 1u) {

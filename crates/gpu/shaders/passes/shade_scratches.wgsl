@@ -316,7 +316,7 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                     let is_own = (item_lit & 63u) == lane;
                     if PICKS && is_own {
                         state.sum += max(rgb_luminance(results[j]), 0.0);
-                        // Those that the sum has passed.
+                        // Picks whose threshold the sum has passed.
                         while pick_is_due(state) {
                             let source = select(range.first + ((item_lit >> 6u) & 7u), frame.light_count, lights_are_around());
                             let segment = entries[chunk.first_entry + (item_lit >> 9u)].y;

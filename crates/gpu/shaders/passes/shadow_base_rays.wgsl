@@ -117,7 +117,7 @@ fn shadow_base_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgr
     } else if HAS_ENVIRONMENT {
         offer_around(&kept, point, lobes, seed, choice.x);
     }
-    // It stands for all.
+    // The kept source stands for all.
     let own = rgb_luminance(kept.weight.specular + kept.weight.diffuse);
     let weight = candidate_scaled(kept.weight, vec3f(kept.total / max(own, 1e-30)));
     let start = shadow_normals(shadow_random(seed, shadow_round, SHADOW_START));

@@ -53,7 +53,7 @@ fn shadow_found(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         if sums.cut > 0u {
             atomicAdd(&film.gave_up, sums.cut);
         }
-        // What would be left of scratches of radiance 1.
+        // Factor that scratches of radiance 1 would keep.
         let even = ScratchSums(sums.all.share, sums.all.share_by_line, vec3f(1.0), sums.all.energy);
         let left = masked(even, objects[points[at].object - 1u].depth_coherence);
         taken = left.taken;

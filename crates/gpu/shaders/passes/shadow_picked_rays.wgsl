@@ -33,7 +33,7 @@ fn ray_by(pixel: PixelPoint, triangle: u32, pick: Pick, luminance: f32, seed: u3
     if !drawn.light.is_there {
         return ray;
     }
-    // By way of a grating it starts anywhere under the pixel.
+    // A ray off a grating starts anywhere under the pixel.
     var start = shadow_normals(shadow_random(seed, shadow_round, SHADOW_START));
     if !OF_GRATINGS {
         let place = shadow_random(seed, shadow_round, SHADOW_PLACE);

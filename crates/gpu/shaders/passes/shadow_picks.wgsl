@@ -77,7 +77,7 @@ fn shadow_grating_picks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_wo
     if points[at].object == 0u {
         return;
     }
-    // As sums.wgsl says.
+    // Layout of the sums: see sums.wgsl.
     let all = chunk_luminance(chunk_starts[frame.group_count] + group, lane);
     let seed = sobol_hash(shadow_seed(points[at].position_m, shadow_round) + shadow_round.first_round + shadow_round.first_pick) & 0xffffffu;
     let state = PickState(0.0, 0u, shadow_round.picks, shadow_round.picks, all / f32(shadow_round.picks), seed);

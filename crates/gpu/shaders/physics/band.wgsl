@@ -262,7 +262,7 @@ struct BandEdge {
 fn band_edge(a: vec3f, b: vec3f) -> BandEdge {
     let m = cross(a, b - a);
     let m2 = m.y * m.y + m.z * m.z;
-    // How the tangent component changes at either end.
+    // Change of the tangent component at either end.
     let at_a = m.y * a.z - m.z * a.y;
     let at_b = m.y * b.z - m.z * b.y;
     let turns = select(select(0.0, -1.0, at_a < 0.0 && at_b > 0.0), 1.0, at_a > 0.0 && at_b < 0.0);
@@ -305,7 +305,7 @@ fn band_edge_crossings(edge: BandEdge, line: BandLine) -> EdgeCrossings {
     let scale = 1.0 / max(edge.across_sq, 1e-30);
     let y = vec2f(-line.along * edge.m.x * edge.m.y) + vec2f(-s, s) * edge.m.z;
     let z = vec2f(-line.along * edge.m.x * edge.m.z) + vec2f(s, -s) * edge.m.y;
-    // Of no length, but with the line between its rounded ends.
+    // A point has no length, but the line may lie between its rounded ends.
     let point = edge.m_sq < 1e-18;
     return EdgeCrossings(
         band_q(line, select(y.x * scale, edge.a.y, point), select(z.x * scale, edge.a.z, point)),

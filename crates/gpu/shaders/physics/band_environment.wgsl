@@ -7,9 +7,9 @@ const ENVIRONMENT_CELL_ALPHA: f32 = 0.08;
 struct EnvironmentCell {
     q_low: f32,
     q_high: f32,
-    // Its z is the cosine for the groove's depth.
+    // Direction for the cell; its z is the cosine for the groove's depth.
     direction: vec3f,
-    // By the length of its chord.
+    // Angle along the band, as the length of its chord.
     angle_rad: f32,
 }
 

@@ -121,7 +121,7 @@ fn filtered_facets(surface: FacetAxes, spread: vec3f, cos_o: f32) -> FilteredFac
     if mean <= 0.0 {
         return FilteredFacets(surface, 0.0);
     }
-    // Of the spread, as a surface's.
+    // Long axis of the spread, as for a surface.
     let axis = brushed_half_turn(half, covariance);
     let c = dot(axis, surface.along);
     let s = axis.x * surface.along.y - axis.y * surface.along.x;
@@ -434,7 +434,7 @@ fn brushed_sphere(lobe: BrushedLobe, axis: vec3f, sin2: f32, fresnel: FresnelRgb
         if inside > 0.0 {
             let reach = select(sqrt(inside), -sqrt(inside), a1 < 0.0);
             let q = -(a1 + reach);
-            // Of two forms of the nearer end the one that cancels less.
+            // The nearer end has two forms; the one that cancels less is used.
             let near = select(a0 / q, (reach - a1) / sphere.a2, 2.0 * abs(reach) < abs(a1));
             let roots = vec2f(q / sphere.a2, near);
             ends = clamp(vec2f(min(roots.x, roots.y), max(roots.x, roots.y)), vec2f(-BRUSHED_FAR), vec2f(BRUSHED_FAR));
@@ -508,12 +508,12 @@ fn brushed_crossings(lobe: BrushedLobe, x: f32, edge: BrushedEdge) -> BrushedCro
     let value_b = edge.b.x + x * edge.b.z + k * length(edge.b);
     let curved = select(-1.0, 1.0, k > 0.0);
     if (value_a > 0.0) != (value_b > 0.0) {
-        // From the side from which Newton's steps do not overshoot.
+        // Newton's steps start on the side where they do not overshoot.
         let start = select(1.0, 0.0, value_a * curved > 0.0);
         found.slopes.x = brushed_crossing(lobe, x, k, edge, start);
         found.signs.x = select(-1.0, 1.0, value_b > value_a);
     } else if value_a * curved > 0.0 {
-        // Where it turns, it may be on the other side.
+        // The edge may cross twice, on both sides of its turning point.
         let d_length = max(length(d), 1e-15);
         let sine = -step / (k * d_length);
         if abs(sine) < 1.0 {

@@ -62,8 +62,8 @@ fn environment_whole(map: texture_2d<f32>) -> EnvironmentPlace {
 // Place of a level: two of each size, one above the other, but for the first, which has a size of its own.
 fn environment_level_place(levels: texture_2d<f32>, level: i32) -> EnvironmentPlace {
     let mip = (level + 1) / 2;
-    // Not textureDimensions(levels, mip): a software driver (llvmpipe) answers all 8 pixels that it runs in step with the first
-    // one's level.
+    // textureDimensions(levels, mip) is not used: a software driver (llvmpipe) answers all 8 pixels that it runs in step with
+    // the first one's level.
     let size = vec2<i32>(max((textureDimensions(levels) / vec2<u32>(1u, 2u)) >> vec2<u32>(u32(mip)), vec2<u32>(1u)));
     return EnvironmentPlace(mip, select(0, size.y, level > 0 && level % 2 == 0), size);
 }

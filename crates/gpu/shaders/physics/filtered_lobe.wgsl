@@ -25,7 +25,7 @@ fn filtered_lobe(alpha: f32, spread: vec3f, cos_o: f32) -> FilteredLobe {
     let bounded = spread_bounded(spread, cos_o);
     let variance = bounded.xy;
     let covariance = bounded.z;
-    // By the axes of the spread.
+    // Variances along the axes of the spread.
     let mean = 0.5 * (variance.x + variance.y);
     let half = 0.5 * (variance.x - variance.y);
     let apart = length(vec2f(half, covariance));
@@ -37,7 +37,7 @@ fn filtered_lobe(alpha: f32, spread: vec3f, cos_o: f32) -> FilteredLobe {
     let alpha_y = sqrt(wide2.x * wide2.y) / alpha_x;
     let excess = 1.0 - 2.0 * sharp2 / (wide2.x + wide2.y);
     let cos2 = cos_o * cos_o;
-    // How far the arc that such normals reflect to lies off its chord, in slopes.
+    // Distance, in slopes, from the chord to the arc to which such normals reflect.
     let bend = vec2f(cos2 * variance.y, covariance);
     let bend2 = max(1.0 - cos2, 0.0) / max(cos2 * sharp2, 1e-12) * dot(bend, bend);
     return FilteredLobe(vec2f(alpha_x, alpha_y), turn.y / (alpha_x * alpha_y), bend2 / (bend2 + 0.25), select(excess, 0.0, excess < 0.02));

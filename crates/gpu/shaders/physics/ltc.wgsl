@@ -217,7 +217,7 @@ fn ltc_cone_axes(cone: LtcCone) -> EllipticCone {
     let length_v = max(length(uv.b), 1e-18);
     let length_c = max(sqrt(root), 1e-4 * length_u);
     let side2 = ltc_from_frame(cone, uv.b / length_v);
-    // Of unit vectors: the product of two specks would underflow.
+    // Normal of unit vectors: the product of two tiny ones would underflow.
     let normal = cross(ltc_from_frame(cone, uv.a / length_u), side2);
     let length_n = length(normal);
     let centre = select(vec3f(0.0, 0.0, 1.0), normal / max(length_n, 1e-18), length_n > 0.0);

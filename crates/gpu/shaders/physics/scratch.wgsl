@@ -56,7 +56,7 @@ fn scratch_share(
 ) -> ScratchShare {
     let variance = footprint.across_sq_um + 0.5 * coherence_um * coherence_um;
     let across = exp(-min(0.5 * offset_um * offset_um / variance, GAUSSIAN_TAIL)) * inverseSqrt(6.28318531 * variance);
-    // Where the footprint is slanted, the part of it that lies on the scratch is displaced along it.
+    // A slanted footprint: its part on the scratch is displaced along the scratch.
     let slant = footprint.cross_sq_um / variance;
     let shift = offset_um * slant;
     let along_variance = footprint.along_sq_um - footprint.cross_sq_um * slant + blur_um * blur_um;

@@ -229,7 +229,7 @@ fn scratch_quad(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratc
         var roots = four_edges_roots(outline, line, away);
         let depths = chord_depths(seen, line, roots.range);
         var integral = vec3f(0.0);
-        // As many roots enter the outline as leave it. The whole arc counts once more where the light holds straight down.
+        // Equal numbers of roots enter and leave the outline. The whole arc counts once more where the light holds the direction straight down.
         for (var i = 0u; i < roots.count + u32(roots.wraps); i += 1u) {
             var ends = next_roots(&roots);
             ends = select(ends, facing * vec2f(band_q_start(line), band_q_end(line)), i == roots.count);

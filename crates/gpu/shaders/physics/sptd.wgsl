@@ -92,7 +92,7 @@ fn sptd_complement(cap: SphericalCap) -> SphericalCap {
 }
 
 fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
-    // Of each cap the side that is at most a hemisphere.
+    // Replaces each cap by its complement if it is larger than a hemisphere.
     let flip_a = a.cosine < 0.0;
     let flip_b = b.cosine < 0.0;
     var small_a = a;

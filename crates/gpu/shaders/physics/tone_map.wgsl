@@ -26,7 +26,7 @@ fn tone_map(curve: u32, rgb: vec3<f32>) -> vec3<f32> {
 }
 
 fn tone_sanitize(c: f32) -> f32 {
-    // By its bits: a compiler may assume that no float is NaN, and clamp() of one is anything.
+    // Tests the bits: a compiler may assume that no float is NaN, and clamp() of NaN is undefined.
     if (bitcast<u32>(c) & 0x7fffffffu) > 0x7f800000u {
         return 0.0;
     }

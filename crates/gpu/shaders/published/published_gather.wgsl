@@ -70,7 +70,7 @@ struct PublishedWeight {
     density: f32,
 }
 
-// Nothing where the segment lies on another side of the surface or out of the footprint's reach.
+// Weight of a segment at a point; 0 if the segment lies on another side of the surface or out of the footprint's reach.
 fn published_weight(point: SurfacePoint, segment: Segment, view: PublishedView) -> PublishedWeight {
     let axis_x = view.axis_x;
     let axis_y = view.axis_y;

@@ -108,7 +108,7 @@ fn base_picture(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, lig
 fn picture_irradiance(plane: PicturePlane, corners: u32) -> vec3f {
     var state = irradiance_begin();
     var a = plane.corner;
-    // Not unrolled: it is the number of a light's corners.
+    // The loop is not unrolled: it runs over a light's corners.
     for (var i = 0u; i < corners; i += 1u) {
         let along = select(plane.right, plane.up, (i & 1u) != 0u);
         let b = plane.corner + select(vec3f(0.0), plane.right, i < 2u) + select(vec3f(0.0), plane.up, i == 1u || i == 2u);
@@ -292,7 +292,7 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
             light.diffuse += on_body * seen.form_factor;
         }
         sum.specular += light.specular;
-        // Of any part: that of the environment only the first have.
+        // The body's light is the same by every part; only the first part includes the environment's.
         if p == 0u {
             sum.diffuse = light.diffuse;
         }
@@ -304,7 +304,7 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
 fn brushed_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
     let lobe = base_brushed_lobe(point);
     let fresnel = layer.reflecting.fresnel;
-    // Of the body's light, and by which parts of a picture are weighed.
+    // Chord for the body's light, and for the weights of a picture's parts.
     let chord = brushed_chord(lobe, ltc_lobe(point.wo, brushed_chord_roughness(lobe), lobe_shapes, lobe_albedo));
     var sum: BaseRadiance;
     if surrounded && HAS_ENVIRONMENT {

@@ -104,7 +104,7 @@ fn base_lobes_sample(lobes: BaseLobes, pick: f32, u: vec2f) -> vec3f {
     return wi;
 }
 
-// Nothing where a direction lies below the horizon of its lobe, which may be above that of another.
+// Returns the direction, or 0 if it lies below the horizon of its lobe, which may be above that of another lobe.
 fn base_lobes_drawn(wi: vec3f) -> vec3f {
     return select(vec3f(0.0), wi, wi.z > 0.0);
 }

@@ -5,7 +5,7 @@ override HAS_SCRATCHES: bool = true;
 override HAS_GRATINGS: bool = true;
 // Gratings whose grooves could be seen one by one.
 override HAS_SINGLE_GROOVES: bool = true;
-// Those among them that come nearer to one another along their way.
+// Whether some grooves come nearer to one another along their way.
 override HAS_BRANCHING_GROOVES: bool = true;
 // Gratings with pictures, or along texture coordinates.
 override HAS_GROOVE_MAPS: bool = true;

@@ -182,7 +182,7 @@ fn outline_sent(point: LitPoint, seen: SeenScratch, view: OutlineView, line: Ban
     for (var i = 0u; i <= view.vertex_count + u32(wraps); i += 1u) {
         let b = outline_corner(view, min(i, view.vertex_count));
         let roots = band_edge_crossings(band_edge(a, b), line);
-        // Where there is no root of one sense, both ends are the middle, which counts for nothing: so before the first edge.
+        // Without a root of one sense both ends are the middle, which counts for nothing, as before the first edge.
         var ends = vec2f(select(0.0, roots.rising, roots.rises && i > 0u), select(0.0, roots.falling, roots.falls && i > 0u));
         ends = select(ends, facing * vec2f(band_q_start(line), band_q_end(line)), i > view.vertex_count);
         sent += scratch_chord(scratch_tables, point, seen, ends.x, ends.y, cos_i);
@@ -275,7 +275,7 @@ fn draw_around(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface:
     from_there.filter_by = vec3f(1.0);
     from_there.total = vec3f(1.0);
     var offer = drawn_offers(cell.left);
-    // What the groove sends of light of radiance 1, over what comes from the part.
+    // Luminance that the groove sends under radiance 1, over that from the drawn part.
     var by_groove = 0.0;
     for (var i = 0u; i < DRAWN_CELL_PARTS; i += 1u) {
         let part = drawn_cell_part(i, cell.from_there.line, cell.from_there.part.low, cell.from_there.part.high);

@@ -75,7 +75,7 @@ fn grating_pair(pixel: PixelPoint, triangle: u32, grating_and_part: u32, covered
 // Part that stands, towards a light, for all grooves that are in all directions.
 const GRATING_PART_ACROSS: u32 = 1u;
 
-// That pair, turned to a light.
+// Turns the pair to a light.
 fn grating_pair_across(pair: Pair, grating: Grating, place: GroovePlace, light_index: u32) -> Pair {
     let center_m = (light_around(light_index).xyz - pair.position_m) * pair.surface;
     let along = (pair.point.wo + center_m / max(length(center_m), 1e-30)).xy;

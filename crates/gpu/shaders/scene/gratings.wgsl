@@ -75,7 +75,7 @@ fn groove_angle(normal: vec3f, from_here: vec3f, to_there: vec3f) -> f32 {
 
 // The share of a pixel that lies between the radii.
 fn groove_share_within(grating: Grating, arm_m: vec3f, right_m: vec3f, down_m: vec3f) -> f32 {
-    // From the axis; from the middle where there is none.
+    // Distance from the axis, or from the middle where there is no axis.
     let along_m = select(dot(grating.axis, arm_m), 0.0, grating.kind == GROOVES_ALONG);
     let away_m = arm_m - grating.axis * along_m;
     let radius_m = length(away_m);
@@ -91,7 +91,7 @@ fn groove_share_within(grating: Grating, arm_m: vec3f, right_m: vec3f, down_m: v
 // filter.
 fn groove_place(grating: Grating, course: GrooveCourse, point_m: vec3f, normal: vec3f, right_m: vec3f, down_m: vec3f) -> GroovePlace {
     let arm_m = point_m - grating.center_m;
-    // As if the pixel saw one spot.
+    // Grooves as if the pixel saw one spot.
     let about_m = groove_arm(grating, arm_m);
     var tangent = vec3f(0.0);
     var turns = vec2f(0.0);

@@ -59,7 +59,7 @@ fn groove_mask(grating: Grating, triangle: u32, position_m: vec3f, right_m: vec3
     let y = grating.tiles_y.xyz;
     let z = grating.tiles_z.xyz;
     let p = vec3f(dot(x, position_m), dot(y, position_m), dot(z, position_m)) + vec3f(grating.tiles_x.w, grating.tiles_y.w, grating.tiles_z.w);
-    // As normals go: by the transpose of the way back. Sharp, so that few places mix two sides.
+    // Normals transform by the transpose of the inverse. The shares are sharp, so that few places mix two sides.
     let towards = vec3f(dot(x, normal) / dot(x, x), dot(y, normal) / dot(y, y), dot(z, normal) / dot(z, z));
     let nearest = towards / max(length(towards), 1e-30);
     let shares = nearest * nearest * nearest * nearest;

@@ -23,7 +23,7 @@ fn sphere_versine(center_m: vec3f, radius_m: f32) -> f32 {
 // Distance at which a direction meets a sphere first, or passes it nearest; below zero where it passes.
 fn sphere_reach_m(center_m: vec3f, radius_m: f32, direction: vec3f) -> f32 {
     let along = dot(center_m, direction);
-    // Not a difference of squares, which cancels for far spheres.
+    // A cross product, since a difference of squares cancels for far spheres.
     let beside = cross(center_m, direction);
     let half_chord2 = radius_m * radius_m - dot(beside, beside);
     let half_chord = sqrt(max(half_chord2, 0.0));
@@ -60,7 +60,7 @@ fn spherical_triangle(a_m: vec3f, b_m: vec3f, c_m: vec3f) -> SphericalTriangle {
     let a = surface_direction(a_m);
     let b = surface_direction(b_m);
     let c = surface_direction(c_m);
-    // By the edges, so that small triangles do not cancel.
+    // Product of the edges' lengths, so that small triangles do not cancel.
     let lengths = max(length(a_m) * length(b_m) * length(c_m), 1e-30);
     let volume = abs(dot(cross(b_m - a_m, c_m - a_m), a_m)) / lengths;
     return SphericalTriangle(a, b, c, volume, 2.0 * atan2(volume, 1.0 + dot(a, b) + dot(b, c) + dot(c, a)));
@@ -169,12 +169,12 @@ fn light_meets(point: SurfacePoint, light: Light, direction: vec3f) -> MetLight 
     return met;
 }
 
-// How far a ray to a light looks for what hides it, in world space. It ends a step above a flat light, so that it does not meet the surface that
-// the light lies in.
+// Distance, in world space, within which a surface hides a light from a point. It ends a step before a flat light, so that a ray does not meet
+// the surface that the light lies in.
 fn light_clear_m(light: Light, from_m: vec3f, direction: vec3f, distance_m: f32, extent_m: f32) -> f32 {
     let step_m = ray_step_m(from_m + distance_m * direction, extent_m);
     // Others have no normal.
     let along = select(1.0, abs(dot(light.normal, direction)), dot(light.normal, light.normal) > 0.5);
-    // Of a ray nothing is cast with 0; a point that is nearer to the light's plane has nothing before it.
+    // A distance of 0 would mean that no ray is cast; a point that is nearer to the light's plane has nothing before it.
     return max(distance_m - step_m / max(along, 1e-20), 1e-20);
 }

@@ -50,7 +50,7 @@ fn is_near(here: Nearness, segment: Ends) -> bool {
     let along_um2 = max(c.x * t.x * t.x + 2.0 * c.y * t.x * t.y + c.z * t.y * t.y, 0.0);
     let cross_um2 = (c.z - c.x) * t.x * t.y + c.y * (t.x * t.x - t.y * t.y);
     let offset = 0.5 * (dot(start, vec2f(-t.y, t.x)) + dot(end, vec2f(-t.y, t.x)));
-    // Where the footprint is slanted, the part of it that lies on the scratch is displaced along it.
+    // A slanted footprint: its part on the scratch is displaced along the scratch.
     let slant = cross_um2 / variance;
     let left = max(along_um2 - cross_um2 * slant + segment.blur_um * segment.blur_um, 1e-12);
     let low = dot(start, t) - offset * slant;

@@ -79,7 +79,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    # Not before it is asked for: the cluster needs a package that may be absent.
+    # Imported at the first use: the cluster needs a package that may be absent.
     if name in ("cluster", "optics"):
         import importlib
 

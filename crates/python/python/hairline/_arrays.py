@@ -39,7 +39,7 @@ def _shaped(key: str, array: npt.NDArray[Any], shape: tuple[int | None, ...]) ->
 
 
 def _plain(array: npt.NDArray[Any], kind: Any) -> npt.NDArray[Any]:
-    # What comes out of a message between processes may begin at any byte.
+    # Bytes of a message between processes may begin at any address.
     return np.require(array, kind, ["C_CONTIGUOUS", "ALIGNED"])
 
 

@@ -171,7 +171,7 @@ class Scene:
 
         studio = one_of(Studio)
         if studio is None and "light" not in table and "environment" not in table:
-            # It said so, or there would be one.
+            # The file said so, or the scene would have a studio.
             studio = Studio(hidden=True)
         return cls(
             camera=table_of(Camera, table["camera"]),

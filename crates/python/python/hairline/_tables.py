@@ -30,7 +30,7 @@ Sizes = Union[float, Mapping[str, float]]
 """A number, or ``{"mean": .., "spread": ..}``."""
 Path = Union[str, "os.PathLike[str]"]
 
-# What is around a table while it is checked alone.
+# Keys around a table while it is checked alone.
 _FRAME: dict[str, Any] = {
     "camera": {"position_m": [0.0, 0.0, 1.0], "target_m": [0.0, 0.0, 0.0]},
     "object": [{"name": "object", "mesh": "object.glb"}],
@@ -85,9 +85,9 @@ class Table(metaclass=_Documented):
     _section: ClassVar[str]
     _is_one_of_many: ClassVar[bool] = True
     _fixed: ClassVar[dict[str, Any]] = {}
-    # What keys mean that are left out because they say what goes without saying.
+    # Defaults of keys that are left out because they go without saying.
     _absent: ClassVar[dict[str, Any]] = {}
-    # What a table is that is left out of a scene because it says nothing.
+    # Value of a table that is left out of a scene because it is empty.
     _nothing: ClassVar[dict[str, Any]] = {}
     _keys: ClassVar[frozenset[str]] = frozenset()
     __signature__: ClassVar[Signature] = Signature()
@@ -214,13 +214,13 @@ class Camera(Table):
         words_of_photographers = ("focal_length_mm", "sensor_width_mm", "f_stop")
         lens = {key: table[key] for key in words_of_photographers if table.get(key) is not None}
         if "f_stop" in lens:
-            # It agrees with the aperture, if that is given.
+            # The sensor agrees with the aperture, if that is given.
             del checked["aperture_mm"]
         if "focal_length_mm" in lens:
             if table.get("fov_y_deg") is not None:
                 found = f"found {table['fov_y_deg']} beside focal_length_mm"
                 raise argument_error("camera.fov_y_deg", found, "leave out one of them")
-            # What it sees depends on the shape of the picture, which a scene knows.
+            # The field of view depends on the shape of the picture, which a scene knows.
             del checked["fov_y_deg"]
             checked.update((key, float(value)) for key, value in lens.items())
         return checked

@@ -117,7 +117,7 @@ class _Parcel:
         self.files: list[tuple[str, bytes]] = []
         for path in sorted(set(core.inputs(self.table, scene.folder))):
             try:
-                # As it is written: a worker finds it by the same way below another folder.
+                # The path as written: a worker finds it in the same way below another folder.
                 place = os.path.normpath(Path(path).relative_to(scene.folder))
             except ValueError:
                 place = os.pardir
@@ -152,7 +152,7 @@ class _Unpacked:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(contents)
         self.table = parcel.table
-        # It keeps what changes leave alone.
+        # The builder keeps the parts that changes leave alone.
         self.builder = core.Builder()
 
     def scene(self, change: Change) -> Scene:
@@ -332,7 +332,7 @@ def reference(
     :param rows_each: rows of a strip. Default: four strips for each worker, and 8 rows at least.
     """
     scene = Scene._of(core.check(scene._sized(size)), scene.folder)
-    # What is wrong with the scene or the arguments is told here, once.
+    # Errors in the scene or the arguments are reported here, once.
     arguments = {
         "size": None,
         "model": model,

@@ -284,7 +284,7 @@
   }
 
   const codesOf = new WeakMap();
-  // What the display shows, 8 bits a channel.
+  // Codes on the display, 8 bits a channel.
   function codes(image) {
     if (!codesOf.has(image)) {
       const canvas = document.createElement("canvas");
