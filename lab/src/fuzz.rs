@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anyhow::{Context, Result, bail};
-use case::{Case, Kind};
+use case::{Case, InputKind};
 use clap::{Args, ValueEnum};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -32,7 +32,7 @@ pub struct Fuzz {
     from: u64,
     /// Inputs of this kind only.
     #[arg(long, value_enum)]
-    kind: Option<Kind>,
+    kind: Option<InputKind>,
     /// Seconds of processor time that a case may take.
     #[arg(long, default_value_t = 20)]
     seconds: u64,
@@ -55,9 +55,9 @@ impl Fuzz {
             mebibytes: self.mebibytes,
         };
         let originals = originals::all()?;
-        let kinds: Vec<Kind> = match self.kind {
+        let kinds: Vec<InputKind> = match self.kind {
             Some(kind) => vec![kind],
-            None => Kind::value_variants().to_vec(),
+            None => InputKind::value_variants().to_vec(),
         };
         let case = |number: u64| {
             let mut random =

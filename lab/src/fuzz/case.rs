@@ -7,7 +7,7 @@ use clap::ValueEnum;
 
 /// A kind of input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Kind {
+pub enum InputKind {
     /// Scene files.
     Toml,
     /// Lists of scratches.

@@ -5,7 +5,7 @@ use hairline_image::{Display, Output, Picture};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-use super::case::{Case, Kind};
+use super::case::{Case, InputKind};
 use super::model::{glb, json, tetrahedron};
 use super::mutate;
 use super::packed::{self, Packed};
@@ -145,7 +145,7 @@ pub fn all() -> Result<Originals> {
 
 impl Originals {
     /// A mutated input of a kind.
-    pub fn case(&self, kind: Kind, random: &mut Pcg64) -> Case {
+    pub fn case(&self, kind: InputKind, random: &mut Pcg64) -> Case {
         let scene = |more: &str| {
             (
                 "scene.toml".to_owned(),
@@ -169,15 +169,15 @@ impl Originals {
             ]
         };
         let files = match kind {
-            Kind::Toml => {
+            InputKind::Toml => {
                 let text = format!("{HEAD}{SHAPES}");
                 vec![file("scene.toml", mutate::text(&text, random))]
             }
-            Kind::Csv => vec![
+            InputKind::Csv => vec![
                 scene(&format!("{PLATE}{LIST}")),
                 file("list.csv", mutate::text(CSV, random)),
             ],
-            Kind::Glb => {
+            InputKind::Glb => {
                 // Changes either the text in the file or the whole file.
                 let glb = match random.random_range(0..2) {
                     0 => glb(&mutate::text(&json(None, "tile.png"), random), &self.bin),
@@ -189,7 +189,7 @@ impl Originals {
                     file("tile.png", self.png.clone()),
                 ]
             }
-            Kind::Gltf => {
+            InputKind::Gltf => {
                 let text = json(Some("a.bin"), "tile.png");
                 vec![
                     with_model("a.gltf"),
@@ -198,20 +198,20 @@ impl Originals {
                     file("tile.png", self.png.clone()),
                 ]
             }
-            Kind::Hdr => vec![map("map.hdr"), file("map.hdr", mutated(&self.hdr, random))],
-            Kind::Exr => vec![map("map.exr"), file("map.exr", mutated(&self.exr, random))],
-            Kind::Png => with_image("tile.png", mutated(&self.png, random)),
-            Kind::Ktx2 => with_image("tile.ktx2", mutated(one(&KTX2, random), random)),
-            Kind::Webp => with_image("tile.webp", mutated(one(&WEBP, random), random)),
-            Kind::Jpeg => with_image("tile.jpg", mutated(one(&JPEG, random), random)),
-            Kind::Draco => {
+            InputKind::Hdr => vec![map("map.hdr"), file("map.hdr", mutated(&self.hdr, random))],
+            InputKind::Exr => vec![map("map.exr"), file("map.exr", mutated(&self.exr, random))],
+            InputKind::Png => with_image("tile.png", mutated(&self.png, random)),
+            InputKind::Ktx2 => with_image("tile.ktx2", mutated(one(&KTX2, random), random)),
+            InputKind::Webp => with_image("tile.webp", mutated(one(&WEBP, random), random)),
+            InputKind::Jpeg => with_image("tile.jpg", mutated(one(&JPEG, random), random)),
+            InputKind::Draco => {
                 let original = &self.draco[random.random_range(0..self.draco.len())];
                 vec![
                     with_model("a.glb"),
                     file("a.glb", repacked(original, random)),
                 ]
             }
-            Kind::Meshopt => vec![
+            InputKind::Meshopt => vec![
                 with_model("a.glb"),
                 file("a.glb", repacked(&self.meshopt, random)),
             ],

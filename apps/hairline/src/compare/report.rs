@@ -12,7 +12,7 @@ use hairline_image::{Display, Layer, Layers, Referred, ToneMap};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::json;
 
-use self::pictures::Kind;
+use self::pictures::ErrorMapKind;
 use self::values::ToneTable;
 use super::figure::figure;
 use super::side::Side;
@@ -31,7 +31,7 @@ struct View {
     layer: Layer,
     /// PNG URIs.
     shown: [String; 2],
-    maps: Vec<(Kind, String)>,
+    maps: Vec<(ErrorMapKind, String)>,
     /// Reference and difference from it, packed.
     linear: Option<[String; 2]>,
 }
@@ -114,7 +114,7 @@ fn views(
             let shown = pictures::shown(size_px, layer, [of_a.values, of_b.values], &display);
             let [shown_a, shown_b] = shown.map(|codes| pictures::png_uri(size_px, &codes));
             let mut maps = Vec::new();
-            for kind in Kind::ALL {
+            for kind in ErrorMapKind::ALL {
                 if let Some(codes) = pictures::map(kind, size_px, compared, [&of_a, &of_b]) {
                     maps.push((kind, pictures::png_uri(size_px, &codes)?));
                 }
@@ -204,7 +204,7 @@ fn toolbar(views: &[View], scene_referred: bool) -> Markup {
             }
             fieldset.segments {
                 legend { "Error map" }
-                @for (i, kind) in Kind::ALL.into_iter().filter(|kind| has(*kind)).enumerate() {
+                @for (i, kind) in ErrorMapKind::ALL.into_iter().filter(|kind| has(*kind)).enumerate() {
                     label title=(kind.meaning()) {
                         input type="radio" name="kind" value=(kind.name()) checked[i == 0];
                         span { (kind.title()) }
@@ -264,7 +264,7 @@ fn panes([width, height]: [u32; 2], views: &[View], names: &[String; 2]) -> Mark
                     }
                     div.field aria-hidden="true" hidden {}
                 }
-                @for (i, kind) in Kind::ALL.into_iter().enumerate() {
+                @for (i, kind) in ErrorMapKind::ALL.into_iter().enumerate() {
                     figcaption.legend data-kind=(kind.name()) hidden[i != 0] {
                         span.scale {
                             span.ramp style={ "background:" (ramp(kind)) } {}
@@ -279,7 +279,7 @@ fn panes([width, height]: [u32; 2], views: &[View], names: &[String; 2]) -> Mark
 }
 
 /// The legend's colours, a stop for every sixteenth.
-fn ramp(kind: Kind) -> String {
+fn ramp(kind: ErrorMapKind) -> String {
     let palette = kind.palette();
     let (colors, _) = palette.as_chunks::<3>();
     let stops: Vec<String> = (0..=16)
@@ -467,7 +467,7 @@ fn data(a: &Side, views: &[View], display: &Display) -> anyhow::Result<Markup> {
             })
         })
         .collect();
-    let palettes: serde_json::Map<_, _> = Kind::ALL
+    let palettes: serde_json::Map<_, _> = ErrorMapKind::ALL
         .into_iter()
         .map(|kind| {
             (

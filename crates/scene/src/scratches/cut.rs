@@ -6,7 +6,7 @@ use super::walk::{Course, Walker};
 use crate::scene::Segment;
 
 /// Parts of a segment that are taken away, from 0 to 1.
-pub(super) type Parts = Vec<[f64; 2]>;
+pub(super) type RemovedParts = Vec<[f64; 2]>;
 
 /// Returns the remaining parts in runs of joined segments; `None` where nothing is taken away. `removed` adds the parts of a
 /// segment to be taken away.
@@ -14,12 +14,12 @@ pub(super) fn rest(
     walker: &Walker,
     course: Course,
     segments: &[Segment],
-    removed: impl Fn(&Segment, &mut Parts),
+    removed: impl Fn(&Segment, &mut RemovedParts),
 ) -> Option<Vec<Vec<Segment>>> {
     let removed: Vec<_> = segments
         .iter()
         .map(|segment| {
-            let mut parts = Parts::new();
+            let mut parts = RemovedParts::new();
             removed(segment, &mut parts);
             joined(parts)
         })
@@ -57,7 +57,7 @@ pub(super) fn rest(
 }
 
 /// Sorts the parts and joins those that overlap.
-fn joined(mut parts: Parts) -> Parts {
+fn joined(mut parts: RemovedParts) -> RemovedParts {
     parts.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
     parts.dedup_by(|next, last| {
         let joins = next[0] <= last[1];

@@ -11,7 +11,7 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use rayon::prelude::*;
 
-use super::cut::{Parts, ball};
+use super::cut::{RemovedParts, ball};
 use super::facet::Facet;
 use super::ground::Ground;
 use super::painted::world_points_m;
@@ -84,7 +84,12 @@ impl Eraser {
     }
 
     /// Adds the parts of a segment that are erased, from 0 to 1, of a scratch that `strokes_before` strokes came before.
-    pub(super) fn erased(&self, segment: &Segment, strokes_before: usize, parts: &mut Parts) {
+    pub(super) fn erased(
+        &self,
+        segment: &Segment,
+        strokes_before: usize,
+        parts: &mut RemovedParts,
+    ) {
         let [start, end] = [segment.start_m, segment.end_m].map(|p| p.as_dvec3());
         let normal = segment.normal.as_dvec3();
         let bounds = Aabb::from_points(&[segment.start_m.into(), segment.end_m.into()]);

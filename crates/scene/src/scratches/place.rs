@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::cut::{Parts, ball};
+use super::cut::{RemovedParts, ball};
 use super::edges::Edges;
 use super::facet::{self, Facet};
 use super::ground::Ground;
@@ -113,7 +113,7 @@ impl<'a> GroundPlaces<'a> {
     }
 
     /// Adds the parts of a segment, from 0 to 1, that lie outside of the layer's places.
-    pub(super) fn elsewhere(&self, segment: &Segment, parts: &mut Parts) {
+    pub(super) fn elsewhere(&self, segment: &Segment, parts: &mut RemovedParts) {
         let [start, end] = [segment.start_m, segment.end_m].map(|p| p.as_dvec3());
         if let Some([least_m, most_m]) = self.radii_m {
             let (offset, way) = (start - self.center_m, end - start);
@@ -189,7 +189,7 @@ fn edges(means: &PlaceInputs, key: &str) -> Result<Option<Edges>, Error> {
 }
 
 /// Adds the parts of a way from one look-up to another where a mask is darker than half of white.
-fn dark(mask: &GreyMap, [start, end]: [LookUp; 2], parts: &mut Parts) {
+fn dark(mask: &GreyMap, [start, end]: [LookUp; 2], parts: &mut RemovedParts) {
     let above = |t: f64| start.lerp(&end, t).value(mask) - 0.5;
     let texels = |i: usize| ((end.uvs[i] - start.uvs[i]) * mask.size()).length();
     let seen = (0..3).filter(|&i| start.shares[i] + end.shares[i] > 0.0);

@@ -76,7 +76,7 @@ pub fn shown(
 
 /// A kind of error map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ErrorMapKind {
     /// Difference that a viewer sees.
     Flip,
     /// Difference over the reference.
@@ -85,7 +85,7 @@ pub enum Kind {
     Z,
 }
 
-impl Kind {
+impl ErrorMapKind {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Flip, Self::Relative, Self::Z];
 
@@ -164,18 +164,18 @@ const UNKNOWN: [u8; 3] = [72, 72, 72];
 
 /// A map in false colours, if the layer has it.
 pub fn map(
-    kind: Kind,
+    kind: ErrorMapKind,
     size_px: [u32; 2],
     compared: &LayerComparison,
     pair: [&Estimate; 2],
 ) -> Option<Vec<u8>> {
     match kind {
-        Kind::Flip => compared
+        ErrorMapKind::Flip => compared
             .flip
             .as_ref()
             .map(|flip| png::quantize(&flip.map, &AS_IT_IS)),
-        Kind::Relative => Some(png::quantize(&compared.error_map.picture, &AS_IT_IS)),
-        Kind::Z => {
+        ErrorMapKind::Relative => Some(png::quantize(&compared.error_map.picture, &AS_IT_IS)),
+        ErrorMapKind::Z => {
             pair.iter().find(|estimate| estimate.variance.is_some())?;
             let pixels = size_px[0] as usize * size_px[1] as usize;
             Some((0..pixels).flat_map(|i| z_pixel(pair, i)).collect())
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn palettes_tell_each_of_their_colours() {
-        for kind in Kind::ALL {
+        for kind in ErrorMapKind::ALL {
             let mut colors: Vec<[u8; 3]> = kind.palette().as_chunks().0.to_vec();
             assert_eq!(colors.len(), 256);
             assert!(!colors.contains(&NOT_FINITE) && !colors.contains(&UNKNOWN));
