@@ -21,7 +21,7 @@ pub enum ToneMap {
 }
 
 impl ToneMap {
-    /// All of them.
+    /// All variants.
     pub const ALL: [Self; 4] = [Self::Neutral, Self::Agx, Self::Aces, Self::None];
 
     /// The name in scene files.

@@ -28,7 +28,7 @@ pub enum Metric {
 }
 
 impl Metric {
-    /// All of them.
+    /// All variants.
     pub const ALL: [Self; 10] = [
         Self::Rms,
         Self::RelativeRms,

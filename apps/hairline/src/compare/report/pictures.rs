@@ -86,7 +86,7 @@ pub enum ErrorMapKind {
 }
 
 impl ErrorMapKind {
-    /// All of them.
+    /// All variants.
     pub const ALL: [Self; 3] = [Self::Flip, Self::Relative, Self::Z];
 
     /// Name for the script.
