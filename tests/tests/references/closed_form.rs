@@ -85,7 +85,7 @@ fn coated_plates() {
             weight,
             roughness: 0.1,
         });
-        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
         let name = format!("a coat on {weight} of {base:?}");
         let [scratches, base] =
             [Layer::Scratches, Layer::Base].map(|layer| compared(&name, &exact, &reference, layer));
@@ -244,7 +244,7 @@ fn tubes() {
             tube(view, -0.02, 0.14, half_rad, radius_rad),
         ];
         scratch(&mut scene, view, 24);
-        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
         let name = format!("tubes from {angle_deg} degrees");
         let [scratches, base] =
             [Layer::Scratches, Layer::Base].map(|layer| compared(&name, &exact, &reference, layer));
@@ -280,7 +280,7 @@ fn disks_and_stars() {
         };
         scene.lights = vec![light(0.12, -0.05, 1.0), light(-0.02, 0.14, 1.0)];
         scratch(&mut scene, view, 24);
-        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
         let [scratches, base] =
             [Layer::Scratches, Layer::Base].map(|layer| compared(name, &exact, &reference, layer));
         assert!(agrees(&scratches, SCRATCHES), "{name}: {scratches:?}");
@@ -316,7 +316,7 @@ fn cones() {
                 doors: None,
             });
         }
-        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
         let name = format!("cones of lights of {radius_rad} rad");
         let scratches = compared(&name, &exact, &reference, Layer::Scratches);
         compared(&name, &exact, &reference, Layer::Base);
@@ -340,7 +340,7 @@ fn a_wrong_groove_is_seen() {
     let mut scene = plate(Base::Mirror, view);
     light(&mut scene, view);
     scratch(&mut scene, view, 16);
-    let reference = sampled(&scene, LINEAR, 8);
+    let reference = sampled(&scene, LINEAR, 4);
     for (name, wider, deeper, right) in [
         ("as it is", 1.0, 1.0, true),
         ("5 % wider", 1.05, 1.0, false),
@@ -385,7 +385,7 @@ fn crops_of_the_scenes() {
     ] {
         let scene = Scene::load(root.join(format!("scenes/{name}.toml"))).unwrap();
         let scene = crop(scene, place, 12);
-        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
         let [scratches, base] =
             [Layer::Scratches, Layer::Base].map(|layer| compared(name, &exact, &reference, layer));
         let [at_least, _] = scratches.beyond.relative_rms_within(2.0);
@@ -408,7 +408,7 @@ fn a_ball() {
         .fov_y_deg(0.15)
         .size_px([16, 16])
         .scene();
-    let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+    let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
     let [scratches, base] =
         [Layer::Scratches, Layer::Base].map(|layer| compared("ball", &exact, &reference, layer));
     assert!(agrees(&scratches, SCRATCHES), "{scratches:?}");

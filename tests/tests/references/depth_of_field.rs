@@ -109,7 +109,7 @@ fn scratches_out_of_focus() {
         focus_m: 1.01 * distance_m,
     };
     scene.lights = vec![sphere(view, 0.06, -0.05, 0.08)];
-    let reference = sampled(&scene, LINEAR, 8);
+    let reference = sampled(&scene, LINEAR, 4);
     let blurred = compared(
         "blurred",
         &added_up(&scene, 512),

@@ -100,7 +100,7 @@ fn a_sun_in_the_sky() {
         let parted = over(Environment::with_lamps_parted(map, 0.0, 1.0, false));
         assert_eq!(parted.suns().len(), 1);
         scene.environment = Some(whole);
-        let (stained, reference) = (closed(&scene), sampled(&scene, LINEAR, 16));
+        let (stained, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
         scene.environment = Some(parted);
         let exact = closed(&scene);
         let name = format!("sun on {base:?} from {angle_rad} rad");
@@ -146,7 +146,7 @@ fn a_lamp_is_drawn_out() {
             }
         }
         scene.environment = Some(over(Environment::from_map(map, 0.0, 1.0, false)));
-        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
         let name = format!("lamp on roughness {roughness} from {angle_rad} rad");
         let base = compared(&name, &exact, &reference, Layer::Base);
         assert!(base.rms().0 < bound, "{base:?}");
@@ -189,7 +189,7 @@ fn a_window_in_the_sky() {
     let parted = over(Environment::with_lamps_parted(map, 0.0, 1.0, false));
     assert_eq!((parted.suns().len(), parted.windows().len()), (0, 1));
     scene.environment = Some(whole);
-    let (blurred, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+    let (blurred, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
     scene.environment = Some(parted);
     let exact = closed(&scene);
     if let Some(gpu) = on_the_gpu(&scene, 1) {

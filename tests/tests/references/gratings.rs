@@ -192,7 +192,7 @@ fn small_spots_show_their_mean() {
         (200.0, 0.3, 0.2, 0.11),
     ] {
         let of = |along_row| spots(along_row, 30.0, angle_deg, off_mirror, light_rad);
-        let (exact, reference) = (closed(&of(DVec3::X)), sampled(&of(DVec3::X), LINEAR, 24));
+        let (exact, reference) = (closed(&of(DVec3::X)), sampled(&of(DVec3::X), LINEAR, 12));
         let name = format!(
             "small spots, light of {light_rad} rad {off_mirror} off at {angle_deg} degrees"
         );
@@ -217,7 +217,7 @@ fn spots_keep_their_mean() {
         // Rows of spots do not run along the pixels, which would meet the same places of many spots.
         let along_row = DVec3::new(0.89, 0.45, 0.0).normalize();
         let scene = spots(along_row, spacing_um, 100.0, 0.3, 0.2);
-        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 24));
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 12));
         let (off, _) = compared(&format!("spots every {spacing_um} um"), &exact, &reference);
         let error = unevenness(&exact) / f64::from(SPOT_VIEW.size_px);
         println!(
@@ -249,7 +249,7 @@ fn rows_of_grooves() {
         (row(30.0, 5.0, 0.0, 0.2), 0.0, 0.05),
     ] {
         let scene = grated(row, angle_std_rad, light_rad);
-        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 40));
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 20));
         let name = format!("{row:?}, angles {angle_std_rad}, light of {light_rad} rad");
         let (off, error) = compared(&name, &exact, &reference);
         // Most of the error is that of one depth for a chord, as for scratches.

@@ -50,7 +50,7 @@ fn wrong(name: &str, scene: &Scene, even: &Scene, limits: [f64; 2]) -> Vec<Compa
     if let Some(gpu) = on_the_gpu(scene, 1) {
         compare(name, scene, &gpu, &on_the_cpu(scene, 1)).unwrap();
     }
-    let (exact, reference) = (closed(scene), sampled(scene, LINEAR, 8));
+    let (exact, reference) = (closed(scene), sampled(scene, LINEAR, 4));
     let [scratches, base] =
         [Layer::Scratches, Layer::Base].map(|layer| compared(name, &exact, &reference, layer));
     let [at_least, _] = scratches.beyond.relative_rms_within(2.0);
@@ -141,7 +141,7 @@ fn a_soft_box_on_a_grating() {
         failures.extend(wrong(&name, &scene, &even, [0.02, 0.03]));
         if jitter_um > 0.0 {
             // The error is 5 % with one depth for the whole chord.
-            let reference = sampled(&even, LINEAR, 8);
+            let reference = sampled(&even, LINEAR, 4);
             let even = compared("even", &closed(&even), &reference, Layer::Scratches);
             let [at_least, _] = even.beyond.relative_rms_within(2.0);
             failures.extend((at_least > 0.01).then_some(even));

@@ -61,7 +61,7 @@ fn equals_monte_carlo_where_the_talk_is_exact() {
     let panel_light: fn(View) -> Light = |view| panel(view, 0.02, 0.03, [0.2, 0.2]);
     for (name, light) in [("sphere", sphere_light), ("panel", panel_light)] {
         let scene = exact_scene(light);
-        let reference = sampled(&scene, LINEAR, 8);
+        let reference = sampled(&scene, LINEAR, 4);
         let [scratches, base] = [Layer::Scratches, Layer::Base]
             .map(|layer| compared(name, &by(&scene, EXACT), &reference, layer));
         assert!(at_least(&scratches) < WHERE_EXACT, "{name}: {scratches:?}");
