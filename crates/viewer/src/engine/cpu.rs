@@ -229,7 +229,13 @@ impl CpuEasel {
     fn complete(&mut self, order: &Order, step: &Step, image: &Image) -> Option<Image> {
         let before = self.remembered.as_ref().filter(|it| it.is_of(order));
         if order.built.is_sketch() || !step.is_whole(&order.view) {
-            return before?.sharpen(image, order);
+            let sharp = before.and_then(|it| it.sharpen(image, order));
+            // Better than nothing, until there is more.
+            let is_kept = before.is_none() && 4 * step.size_px[0] >= order.view.size_px[0];
+            if is_kept && !order.built.is_sketch() {
+                self.remembered = Some(Remembered::new(order, image, None));
+            }
+            return sharp;
         }
         let (completed, remembered) = match image.open() {
             // The picture has rays of its own.

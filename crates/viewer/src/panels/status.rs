@@ -83,7 +83,7 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
                     format!("{left_out} follow, {:.0} %", 100.0 * painted.done)
                 }
                 true => format!("{left_out} follow"),
-                false => format!("without {left_out} while it moves"),
+                false => format!("its own {left_out} follow when it stands still"),
             }
         }
         (true, _) => "finished".to_owned(),
