@@ -1,22 +1,23 @@
 //! Passes: the list of each tile.
 //!
-//! Inputs: frame, objects, segments, where the entries of each segment begin. Outputs: entries in the order of tiles; where each tile's
+//! Inputs: frame, objects, segments. Outputs: where the entries of each segment begin; entries in the order of tiles; where each tile's
 //! list begins.
 
-use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
-use crate::device::Gpu;
+use crate::compute_pass::{ComputePass, Recording, in_a_row};
 use crate::error::Error;
 use crate::pipelines::Orders;
-use crate::project::WORKGROUP;
 use crate::scan::ScanPasses;
 use crate::shaders;
 use crate::sort::SortPasses;
-use crate::strip::{StripRoom, whole};
+use crate::strip::StripRoom;
 
+/// Segments of a workgroup. Twins: project.wgsl, bin.wgsl.
+const WORKGROUP: u32 = 256;
 /// Twin: tile_lists.wgsl.
 const TILES_WORKGROUP: u32 = 64;
 
 pub(crate) struct BinPasses {
+    project: ComputePass,
     bin: ComputePass,
     sort: SortPasses,
     tile_lists: ComputePass,
@@ -24,40 +25,46 @@ pub(crate) struct BinPasses {
 
 impl BinPasses {
     pub(crate) fn new(orders: &mut Orders) -> Self {
-        let module = (&shaders::BIN, "bin");
-        let bin = ComputePass::order(orders, "bin", module, &[Use::Reads, Use::Writes], &[]);
-        let sort = SortPasses::new(orders);
-        let module = (&shaders::TILE_LISTS, "tile_lists");
-        let uses = [Use::Reads, Use::Writes];
-        let tile_lists = ComputePass::order(orders, "lists", module, &uses, &[]);
         Self {
-            bin,
-            sort,
-            tile_lists,
+            project: orders.pass("project", &shaders::PROJECT, "project"),
+            bin: orders.pass("bin", &shaders::BIN, "bin"),
+            sort: SortPasses::new(orders),
+            tile_lists: orders.pass("lists", &shaders::TILE_LISTS, "tile_lists"),
         }
+    }
+
+    /// Counts the entries of each segment.
+    pub(crate) fn record_count(
+        &self,
+        recording: &mut Recording,
+        scans: &ScanPasses,
+        room: &StripRoom,
+        segments: u32,
+    ) {
+        let workgroups = in_a_row((segments + 1).div_ceil(WORKGROUP));
+        self.project.run(recording, &room.resources(), workgroups);
+        let scan = &room.lists.entry_scan;
+        scans.record(recording.encoder, scan, recording.timing);
     }
 
     /// Records the passes, and returns which of the two buffers holds the lists.
     pub(crate) async fn record(
         &self,
-        gpu: &Gpu,
         recording: &mut Recording<'_>,
         scans: &ScanPasses,
         room: &StripRoom,
         tiles: u32,
         [segments, entries]: [u32; 2],
     ) -> Result<usize, Error> {
-        let lists = &room.lists;
-        let resources = [whole(&lists.entry_starts), whole(&lists.entries[0])];
+        let resources = room.resources();
         let workgroups = in_a_row(segments.div_ceil(WORKGROUP));
-        self.bin.run(gpu, recording, &resources, workgroups);
-        let sorted = self
-            .sort
-            .record(gpu, recording, scans, lists, tiles, entries);
+        self.bin.run(recording, &resources, workgroups);
+        let lists = &room.lists;
+        let sorted = self.sort.record(recording, scans, lists, tiles, entries);
         let sorted = sorted.await?;
-        let resources = [whole(&lists.entries[sorted]), whole(&room.list_starts)];
+        let resources = resources.buffer("entries", &lists.entries[sorted]);
         let workgroups = [(tiles + 1).div_ceil(TILES_WORKGROUP), 1];
-        self.tile_lists.run(gpu, recording, &resources, workgroups);
+        self.tile_lists.run(recording, &resources, workgroups);
         Ok(sorted)
     }
 }

@@ -1,36 +1,30 @@
-//! A compute pass over a scene: its pipeline, its own bindings, and its dispatch.
+//! A compute pass over a scene: its pipeline, its own bindings, and its dispatch. A pass is a file of WGSL and an order; its shader says which
+//! resources it binds, by their names.
 
 use wgpu::{BindingResource, ShaderStages};
 
-use crate::bindings::{bind, dynamic_uniform, entry, integers, layout, storage, uniform};
+use crate::bindings::{entry, layout};
 use crate::device::Gpu;
+use crate::layout::LightRange;
+use crate::own_bindings::OwnBinding;
 use crate::pipelines::{Orders, Pipeline};
+use crate::resources::Resources;
 use crate::scene_data::SceneData;
 use crate::shaders::Module;
 use crate::timing::Timing;
 use crate::variant::Constant;
-
-/// Kind of a binding of group 3 in the shader.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Use {
-    Reads,
-    Writes,
-    Uniform,
-    /// A part of a buffer that each dispatch chooses.
-    DynamicUniform,
-    /// A texture of integers.
-    Integers,
-}
 
 pub(crate) struct ComputePass {
     /// Name for timing.
     name: &'static str,
     pipeline: Pipeline,
     group_3: wgpu::BindGroupLayout,
+    bindings: Vec<OwnBinding>,
 }
 
 /// Bindings that all passes of a strip share, and the clock that notes their time.
 pub(crate) struct Recording<'a> {
+    pub gpu: &'a Gpu,
     pub encoder: &'a mut wgpu::CommandEncoder,
     pub frame: &'a wgpu::BindGroup,
     pub scene: &'a SceneData,
@@ -41,32 +35,24 @@ pub(crate) struct Recording<'a> {
 const WORKGROUPS_MAX: u32 = 65_535;
 
 impl ComputePass {
-    /// Asks for the pipeline of an entry point. `uses` are its bindings of group 3, in order.
+    /// Asks for the pipeline of an entry point; `more` constants are added to the variant's or replace them.
     pub(crate) fn order(
         orders: &mut Orders,
         name: &'static str,
         (module, entry_point): (&'static Module, &'static str),
-        uses: &[Use],
         more: &[Constant],
     ) -> Self {
-        let entries: Vec<_> = (0..)
-            .zip(uses)
-            .map(|(binding, used)| {
-                let kind = match used {
-                    Use::Reads => storage(true),
-                    Use::Writes => storage(false),
-                    Use::Uniform => uniform(),
-                    Use::DynamicUniform => dynamic_uniform(),
-                    Use::Integers => integers(),
-                };
-                entry(binding, ShaderStages::COMPUTE, kind)
-            })
+        let bindings = OwnBinding::of(module);
+        let entries: Vec<_> = bindings
+            .iter()
+            .map(|own| entry(own.number, ShaderStages::COMPUTE, own.ty()))
             .collect();
         let group_3 = layout(orders.gpu(), name, &entries);
         Self {
             name,
             pipeline: orders.pipeline((module, entry_point), &group_3, more),
             group_3,
+            bindings,
         }
     }
 
@@ -76,21 +62,49 @@ impl ComputePass {
         self.pipeline.get()
     }
 
-    /// Binds group 3.
-    pub(crate) fn bind(&self, gpu: &Gpu, resources: &[BindingResource<'_>]) -> wgpu::BindGroup {
-        bind(gpu, self.name, &self.group_3, resources)
+    /// Binds group 3: what is not among the `resources` is the scene's.
+    ///
+    /// # Panics
+    /// If neither has a resource that the shader names.
+    pub(crate) fn bind(&self, recording: &Recording, resources: &Resources) -> wgpu::BindGroup {
+        let of_scene = |name: &str| match name {
+            "gratings" => recording.scene.buffers.gratings().as_entire_binding(),
+            "range" => BindingResource::Buffer(wgpu::BufferBinding {
+                buffer: &recording.scene.light_ranges.buffer,
+                offset: 0,
+                size: wgpu::BufferSize::new(size_of::<LightRange>() as u64),
+            }),
+            _ => unreachable!("nobody gives `{name}` to the pass {}", self.name),
+        };
+        let entries: Vec<_> = self
+            .bindings
+            .iter()
+            .map(|own| wgpu::BindGroupEntry {
+                binding: own.number,
+                resource: resources
+                    .get(own.name)
+                    .unwrap_or_else(|| of_scene(own.name)),
+            })
+            .collect();
+        let device = &recording.gpu.device;
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(self.name),
+            layout: &self.group_3,
+            entries: &entries,
+        })
     }
 
-    /// Binds `resources` to group 3 and records one dispatch.
+    /// Binds resources by their names and records one dispatch; over the first range of lights where there are ranges.
     pub(crate) fn run(
         &self,
-        gpu: &Gpu,
         recording: &mut Recording,
-        resources: &[BindingResource<'_>],
+        resources: &Resources,
         workgroups: [u32; 2],
     ) {
-        let group = self.bind(gpu, resources);
-        self.dispatch(recording, &group, &[], workgroups);
+        let group = self.bind(recording, resources);
+        let has_ranges = self.bindings.iter().any(OwnBinding::is_dynamic);
+        let offsets: &[u32] = if has_ranges { &[0] } else { &[] };
+        self.dispatch(recording, &group, offsets, workgroups);
     }
 
     /// Records one dispatch. `offsets` chooses the parts of dynamic uniforms.
@@ -106,6 +120,7 @@ impl ComputePass {
             frame,
             scene,
             timing,
+            ..
         } = recording;
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(self.name),

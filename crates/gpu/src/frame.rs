@@ -128,7 +128,6 @@ pub(crate) fn frame(
     let data = &uploaded.data;
     Frame {
         camera_m: vec3(camera.position_m - data.origin_m()),
-        pad_0: 0.0,
         forward: vec3(camera.forward),
         near_m: NEAR_M,
         per_px_x: vec3(camera.per_px_x),
@@ -162,7 +161,7 @@ pub(crate) fn frame(
         display_gain: scene.camera.exposure_ev.exp2() as f32,
         sample_order: sample_order(view.step_samples(), samples),
         has_rays: view.found_rounds().is_some().into(),
-        pad_1: 0,
+        ..Frame::default()
     }
 }
 

@@ -273,7 +273,7 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
         coat_normal_scale: material
             .coat_normal_texture
             .map_or(1.0, |(_, scale)| scale as f32),
-        pad_0: 0,
+        ..Default::default()
     }
 }
 

@@ -1,13 +1,10 @@
 //! A pass for each kind of light that a scene has, which all write to the same sums.
 
-use wgpu::BindingResource;
-
-use crate::compute_pass::{ComputePass, Recording, Use};
-use crate::device::Gpu;
-use crate::layout::LightRange;
+use crate::compute_pass::{ComputePass, Recording};
 use crate::light_ranges::RANGE_STRIDE;
 use crate::lights::Kind;
 use crate::pipelines::Orders;
+use crate::resources::Resources;
 use crate::shaders::Module;
 use crate::variant::Constant;
 
@@ -18,31 +15,28 @@ pub(crate) struct KindPasses(Vec<(Kind, ComputePass)>);
 pub(crate) const LIGHTS_NONE: u32 = Kind::ALL.len() as u32;
 
 impl KindPasses {
-    /// Makes the passes with `more` constants besides that of the kind. `uses` are the bindings before
-    /// the range of lights.
+    /// Makes the passes with `more` constants besides that of the kind.
     pub(crate) fn new(
         orders: &mut Orders,
         name: &'static str,
         module: (&'static Module, &'static str),
-        uses: &[Use],
         more: &[Constant],
     ) -> Self {
         let has = orders.variant().has;
-        let pass = |kind: Kind| (kind, order(orders, name, module, uses, kind as u32, more));
+        let pass = |kind: Kind| (kind, over_lights(orders, name, module, kind as u32, more));
         Self(has.lights.over_scratches().map(pass).collect())
     }
 
     /// Records the passes over all lights, as many at once as there is room for.
-    pub(crate) fn record(
+    pub(crate) fn run(
         &self,
-        gpu: &Gpu,
         recording: &mut Recording,
-        resources: &[BindingResource<'_>],
+        resources: &Resources,
         workgroups: [u32; 2],
     ) {
         let ranges = &recording.scene.light_ranges;
         for (kind, pass) in &self.0 {
-            let group = bind(pass, gpu, recording, resources);
+            let group = pass.bind(recording, resources);
             let own = ranges.of.iter().enumerate().filter(|(_, of)| *of == kind);
             for (i, _) in own {
                 let offset = (i as u64 * RANGE_STRIDE) as u32;
@@ -52,34 +46,15 @@ impl KindPasses {
     }
 }
 
-/// The pass for one kind of light.
-pub(crate) fn order(
+/// The pass for one kind of light, or [`LIGHTS_NONE`].
+pub(crate) fn over_lights(
     orders: &mut Orders,
     name: &'static str,
     module: (&'static Module, &'static str),
-    uses: &[Use],
     lights: u32,
     more: &[Constant],
 ) -> ComputePass {
-    let uses = [uses, &[Use::DynamicUniform]].concat();
     let mut constants = more.to_vec();
     constants.push(("SCRATCH_LIGHTS", f64::from(lights)));
-    ComputePass::order(orders, name, module, &uses, &constants)
-}
-
-/// Binds the range of lights behind `resources`.
-pub(crate) fn bind(
-    pass: &ComputePass,
-    gpu: &Gpu,
-    recording: &Recording,
-    resources: &[BindingResource<'_>],
-) -> wgpu::BindGroup {
-    let range = BindingResource::Buffer(wgpu::BufferBinding {
-        buffer: &recording.scene.light_ranges.buffer,
-        offset: 0,
-        size: wgpu::BufferSize::new(size_of::<LightRange>() as u64),
-    });
-    let mut all = resources.to_vec();
-    all.push(range);
-    pass.bind(gpu, &all)
+    ComputePass::order(orders, name, module, &constants)
 }

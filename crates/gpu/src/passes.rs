@@ -2,46 +2,40 @@
 
 use crate::bin::BinPasses;
 use crate::bindings::Layouts;
+use crate::compute_pass::ComputePass;
 use crate::device::Gpu;
-use crate::edges::EdgesPass;
 use crate::error::Error;
+use crate::kind_passes::KindPasses;
 use crate::pipelines::Orders;
-use crate::project::ProjectPass;
-use crate::resolve::ResolvePass;
-use crate::shade_base::ShadeBasePass;
-use crate::shade_gratings::ShadeGratingsPass;
-use crate::shade_published::ShadePublishedPass;
 use crate::shade_scratches::ShadeScratchesPass;
-use crate::share_scratches::ShareScratchesPass;
-use crate::surface::SurfacePass;
 use crate::variant::{Seen, ShadeVariant};
+use crate::{shade_gratings, shaders};
 
 /// Passes that are compiled for a method and a scene's contents.
 pub(crate) struct ScenePasses {
-    pub edges: EdgesPass,
-    pub surface: SurfacePass,
+    pub edges: ComputePass,
+    pub surface: ComputePass,
     pub shade: Shade,
-    pub resolve: ResolvePass,
+    pub resolve: ComputePass,
 }
 
 /// Passes that shade base and scratches.
 pub(crate) enum Shade {
     /// Hairline's own method.
     Own {
-        base: ShadeBasePass,
+        base: ComputePass,
         /// Passes for scratches; none where the scene has none.
         scratches: Option<Box<ScratchPasses>>,
         /// Pass for gratings; none where the scene has none.
-        gratings: Option<ShadeGratingsPass>,
+        gratings: Option<KindPasses>,
     },
     /// The method of 2018.
-    Published(ShadePublishedPass),
+    Published(ComputePass),
 }
 
 pub(crate) struct ScratchPasses {
-    pub project: ProjectPass,
     pub bin: BinPasses,
-    pub share: ShareScratchesPass,
+    pub share: ComputePass,
     pub shade: ShadeScratchesPass,
 }
 
@@ -71,26 +65,28 @@ impl ScenePasses {
         variant: &ShadeVariant,
     ) -> Result<Self, Error> {
         let mut orders = Orders::new(gpu, layouts, variant);
+        let module = &shaders::SHARE_SCRATCHES;
         let shade = if variant.method.published.is_some() {
-            Shade::Published(ShadePublishedPass::new(&mut orders))
+            let module = &shaders::SHADE_PUBLISHED;
+            Shade::Published(orders.pass("published", module, "shade_published"))
         } else {
             Shade::Own {
-                base: ShadeBasePass::new(&mut orders),
+                base: orders.pass("base", &shaders::SHADE_BASE, "shade_base"),
                 scratches: variant.has.scratches.then(|| {
                     Box::new(ScratchPasses {
-                        project: ProjectPass::new(&mut orders),
                         bin: BinPasses::new(&mut orders),
-                        share: ShareScratchesPass::new(&mut orders),
+                        share: orders.pass("share scratches", module, "share_scratches"),
                         shade: ShadeScratchesPass::new(&mut orders, Seen::ByCamera),
                     })
                 }),
-                gratings: (variant.has.gratings).then(|| ShadeGratingsPass::new(&mut orders)),
+                gratings: (variant.has.gratings)
+                    .then(|| shade_gratings::kinds(&mut orders, "gratings", &[])),
             }
         };
         let passes = Self {
-            edges: EdgesPass::new(&mut orders),
-            surface: SurfacePass::new(&mut orders),
-            resolve: ResolvePass::new(&mut orders),
+            edges: orders.pass("edges", &shaders::EDGES, "edges"),
+            surface: orders.pass("surface", &shaders::SURFACE, "surface"),
+            resolve: orders.pass("resolve", &shaders::RESOLVE, "resolve"),
             shade,
         };
         orders.compile().await?;

@@ -3,117 +3,25 @@
 //! Some pairs of a sample, each of a scratch or a grating with a light, stand for all. They are picked by lighting all of them once more; a round
 //! takes one of the picks.
 
-use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
-use crate::device::Gpu;
-use crate::film::Film;
+use crate::compute_pass::{ComputePass, Recording, in_a_row};
+use crate::kind_passes::KindPasses;
 use crate::lights::Kind;
 use crate::pipelines::Orders;
-use crate::shaders;
+use crate::resources::Resources;
 use crate::shadow_room::ShadowRoom;
-use crate::strip::{StripRoom, whole};
-use crate::variant::Way;
+use crate::strip::GROUP;
+use crate::variant::{Seen, Way};
+use crate::{shade_gratings, shade_scratches, shaders};
 
-/// Pass: where the running sums of a group begin by which the second lighting picks.
-pub(crate) struct ShadowPicksPass(ComputePass);
-
-impl ShadowPicksPass {
-    pub(crate) fn new(orders: &mut Orders, entry: &'static str) -> Self {
-        use Use::{Reads, Uniform, Writes};
-        let uses = [Reads, Reads, Reads, Writes, Uniform];
-        let module = (&shaders::SHADOW_PICKS, entry);
-        Self(ComputePass::order(
-            orders,
-            "shadow picks",
-            module,
-            &uses,
-            &[],
-        ))
-    }
-
-    pub(crate) fn record(
-        &self,
-        gpu: &Gpu,
-        recording: &mut Recording,
-        room: &StripRoom,
-        shadow_room: &ShadowRoom,
-        groups: u32,
-    ) {
-        let resources = [
-            whole(&room.samples.points),
-            whole(&room.samples.chunk_starts),
-            whole(&room.samples.chunk_sums),
-            whole(&shadow_room.picks),
-            whole(&shadow_room.round),
-        ];
-        self.0.run(gpu, recording, &resources, in_a_row(groups));
-    }
-}
-
-/// Passes: a ray of each sample by way of the round's pick, one pass for each kind of light that it goes to.
-pub(crate) struct PickedRaysPasses(Vec<ComputePass>);
-
-impl PickedRaysPasses {
-    /// Makes the passes for rays off scratches, or off gratings.
-    pub(crate) fn new(orders: &mut Orders, of_gratings: bool) -> Self {
-        use Use::{Reads, Uniform, Writes};
-        let uses = [Reads, Reads, Reads, Reads, Writes, Uniform, Reads];
-        let module = (&shaders::SHADOW_PICKED_RAYS, "shadow_picked_rays");
-        let mut kinds: Vec<_> = orders.variant().has.lights.of_rays().collect();
-        if kinds.is_empty() {
-            // Then there is no pick, which one pass must tell.
-            kinds.push(Kind::Spheres);
-        }
-        let pass = |kind: Kind| {
-            let mut constants = kind.constants().to_vec();
-            constants.push(("OF_GRATINGS", of_gratings.into()));
-            ComputePass::order(orders, "shadow rays", module, &uses, &constants)
-        };
-        Self(kinds.into_iter().map(pass).collect())
-    }
-
-    pub(crate) fn record(
-        &self,
-        gpu: &Gpu,
-        recording: &mut Recording,
-        room: &StripRoom,
-        shadow_room: &ShadowRoom,
-        groups: u32,
-    ) {
-        let resources = [
-            whole(&room.samples.points),
-            whole(&room.samples.chunk_starts),
-            whole(recording.scene.buffers.gratings()),
-            whole(&shadow_room.picks),
-            whole(&shadow_room.rays),
-            whole(&shadow_room.round),
-            whole(&room.samples.paints),
-        ];
-        for pass in &self.0 {
-            pass.run(gpu, recording, &resources, in_a_row(groups));
-        }
-    }
-}
-
-/// Interface of the passes that pick.
-pub(crate) trait ByPicks {
-    /// Number of states of the picks so far.
-    fn lanes(&self, on: &Scratched) -> u64;
-
-    /// Picks for each sample as many as the round that was written says.
-    fn record_picks(
-        &self,
-        gpu: &Gpu,
-        recording: &mut Recording,
-        room: &StripRoom,
-        shadow_room: &ShadowRoom,
-        film: &Film,
-        on: &Scratched,
-    );
-
-    fn rays(&self) -> &PickedRaysPasses;
-
+/// Passes that pick scratches or gratings, and draw rays by way of them.
+pub(crate) struct PickPasses {
+    /// Finds where the running sums of a group begin by which the second lighting picks.
+    begin: ComputePass,
+    pick: KindPasses,
+    /// One pass for each kind of light that the rays go to.
+    rays: Vec<ComputePass>,
     /// Lobe by which light leaves the samples.
-    fn way(&self) -> Way;
+    pub way: Way,
 }
 
 /// Groups and chunks of scratches to be picked from.
@@ -122,6 +30,88 @@ pub(crate) struct Scratched {
     pub groups: u32,
     /// Number of chunks of scratches.
     pub chunks: u32,
-    /// Index of the sorted buffer of entries.
-    pub sorted: usize,
+}
+
+impl PickPasses {
+    /// Makes the passes for scratches of samples that are seen by the camera or by rays.
+    pub(crate) fn of_scratches(orders: &mut Orders, seen: Seen) -> Self {
+        let constants = [("PICKS", 1.0), seen.constant()];
+        let pick = shade_scratches::kinds(orders, "shadow picks", &constants);
+        Self::new(orders, "shadow_picks", pick, Way::Scratches)
+    }
+
+    /// Makes the passes for gratings.
+    pub(crate) fn of_gratings(orders: &mut Orders) -> Self {
+        let pick = shade_gratings::kinds(orders, "shadow picks", &[("PICKS", 1.0)]);
+        Self::new(orders, "shadow_grating_picks", pick, Way::Gratings)
+    }
+
+    fn new(orders: &mut Orders, begin: &'static str, pick: KindPasses, way: Way) -> Self {
+        let mut kinds: Vec<_> = orders.variant().has.lights.of_rays().collect();
+        if kinds.is_empty() {
+            // Then there is no pick, which one pass must tell.
+            kinds.push(Kind::Spheres);
+        }
+        let rays = kinds.into_iter().map(|kind| {
+            let module = (&shaders::SHADOW_PICKED_RAYS, "shadow_picked_rays");
+            let mut constants = kind.constants().to_vec();
+            constants.push(("OF_GRATINGS", (way == Way::Gratings).into()));
+            ComputePass::order(orders, "shadow rays", module, &constants)
+        });
+        let rays = rays.collect();
+        let module = (&shaders::SHADOW_PICKS, begin);
+        Self {
+            begin: ComputePass::order(orders, "shadow picks", module, &[]),
+            pick,
+            rays,
+            way,
+        }
+    }
+
+    /// Number of states of the picks so far.
+    pub(crate) fn lanes(&self, on: &Scratched) -> u64 {
+        u64::from(GROUP) * u64::from(self.workgroups(on))
+    }
+
+    fn workgroups(&self, on: &Scratched) -> u32 {
+        match self.way {
+            Way::Gratings => on.groups,
+            _ => on.chunks,
+        }
+    }
+
+    /// Picks for each sample as many as the round that was written says.
+    pub(crate) fn record_picks(
+        &self,
+        recording: &mut Recording,
+        resources: &Resources,
+        shadow_room: &ShadowRoom,
+        on: &Scratched,
+    ) {
+        self.begin.run(recording, resources, in_a_row(on.groups));
+        let into_picks = into_picks(resources, shadow_room);
+        let workgroups = in_a_row(self.workgroups(on));
+        self.pick.run(recording, &into_picks, workgroups);
+    }
+
+    /// Draws a ray of each sample by way of the round's pick.
+    pub(crate) fn record_rays(
+        &self,
+        recording: &mut Recording,
+        resources: &Resources,
+        groups: u32,
+    ) {
+        for pass in &self.rays {
+            pass.run(recording, resources, in_a_row(groups));
+        }
+    }
+}
+
+/// Passes of light with these resources write to the picks in place of the sums.
+pub(crate) fn into_picks(resources: &Resources, shadow_room: &ShadowRoom) -> Resources {
+    let picks = &shadow_room.picks;
+    resources
+        .clone()
+        .buffer("chunk_words", picks)
+        .buffer("grating_words", picks)
 }

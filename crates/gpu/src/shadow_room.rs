@@ -5,6 +5,7 @@ use wgpu::BufferUsages;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{FoundRays, ShadowRay, ShadowRound};
+use crate::resources::Resources;
 
 /// The arrays over samples. They grow to the size that is needed.
 pub(crate) struct ShadowRoom {
@@ -30,6 +31,15 @@ const PICKS_MOST: u64 = 16;
 const PICKS_BYTES_MOST: u64 = 1 << 28;
 
 impl ShadowRoom {
+    /// All that passes may bind of it.
+    pub(crate) fn resources(&self) -> Resources {
+        Resources::default()
+            .buffer("shadow_round", &self.round)
+            .buffer("rays", &self.rays)
+            .buffer("found", &self.found)
+            .buffer("picks", &self.picks)
+    }
+
     pub(crate) async fn new(gpu: &Gpu) -> Result<Self, Error> {
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let storage = BufferUsages::STORAGE;

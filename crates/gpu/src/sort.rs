@@ -4,14 +4,14 @@
 
 use wgpu::BufferUsages;
 
-use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
-use crate::device::Gpu;
+use crate::compute_pass::{ComputePass, Recording, in_a_row};
 use crate::error::Error;
 use crate::layout::SortSettings;
 use crate::pipelines::Orders;
+use crate::resources::Resources;
 use crate::scan::ScanPasses;
 use crate::shaders;
-use crate::strip::{DIGITS, Lists, sort_blocks, whole};
+use crate::strip::{DIGITS, Lists, sort_blocks};
 
 const DIGIT_BITS: u32 = DIGITS.ilog2();
 
@@ -22,10 +22,7 @@ pub(crate) struct SortPasses {
 
 impl SortPasses {
     pub(crate) fn new(orders: &mut Orders) -> Self {
-        let uses = [Use::Uniform, Use::Reads, Use::Writes, Use::Writes];
-        let mut pass = |entry_point| {
-            ComputePass::order(orders, "sort", (&shaders::SORT, entry_point), &uses, &[])
-        };
+        let mut pass = |entry_point| orders.pass("sort", &shaders::SORT, entry_point);
         Self {
             count: pass("sort_count"),
             scatter: pass("sort_scatter"),
@@ -35,7 +32,6 @@ impl SortPasses {
     /// Sorts the entries of so many tiles; says which of the two buffers they are in then.
     pub(crate) async fn record(
         &self,
-        gpu: &Gpu,
         recording: &mut Recording<'_>,
         scans: &ScanPasses,
         lists: &Lists,
@@ -47,25 +43,25 @@ impl SortPasses {
         let workgroups = in_a_row(sort_blocks(entries));
         for digit in 0..digits {
             let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-            let settings = gpu
+            let settings = recording
+                .gpu
                 .buffer("sort", size_of::<SortSettings>() as u64, usage)
                 .await?;
             let value = SortSettings {
                 shift: DIGIT_BITS * digit,
                 block_count: sort_blocks(entries),
             };
-            gpu.queue
-                .write_buffer(&settings, 0, bytemuck::bytes_of(&value));
+            let queue = &recording.gpu.queue;
+            queue.write_buffer(&settings, 0, bytemuck::bytes_of(&value));
             let from = digit as usize % 2;
-            let resources = [
-                whole(&settings),
-                whole(&lists.entries[from]),
-                whole(&lists.digit_starts),
-                whole(&lists.entries[1 - from]),
-            ];
-            self.count.run(gpu, recording, &resources, workgroups);
+            let resources = Resources::default()
+                .buffer("settings", &settings)
+                .buffer("entries", &lists.entries[from])
+                .buffer("digit_starts", &lists.digit_starts)
+                .buffer("sorted", &lists.entries[1 - from]);
+            self.count.run(recording, &resources, workgroups);
             scans.record(recording.encoder, &lists.digit_scan, recording.timing);
-            self.scatter.run(gpu, recording, &resources, workgroups);
+            self.scatter.run(recording, &resources, workgroups);
         }
         Ok(digits as usize % 2)
     }

@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use wgpu::{BindingResource, BufferUsages, TextureFormat, TextureUsages};
+use wgpu::{BufferUsages, TextureFormat, TextureUsages};
 
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{BaseLight, ChunkSum, PixelPaint, PixelPoint};
+use crate::resources::Resources;
 use crate::scan::{Scan, ScanPasses};
 use crate::shadow_room::ShadowRoom;
 
@@ -173,6 +174,32 @@ impl StripRoom {
     }
 }
 
+impl StripRoom {
+    /// All that passes over the strip may bind.
+    pub(crate) fn resources(&self) -> Resources {
+        let (samples, lists) = (&self.samples, &self.lists);
+        let sorted = lists.made.as_ref().map_or(0, |made| made.sorted);
+        Resources::default()
+            .texture("visibility", &self.visibility)
+            .buffer("group_starts", &self.group_starts)
+            .buffer("list_starts", &self.list_starts)
+            .buffer("entry_starts", &lists.entry_starts)
+            .buffer("entries", &lists.entries[sorted])
+            .buffer("points", &samples.points)
+            .buffer("paints", &samples.paints)
+            .buffer("base_light", &samples.base_light)
+            .buffer("chunk_starts", &samples.chunk_starts)
+            .buffer("chunk_sums", &samples.chunk_sums)
+            .buffer("chunk_words", &samples.chunk_sums)
+            .buffer("grating_words", &samples.chunk_sums)
+    }
+
+    /// Workgroups of a tile each, over so many rows.
+    pub(crate) fn tiles(&self, rows: u32) -> [u32; 2] {
+        [self.width_px, rows].map(|n| n.div_ceil(TILE_PX))
+    }
+}
+
 const POINTS_USAGE: BufferUsages = BufferUsages::STORAGE.union(BufferUsages::COPY_DST);
 const STARTS_USAGE: BufferUsages = POINTS_USAGE.union(BufferUsages::COPY_SRC);
 
@@ -333,9 +360,4 @@ impl Lists {
         self.digit_scan.set_count(gpu, digits);
         Ok(())
     }
-}
-
-/// A buffer as a pass binds it.
-pub(crate) fn whole(buffer: &wgpu::Buffer) -> BindingResource<'_> {
-    buffer.as_entire_binding()
 }

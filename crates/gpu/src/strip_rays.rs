@@ -2,13 +2,15 @@
 
 use hairline_image::Batch;
 
-use crate::bounces::{Bounce, Bounces, HITS_SORTED};
+use crate::bounces::{Bounce, Bounces};
+use crate::compute_pass::in_a_row;
 use crate::error::Error;
 use crate::film::Film;
 use crate::frame::{Rounds, View};
 use crate::layout::ShadowRound;
 use crate::lights::{self, Kind};
 use crate::passes::Shade;
+use crate::resources::Resources;
 use crate::shadow_picks::Scratched;
 use crate::shadow_room::ShadowRoom;
 use crate::shadows::Shadows;
@@ -56,16 +58,9 @@ impl StripShader {
                 next.round = round;
                 next.ends_round = (i + 1 == sources.len()).into();
                 shadow_room.write(gpu, &next);
+                let resources = of_rays(room, &shadow_room, film, shadows);
                 self.submit(view, |recording| {
-                    shadows.record_base_round(
-                        kind,
-                        gpu,
-                        recording,
-                        room,
-                        &shadow_room,
-                        film,
-                        groups,
-                    );
+                    shadows.record_base_round(kind, recording, &resources, groups);
                 });
             }
         }
@@ -75,7 +70,7 @@ impl StripShader {
                 .make_room_for_picks(gpu, points, by.lanes(on), next.rounds)
                 .await?;
             next.source = source;
-            next.way = by.way() as u32;
+            next.way = by.way as u32;
             for round in 0..next.rounds {
                 next.round = round;
                 if round % most == 0 {
@@ -83,20 +78,12 @@ impl StripShader {
                     next.picks = most.min(next.rounds - round);
                 }
                 shadow_room.write(gpu, &next);
+                let resources = of_rays(room, &shadow_room, film, shadows);
                 self.submit(view, |recording| {
                     if round == next.first_pick {
-                        by.record_picks(gpu, recording, room, &shadow_room, film, on);
+                        by.record_picks(recording, &resources, &shadow_room, on);
                     }
-                    let by = by.as_ref();
-                    shadows.record_picked_round(
-                        by,
-                        gpu,
-                        recording,
-                        room,
-                        &shadow_room,
-                        film,
-                        groups,
-                    );
+                    shadows.record_picked_round(by, recording, &resources, groups);
                 });
             }
         }
@@ -123,7 +110,8 @@ impl StripShader {
         };
         shadow_room.write(&self.gpu, &all);
         self.submit(view, |recording| {
-            shadows.record_found(&self.gpu, recording, room, shadow_room, film, groups);
+            let resources = of_rays(room, shadow_room, film, shadows);
+            shadows.found.run(recording, &resources, in_a_row(groups));
         });
     }
 
@@ -230,15 +218,15 @@ impl StripShader {
             bounce_room.write(gpu, &round);
             let to = depth as usize % 2;
             self.submit(view, |recording| {
-                let Some(by) = bounce(room, bounce_room, film, &round, on.groups) else {
+                let Some(by) = bounce(room, bounce_room, film, bounces, &round, on.groups) else {
                     return;
                 };
                 if let Some(scratches) = &bounces.scratches
                     && (depth > 0 || by.way == Way::Scratches && round.round == round.first_pick)
                 {
-                    scratches.record_picks(gpu, recording, &by, &on);
+                    scratches.record_picks(recording, &by, &on);
                 }
-                bounces.record_rays(gpu, recording, &by);
+                bounces.record_rays(recording, &by);
             });
             let hits = &mut bounce_room.hits[to];
             let next = seed(&first, depth + 1);
@@ -247,12 +235,11 @@ impl StripShader {
                 return Ok(false);
             };
             self.submit(view, |recording| {
-                if let Some(by) = bounce(room, bounce_room, film, &round, on.groups) {
-                    bounces.record_light(gpu, recording, &by);
+                if let Some(by) = bounce(room, bounce_room, film, bounces, &round, on.groups) {
+                    bounces.record_light(recording, &by);
                 }
             });
             on.chunks = chunks;
-            on.sorted = HITS_SORTED;
         }
         Ok(true)
     }
@@ -274,7 +261,7 @@ impl StripShader {
         if let Some(scratches) = &bounces.scratches {
             hits.group_scan.set_count(gpu, GROUP * groups + 1);
             self.submit(view, |recording| {
-                scratches.record_count(gpu, recording, scans, hits, film, groups);
+                scratches.record_count(recording, scans, hits, film, groups);
             });
             // The sum of all lies behind them.
             let entries = self.read_u32(&hits.list_starts, GROUP * groups).await?;
@@ -285,9 +272,9 @@ impl StripShader {
             }
             hits.lists.make_room(gpu, scans, entries).await?;
             self.submit(view, |recording| {
-                scratches.record_lists(gpu, recording, hits, film, groups);
+                scratches.record_lists(recording, hits, film, groups);
                 let shade = &scratches.shade;
-                shade.record_chunks(gpu, recording, scans, hits, groups);
+                shade.record_chunks(recording, scans, hits, groups);
             });
         } else {
             hits.samples.one_chunk_a_group(gpu, groups);
@@ -297,21 +284,17 @@ impl StripShader {
         self.submit(view, |recording| {
             if let Some(scratches) = &bounces.scratches {
                 let shade = &scratches.shade;
-                shade.record(gpu, recording, hits, HITS_SORTED, chunks);
+                shade.record(recording, hits, chunks);
             }
             if let Shade::Own { base, gratings, .. } = &passes.shade {
-                base.record(gpu, recording, hits, film, groups);
+                let resources = hits.resources().and(film.resources());
+                base.run(recording, &resources, in_a_row(groups));
                 if let Some(gratings) = gratings {
-                    let sums = &hits.samples.chunk_sums;
-                    gratings.record(gpu, recording, hits, film, sums, groups);
+                    gratings.run(recording, &resources, in_a_row(groups));
                 }
             }
         });
-        let on = Scratched {
-            groups,
-            chunks,
-            sorted: HITS_SORTED,
-        };
+        let on = Scratched { groups, chunks };
         let rounds = Rounds {
             now: Batch::all(1),
             seed,
@@ -323,29 +306,29 @@ impl StripShader {
     }
 }
 
-/// Rays of a round, from samples to their hits, which lie in the two rooms in turn. None until there are shadows.
+/// All that passes of shadow rays may bind.
+fn of_rays(
+    room: &StripRoom,
+    shadow_room: &ShadowRoom,
+    film: &Film,
+    shadows: &Shadows,
+) -> Resources {
+    let room = room.resources().and(shadow_room.resources());
+    room.and(film.resources())
+        .texture("triangle_tree", &shadows.tree.view)
+}
+
 fn bounce<'a>(
     room: &'a StripRoom,
     bounce_room: &'a BounceRoom,
-    film: &'a Film,
+    film: &Film,
+    bounces: &Bounces,
     round: &ShadowRound,
     groups: u32,
 ) -> Option<Bounce<'a>> {
-    let to = round.depth as usize % 2;
-    Some(Bounce {
-        seen: room.shadows.as_ref()?,
-        from: match round.depth {
-            0 => room,
-            _ => &bounce_room.hits[1 - to],
-        },
-        to: &bounce_room.hits[to],
-        rays: &bounce_room.rays,
-        round: &bounce_room.round,
-        film: &film.buffer,
-        groups,
-        depth: round.depth,
-        way: Way::ALL[round.way as usize],
-    })
+    let way = Way::ALL[round.way as usize];
+    let by = (round.depth, way);
+    Bounce::new(room, bounce_room, film, &bounces.shadows, by, groups)
 }
 
 /// Seed of the random numbers for the hits of a round: a place may be met again in other rounds.

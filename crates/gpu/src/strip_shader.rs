@@ -5,7 +5,7 @@ use std::ops::Range;
 use wgpu::BufferUsages;
 
 use crate::bindings::{Layouts, bind};
-use crate::compute_pass::Recording;
+use crate::compute_pass::{Recording, in_a_row};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
@@ -94,7 +94,7 @@ impl StripShader {
             }
         }
         let lists = room.lists.made.as_ref();
-        let (entries, sorted) = lists.map_or((0, 0), |made| (made.entries, made.sorted));
+        let entries = lists.map_or(0, |made| made.entries);
         let mut counted = Counted {
             entries,
             groups: tiles,
@@ -126,7 +126,7 @@ impl StripShader {
             self.write_frame(view, strip, film_row, view.step_samples().start, counted);
             self.submit(view, |recording| {
                 let shade = &scratches.shade;
-                shade.record_chunks(gpu, recording, scans, room, groups);
+                shade.record_chunks(recording, scans, room, groups);
             });
             if view.step > 0 {
                 chunks = self.read_u32(&room.samples.chunk_starts, groups).await?;
@@ -151,12 +151,16 @@ impl StripShader {
             self.write_frame(view, strip, film_row, sample, counted);
             self.submit(view, |recording| {
                 self.visibility.record(recording, room, rows);
-                passes.surface.record(gpu, recording, room, film, rows);
+                let resources = room.resources().and(film.resources());
+                passes
+                    .surface
+                    .run(recording, &resources, room.tiles(rows + 2));
             });
         }
         if let Some(ScratchPasses { share, .. }) = passes.scratches().filter(|_| view.step > 0) {
             self.submit(view, |recording| {
-                share.record(gpu, recording, room, film, rows)
+                let resources = room.resources().and(film.resources());
+                share.run(recording, &resources, room.tiles(rows));
             });
         }
         let shadows = match &passes.shade {
@@ -164,33 +168,31 @@ impl StripShader {
             Shade::Published(_) => None,
         };
         self.submit(view, |recording| {
+            let resources = room.resources().and(film.resources());
             match &passes.shade {
                 Shade::Own {
                     base,
                     scratches,
                     gratings,
                 } => {
-                    base.record(gpu, recording, room, film, groups);
+                    base.run(recording, &resources, in_a_row(groups));
                     if let Some(scratches) = scratches {
-                        scratches.shade.record(gpu, recording, room, sorted, chunks);
+                        scratches.shade.record(recording, room, chunks);
                     }
                     if let Some(gratings) = gratings {
-                        let sums = &room.samples.chunk_sums;
-                        gratings.record(gpu, recording, room, film, sums, groups);
+                        gratings.run(recording, &resources, in_a_row(groups));
                     }
                 }
-                Shade::Published(published) => published.record(gpu, recording, room, film, groups),
+                Shade::Published(published) => {
+                    published.run(recording, &resources, in_a_row(groups));
+                }
             }
             if shadows.is_none() {
-                passes.resolve.record(gpu, recording, room, film, rows);
+                passes.resolve.run(recording, &resources, room.tiles(rows));
             }
         });
         if let Some(shadows) = shadows {
-            let on = Scratched {
-                groups,
-                chunks,
-                sorted,
-            };
+            let on = Scratched { groups, chunks };
             let rounds = Rounds {
                 now: view.rounds(),
                 seed: 0,
@@ -207,8 +209,13 @@ impl StripShader {
             }
             self.finish_found(view, shadows, room, film, groups, rounds.now.count);
             self.submit(view, |recording| {
-                passes.resolve.record(gpu, recording, room, film, rows);
-                shadows.record_film(gpu, recording, room, film, rows);
+                let resources = room.resources().and(film.resources());
+                let tiles = room.tiles(rows);
+                passes.resolve.run(recording, &resources, tiles);
+                if let (Some(shadow_room), Some(_)) = (&room.shadows, &film.found) {
+                    let resources = resources.and(shadow_room.resources());
+                    shadows.film.run(recording, &resources, tiles);
+                }
             });
         }
         Ok(None)
@@ -228,7 +235,11 @@ impl StripShader {
         self.write_frame(view, strip, film_row, first, Counted::default());
         self.submit(view, |recording| {
             let edges = &view.uploaded.passes.edges;
-            edges.record(&self.gpu, recording, &self.scans, room, film, tiles);
+            let resources = room.resources().and(film.resources());
+            edges.run(recording, &resources, in_a_row(tiles));
+            room.group_scan.set_count(&self.gpu, tiles + 1);
+            let scan = &room.group_scan;
+            self.scans.record(recording.encoder, scan, recording.timing);
         });
         self.read_u32(&room.group_starts, tiles).await
     }
@@ -252,20 +263,21 @@ impl StripShader {
         let tiles = tile_count(room.width_px, strip.len() as u32);
         let segments = view.uploaded.data.buffers.segment_count();
         room.lists.made = None;
-        let lists = &mut room.lists;
-        lists.make_room_for_segments(gpu, scans, segments).await?;
+        room.lists
+            .make_room_for_segments(gpu, scans, segments)
+            .await?;
         let sample = view.step_samples().start;
         self.write_frame(view, strip, film_row, sample, Counted::default());
         self.submit(view, |recording| {
-            let project = &passes.project;
-            project.record(gpu, recording, scans, lists, segments);
+            passes.bin.record_count(recording, scans, room, segments);
         });
         // The sum of all lies behind them.
-        let entries = self.read_u32(&lists.entry_starts, segments).await?;
+        let starts = &room.lists.entry_starts;
+        let entries = self.read_u32(starts, segments).await?;
         if entries > Lists::entries_most(gpu) {
             return Ok(false);
         }
-        lists.make_room(gpu, scans, entries).await?;
+        room.lists.make_room(gpu, scans, entries).await?;
         let groups = 0;
         self.write_frame(view, strip, film_row, sample, Counted { entries, groups });
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -273,7 +285,7 @@ impl StripShader {
         let counts = [segments, entries];
         let sorted = passes
             .bin
-            .record(gpu, &mut recording, scans, room, tiles, counts);
+            .record(&mut recording, scans, room, tiles, counts);
         let sorted = sorted.await?;
         gpu.queue.submit([encoder.finish()]);
         room.lists.made = Some(MadeLists {
@@ -322,6 +334,7 @@ impl StripShader {
         view: &View<'a>,
     ) -> Recording<'a> {
         Recording {
+            gpu: &self.gpu,
             encoder,
             frame: &self.frame_group,
             scene: &view.uploaded.data,

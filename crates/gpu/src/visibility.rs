@@ -97,6 +97,7 @@ impl VisibilityPass {
             frame,
             scene,
             timing,
+            ..
         } = recording;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("visibility"),

@@ -3,13 +3,13 @@
 
 @group(3) @binding(0) var<storage, read> rays: array<BounceRay>;
 // Light of what the rays met.
-@group(3) @binding(1) var<storage, read> base_light: array<BaseLight>;
+@group(3) @binding(1) var<storage, read> hit_base_light: array<BaseLight>;
 @group(3) @binding(2) var<storage, read> hit_found: array<FoundRays>;
 @group(3) @binding(3) var<storage, read_write> found: array<FoundRays>;
 @group(3) @binding(4) var<uniform> shadow_round: ShadowRound;
 
 fn radiance_at(at: u32) -> vec3f {
-    var radiance = base_emission(base_light[at]);
+    var radiance = base_emission(hit_base_light[at]);
     for (var layer = 0u; layer < found_layers(); layer += 1u) {
         let i = found_at(at, layer);
         radiance += found_left(hit_found[i].open, found_share(hit_found[i].weight, hit_found[i].seen));

@@ -93,6 +93,7 @@ struct Grating {
     spacing_m: f32,             // from spot to spot; 0: all grooves lie about one axis
 }
 
+// What a surface is made of.
 struct Material {
     base_color: vec3f,
     metallic: f32,
@@ -331,6 +332,7 @@ struct SortSettings {
     block_count: u32,
 }
 
+// A scan of prefix sums.
 struct ScanSettings {
     count: u32,
 }

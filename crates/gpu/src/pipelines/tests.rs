@@ -1,5 +1,4 @@
 use super::*;
-use crate::compute_pass::{ComputePass, Use};
 use crate::headless;
 use crate::pipeline_cache::PipelineCache;
 use crate::variant::Contents;
@@ -24,15 +23,7 @@ fn one_bad_order_spoils_all() {
         let mut orders = Orders::new(gpu, &layouts, &variant);
         for i in 0..6 {
             let entry_point = if bad == Some(i) { "nothing" } else { "project" };
-            let name = "project";
-            let uses = [Use::Writes];
-            ComputePass::order(
-                &mut orders,
-                name,
-                (&shaders::PROJECT, entry_point),
-                &uses,
-                &[],
-            );
+            orders.pass("project", &shaders::PROJECT, entry_point);
         }
         gpu.block_on(orders.compile())
     };
