@@ -25,7 +25,7 @@ const BLOCK_PX: u32 = 8;
 /// Least cosine between the normals of neighbouring coarse pixels on one surface: below it the pixel sees the surface only by chance.
 const EVEN_COS: f32 = 0.95;
 
-/// A picture at full resolution and with all scratches.
+/// A finished picture, of at least a quarter of the width of the view.
 pub(super) struct Remembered {
     built: Weak<Built>,
     triangles: Weak<TriangleIndex>,
@@ -93,11 +93,16 @@ impl Remembered {
         }
     }
 
-    /// Whether the picture shows the same surfaces with the same scratches, from any camera and in any light.
+    /// Whether the picture shows the same surfaces, from any camera, in any light and with any scratches.
     pub fn is_of(&self, order: &Order) -> bool {
-        let built = &order.built;
-        self.triangles.ptr_eq(&Arc::downgrade(&built.triangles))
-            && self.scratches.ptr_eq(&Arc::downgrade(&built.scratches))
+        let triangles = Arc::downgrade(&order.built.triangles);
+        self.triangles.ptr_eq(&triangles)
+    }
+
+    /// Whether the picture shows the same scratches, too.
+    fn has_scratches_of(&self, order: &Order) -> bool {
+        let scratches = Arc::downgrade(&order.built.scratches);
+        self.scratches.ptr_eq(&scratches)
     }
 
     /// Whether the picture's shadows and reflections are right for an order, too.
@@ -120,7 +125,8 @@ impl Remembered {
             &order.view.camera.frame(size_px),
         );
         let means = self.means(coarse.size_px, &warp);
-        let changes = self.changes(coarse, &warp, &means);
+        let has_scratches = self.has_scratches_of(order);
+        let changes = self.changes(coarse, &warp, &means, has_scratches);
         let has_rays = self.has_rays_of(order);
         let means = means.filled();
         let light = (0..warp.pixels.len()).into_par_iter().map(|i| {
@@ -130,7 +136,10 @@ impl Remembered {
                 Some(pixel) => (
                     *pixel,
                     changed(pixel.base.open, base_before, base),
-                    changed(pixel.scratches.open, scratches_before, scratches),
+                    match has_scratches {
+                        true => changed(pixel.scratches.open, scratches_before, scratches),
+                        false => scratches,
+                    },
                 ),
                 None => (Pixel::mean(means.at(at)), base, scratches),
             };
@@ -178,6 +187,7 @@ impl Remembered {
         coarse: &Image,
         warp: &Warp,
         means: &Cells<Option<[Vec3; 4]>>,
+        has_scratches: bool,
     ) -> Cells<[Vec3; 4]> {
         let light =
             |layer: &[[f32; 3]]| -> Vec<Vec3> { layer.iter().map(|it| (*it).into()).collect() };
@@ -187,7 +197,10 @@ impl Remembered {
         // A coarse picture has few scratches, which stand for all.
         let scratches_before = Cells::new(coarse.size_px, before).smooth().smooth();
         let scratches_now = Cells::new(coarse.size_px, |i| scratches[i]);
-        let scratches_now = scratches_now.without_spikes().smooth().smooth();
+        let scratches_now = match has_scratches {
+            true => scratches_now.without_spikes().smooth().smooth(),
+            false => scratches_now,
+        };
         let middles = Cells::new(coarse.size_px, |_| ());
         let base_before = Cells::new(coarse.size_px, |i| {
             // Light of the same point, since a mean would include other surfaces. A rim in the coarse picture is seen only by chance.

@@ -19,6 +19,10 @@ const FULL_PX: [u32; 2] = [240, 160];
 
 /// A matt plate with scratches and a ball on it, under two lamps, one of them of this radiance.
 fn built(shop: &mut Workshop, radiance: f64) -> Arc<Built> {
+    with_scratches(shop, radiance, 2000)
+}
+
+fn with_scratches(shop: &mut Workshop, radiance: f64, scratches: u32) -> Arc<Built> {
     let description = SceneFile::seen_from([0.0, -0.21, 0.18])
         .metal("steel", "steel")
         .part("[[material]]\nname = \"white\"\nkind = \"dielectric\"")
@@ -26,7 +30,7 @@ fn built(shop: &mut Workshop, radiance: f64) -> Arc<Built> {
         .object("plate", "white", DISK)
         .object("ball", "steel", "sphere = { radius_m = 0.03 }")
         .with("translation_m = [0.02, 0.0, 0.03]")
-        .random("plate", 2000)
+        .random("plate", scratches)
         .sphere([-0.065, 0.20, 0.24], 0.01, 300.0)
         .sphere([0.1, -0.05, 0.2], 0.01, radiance)
         .fov_y_deg(40.0)
@@ -139,6 +143,19 @@ fn other_light_has_detail_and_no_shadows() {
     assert!(before.shade(&open, &brighter).is_none());
     let coarse = picture(&brighter, FULL_PX.map(|side| side / 8), Transport::DIRECT);
     let sharp = before.sharpen(&coarse, &brighter).unwrap();
+    let (coarse, sharp) = (error(&enlarged(&coarse, 8), &open), error(&sharp, &open));
+    assert!(sharp < 0.6 * coarse, "{sharp}, coarse {coarse}");
+}
+
+#[test]
+fn other_scratches_lie_on_sharp_surfaces() {
+    let mut shop = Workshop::default();
+    let before = remembered(&order(&built(&mut shop, 60.0), 0.0));
+    let fewer = order(&with_scratches(&mut shop, 60.0, 20), 0.0);
+    assert!(before.is_of(&fewer));
+    let open = picture(&fewer, FULL_PX, Transport::DIRECT);
+    let coarse = picture(&fewer, FULL_PX.map(|side| side / 8), Transport::DIRECT);
+    let sharp = before.sharpen(&coarse, &fewer).unwrap();
     let (coarse, sharp) = (error(&enlarged(&coarse, 8), &open), error(&sharp, &open));
     assert!(sharp < 0.6 * coarse, "{sharp}, coarse {coarse}");
 }
