@@ -22,6 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             target_m: DVec3::ZERO,
             up: DVec3::Z,
             fov_y_rad: 0.4,
+            shift_tan: Default::default(),
             exposure_ev: 0.0,
             lens: Lens::default(),
         },

@@ -76,6 +76,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
             target_m: DVec3::ZERO,
             up: DVec3::Y,
             fov_y_rad: 0.6,
+            shift_tan: Default::default(),
             exposure_ev: 0.0,
             lens: Lens::default(),
         },

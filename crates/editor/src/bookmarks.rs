@@ -170,6 +170,8 @@ fn read_view(value: &Value) -> Option<Bookmark> {
             sensor_width_mm: None,
             aperture_mm: None,
             focus_distance_m: None,
+            shift: None,
+            world_up: None,
         },
     })
 }
@@ -189,6 +191,8 @@ mod tests {
             sensor_width_mm: None,
             aperture_mm: None,
             focus_distance_m: None,
+            shift: None,
+            world_up: None,
         }
     }
 

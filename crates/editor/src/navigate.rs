@@ -218,6 +218,7 @@ pub fn view(camera: &Camera, size_px: [u32; 2]) -> CameraFrame {
         target_m: camera.target_m.into(),
         up: camera.up.into(),
         fov_y_rad: camera.fov_y_deg.to_radians(),
+        shift_tan: camera.shift_tan(),
         exposure_ev: camera.exposure_ev,
         lens: camera.lens(),
     }
@@ -233,8 +234,9 @@ pub fn project(camera: &Camera, point_m: DVec3, size_px: DVec2) -> Option<DVec2>
         return None;
     }
     let px = 0.5 * size_px.y / (half_fov_tan(camera) * depth_m);
-    let flat = DVec2::new(from_eye.dot(axes.right), -from_eye.dot(axes.up));
-    Some(0.5 * size_px + flat * px)
+    let from_middle = DVec2::new(from_eye.dot(axes.right), from_eye.dot(axes.up))
+        - camera.shift_tan() * depth_m;
+    Some(0.5 * size_px + from_middle * DVec2::new(px, -px))
 }
 
 /// Position of the camera on the turntable.

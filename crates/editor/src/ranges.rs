@@ -39,8 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 
 impl Parameter {
     /// Every parameter.
-    #[cfg(test)]
-    pub(crate) const ALL: [Self; 94] = [
+    pub const ALL: [Self; 94] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,

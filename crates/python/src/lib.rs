@@ -3,6 +3,7 @@
 
 mod arrays;
 mod compare;
+mod editing;
 mod errors;
 mod image;
 mod names;
@@ -33,5 +34,8 @@ fn _hairline(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(scene::inputs, module)?)?;
     module.add_function(wrap_pyfunction!(scene::digest, module)?)?;
     module.add_function(wrap_pyfunction!(compare::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(editing::controls, module)?)?;
+    module.add_function(wrap_pyfunction!(editing::presets, module)?)?;
+    module.add_function(wrap_pyfunction!(editing::from_preset, module)?)?;
     optics::add_to(module)
 }

@@ -8,14 +8,14 @@ use pyo3::types::PyDict;
 use crate::errors;
 
 /// The value of one of a few names.
-pub(crate) fn named<T: Copy>(key: &str, name: &str, all: &[(&str, T)]) -> PyResult<T> {
+pub(crate) fn named<T: Clone>(key: &str, name: &str, all: &[(&str, T)]) -> PyResult<T> {
     all.iter().find(|(known, _)| *known == name).map_or_else(
         || {
             let names: Vec<_> = all.iter().map(|(name, _)| format!("\"{name}\"")).collect();
             let right = format!("must be one of {}", names.join(", "));
             Err(errors::of_argument(key, format!("found \"{name}\""), right))
         },
-        |(_, value)| Ok(*value),
+        |(_, value)| Ok(value.clone()),
     )
 }
 

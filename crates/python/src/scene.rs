@@ -7,10 +7,10 @@ use std::time::Duration;
 
 use hairline_image::Display;
 use hairline_index::method::Method;
-use hairline_memory::budget_bytes;
+use hairline_memory::{available_bytes, budget_bytes};
 use hairline_optics::mask::Mask;
 use hairline_reference::{Integrator, Model, SceneIndex, Settings};
-use hairline_scene::estimate::Estimate;
+use hairline_scene::estimate::{Estimate, scratches_bytes, textures_bytes};
 use hairline_scene::{Description, Error, Loader, Scene, SceneBuilder, Stage, reading};
 use hairline_work::Listener;
 use hairline_work::backend::{self, Backend, Painter, Refusal, Rendered, Task};
@@ -109,8 +109,8 @@ fn described(py: Python<'_>, table: toml::Table) -> PyResult<Description> {
     read.map_err(|error| errors::of_scene(py, &error.nowhere_in(Path::new(NO_FILE))))
 }
 
-fn table(py: Python<'_>, description: &Description) -> PyResult<toml::Table> {
-    let table = toml::Table::try_from(description);
+pub(crate) fn table(py: Python<'_>, part: &impl serde::Serialize) -> PyResult<toml::Table> {
+    let table = toml::Table::try_from(part);
     table.map_err(|error| errors::of_work(py, &error.to_string()))
 }
 
@@ -219,6 +219,20 @@ impl Built {
     fn scratch_counts(&self) -> Vec<usize> {
         let objects = self.scene.objects.iter();
         objects.map(|object| object.scratches.len()).collect()
+    }
+
+    /// About how much memory its pictures take, and how much there is, bytes.
+    fn memory_bytes(&self) -> (f64, Option<f64>) {
+        let objects = self.scene.objects.iter();
+        let [scratches, segments] = objects.fold([0, 0], |[scratches, segments], object| {
+            [
+                scratches + object.scratches.len(),
+                segments + object.segments.len(),
+            ]
+        });
+        let surfaces = Estimate::of(&self.description, &self.folder).bytes();
+        let all = surfaces + scratches_bytes(scratches, segments) + textures_bytes(&self.scene);
+        (all, available_bytes().map(|bytes| bytes as f64))
     }
 
     /// Renders the picture; see `Scene.render`.

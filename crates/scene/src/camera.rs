@@ -20,8 +20,8 @@ pub struct CameraFrame {
     pub per_px_y: DVec3,
     /// Width and height.
     pub size_px: DVec2,
-    /// Position of the ray along `forward` in the picture: its middle, unless the camera sees through another point of its lens than the
-    /// middle.
+    /// Position of the ray along `forward` in the picture: its middle, unless the picture is shifted or the camera sees through another point of
+    /// its lens than the middle.
     pub middle_px: DVec2,
 }
 
@@ -43,7 +43,7 @@ impl Camera {
             per_px_x: right * per_px,
             per_px_y: -up * per_px,
             size_px: size,
-            middle_px: 0.5 * size,
+            middle_px: 0.5 * size + DVec2::new(-self.shift_tan.x, self.shift_tan.y) / per_px,
         }
     }
 
@@ -70,6 +70,7 @@ impl Camera {
         Camera {
             target_m: frame.position_m + distance_m * towards,
             fov_y_rad: 2.0 * (0.5 * f64::from(crop_px[1]) * frame.per_px_y.length()).atan(),
+            shift_tan: DVec2::ZERO,
             ..*self
         }
     }
@@ -222,6 +223,7 @@ mod tests {
             target_m,
             up: DVec3::Z,
             fov_y_rad: 0.5,
+            shift_tan: DVec2::ZERO,
             exposure_ev: 0.0,
             lens: Lens::default(),
         }
@@ -292,6 +294,22 @@ mod tests {
             (top.angle_between(bottom) - 0.5).abs() < 1e-9,
             "the vertical field of view"
         );
+    }
+
+    #[test]
+    fn a_shifted_picture_is_a_part_of_a_larger_one() {
+        // Two thirds of a picture: the one on the upper right.
+        let whole = camera().frame([640, 480]);
+        let part = Camera {
+            fov_y_rad: 2.0 * (0.25_f64.tan() * 2.0 / 3.0).atan(),
+            shift_tan: whole.per_px_x.length() * DVec2::new(80.0, 80.0),
+            ..camera()
+        };
+        let part = part.frame([480, 320]);
+        for pixel in [DVec2::new(0.0, 0.0), DVec2::new(470.0, 13.0)] {
+            let off = part.camera_ray(pixel) - whole.camera_ray(pixel + DVec2::new(160.0, 0.0));
+            assert!(off.length() < 1e-12, "{off}");
+        }
     }
 
     #[test]

@@ -43,6 +43,7 @@ pub(crate) fn camera(camera: &description::Camera) -> Camera {
         target_m: camera.target_m.into(),
         up: camera.up.into(),
         fov_y_rad: camera.fov_y_deg.to_radians(),
+        shift_tan: camera.shift_tan(),
         exposure_ev: camera.exposure_ev,
         lens: camera.lens(),
     }

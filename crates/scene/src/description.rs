@@ -117,11 +117,22 @@ pub struct Camera {
     /// With `aperture_mm`: the distance along the view at which the picture is sharp. Default: that of the target.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub focus_distance_m: Option<f64>,
+    /// How far the picture is moved across what the lens shows, to the right and up, in heights of the picture; the target is off its centre
+    /// by as much the other way. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shift: Option<[f64; 2]>,
+    /// The axis of the world that points up, for cameras that are rolled or look down. Default: the one that `up` tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub world_up: Option<Up>,
 }
 
 impl Camera {
-    /// The axis of the world that points up: the one nearest to `up`; where the camera looks straight down, that which it looks along.
+    /// The axis of the world that points up. Where the camera does not say it, the one nearest to `up`; where it looks straight down, that which
+    /// it looks along.
     pub fn world_up(&self) -> DVec3 {
+        if let Some(up) = self.world_up {
+            return up.axis();
+        }
         let view = DVec3::from(self.target_m) - DVec3::from(self.position_m);
         vertical_axis(self.up.into(), view)
     }
@@ -282,7 +293,8 @@ pub struct Object {
 }
 
 /// `up` of an object with a mesh.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Up {
     /// `"y"`
     #[default]

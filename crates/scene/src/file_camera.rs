@@ -105,5 +105,7 @@ fn camera(seen: &FileCamera, before: &Camera, world_up: DVec3) -> Result<Camera,
         sensor_width_mm: before.sensor_width_mm,
         aperture_mm: before.aperture_mm,
         focus_distance_m: before.focus_distance_m,
+        shift: before.shift,
+        world_up: before.world_up,
     })
 }

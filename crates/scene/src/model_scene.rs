@@ -214,5 +214,7 @@ fn camera(points_m: &[DVec3], [width, height]: [u32; 2]) -> Camera {
         sensor_width_mm: None,
         aperture_mm: None,
         focus_distance_m: None,
+        shift: None,
+        world_up: None,
     }
 }

@@ -4,7 +4,7 @@
 //! A [`Scene`] holds no choice and no default: whatever a scene file left out was filled in, and whatever was wrong
 //! was refused, before one of these exists.
 
-use glam::{DVec3, Vec2, Vec3, Vec4};
+use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 use hairline_image::Batches;
 use hairline_optics::metal::Metal;
 use serde::Serialize;
@@ -109,12 +109,14 @@ impl Scene {
 pub struct Camera {
     /// The pinhole, or the middle of the lens, world space.
     pub position_m: DVec3,
-    /// The point in the centre of the picture, world space.
+    /// The point in the centre of the picture without a shift, world space.
     pub target_m: DVec3,
     /// The direction that is up in the picture; need not be perpendicular to the view.
     pub up: DVec3,
     /// The picture's vertical field of view.
     pub fov_y_rad: f64,
+    /// How far the picture's centre is off the target, to the right and up, at unit depth.
+    pub shift_tan: DVec2,
     /// Exposure: radiances are multiplied by 2^exposure_ev before the tone map.
     pub exposure_ev: f64,
     /// Lens of the camera.

@@ -128,6 +128,8 @@ mod tests {
             sensor_width_mm: None,
             aperture_mm: None,
             focus_distance_m: None,
+            shift: None,
+            world_up: None,
         }
     }
 

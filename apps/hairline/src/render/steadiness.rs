@@ -78,6 +78,7 @@ mod tests {
             target_m: DVec3::new(0.01, 0.02, 0.0),
             up: DVec3::Z,
             fov_y_rad: 0.4,
+            shift_tan: Default::default(),
             exposure_ev: 0.0,
             lens: Lens::default(),
         }

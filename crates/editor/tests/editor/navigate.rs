@@ -23,6 +23,8 @@ fn camera() -> impl Strategy<Value = Camera> {
             sensor_width_mm: None,
             aperture_mm: None,
             focus_distance_m: None,
+            shift: None,
+            world_up: None,
         })
         .prop_filter("a view that is not along its up", |c| {
             let view = DVec3::from(c.target_m) - DVec3::from(c.position_m);
@@ -190,6 +192,8 @@ fn the_surface_follows_the_pointer() {
         sensor_width_mm: None,
         aperture_mm: None,
         focus_distance_m: None,
+        shift: None,
+        world_up: None,
     };
     let near = DVec3::new(0.0, 0.0, 0.1);
     orbit(&mut camera, DVec2::new(20.0, 10.0), SIZE_PX);
@@ -214,6 +218,8 @@ fn a_point_is_centred() {
         sensor_width_mm: None,
         aperture_mm: None,
         focus_distance_m: None,
+        shift: None,
+        world_up: None,
     };
     let point = DVec3::new(0.2, 0.1, 0.0);
     frame_points(&mut camera, &[point], 1.5);

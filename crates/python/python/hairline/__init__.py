@@ -43,7 +43,7 @@ from ._tables import (
 )
 
 if TYPE_CHECKING:
-    from . import cluster, optics
+    from . import cluster, editing, optics
 
 __all__ = [
     "Camera",
@@ -72,6 +72,7 @@ __all__ = [
     "__version__",
     "cluster",
     "compare",
+    "editing",
     "load",
     "optics",
     "read_image",
@@ -80,7 +81,7 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     # Imported at the first use: the cluster needs a package that may be absent.
-    if name in ("cluster", "optics"):
+    if name in ("cluster", "editing", "optics"):
         import importlib
 
         return importlib.import_module(f"{__name__}.{name}")

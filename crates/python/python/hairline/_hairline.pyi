@@ -46,6 +46,9 @@ __all__ = [
     "depth_coherence",
     "spectrum_samples",
     "coherent_response",
+    "controls",
+    "presets",
+    "from_preset",
 ]
 
 __version__: str
@@ -138,6 +141,8 @@ class Built:
 
     def scratch_counts(self) -> list[int]:
         """How many scratches each object has."""
+    def memory_bytes(self) -> tuple[float, Optional[float]]:
+        """About how much memory its pictures take, and how much there is."""
     def render(
         self,
         backend: str,
@@ -214,3 +219,9 @@ def picture_from_state(
     notes: dict[str, str],
     is_complete: bool,
 ) -> Image: ...
+
+def controls(
+    diagonal_m: float,
+) -> dict[str, tuple[str, str, tuple[float, float], tuple[float, float], bool, bool, str]]: ...
+def presets(kind: str) -> list[tuple[str, str]]: ...
+def from_preset(kind: str, name: str, object: str, diagonal_m: float) -> list[dict[str, Any]]: ...

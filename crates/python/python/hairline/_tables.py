@@ -195,6 +195,10 @@ class Camera(Table):
     """``focal_length_mm`` over the opening. Set it, and ``aperture_mm`` goes; and the other way round."""
     focus_distance_m: Optional[float] = _default()
     """With an opening: the distance of what is in focus along the view, metres. Default: that of the target."""
+    shift: Optional[Vector] = _default()
+    """How far the picture is moved across what the lens shows, to the right and up, in heights of the picture, 2 numbers. Default: 0."""
+    world_up: Optional[str] = _default()
+    """The axis of the world that points up, ``"y"`` or ``"z"``, for cameras that are rolled or look down. Default: the one nearest to ``up``."""
     of_file: Optional[str] = _default()
     """A camera of a model's file in the place of this one: its name, its node's, or its number. Default: none."""
 

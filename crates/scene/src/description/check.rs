@@ -103,6 +103,9 @@ fn camera(camera: &Camera, key: &str) -> Check {
             limits::SIZE_M,
         )?;
     }
+    for (i, shift) in camera.shift.into_iter().flatten().enumerate() {
+        within(&format!("{key}.shift[{i}]"), shift, limits::SHIFT)?;
+    }
     let [position, target, up] =
         [camera.position_m, camera.target_m, camera.up].map(glam::DVec3::from_array);
     let view = target - position;

@@ -1,5 +1,7 @@
 //! The field of view of a `[camera]` and its opening by its lens, as cameras have it.
 
+use glam::DVec2;
+
 use super::Camera;
 use super::limits::{APERTURE_MM, F_STOP, FOCAL_LENGTH_MM, FOV_Y_DEG, SENSOR_WIDTH_MM};
 use super::ranges::{found, within};
@@ -136,6 +138,12 @@ impl Camera {
     fn see_by(&mut self, focal_length_mm: f64, size_px: [u32; 2]) {
         let fov_y_deg = seen_deg(focal_length_mm, self.sensor_mm(), size_px);
         self.fov_y_deg = fov_y_deg.clamp(*FOV_Y_DEG.start(), *FOV_Y_DEG.end());
+    }
+
+    /// Shift of the picture at unit depth.
+    pub fn shift_tan(&self) -> DVec2 {
+        let height_tan = 2.0 * (0.5 * self.fov_y_deg.to_radians()).tan();
+        height_tan * DVec2::from(self.shift.unwrap_or_default())
     }
 
     /// Thin lens of the camera.

@@ -26,6 +26,8 @@ pub const SENSOR_WIDTH_MM: RangeInclusive<f64> = 0.1..=1000.0;
 pub const F_STOP: RangeInclusive<f64> = 0.1..=1000.0;
 /// `camera.aperture_mm`
 pub const APERTURE_MM: RangeInclusive<f64> = 0.0..=1000.0;
+/// Both numbers of `camera.shift`
+pub const SHIFT: RangeInclusive<f64> = -10.0..=10.0;
 /// `light.rotation_deg`
 pub const ROTATION_DEG: RangeInclusive<f64> = -360.0..=360.0;
 /// `light.cone_deg`

@@ -72,7 +72,7 @@ pub(super) fn keys_without_effect(
     gather.map(|_| ("render.gather", why)).into_iter()
 }
 
-const CAMERA_KEYS: [&str; 11] = [
+const CAMERA_KEYS: [&str; 13] = [
     "of_file",
     "position_m",
     "target_m",
@@ -84,6 +84,8 @@ const CAMERA_KEYS: [&str; 11] = [
     lens::KEYS[2],
     "aperture_mm",
     "focus_distance_m",
+    "shift",
+    "world_up",
 ];
 
 impl Read for Camera {
@@ -108,6 +110,8 @@ impl Read for Camera {
             sensor_width_mm: table.optional("sensor_width_mm")?,
             aperture_mm: lens::aperture_mm(&table)?,
             focus_distance_m: lens::focus_distance_m(&table)?,
+            shift: table.optional("shift")?,
+            world_up: table.optional("world_up")?,
         })
     }
 }

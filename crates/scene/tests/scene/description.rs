@@ -182,6 +182,8 @@ fn everything() -> Description {
             sensor_width_mm: Some(24.0),
             aperture_mm: Some(1.5),
             focus_distance_m: Some(0.25),
+            shift: Some([0.1, -0.2]),
+            world_up: Some(Up::Z),
         },
         render: Render {
             size_px: [1, 16_384],

@@ -88,6 +88,7 @@ pub(crate) fn camera(camera: &description::Camera) -> Camera {
         target_m: camera.target_m.into(),
         up: camera.up.into(),
         fov_y_rad: camera.fov_y_deg.to_radians(),
+        shift_tan: camera.shift_tan(),
         // Shown by a `Display`, so that a change of it paints nothing anew.
         exposure_ev: 0.0,
         lens: camera.lens(),

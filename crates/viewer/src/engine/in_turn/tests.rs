@@ -33,6 +33,7 @@ fn view() -> View {
             target_m: DVec3::ZERO,
             up: DVec3::Z,
             fov_y_rad: 0.7,
+            shift_tan: Default::default(),
             exposure_ev: 0.0,
             lens: Lens::default(),
         },

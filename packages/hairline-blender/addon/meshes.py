@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The triangles of an evaluated object, with split normals and UV maps, as arrays."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .notes import Refused
+
+
+@dataclass
+class Triangles:
+    """A vertex for each corner that differs from the others at its place."""
+
+    positions_m: np.ndarray
+    normals: np.ndarray
+    uvs: dict
+    """By the name of the UV map, v downwards as in glTF."""
+    corners: np.ndarray
+    """Of each triangle its three vertices."""
+    slots: np.ndarray
+    """Of each triangle its material slot."""
+    vertex_of: np.ndarray
+    """The mesh's vertex that a vertex stands at."""
+
+    @property
+    def diagonal_m(self):
+        return float(np.linalg.norm(np.ptp(self.positions_m, axis=0)))
+
+
+def _got(collection, attribute, width, kind=np.float32):
+    values = np.empty(len(collection) * width, kind)
+    collection.foreach_get(attribute, values)
+    return values.reshape(-1, width) if width > 1 else values
+
+
+def triangles(evaluated):
+    """Those of an evaluated object; None where it has no surface."""
+    mesh = evaluated.to_mesh()
+    try:
+        if mesh is None or not len(mesh.polygons):
+            return None
+        return _of_mesh(mesh, evaluated.name)
+    finally:
+        evaluated.to_mesh_clear()
+
+
+def _of_mesh(mesh, name):
+    mesh.calc_loop_triangles()
+    positions_m = _got(mesh.vertices, "co", 3)
+    _refuse_unusable(positions_m, name)
+    vertex_of = _got(mesh.loops, "vertex_index", 1, np.int32)
+    normals = _got(mesh.corner_normals, "vector", 3)
+    uvs = {layer.name: _got(layer.uv, "vector", 2) for layer in mesh.uv_layers}
+    corners = _got(mesh.loop_triangles, "loops", 3, np.int32)
+    slots = _got(mesh.polygons, "material_index", 1, np.int32)[_got(mesh.loop_triangles, "polygon_index", 1, np.int32)]
+    kept, number = _distinct(vertex_of, len(positions_m), [normals, *uvs.values()])
+    vertex_of = vertex_of[kept]
+    flip = np.array([0, 1], np.float32), np.array([1, -1], np.float32)
+    return Triangles(
+        positions_m=positions_m[vertex_of],
+        normals=_whole(normals[kept]),
+        uvs={layer: np.nan_to_num(flip[0] + flip[1] * uv[kept]) for layer, uv in uvs.items()},
+        corners=number[corners].astype(np.uint32),
+        slots=slots,
+        vertex_of=vertex_of,
+    )
+
+
+def _distinct(vertex_of, vertices, values):
+    """The corners that become vertices, and the number of each corner's vertex: a corner shares that of the last corner of its mesh vertex where
+    all values are the same."""
+    last = np.zeros(vertices, np.int32)
+    every = np.arange(len(vertex_of), dtype=np.int32)
+    last[vertex_of] = every
+    like = last[vertex_of]
+    is_same = np.ones(len(vertex_of), bool)
+    for value in values:
+        is_same &= (value == value[like]).all(axis=1)
+    kept = np.flatnonzero(~is_same | (like == every))
+    number = np.zeros(len(vertex_of), np.int32)
+    number[kept] = np.arange(len(kept), dtype=np.int32)
+    return kept, np.where(is_same, number[like], number)
+
+
+def _whole(normals):
+    """Unit normals; those of corners without an area point up."""
+    is_none = ~(np.abs(normals).sum(axis=1) > 0)
+    if is_none.any():
+        normals = normals.copy()
+        normals[is_none] = (0, 0, 1)
+    return normals
+
+
+def _refuse_unusable(positions_m, name):
+    unusable = int((~np.isfinite(positions_m).all(axis=1)).sum())
+    if unusable:
+        raise Refused(
+            f'object "{name}": found {unusable} of {len(positions_m)} vertices without a finite position; '
+            "remove them, or what makes them: a modifier, shape key or driver"
+        )

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is stored in the .blend: layers of scratches and gratings of objects and materials, and the settings of pictures."""
+
+import bpy
+import hairline
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, IntProperty, PointerProperty, StringProperty
+from hairline import optics
+
+from . import rows
+
+_OVERRIDE = {"LIBRARY_OVERRIDABLE"}
+
+
+def _is_stroke_source(_, candidate):
+    return candidate.type in {"CURVE", "GPENCIL", "GREASEPENCIL"}
+
+
+def _choice(items, name, default=None):
+    items = [(key, key.replace("_", " ").capitalize() if len(key) > 2 else key.upper(), text) for key, text in items.items()]
+    return EnumProperty(items=items, name=name, default=default or items[0][0], override=_OVERRIDE)
+
+
+def _made(name, kind, all_rows, others):
+    """A PropertyGroup of rows and other properties."""
+    annotations = {row.attribute: row.definition(rows.default_of(kind, row)) for row in all_rows}
+    return type(name, (bpy.types.PropertyGroup,), {"__annotations__": {**annotations, **others}, "__doc__": others["__doc__"]})
+
+
+_COMMON = {
+    "name": StringProperty(name="Name", default="scratches", override=_OVERRIDE),
+    "hidden": BoolProperty(name="Hidden", description="As if it were not there", override=_OVERRIDE),
+    "mask": PointerProperty(
+        name="Mask",
+        type=bpy.types.Image,
+        description="Scratches lie where it is lighter than half of white; of a grating its values are factors on the coverage",
+    ),
+    "vertex_group": StringProperty(
+        name="Vertex group", description="The weights of this group of the object say where it lies, and how thickly", override=_OVERRIDE
+    ),
+}
+
+
+def _group(name, kind, all_rows, doc, **others):
+    made = _made(name, kind, all_rows, {"__doc__": doc, **_COMMON, **others})
+    made.__annotations__.pop("__doc__")
+    return made
+
+
+HairlineLayer = _group(
+    "HairlineLayer",
+    "scratches",
+    rows.SCRATCHES + rows.PLACE + rows.STROKES,
+    "A layer of scratches.",
+    pattern=_choice(rows.PATTERNS, "Pattern"),
+    amount=EnumProperty(
+        name="How many",
+        items=[
+            ("COUNT", "In all", "A number of scratches, whatever the size of the object"),
+            ("DENSITY", "Per area", "A number on each square metre"),
+        ],
+        override=_OVERRIDE,
+    ),
+    solo=BoolProperty(name="Solo", description="If a layer is solo, only solo layers are seen", override=_OVERRIDE),
+    density_map=PointerProperty(
+        name="Density", type=bpy.types.Image, description="A scratch is laid with the probability that the image has at its middle"
+    ),
+    is_tiled=BoolProperty(
+        name="Tiled", description="Images are laid on from three sides and repeat, not by the UV map", override=_OVERRIDE
+    ),
+    strokes=PointerProperty(
+        name="Strokes", type=bpy.types.Object, poll=_is_stroke_source, description="A curve or a grease pencil on the surface: scratches run along it"
+    ),
+)
+
+HairlineGrating = _group(
+    "HairlineGrating",
+    "grating",
+    rows.GRATING + rows.RING,
+    "Grooves side by side, finer than a pixel.",
+    pattern=_choice(rows.GRATING_PATTERNS, "Pattern"),
+    has_ring=BoolProperty(name="Within radii", description="Grooves inside of a circle, outside of one, or in a ring", override=_OVERRIDE),
+    along=EnumProperty(name="Along", items=[("u", "U", "Along u"), ("v", "V", "Along v")], override=_OVERRIDE),
+)
+
+
+def _list(kind):
+    return CollectionProperty(type=kind, override={"LIBRARY_OVERRIDABLE", "USE_INSERTION"})
+
+
+class HairlineSurface(bpy.types.PropertyGroup):
+    """What lies on an object, or on all that is of a material."""
+
+    scratches: _list(HairlineLayer)
+    scratches_index: IntProperty()
+    gratings: _list(HairlineGrating)
+    gratings_index: IntProperty()
+    metal: EnumProperty(
+        name="Measured metal",
+        description="The measured refractive index of a metal in the place of the base colour",
+        items=[("NONE", "None", "The base colour of the material")]
+        + [(metal, metal.capitalize(), f"Measured n and k of {metal}") for metal in optics.metals()],
+        override=_OVERRIDE,
+    )
+
+
+class HairlineSettings(bpy.types.PropertyGroup):
+    """How pictures are made."""
+
+    samples: IntProperty(
+        name="Samples",
+        description="Of each pixel that has an edge, a crease, a shadow or a blur in it",
+        default=hairline.Scene.render.__kwdefaults__["samples"],
+        min=1,
+        max=1024,
+    )
+    shadows: BoolProperty(name="Shadows", description="Objects hide lights and the environment from one another", default=True)
+    bounces: IntProperty(name="Bounces", description="Other objects that light may go by, with shadows", default=1, min=0, max=64, soft_max=4)
+    backend: EnumProperty(
+        name="Device",
+        items=[
+            ("auto", "Automatic", "A GPU if there is one, else the CPU"),
+            ("gpu", "GPU", "A GPU, or none"),
+            ("cpu", "CPU", "The CPU, in double precision"),
+        ],
+    )
+    viewport_samples: IntProperty(name="Viewport samples", description="As Samples, of the viewport while it stands still", default=8, min=1, max=256)
+
+
+_CLASSES = (HairlineLayer, HairlineGrating, HairlineSurface, HairlineSettings)
+
+
+def register():
+    for kind in _CLASSES:
+        bpy.utils.register_class(kind)
+    for owner in (bpy.types.Object, bpy.types.Material):
+        owner.hairline = PointerProperty(type=HairlineSurface, override=_OVERRIDE)
+    bpy.types.Scene.hairline = PointerProperty(type=HairlineSettings, override=_OVERRIDE)
+
+
+def unregister():
+    for owner in (bpy.types.Object, bpy.types.Material, bpy.types.Scene):
+        del owner.hairline
+    for kind in reversed(_CLASSES):
+        bpy.utils.unregister_class(kind)

@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one table of what layers and gratings have: properties, panels, import and export are made of it.
+
+Labels, units, ranges and tooltips are those of Hairline's viewer (`hairline.editing`), defaults and the keys of each pattern those of scene files
+(`hairline.Scratches`, `hairline.Grating`).
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import hairline
+from bpy.props import FloatProperty, FloatVectorProperty, IntProperty
+from hairline import editing
+
+from .frames import tidy
+
+# Sliders of lengths fit things of this diagonal: a table with what stands on it.
+_DIAGONAL_M = 1.0
+_CONTROLS = editing.controls(_DIAGONAL_M)
+_LARGEST_INT = 2**31 - 1
+
+
+@dataclass(frozen=True)
+class Row:
+    """A property: its name in Blender, its way in the table of a scene file, and the control that knows its range."""
+
+    attribute: str
+    way: tuple
+    control: str
+    size: int = 1
+
+    @property
+    def key(self):
+        return self.way[0]
+
+    def read(self, table):
+        """Its value in a table; None where it has none."""
+        value = table.get(self.key)
+        if value is None or len(self.way) == 1:
+            return value
+        part = self.way[1]
+        if self.key != "where" and isinstance(part, str) and not isinstance(value, dict):
+            # A plain number is a mean without a spread.
+            value = {"mean": value, "spread": 0.0}
+        return value.get(part) if isinstance(value, dict) else value[part]
+
+    def write(self, group, table):
+        """Puts the group's value into a table."""
+        value = getattr(group, self.attribute)
+        value = tidy(value if self.size == 1 else list(value))
+        if len(self.way) == 1:
+            table[self.key] = value
+        else:
+            table.setdefault(self.key, [0.0, 0.0] if isinstance(self.way[1], int) else {})[self.way[1]] = value
+
+    def definition(self, default):
+        """Its property of Blender."""
+        control = _CONTROLS[self.control]
+        unit = f" ({control.unit})" if control.unit else ""
+        (low, high), (least, most) = control.slider, control.hard
+        settings = {
+            "name": control.label + unit,
+            "description": control.tooltip,
+            "min": least,
+            "max": most,
+            "soft_min": low,
+            "soft_max": high,
+            "override": {"LIBRARY_OVERRIDABLE"},
+        }
+        if control.is_whole:
+            for key in ("min", "max", "soft_min", "soft_max"):
+                settings[key] = int(min(max(settings[key], 0), _LARGEST_INT))
+            return IntProperty(default=int(default), **settings)
+        settings["precision"] = 4 if control.unit == "m" else 2
+        settings["step"] = 100 if high - low > 20 else 10 if high - low > 2 else 1
+        if self.size > 1:
+            return FloatVectorProperty(default=default, size=self.size, **settings)
+        return FloatProperty(default=float(default), **settings)
+
+
+def _sizes(key, attribute, control, spread_control=None):
+    spread = attribute.rsplit("_", 1)[0].split("_per")[0] + "_spread"
+    return (
+        Row(attribute, (key, "mean"), control),
+        Row(spread, (key, "spread"), spread_control or f"{control}_spread"),
+    )
+
+
+_AXES = (
+    Row("direction", ("direction",), "direction", 3),
+    Row("axis", ("axis",), "axis", 3),
+    Row("center_m", ("center_m",), "axis_center", 3),
+)
+
+SCRATCHES = (
+    Row("count", ("count",), "count"),
+    Row("density_per_m2", ("density_per_m2",), "density"),
+    *_sizes("width_um", "width_um", "width"),
+    *_sizes("depth_nm", "depth_nm", "depth"),
+    *_sizes("length_m", "length_m", "length"),
+    Row("jitter_deg", ("jitter_deg",), "jitter"),
+    *_sizes("curvature_per_m", "curvature_per_m", "curvature"),
+    *_AXES,
+    Row("seed", ("seed",), "seed"),
+)
+
+PLACE = (
+    Row("edges", ("where", "edges"), "edges"),
+    Row("edge_width_m", ("where", "edge_width_m"), "edge_width"),
+    Row("tile_m", ("where", "tile_m"), "tile"),
+)
+
+STROKES = (
+    Row("brush_radius_m", ("radius_m",), "brush_radius"),
+    Row("brush_density_per_m", ("density_per_m",), "brush_density"),
+)
+
+GRATING = (
+    Row("pitch_um", ("pitch_um",), "pitch"),
+    Row("width_um", ("width_um",), "groove_width"),
+    *_sizes("depth_nm", "depth_nm", "depth", "groove_depth_spread"),
+    Row("jitter_um", ("jitter_um",), "displacement"),
+    Row("jitter_deg", ("jitter_deg",), "groove_angles"),
+    Row("curvature_per_m", ("curvature_per_m",), "curvature"),
+    Row("spacing_m", ("spacing_m",), "spot_spacing"),
+    *_AXES,
+    Row("coverage", ("coverage",), "coverage"),
+    Row("seed", ("seed",), "seed"),
+)
+
+RING = (
+    Row("inner_radius_m", ("radius_m", 0), "inner_radius"),
+    Row("outer_radius_m", ("radius_m", 1), "outer_radius"),
+)
+
+# What is not in the table of any pattern's defaults.
+_OTHER_DEFAULTS = {
+    "count": 5000,
+    "density_per_m2": 1e4,
+    "edges": 0.0,
+    "edge_width_m": 0.02,
+    "tile_m": 0.1,
+    "brush_radius_m": 0.02,
+    "brush_density_per_m": 2000.0,
+    "inner_radius_m": 0.0,
+    "outer_radius_m": 1.0,
+}
+
+PATTERNS = {
+    "random": "Every place and every direction: daily wear",
+    "parallel": "All along one direction: a brushed panel",
+    "circular": "Rings and arcs around an axis: a turned pan",
+    "radial": "Straight away from an axis: the sunburst of a watch dial",
+    "spun": "Equal arcs that sweep from the axis to the rim",
+    "swirl": "Arcs around many centres: the cobweb on a polished car",
+    "drawn": "Along curves or strokes of a grease pencil",
+}
+GRATING_PATTERNS = {
+    "parallel": PATTERNS["parallel"],
+    "circular": PATTERNS["circular"],
+    "radial": PATTERNS["radial"],
+    "spun": PATTERNS["spun"],
+    "swirl": "Spots of circles in rows: engine turning",
+    "uv": "Along the texture coordinates of the surface",
+}
+
+
+@lru_cache(maxsize=None)
+def _defaults(kind, pattern):
+    if kind == "grating":
+        return hairline.Grating(object="object", pattern=pattern, pitch_um=1.6).to_dict()
+    amount = {"strokes": [_DAB]} if pattern == "drawn" else {"count": 1}
+    return hairline.Scratches(object="object", pattern=pattern, **amount).to_dict()
+
+
+_DAB = {"points_m": [[0.0, 0.0, 0.0]], "radius_m": 0.01, "density_per_m": 1.0}
+
+
+def rows_of(kind, pattern):
+    """Those of the rows that a pattern has."""
+    table = _defaults(kind, pattern)
+    rows = GRATING if kind == "grating" else SCRATCHES
+    amounts = ("count", "density_per_m2") if pattern != "drawn" else ()
+    return [row for row in rows if row.key in table and row.key != "count" or row.key in amounts]
+
+
+def default_of(kind, row):
+    """What a row's property is in the beginning."""
+    if row.attribute in _OTHER_DEFAULTS:
+        return _OTHER_DEFAULTS[row.attribute]
+    for pattern in GRATING_PATTERNS if kind == "grating" else PATTERNS:
+        value = row.read(_defaults(kind, pattern))
+        if value is not None:
+            return value
+    raise KeyError(f"no pattern of {kind} has {row.way}")

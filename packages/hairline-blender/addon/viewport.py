@@ -1,0 +1,3 @@
+class Viewport:
+    def __init__(self, engine): pass
+    def close(self): pass
