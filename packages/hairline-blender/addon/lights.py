@@ -65,7 +65,7 @@ def _radius_m(light):
 def _sphere(light, matrix, strength):
     # The power over 4 pi² r²: the area of a sphere, and pi for its cosine.
     radius_m = _radius_m(light)
-    area_m2 = 4 * math.pi * radius_m**2 if light.normalize else 4.0
+    area_m2 = 4 * math.pi * radius_m**2 if light.normalize else 1.0
     return {
         "kind": "sphere",
         "center_m": tidy(list(matrix.translation)),
