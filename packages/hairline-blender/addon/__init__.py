@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Hairline in Blender: a render engine for hair-thin scratches that split light into colours."""
 
-from . import engine, properties
+from . import engine, operators, panels, properties, scene_files
 
-_MODULES = (properties, engine)
+_MODULES = (properties, operators, panels, scene_files, engine)
 
 
 def register():
