@@ -1,5 +1,6 @@
 //! Tasks that cargo does not do itself. `cargo xtask COMMAND`; each command is one file.
 
+mod blender;
 mod dist;
 mod package;
 mod paths;
@@ -15,6 +16,8 @@ use clap::Parser;
 #[derive(Parser)]
 #[command(name = "cargo xtask", about)]
 enum Command {
+    /// Make the extension for Blender, a zip for Linux.
+    Blender(blender::Blender),
     /// Make an archive of the program with scenes, docs and licences, for Linux.
     Dist(dist::Dist),
     /// Make the package of shaders, tables and JavaScript for other engines.
@@ -37,6 +40,7 @@ enum Command {
 
 fn main() -> anyhow::Result<()> {
     match Command::parse() {
+        Command::Blender(command) => command.run(),
         Command::Dist(command) => command.run(),
         Command::Package(command) => command.run(),
         Command::Paths => paths::run(),

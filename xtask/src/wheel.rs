@@ -19,9 +19,11 @@ pub struct Wheel {
     all_scenes: bool,
 }
 
+/// Package that builds it.
+pub const MATURIN: &str = "maturin>=1.9,<2";
 /// Packages that build and test it.
 const TOOLS: [&str; 8] = [
-    "maturin>=1.9,<2",
+    MATURIN,
     "numpy",
     "pillow",
     "pytest",
@@ -30,6 +32,43 @@ const TOOLS: [&str; 8] = [
     "distributed",
     "matplotlib",
 ];
+
+/// Imported modules are compiled at that time.
+const QUIETLY: [&str; 6] = [
+    "-m",
+    "pip",
+    "install",
+    "--quiet",
+    "--no-compile",
+    "--disable-pip-version-check",
+];
+
+/// The programs of a fresh environment with these packages, in a folder.
+pub fn environment(python: &Path, folder: &Path, packages: &[&str]) -> anyhow::Result<PathBuf> {
+    let environment = folder.join("environment");
+    run(Command::new(python)
+        .args(["-m", "venv", "--clear"])
+        .arg(&environment))?;
+    let programs = environment.join("bin");
+    run(Command::new(programs.join("python"))
+        .args(QUIETLY)
+        .args(packages))?;
+    Ok(programs)
+}
+
+/// Builds the wheel of `package` into `output` by the maturin of `programs`, in the place of those that were there.
+pub fn build(package: &Path, programs: &Path, output: &Path) -> anyhow::Result<PathBuf> {
+    for old in wheels(output)? {
+        std::fs::remove_file(old)?;
+    }
+    run(Command::new(programs.join("maturin"))
+        .args(["build", "--release", "--quiet", "--out"])
+        .arg(output)
+        .arg("--manifest-path")
+        .arg(package.join("Cargo.toml"))
+        .env("CARGO", package.join("cargo-of-workspace")))?;
+    wheels(output)?.pop().context("maturin made no wheel")
+}
 
 impl Wheel {
     pub fn run(self) -> anyhow::Result<()> {
@@ -43,35 +82,12 @@ impl Wheel {
         let package = root.join("crates/python");
         std::fs::create_dir_all(&self.output)?;
         let output = self.output.canonicalize()?;
-        let environment = output.join("environment");
-        run(Command::new(&self.python)
-            .args(["-m", "venv", "--clear"])
-            .arg(&environment))?;
-        let programs = environment.join("bin");
+        let programs = environment(&self.python, &output, &TOOLS)?;
         let python = || Command::new(programs.join("python"));
-        // Imported modules are compiled at that time.
-        let quietly = [
-            "-m",
-            "pip",
-            "install",
-            "--quiet",
-            "--no-compile",
-            "--disable-pip-version-check",
-        ];
-        run(python().args(quietly).args(TOOLS))?;
 
         let make = || -> anyhow::Result<PathBuf> {
-            for old in wheels(&output)? {
-                std::fs::remove_file(old)?;
-            }
-            run(Command::new(programs.join("maturin"))
-                .args(["build", "--release", "--quiet", "--out"])
-                .arg(&output)
-                .arg("--manifest-path")
-                .arg(package.join("Cargo.toml"))
-                .env("CARGO", package.join("cargo-of-workspace")))?;
-            let wheel = wheels(&output)?.pop().context("maturin made no wheel")?;
-            run(python().args(quietly).arg("--no-deps").arg(&wheel))?;
+            let wheel = build(&package, &programs, &output)?;
+            run(python().args(QUIETLY).arg("--no-deps").arg(&wheel))?;
             Ok(wheel)
         };
         let check_types = || {
@@ -144,7 +160,7 @@ fn wheels(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
 
 /// Runs a command and prints its output once it is done, since other commands may run at the same
 /// time.
-fn run(command: &mut Command) -> anyhow::Result<()> {
+pub fn run(command: &mut Command) -> anyhow::Result<()> {
     let done = command.output().with_context(|| format!("{command:?}"))?;
     let said = [done.stdout, done.stderr].concat();
     print!("{}", String::from_utf8_lossy(&said));

@@ -234,8 +234,8 @@ pub fn project(camera: &Camera, point_m: DVec3, size_px: DVec2) -> Option<DVec2>
         return None;
     }
     let px = 0.5 * size_px.y / (half_fov_tan(camera) * depth_m);
-    let from_middle = DVec2::new(from_eye.dot(axes.right), from_eye.dot(axes.up))
-        - camera.shift_tan() * depth_m;
+    let from_middle =
+        DVec2::new(from_eye.dot(axes.right), from_eye.dot(axes.up)) - camera.shift_tan() * depth_m;
     Some(0.5 * size_px + from_middle * DVec2::new(px, -px))
 }
 

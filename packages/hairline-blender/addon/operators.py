@@ -5,7 +5,7 @@ import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 from hairline import editing
 
-from . import layers
+from . import layers, rows
 
 KINDS = {"scratches": "scratches", "grating": "gratings"}
 
@@ -56,6 +56,7 @@ class _AddPreset(_OnSurface):
             # Each layer its own scratches.
             items[-1].seed = len(items)
         setattr(surface, index, len(items) - 1)
+        rows.tag(surface)
         return {"FINISHED"}
 
 
@@ -86,6 +87,7 @@ class HAIRLINE_OT_remove(_OnSurface, bpy.types.Operator):
         if at < len(items):
             items.remove(at)
             setattr(surface, index, max(at - 1, 0))
+            rows.tag(surface)
         return {"FINISHED"}
 
 
@@ -102,6 +104,7 @@ class HAIRLINE_OT_move(_OnSurface, bpy.types.Operator):
         if 0 <= to < len(items) and at < len(items):
             items.move(at, to)
             setattr(surface, index, to)
+            rows.tag(surface)
         return {"FINISHED"}
 
 
@@ -121,6 +124,7 @@ class HAIRLINE_OT_wear(_OnSurface, bpy.types.Operator):
         for made in editing.from_preset("wear", self.wear, "object", size_m):
             layers.fill(items.add(), "scratches", made.to_dict())
         setattr(surface, index, max(len(items) - 1, 0))
+        rows.tag(surface)
         return {"FINISHED"}
 
 

@@ -8,7 +8,8 @@ from hairline import optics
 
 from . import rows
 
-_OVERRIDE = {"LIBRARY_OVERRIDABLE"}
+# Of all that changes a picture.
+_CHANGES = {"override": {"LIBRARY_OVERRIDABLE"}, "update": rows.tag}
 
 
 def _is_stroke_source(_, candidate):
@@ -17,7 +18,7 @@ def _is_stroke_source(_, candidate):
 
 def _choice(items, name, default=None):
     items = [(key, key.replace("_", " ").capitalize() if len(key) > 2 else key.upper(), text) for key, text in items.items()]
-    return EnumProperty(items=items, name=name, default=default or items[0][0], override=_OVERRIDE)
+    return EnumProperty(items=items, name=name, default=default or items[0][0], **_CHANGES)
 
 
 def _made(name, kind, all_rows, others):
@@ -27,15 +28,16 @@ def _made(name, kind, all_rows, others):
 
 
 _COMMON = {
-    "name": StringProperty(name="Name", default="scratches", override=_OVERRIDE),
-    "hidden": BoolProperty(name="Hidden", description="As if it were not there", override=_OVERRIDE),
+    "name": StringProperty(name="Name", default="scratches", **_CHANGES),
+    "hidden": BoolProperty(name="Hidden", description="As if it were not there", **_CHANGES),
     "mask": PointerProperty(
         name="Mask",
         type=bpy.types.Image,
+        update=rows.tag,
         description="Scratches lie where it is lighter than half of white; of a grating its values are factors on the coverage",
     ),
     "vertex_group": StringProperty(
-        name="Vertex group", description="The weights of this group of the object say where it lies, and how thickly", override=_OVERRIDE
+        name="Vertex group", description="The weights of this group of the object say where it lies, and how thickly", **_CHANGES
     ),
 }
 
@@ -58,17 +60,17 @@ HairlineLayer = _group(
             ("COUNT", "In all", "A number of scratches, whatever the size of the object"),
             ("DENSITY", "Per area", "A number on each square metre"),
         ],
-        override=_OVERRIDE,
+        **_CHANGES,
     ),
-    solo=BoolProperty(name="Solo", description="If a layer is solo, only solo layers are seen", override=_OVERRIDE),
+    solo=BoolProperty(name="Solo", description="If a layer is solo, only solo layers are seen", **_CHANGES),
     density_map=PointerProperty(
-        name="Density", type=bpy.types.Image, description="A scratch is laid with the probability that the image has at its middle"
+        name="Density", type=bpy.types.Image, update=rows.tag, description="A scratch is laid with the probability that the image has at its middle"
     ),
     is_tiled=BoolProperty(
-        name="Tiled", description="Images are laid on from three sides and repeat, not by the UV map", override=_OVERRIDE
+        name="Tiled", description="Images are laid on from three sides and repeat, not by the UV map", **_CHANGES
     ),
     strokes=PointerProperty(
-        name="Strokes", type=bpy.types.Object, poll=_is_stroke_source, description="A curve or a grease pencil on the surface: scratches run along it"
+        name="Strokes", type=bpy.types.Object, update=rows.tag, poll=_is_stroke_source, description="A curve or a grease pencil on the surface: scratches run along it"
     ),
 )
 
@@ -78,8 +80,8 @@ HairlineGrating = _group(
     rows.GRATING + rows.RING,
     "Grooves side by side, finer than a pixel.",
     pattern=_choice(rows.GRATING_PATTERNS, "Pattern"),
-    has_ring=BoolProperty(name="Within radii", description="Grooves inside of a circle, outside of one, or in a ring", override=_OVERRIDE),
-    along=EnumProperty(name="Along", items=[("u", "U", "Along u"), ("v", "V", "Along v")], override=_OVERRIDE),
+    has_ring=BoolProperty(name="Within radii", description="Grooves inside of a circle, outside of one, or in a ring", **_CHANGES),
+    along=EnumProperty(name="Along", items=[("u", "U", "Along u"), ("v", "V", "Along v")], **_CHANGES),
 )
 
 
@@ -99,7 +101,7 @@ class HairlineSurface(bpy.types.PropertyGroup):
         description="The measured refractive index of a metal in the place of the base colour",
         items=[("NONE", "None", "The base colour of the material")]
         + [(metal, metal.capitalize(), f"Measured n and k of {metal}") for metal in optics.metals()],
-        override=_OVERRIDE,
+        **_CHANGES,
     )
 
 
@@ -133,8 +135,8 @@ def register():
     for kind in _CLASSES:
         bpy.utils.register_class(kind)
     for owner in (bpy.types.Object, bpy.types.Material):
-        owner.hairline = PointerProperty(type=HairlineSurface, override=_OVERRIDE)
-    bpy.types.Scene.hairline = PointerProperty(type=HairlineSettings, override=_OVERRIDE)
+        owner.hairline = PointerProperty(type=HairlineSurface, override=_CHANGES["override"])
+    bpy.types.Scene.hairline = PointerProperty(type=HairlineSettings, override=_CHANGES["override"])
 
 
 def unregister():

@@ -20,6 +20,11 @@ _CONTROLS = editing.controls(_DIAGONAL_M)
 _LARGEST_INT = 2**31 - 1
 
 
+def tag(group, _context=None):
+    """Has Blender take over a change: it does not look into properties of add-ons by itself."""
+    group.id_data.update_tag()
+
+
 @dataclass(frozen=True)
 class Row:
     """A property: its name in Blender, its way in the table of a scene file, and the control that knows its range."""
@@ -66,6 +71,7 @@ class Row:
             "soft_min": low,
             "soft_max": high,
             "override": {"LIBRARY_OVERRIDABLE"},
+            "update": tag,
         }
         if control.is_whole:
             for key in ("min", "max", "soft_min", "soft_max"):

@@ -77,6 +77,7 @@ class HAIRLINE_OT_import(bpy.types.Operator, ImportHelper):
         if (owner, kind) not in fresh:
             items.clear()
             fresh.add((owner, kind))
+        owner.update_tag()
         for line in layers.fill(items.add(), kind, table):
             self.report({"WARNING"}, f'Hairline: object "{item.name}", {kind} "{table.get("name", "")}": {line}')
         return 1
