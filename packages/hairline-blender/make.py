@@ -40,7 +40,7 @@ def environment(blender, folder):
     python = folder / f"blender-{blender}" / "bin/python"
     if not python.exists():
         venv.create(folder / f"blender-{blender}", with_pip=True)
-    packages = [f"bpy=={blender}", "pytest"]
+    packages = [f"bpy=={blender}", "pytest", "OpenEXR"]
     done = subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *packages], capture_output=True, text=True)
     if done.returncode:
         print(f"skipped: Blender {blender} as a module cannot be installed: {done.stderr.strip().splitlines()[-1]}")

@@ -48,7 +48,6 @@ class HairlineEngine(bpy.types.RenderEngine):
             notes.keep(depsgraph.scene, found)
 
     def _fail(self, text):
-        self.report({"ERROR"}, f"Hairline: {text}")
         self.error_set(f"Hairline: {text}")
 
     def _render(self, depsgraph, found):

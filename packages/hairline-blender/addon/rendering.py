@@ -35,9 +35,10 @@ def in_words(error, table):
     def name(match):
         entry = table.get(match[1], [])[int(match[2])]
         words = f'{_KINDS[match[1]]} "{entry.get("name", match[2])}"'
-        return f'{words} of object "{entry["object"]}"' if "object" in entry else words
+        words = f'{words} of object "{entry["object"]}"' if "object" in entry else words
+        return f"{words}: {match[3]}" if match[3] else words
 
-    return re.sub(r"\b(object|light|scratches|grating|material)\[(\d+)\]", name, str(error))
+    return re.sub(r"\b(object|light|scratches|grating|material)\[(\d+)\]\.?(\w*)", name, str(error))
 
 
 class _Lines(logging.Handler):
