@@ -88,13 +88,12 @@ def _focus(camera_object, subject, notes):
     }
 
 
-def of_viewport(context_region, region_3d, space, scene, depsgraph, notes):
-    """What a viewport sees: by its own lens, or by the scene's camera as it lies in the viewport."""
-    width, height = context_region.width, context_region.height
-    # Of the matrix from view to clip space: 2 / (pixels across) over the tangent of a pixel, and the offset of the axis.
-    window = region_3d.window_matrix
+def of_viewport(region, region_3d):
+    """What a viewport sees, through its own lens or as the scene's camera lies in it."""
     if not region_3d.is_perspective:
-        raise Refused("viewport: found an orthographic view; Hairline sees in perspective: press 5 of the number pad")
-    tan_per_px = 2 / (window[1][1] * height)
+        raise Refused("viewport: found an orthographic view; Hairline sees in perspective: press 5 on the number pad")
+    width, height = region.width, region.height
+    # The matrix from view to clip space: its scale is two over the tangent of the whole height, its third column the shift.
+    window = region_3d.window_matrix
     middle_px = 0.5 * width * (1 - window[0][2]), 0.5 * height * (1 - window[1][2])
-    return View(region_3d.view_matrix.inverted(), (width, height), tan_per_px, middle_px)
+    return View(region_3d.view_matrix.inverted(), (width, height), 2 / (window[1][1] * height), middle_px)

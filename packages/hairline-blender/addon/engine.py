@@ -36,19 +36,16 @@ class HairlineEngine(bpy.types.RenderEngine):
         try:
             self._render(depsgraph, found)
         except notes.Refused as refusal:
-            self._fail(str(refusal))
+            self.report({"ERROR"}, f"Hairline: {refusal}")
         except rendering.Stopped:
             pass
         except Exception as error:  # noqa: BLE001: Blender goes on, whatever it was.
-            self._fail(f"a mistake in Hairline: {type(error).__name__}: {error}")
+            self.report({"ERROR"}, f"Hairline: a mistake of its own: {type(error).__name__}: {error}")
             raise
         finally:
             for line in found:
                 self.report({"WARNING"}, f"Hairline: {line}")
             notes.keep(depsgraph.scene, found)
-
-    def _fail(self, text):
-        self.error_set(f"Hairline: {text}")
 
     def _render(self, depsgraph, found):
         scene = depsgraph.scene
@@ -95,29 +92,30 @@ class HairlineEngine(bpy.types.RenderEngine):
         finally:
             self.end_result(result, cancel=not is_whole, do_merge_results=is_whole)
 
-    # The viewport.
+    # The viewport. Blender keeps one engine for each, with its attributes.
 
     def view_update(self, context, depsgraph):
-        _viewport_of(self).update(context, depsgraph)
+        self._viewport().update(context, depsgraph)
 
     def view_draw(self, context, depsgraph):
-        _viewport_of(self).draw(context, depsgraph)
+        self._viewport().draw(context, depsgraph)
+
+    def _viewport(self):
+        shown = getattr(self, "shown", None)
+        if shown is None:
+            shown = self.shown = viewport.Viewport(self)
+            _viewports.add(shown)
+        return shown
 
     def __del__(self):
-        shown = _viewports.pop(id(self), None)
-        if shown:
+        shown = getattr(self, "shown", None)
+        if shown is not None:
             shown.close()
+            _viewports.discard(shown)
 
 
-# Beside the engine: attributes of engines are lost when Blender makes them anew.
-_viewports = {}
-
-
-def _viewport_of(engine):
-    key = id(engine)
-    if key not in _viewports:
-        _viewports[key] = viewport.Viewport(engine)
-    return _viewports[key]
+# Those that are open: their threads end when the add-on is switched off.
+_viewports = set()
 
 
 def _wanted(view, render):
@@ -169,7 +167,7 @@ def register():
 def unregister():
     for engines in _panels():
         engines.discard(HairlineEngine.bl_idname)
-    for shown in list(_viewports.values()):
+    for shown in list(_viewports):
         shown.close()
     _viewports.clear()
     bpy.utils.unregister_class(HairlineEngine)

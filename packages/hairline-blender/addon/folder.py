@@ -1,32 +1,42 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The folder that a scene's files are written to: one of its own for a picture, or one that the artist chose for an export."""
+"""The folder that a scene's files are written to: one of its own for a picture or a viewport, or one that the artist chose for an export."""
 
+import hashlib
 import os
 import re
 import shutil
 
 
 class Folder:
-    """Names files so that no two are one. `is_kept`: files that lie elsewhere are copied, so that the folder can be taken along."""
+    """Names files so that no two are one.
 
-    def __init__(self, path, is_kept, prefix=""):
-        self.path, self._is_kept, self._prefix = path, is_kept, prefix
+    `is_kept`: files that lie elsewhere are copied, so that the folder can be taken along. `by_content`: names are told by what is in a file, which is
+    written once, so that the renderer knows what has not changed.
+    """
+
+    def __init__(self, path, is_kept, prefix="", by_content=False):
+        self.path, self._is_kept, self._prefix, self._by_content = path, is_kept, prefix, by_content
         self._names = {}
         self._files = {}
+        self.written = set()
 
-    def path_for(self, wanted):
-        """A name of its own for a file, and its path."""
+    def add(self, wanted, parts):
+        """Writes a file of some bytes; its name in the scene."""
         stem, ending = os.path.splitext(self._prefix + re.sub(r"[^\w. -]", "_", wanted))
         stem = stem[:80]
-        number = self._names[stem + ending] = self._names.get(stem + ending, 0) + 1
-        name = f"{stem}{ending}" if number == 1 else f"{stem}~{number}{ending}"
-        return name, os.path.join(self.path, name)
-
-    def add_bytes(self, wanted, data):
-        """Writes a file; its name in the scene."""
-        name, path = self.path_for(wanted)
-        with open(path, "wb") as file:
-            file.write(data)
+        if self._by_content:
+            digest = hashlib.blake2b(digest_size=16)
+            for part in parts:
+                digest.update(part)
+            name = f"{stem} {digest.hexdigest()}{ending}"
+        else:
+            number = self._names[stem + ending] = self._names.get(stem + ending, 0) + 1
+            name = f"{stem}{ending}" if number == 1 else f"{stem}~{number}{ending}"
+        path = os.path.join(self.path, name)
+        if not (self._by_content and os.path.exists(path)):
+            with open(path, "wb") as file:
+                file.writelines(parts)
+        self.written.add(name)
         return name
 
     def add_file(self, path):
@@ -34,8 +44,14 @@ class Folder:
         if not self._is_kept:
             return path
         if path not in self._files:
-            name, copy = self.path_for(os.path.basename(path))
+            name = self._prefix + os.path.basename(path)
+            copy = os.path.join(self.path, name)
             if os.path.abspath(path) != os.path.abspath(copy):
                 shutil.copyfile(path, copy)
             self._files[path] = name
         return self._files[path]
+
+    def forget_all_but(self, kept):
+        """Removes files that are in none of these sets."""
+        for name in set(os.listdir(self.path)) - set().union(*kept):
+            os.remove(os.path.join(self.path, name))

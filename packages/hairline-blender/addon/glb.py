@@ -50,12 +50,10 @@ class Glb:
         sampler = self.add("samplers", {"wrapS": wrap, "wrapT": wrap})
         return self.add("textures", {"source": image, "sampler": sampler})
 
-    def write(self, path):
+    def parts(self):
+        """What the file consists of, one after the other."""
         self.json["buffers"] = [{"byteLength": self._length}]
         text = json.dumps(self.json, allow_nan=False).encode()
         text += b" " * (-len(text) % 4)
-        with open(path, "wb") as file:
-            file.write(struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + self._length))
-            file.write(struct.pack("<I4s", len(text), b"JSON") + text)
-            file.write(struct.pack("<I4s", self._length, b"BIN\0"))
-            file.writelines(self._parts)
+        head = struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + self._length)
+        return [head, struct.pack("<I4s", len(text), b"JSON") + text, struct.pack("<I4s", self._length, b"BIN\0"), *self._parts]

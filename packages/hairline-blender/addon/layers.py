@@ -144,7 +144,7 @@ class Worn:
         if image.name_full not in self._files:
             data = images.file_bytes(image) or png(images.pixels(image))
             ending = ".jpg" if data[:2] == b"\xff\xd8" else ".png"
-            self._files[image.name_full] = self._folder.add_bytes(f"{image.name}{ending}", data)
+            self._files[image.name_full] = self._folder.add(f"{image.name}{ending}", [data])
         return self._files[image.name_full]
 
     def _weights(self, name):
@@ -159,7 +159,7 @@ class Worn:
             self._files[key] = None
             return None
         picture = vertex_groups.picture(self._evaluated, group, self._surface, self.uv_maps[0])
-        self._files[key] = self._folder.add_bytes(f"{self._evaluated.name} {name}.png", png(picture))
+        self._files[key] = self._folder.add(f"{self._evaluated.name} {name}.png", [png(picture)])
         return self._files[key]
 
     def _tell(self, what, instead):

@@ -172,9 +172,7 @@ class _Objects:
             if matrix is not None:
                 node["matrix"] = [float(x) for column in matrix.transposed() for x in column]
             glb.json["scenes"][0]["nodes"].append(glb.add("nodes", node))
-        file, path = self._folder.path_for(f"{item.name}.glb")
-        glb.write(path)
-        table = {"mesh": file, "up": "z"}
+        table = {"mesh": self._folder.add(f"{item.name}.glb", glb.parts()), "up": "z"}
         if overrides:
             table["overrides"] = overrides
         return table

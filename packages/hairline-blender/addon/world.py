@@ -32,7 +32,7 @@ def table(world, folder, is_seen, notes):
         color = [max(x, 0.0) for x in as_rgb(value)]
         if max(color) == 0:
             return None
-        made = {"file": folder.add_bytes(f"world {world.name}.exr", exr(np.full((1, 2, 3), color, np.float32)))}
+        made = {"file": folder.add(f"world {world.name}.exr", [exr(np.full((1, 2, 3), color, np.float32))])}
     visible = is_seen and getattr(world.cycles_visibility, "camera", True)
     made |= {"intensity": tidy(float(strength)), "rotation_deg": tidy(_TURN_DEG - math.degrees(turn_rad)), "visible": visible}
     return made
@@ -99,4 +99,4 @@ def _map_file(image, folder, subject):
     path = images.path_of(image)
     if path and path.lower().endswith((".hdr", ".exr")):
         return folder.add_file(path)
-    return folder.add_bytes(f"{image.name}.exr", exr(images.linear(image)[..., :3].astype(np.float32)))
+    return folder.add(f"{image.name}.exr", [exr(images.linear(image)[..., :3].astype(np.float32))])
