@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Installs the extension's zip into a fresh Blender (the module `bpy`) and runs the tests there: `python run.py ZIP [arguments of pytest]`.
+`python run.py ZIP --pictures FOLDER` makes the pictures of docs/blender.md.
 
 `python run.py packages/hairline-blender/addon` takes the add-on from its folder, with the package `hairline` of the environment.
 """
@@ -42,7 +43,13 @@ def main():
         print(f"Blender {bpy.app.version_string}, hairline {hairline.__version__} of {Path(hairline.__file__).parent}")
         sys.modules["addon_under_test"] = addon
         sys.path.insert(0, str(HERE))
-        return pytest.main(["-q", "-p", "no:cacheprovider", "-rs", *(arguments or [str(HERE)])])
+        if arguments[:1] == ["--pictures"]:
+            import pictures
+
+            return pictures.make(Path(arguments[1]))
+        if not any(Path(argument.split("::")[0]).exists() for argument in arguments):
+            arguments.append(str(HERE))
+        return pytest.main(["-q", "-p", "no:cacheprovider", "-rs", *arguments])
 
 
 if __name__ == "__main__":
