@@ -17,11 +17,13 @@ def build():
     scene = bpy.context.scene
     scene.render.engine = "HAIRLINE"
     scene.render.resolution_x, scene.render.resolution_y = 960, 540
+    # Colours of scratches stay as they are, up to the highlights.
+    scene.view_settings.view_transform = "Khronos PBR Neutral"
     scene.world = bpy.data.worlds.new("dark")
     scene.world.color = (0, 0, 0)
     if scene.world.node_tree:
         scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0
-    tray = _object("tray", _turned(), _material("steel", (0.6, 0.58, 0.55), 1.0, 0.15))
+    tray = _object("tray", _turned(), _material("steel", (0.6, 0.58, 0.55), 1.0, 0.07))
     tray.location.z = 0.0015
     tray.active_material.hairline.metal = "steel"
     _object("table", _square(1.0), _material("wood", (0.012, 0.01, 0.009), 0.0, 0.6))
@@ -29,7 +31,7 @@ def build():
     scene.camera = bpy.data.objects["camera"]
     scene.camera.data.lens, scene.camera.data.clip_start = 45, 0.01
     _lamp("key", "POINT", 1.1, (0.05, 0.2, 0.21), color=(1.0, 0.95, 0.88), shadow_soft_size=0.005)
-    ceiling = _lamp("ceiling", "AREA", 0.35, (0, 0.7, 0.75), color=(0.8, 0.9, 1.0), shape="RECTANGLE", size=2.0, size_y=1.2)
+    ceiling = _lamp("ceiling", "AREA", 0.8, (0, 0.7, 0.75), color=(0.8, 0.9, 1.0), shape="RECTANGLE", size=2.0, size_y=1.2)
     ceiling.visible_camera = False
     bpy.context.view_layer.objects.active = tray
     for preset, count, width_um in (("Turned pan", 2500, 5.0), ("Random wear", 7000, 4.2)):

@@ -203,16 +203,34 @@ def test_masks_and_vertex_groups_keep_scratches_to_their_places():
     assert left[:, middle + 8 :].sum() < 0.03 * left.sum() and left.sum() > 0
 
 
-def test_curves_become_strokes():
+_LINE_M = [(x, 0.0, 0.0) for x in (-0.06, -0.02, 0.02, 0.06)]
+
+
+def curve():
+    data = bpy.data.curves.new("stroke", "CURVE")
+    data.dimensions = "3D"
+    spline = data.splines.new("POLY")
+    spline.points.add(3)
+    for point, place in zip(spline.points, _LINE_M):
+        point.co = (*place, 1)
+    return stage.link("stroke", data)
+
+
+def grease_pencil():
+    pencils = bpy.data.grease_pencils_v3 if hasattr(bpy.data, "grease_pencils_v3") else bpy.data.grease_pencils
+    data = pencils.new("stroke")
+    drawing = data.layers.new("layer").frames.new(1).drawing
+    drawing.add_strokes([len(_LINE_M)])
+    for point, place in zip(drawing.strokes[0].points, _LINE_M):
+        point.position = place
+    return stage.link("stroke", data)
+
+
+@pytest.mark.parametrize("make", [curve, grease_pencil])
+def test_lines_become_strokes(make):
     item = plate()
     layer = add(item, preset="Random wear")
-    curve = bpy.data.curves.new("stroke", "CURVE")
-    curve.dimensions = "3D"
-    spline = curve.splines.new("POLY")
-    spline.points.add(3)
-    for point, x in zip(spline.points, (-0.06, -0.02, 0.02, 0.06)):
-        point.co = (x, 0.0, 0.0, 1)
-    layer.strokes, layer.pattern = stage.link("stroke", curve), "drawn"
+    layer.strokes, layer.pattern = make(), "drawn"
     layer.brush_radius_m, layer.brush_density_per_m, layer.length_m = 0.01, 8000, 0.01
     density = layer_of("Hairline Density").sum(axis=2)
     rows = np.flatnonzero(density.sum(axis=1) > 0.01 * density.sum(axis=1).max())

@@ -106,7 +106,7 @@ impl Lens {
         let from_eye = point_m - self.eye_m();
         let per_px = [self.frame.per_px_x, self.frame.per_px_y];
         let [x, y] = per_px.map(|axis| from_eye.dot(axis) / axis.length_squared());
-        let middle = 0.5 * self.frame.size_px * self.depth_m(point_m);
+        let middle = self.frame.middle_px * self.depth_m(point_m);
         let at = (middle + DVec2::new(x, y)) / self.px_per_point;
         egui::vec2(at.x as f32, at.y as f32)
     }

@@ -22,6 +22,8 @@ impl Workspace {
                 sensor_width_mm: scene.sensor_width_mm,
                 aperture_mm: scene.aperture_mm,
                 focus_distance_m: self.free_focus_m(free),
+                shift: scene.shift,
+                world_up: scene.world_up,
                 ..free.clone()
             },
         }
@@ -145,6 +147,8 @@ impl Workspace {
                     sensor_width_mm: view.sensor_width_mm,
                     aperture_mm: view.aperture_mm,
                     focus_distance_m: view.focus_distance_m,
+                    shift: view.shift,
+                    world_up: view.world_up,
                     ..camera
                 };
             });
