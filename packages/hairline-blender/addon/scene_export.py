@@ -81,7 +81,7 @@ class _Objects:
         self._surfaces = {}
         self.scratches, self.gratings = [], []
         self.triangle_count = 0
-        self._names = {}
+        self._names = set()
 
     def add(self, instance):
         item = instance.object
@@ -134,8 +134,13 @@ class _Objects:
         return tables
 
     def _name(self, wanted):
-        number = self._names[wanted] = self._names.get(wanted, 0) + 1
-        return wanted if number == 1 else f"{wanted} ({number})"
+        """A name that no other object of the scene file has."""
+        name, number = wanted, 1
+        while name in self._names:
+            number += 1
+            name = f"{wanted} ({number})"
+        self._names.add(name)
+        return name
 
     def _model(self, item, made, slots, worn, places):
         """`mesh` and its overrides: a file with the triangles once, and a node for each place."""

@@ -23,6 +23,8 @@ LIGHTS = {
     "not normalised": lambda: stage.light("AREA", 20, shape="RECTANGLE", size=2.0, size_y=0.5, normalize=False),
     "point not normalised": lambda: stage.light("POINT", 300, shadow_soft_size=0.2, normalize=False),
     "scaled": lambda: setattr(stage.light("AREA", 150, shape="SQUARE", size=1.0), "scale", (2.0, 0.5, 1.0)),
+    "disk in the picture": lambda: stage.light("AREA", 30, frm=(-0.9, 0.6, 0.9), at=(0, -4, 2.5), shape="DISK", size=0.6),
+    "ball in the picture": lambda: stage.light("POINT", 60, frm=(-0.9, 0.4, 0.9), shadow_soft_size=0.25),
     "colour": lambda: stage.world(stage.bpy.context.scene, (0.3, 0.5, 0.9), 0.7),
     "map": lambda: stage.world(stage.bpy.context.scene, (0, 0, 0), 0.8, stage.image_of(sky(), "sky"), math.radians(40)),
 }

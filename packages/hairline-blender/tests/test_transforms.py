@@ -73,7 +73,28 @@ def text():
     made.location, made.rotation_euler = (-0.8, 0, 0.2), (math.radians(70), 0, 0)
 
 
-@pytest.mark.parametrize("things", [collection_instances, mirrored, parents, modifiers, sharp_edges, text])
+def geometry_nodes():
+    """A cube that is no object of its own, on the corners of a triangle."""
+    mesh = bpy.data.meshes.new("points")
+    mesh.from_pydata([(-0.9, 0, 0.4), (0.9, 0.2, 0.3), (0, 0.9, 0.7)], [], [(0, 1, 2)])
+    made = stage.link("points", mesh)
+    group = bpy.data.node_groups.new("group", "GeometryNodeTree")
+    group.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+    group.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    nodes, links = group.nodes, group.links
+    begin, end, cube = nodes.new("NodeGroupInput"), nodes.new("NodeGroupOutput"), nodes.new("GeometryNodeMeshCube")
+    put, material = nodes.new("GeometryNodeInstanceOnPoints"), nodes.new("GeometryNodeSetMaterial")
+    cube.inputs["Size"].default_value = (0.5, 0.3, 0.4)
+    material.inputs["Material"].default_value = stage.material("cube", **GREY)
+    links.new(cube.outputs[0], material.inputs["Geometry"])
+    links.new(begin.outputs[0], put.inputs["Points"])
+    links.new(material.outputs[0], put.inputs["Instance"])
+    links.new(put.outputs[0], end.inputs[0])
+    put.inputs["Rotation"].default_value = (0.3, 0.2, 0.5)
+    made.modifiers.new("nodes", "NODES").node_group = group
+
+
+@pytest.mark.parametrize("things", [geometry_nodes, collection_instances, mirrored, parents, modifiers, sharp_edges, text])
 def test_pictures_are_those_of_cycles(things):
     stage.empty()
     stage.plane(made_of=stage.material("floor", base_color=(0.3, 0.3, 0.3), roughness=0.9))
