@@ -31,8 +31,7 @@ def build():
     scene.camera = bpy.data.objects["camera"]
     scene.camera.data.lens, scene.camera.data.clip_start = 45, 0.01
     _lamp("key", "POINT", 1.1, (0.05, 0.2, 0.21), color=(1.0, 0.95, 0.88), shadow_soft_size=0.005)
-    ceiling = _lamp("ceiling", "AREA", 0.8, (0, 0.7, 0.75), color=(0.8, 0.9, 1.0), shape="RECTANGLE", size=2.0, size_y=1.2)
-    ceiling.visible_camera = False
+    _lamp("ceiling", "AREA", 0.8, (0, 0.7, 0.75), color=(0.8, 0.9, 1.0), shape="RECTANGLE", size=2.0, size_y=1.2)
     bpy.context.view_layer.objects.active = tray
     for preset, count, width_um in (("Turned pan", 2500, 5.0), ("Random wear", 7000, 4.2)):
         bpy.ops.hairline.add_layer(owner="object", preset=preset)

@@ -28,8 +28,7 @@ def table(light_object, matrix, notes):
     if light_object.light_linking.receiver_collection or light_object.light_linking.blocker_collection:
         notes.add(subject, "light linking is not carried over", "it lights all")
     made = _KINDS[light.type](light, matrix, strength, subject, notes)
-    if "radiance" in made and light_object.visible_camera:
-        made["visible"] = True
+    # Not visible: neither Cycles nor EEVEE shows the camera a lamp's shape.
     return {"name": light_object.name, "color": tidy(color), **made}
 
 

@@ -102,7 +102,7 @@ def setting(made):
     stage.empty()
     stage.plane(made_of=made, size=2.4)
     stage.camera(frm=(0.3, -3.0, 2.6), at=(0, 0, 0))
-    stage.light("AREA", 120, frm=(0.8, 1.5, 2.5), size=1.0).visible_camera = False
+    stage.light("AREA", 120, frm=(0.8, 1.5, 2.5), size=1.0)
     stage.world(bpy.context.scene, (0.3, 0.3, 0.35))
 
 
