@@ -17,6 +17,8 @@ def build():
     scene = bpy.context.scene
     scene.render.engine = "HAIRLINE"
     scene.render.resolution_x, scene.render.resolution_y = 960, 540
+    # The rim mirrors the lamp in lines thinner than a pixel.
+    scene.hairline.samples = 32
     # Colours of scratches stay as they are, up to the highlights.
     scene.view_settings.view_transform = "Khronos PBR Neutral"
     scene.world = bpy.data.worlds.new("dark")
