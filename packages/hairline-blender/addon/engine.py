@@ -79,9 +79,7 @@ class HairlineEngine(bpy.types.RenderEngine):
         def picture(samples, size):
             chosen = SimpleNamespace(backend=settings.backend, samples=samples, shadows=settings.shadows, bounces=settings.bounces)
             tell = lambda line: self.report({"INFO"}, f"Hairline: {line}")
-            return rendering.render(
-                made, exported.table, chosen, scene.render.film_transparent, progress, self.test_break, tell, size
-            )
+            return rendering.render(made, exported.table, chosen, scene.render.film_transparent, progress, self.test_break, tell, size)
 
         is_whole = False
         try:

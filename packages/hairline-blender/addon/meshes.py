@@ -49,11 +49,14 @@ def _of_mesh(mesh, name):
     mesh.calc_loop_triangles()
     positions_m = _got(mesh.vertices, "co", 3)
     _refuse_unusable(positions_m, name)
-    vertex_of = _got(mesh.loops, "vertex_index", 1, np.int32)
+    # By attributes: they are copied whole, and not item by item.
+    vertex_of = _got(mesh.attributes[".corner_vert"].data, "value", 1, np.int32)
     normals = _got(mesh.corner_normals, "vector", 3)
     uvs = {layer.name: _got(layer.uv, "vector", 2) for layer in mesh.uv_layers}
     corners = _got(mesh.loop_triangles, "loops", 3, np.int32)
-    slots = _got(mesh.polygons, "material_index", 1, np.int32)[_got(mesh.loop_triangles, "polygon_index", 1, np.int32)]
+    material = mesh.attributes.get("material_index")
+    of_polygon = _got(material.data, "value", 1, np.int32) if material else np.zeros(len(mesh.polygons), np.int32)
+    slots = of_polygon[_got(mesh.loop_triangle_polygons, "value", 1, np.int32)]
     kept, number = _distinct(vertex_of, len(positions_m), [normals, *uvs.values()])
     vertex_of = vertex_of[kept]
     flip = np.array([0, 1], np.float32), np.array([1, -1], np.float32)

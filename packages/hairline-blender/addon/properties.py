@@ -21,12 +21,6 @@ def _choice(items, name, default=None):
     return EnumProperty(items=items, name=name, default=default or items[0][0], **_CHANGES)
 
 
-def _made(name, kind, all_rows, others):
-    """A PropertyGroup of rows and other properties."""
-    annotations = {row.attribute: row.definition(rows.default_of(kind, row)) for row in all_rows}
-    return type(name, (bpy.types.PropertyGroup,), {"__annotations__": {**annotations, **others}, "__doc__": others["__doc__"]})
-
-
 _COMMON = {
     "name": StringProperty(name="Name", default="scratches", **_CHANGES),
     "hidden": BoolProperty(name="Hidden", description="As if it were not there", **_CHANGES),
@@ -43,9 +37,9 @@ _COMMON = {
 
 
 def _group(name, kind, all_rows, doc, **others):
-    made = _made(name, kind, all_rows, {"__doc__": doc, **_COMMON, **others})
-    made.__annotations__.pop("__doc__")
-    return made
+    """A PropertyGroup of rows and other properties."""
+    annotations = {row.attribute: row.definition(rows.default_of(kind, row)) for row in all_rows}
+    return type(name, (bpy.types.PropertyGroup,), {"__annotations__": {**annotations, **_COMMON, **others}, "__doc__": doc})
 
 
 HairlineLayer = _group(
@@ -66,11 +60,13 @@ HairlineLayer = _group(
     density_map=PointerProperty(
         name="Density", type=bpy.types.Image, update=rows.tag, description="A scratch is laid with the probability that the image has at its middle"
     ),
-    is_tiled=BoolProperty(
-        name="Tiled", description="Images are laid on from three sides and repeat, not by the UV map", **_CHANGES
-    ),
+    is_tiled=BoolProperty(name="Tiled", description="Images are laid on from three sides and repeat, not by the UV map", **_CHANGES),
     strokes=PointerProperty(
-        name="Strokes", type=bpy.types.Object, update=rows.tag, poll=_is_stroke_source, description="A curve or a grease pencil on the surface: scratches run along it"
+        name="Strokes",
+        type=bpy.types.Object,
+        update=rows.tag,
+        poll=_is_stroke_source,
+        description="A curve or a grease pencil on the surface: scratches run along it",
     ),
 )
 

@@ -6,7 +6,7 @@ Pictures and exported files come of the same table: `hairline render` of the fil
 
 import numpy as np
 
-from . import camera, layers, lights, world
+from . import layers, lights, world
 from .frames import placing
 from .glb import Glb
 from .materials import Materials
@@ -15,7 +15,13 @@ from .notes import Refused
 from .shaders import shader
 
 _SURFACES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
-_OTHERS = {"CURVES": "hair curves", "POINTCLOUD": "a point cloud", "VOLUME": "a volume", "GPENCIL": "a grease pencil", "GREASEPENCIL": "a grease pencil"}
+_OTHERS = {
+    "CURVES": "hair curves",
+    "POINTCLOUD": "a point cloud",
+    "VOLUME": "a volume",
+    "GPENCIL": "a grease pencil",
+    "GREASEPENCIL": "a grease pencil",
+}
 
 
 class Exported:

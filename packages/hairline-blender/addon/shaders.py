@@ -3,7 +3,7 @@
 
 from dataclasses import dataclass
 
-from .sockets import Reader, Texture, as_number, as_rgb
+from .sockets import Reader, Texture, as_rgb
 
 
 @dataclass
@@ -152,5 +152,3 @@ _READ = {
     "ShaderNodeBsdfGlossy": _glossy,
     "ShaderNodeEmission": _emission,
 }
-
-__all__ = ["Shader", "shader", "as_number"]

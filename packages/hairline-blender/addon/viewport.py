@@ -84,9 +84,7 @@ class Painter:
             if coarse > 1:
                 # What moves has no shadows, so that it moves.
                 chosen.shadows = False
-            picture = rendering.render(
-                self._scene, self._table, chosen, is_transparent, lambda *_: None, is_stopped, lambda _: None, step_px
-            )
+            picture = rendering.render(self._scene, self._table, chosen, is_transparent, lambda *_: None, is_stopped, lambda _: None, step_px)
             if is_stopped():
                 return
             self._on_picture(picture, None, size_px)

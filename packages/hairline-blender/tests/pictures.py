@@ -8,7 +8,6 @@ import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 import example
-import stage
 
 
 def make(folder):

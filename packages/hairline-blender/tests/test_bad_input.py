@@ -6,7 +6,6 @@ import time
 
 import addon_under_test as addon
 import bpy
-import numpy as np
 import pytest
 import stage
 
@@ -164,8 +163,6 @@ def test_escape_ends_it_at_once(monkeypatch):
 
 
 def test_a_million_triangles_are_exported_in_a_second():
-    from types import SimpleNamespace
-
     big(10)
     found = addon.notes.Notes()
     depsgraph = bpy.context.evaluated_depsgraph_get()

@@ -166,7 +166,9 @@ def test_every_preset_comes_through_the_properties_as_it_is(kind):
     for preset in editing.presets(kind):
         add(item, kind, preset.name)
     tables = getattr(hairline.load(exported("presets")), "scratches" if kind == "scratches" else "gratings")
-    wanted = [made.to_dict() for p in editing.presets(kind) for made in editing.from_preset(kind, p.name, "plate", float(np.linalg.norm(item.dimensions)))]
+    wanted = [
+        made.to_dict() for p in editing.presets(kind) for made in editing.from_preset(kind, p.name, "plate", float(np.linalg.norm(item.dimensions)))
+    ]
     for found, right in zip(tables, wanted, strict=True):
         found = found.to_dict()
         for key, value in right.items():
