@@ -238,3 +238,21 @@ def test_lines_become_strokes(make):
     rows = np.flatnonzero(density.sum(axis=1) > 0.01 * density.sum(axis=1).max())
     # A band of a fifth of the plate's 20 cm.
     assert 3 < len(rows) < 0.35 * density.shape[0]
+
+
+def test_linked_objects_keep_their_layers_and_overrides_change_them():
+    add(plate(), preset="Spun disk")
+    library, file = (os.path.join(stage.FOLDER, name) for name in ("library.blend", "user.blend"))
+    bpy.ops.wm.save_as_mainfile(filepath=library)
+    scene = stage.empty()
+    with bpy.data.libraries.load(library, link=True) as (_, wanted):
+        wanted.objects = ["plate"]
+    linked = wanted.objects[0]
+    scene.collection.objects.link(linked)
+    assert linked.hairline.scratches[0].pattern == "spun"
+    override = linked.override_create(remap_local_usages=True)
+    override.hairline.scratches[0].depth_nm = 99
+    bpy.ops.wm.save_as_mainfile(filepath=file)
+    bpy.ops.wm.open_mainfile(filepath=file)
+    assert bpy.data.objects["plate", None].hairline.scratches[0].depth_nm == pytest.approx(99)
+    assert bpy.data.objects["plate", "//library.blend"].hairline.scratches[0].depth_nm != pytest.approx(99)
