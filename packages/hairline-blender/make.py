@@ -37,9 +37,10 @@ def environment(blender, folder):
     if sys.version_info[:2] != PYTHON:
         print(f"skipped: found Python {sys.version.split()[0]}; Blender {blender} as a module needs {PYTHON[0]}.{PYTHON[1]}: --python")
         return None
-    python = folder / f"blender-{blender}" / "bin/python"
+    home = folder / f"blender-{blender.replace('*', 'x')}"
+    python = home / "bin/python"
     if not python.exists():
-        venv.create(folder / f"blender-{blender}", with_pip=True)
+        venv.create(home, with_pip=True)
     packages = [f"bpy=={blender}", "pytest", "OpenEXR"]
     done = subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *packages], capture_output=True, text=True)
     if done.returncode:
