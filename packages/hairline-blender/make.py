@@ -11,12 +11,12 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 LICENCES = ("LICENSE-MIT", "LICENSE-APACHE")
-# Blender's own Python is the module's: each version of the module needs its own.
+# Version of Python that Blender as a module needs.
 PYTHON = (3, 11)
 
 
 def zipped(wheel, output):
-    """The path of the zip."""
+    """Writes the zip and returns its path."""
     manifest = (HERE / "addon/blender_manifest.toml").read_text()
     version = re.search(r'^version = "(.+)"', manifest, re.M)[1]
     manifest = manifest.replace("wheels = []", f'wheels = ["./wheels/{wheel.name}"]')
@@ -33,7 +33,7 @@ def zipped(wheel, output):
 
 
 def environment(blender, folder):
-    """The interpreter of an environment with this version of Blender; None where it cannot be had, which is said."""
+    """Interpreter of an environment with this version of Blender. Prints the reason and returns None if it cannot be installed."""
     if sys.version_info[:2] != PYTHON:
         print(f"skipped: found Python {sys.version.split()[0]}; Blender {blender} as a module needs {PYTHON[0]}.{PYTHON[1]}: --python")
         return None

@@ -8,21 +8,21 @@ from .notes import Refused
 
 
 class View:
-    """What a camera sees of a picture: how much a pixel spans at unit depth, and where the axis of the lens is."""
+    """A camera with its picture: the width of a pixel at unit depth, and the pixel that the lens axis goes through."""
 
     def __init__(self, matrix, size_px, tan_per_px, middle_px):
         self.matrix, self.size_px, self.tan_per_px, self.middle_px = matrix, size_px, tan_per_px, middle_px
         self.focus = {}
 
     def part(self, x, y, width, height):
-        """What is seen of the picture from the pixel x, y, counted from its lower left corner."""
+        """The view of a part of the picture. x and y count from the lower left corner."""
         middle = self.middle_px[0] - x, self.middle_px[1] - y
         part = View(self.matrix, (width, height), self.tan_per_px, middle)
         part.focus = self.focus
         return part
 
     def table(self):
-        """As `[camera]`."""
+        """The table `[camera]`."""
         width, height = self.size_px
         position, _, up, back = unit_axes(self.matrix)
         shift = (0.5 * width - self.middle_px[0]) / height, (0.5 * height - self.middle_px[1]) / height
@@ -40,7 +40,7 @@ class View:
 
 
 def of_scene(scene, depsgraph, notes):
-    """What the scene's camera sees of the whole picture."""
+    """The view of the scene's camera, of the whole picture."""
     render = scene.render
     if scene.camera is None:
         raise Refused(f'scene "{scene.name}": found no camera; add one, and make it the active one of the scene')
@@ -66,7 +66,7 @@ def picture_size_px(render):
 def _perspective(camera, matrix, size_px):
     width, height = size_px
     is_wide = camera.sensor_fit == "HORIZONTAL" or camera.sensor_fit == "AUTO" and width >= height
-    # Blender fits its sensor to this many pixels; shifts count by them too.
+    # Blender fits the sensor to this side of the picture, and measures shifts in it.
     fitted_px = width if is_wide else height
     sensor_mm = camera.sensor_height if camera.sensor_fit == "VERTICAL" else camera.sensor_width
     middle_px = 0.5 * width - camera.shift_x * fitted_px, 0.5 * height - camera.shift_y * fitted_px
@@ -89,7 +89,7 @@ def _focus(camera_object, subject, notes):
 
 
 def of_viewport(region, region_3d):
-    """What a viewport sees, through its own lens or as the scene's camera lies in it."""
+    """The view of a viewport, by its own lens or through the scene's camera."""
     if not region_3d.is_perspective:
         raise Refused("viewport: found an orthographic view; Hairline sees in perspective: press 5 on the number pad")
     width, height = region.width, region.height

@@ -10,7 +10,7 @@ from . import camera, notes, rendering, viewport
 from .folder import Folder
 from .scene_export import export
 
-# A first picture of a sixteenth of the pixels, then the whole one.
+# The first picture has a sixteenth of the pixels.
 _COARSE = 4
 _LEAST_COARSE_PX = 64
 
@@ -112,12 +112,12 @@ class HairlineEngine(bpy.types.RenderEngine):
             _viewports.discard(shown)
 
 
-# Those that are open: their threads end when the add-on is switched off.
+# Open viewports. Their threads end when the add-on is switched off.
 _viewports = set()
 
 
 def _wanted(view, render):
-    """What is asked for of the whole picture, and where it lies in the result."""
+    """The view of the render border, and its corner in the result."""
     if not render.use_border:
         return view, (0, 0)
     width, height = view.size_px
@@ -127,7 +127,7 @@ def _wanted(view, render):
     return part, (0, 0) if render.use_crop_to_border else (left, low)
 
 
-# Panels of Blender that mean something here too: of the output, the camera, lights, the world and passes.
+# Panels of other engines whose settings Hairline reads.
 _PANELS = (
     "RENDER_PT_format",
     "RENDER_PT_output",
@@ -149,7 +149,7 @@ _PANELS = (
 
 
 def _panels():
-    """Those that say of themselves that every engine has them, and those above."""
+    """The engine sets of the panels to show: those of every engine, and `_PANELS`."""
     for panel in bpy.types.Panel.__subclasses__():
         engines = getattr(panel, "COMPAT_ENGINES", None)
         if engines is not None and ("BLENDER_RENDER" in engines or panel.__name__ in _PANELS):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The folder that a scene's files are written to: one of its own for a picture or a viewport, or one that the artist chose for an export."""
+"""The folder for the files of a scene: a temporary one for pictures and viewports, the artist's one for exports."""
 
 import hashlib
 import os
@@ -8,10 +8,10 @@ import shutil
 
 
 class Folder:
-    """Names files so that no two are one.
+    """Writes files under unique names.
 
-    `is_kept`: files that lie elsewhere are copied, so that the folder can be taken along. `by_content`: names are told by what is in a file, which is
-    written once, so that the renderer knows what has not changed.
+    `is_kept`: files from elsewhere are copied, so that the folder is complete. `by_content`: names are hashes of the content, so that the renderer
+    recognises unchanged files.
     """
 
     def __init__(self, path, is_kept, prefix="", by_content=False):
@@ -21,7 +21,7 @@ class Folder:
         self.written = set()
 
     def add(self, wanted, parts):
-        """Writes a file of some bytes; its name in the scene."""
+        """Writes a file and returns its name in the scene."""
         stem, ending = os.path.splitext(self._prefix + re.sub(r"[^\w. -]", "_", wanted))
         stem = stem[:80]
         if self._by_content:
@@ -40,7 +40,7 @@ class Folder:
         return name
 
     def add_file(self, path):
-        """The name in the scene of a file that is there."""
+        """The name in the scene of an existing file."""
         if not self._is_kept:
             return path
         if path not in self._files:
@@ -52,6 +52,6 @@ class Folder:
         return self._files[path]
 
     def forget_all_but(self, kept):
-        """Removes files that are in none of these sets."""
+        """Removes all files but those in these sets of names."""
         for name in set(os.listdir(self.path)) - set().union(*kept):
             os.remove(os.path.join(self.path, name))

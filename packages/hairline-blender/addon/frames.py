@@ -7,7 +7,7 @@ from mathutils import Matrix, Vector
 
 
 def tidy(values):
-    """Numbers without the tail that single precision leaves: 4.2, not 4.199999809."""
+    """Rounds single-precision numbers to seven digits: 4.2 instead of 4.199999809."""
     if isinstance(values, (int, str, bool)):
         return values
     if isinstance(values, float):
@@ -16,7 +16,7 @@ def tidy(values):
 
 
 def placing(matrix):
-    """`translation_m`, `rotation_deg` and `scale` of a matrix; None where it shears, which these cannot say."""
+    """`translation_m`, `rotation_deg` and `scale` of a matrix; None if it shears."""
     translation, rotation, scale = matrix.decompose()
     again = Matrix.LocRotScale(translation, rotation, scale)
     size = max(max(abs(x) for x in row[:3]) for row in matrix) or 1.0
@@ -31,6 +31,6 @@ def placing(matrix):
 
 
 def unit_axes(matrix):
-    """Position, and the unit directions of x, y and z of an object whose scale does not count: cameras and lights."""
+    """Position and unit x, y and z axes of a camera or light; its scale is ignored."""
     turned = matrix.to_quaternion()
     return matrix.translation.copy(), *(turned @ Vector(axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))

@@ -9,7 +9,7 @@ _KINDS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
 
 class Glb:
-    """A file in the making. `json` is its JSON part, to which nodes, meshes and materials are added."""
+    """A glTF file under construction. Callers add nodes, meshes and materials to `json`."""
 
     def __init__(self):
         self.json = {"asset": {"version": "2.0", "generator": "hairline"}, "scene": 0, "scenes": [{"nodes": []}]}
@@ -17,7 +17,7 @@ class Glb:
         self._length = 0
 
     def add(self, kind, value):
-        """Adds to a list of the JSON part; its number there."""
+        """Appends to a list of the JSON part and returns the index."""
         values = self.json.setdefault(kind, [])
         values.append(value)
         return len(values) - 1
@@ -30,7 +30,7 @@ class Glb:
         return view
 
     def array(self, values, with_bounds=False):
-        """The number of an accessor of float32 or uint32."""
+        """Adds an array of float32 or uint32 and returns the index of its accessor."""
         components = values.shape[1] if values.ndim == 2 else 1
         accessor = {
             "bufferView": self._view(values.tobytes()),
@@ -43,7 +43,7 @@ class Glb:
         return self.add("accessors", accessor)
 
     def texture(self, data, repeats):
-        """The number of a texture of a PNG or JPEG."""
+        """Adds a PNG or JPEG and returns the index of its texture."""
         kind = "image/jpeg" if data[:2] == b"\xff\xd8" else "image/png"
         image = self.add("images", {"bufferView": self._view(data), "mimeType": kind})
         wrap = 10497 if repeats else 33071
@@ -51,7 +51,7 @@ class Glb:
         return self.add("textures", {"source": image, "sampler": sampler})
 
     def parts(self):
-        """What the file consists of, one after the other."""
+        """The bytes of the file, in pieces."""
         self.json["buffers"] = [{"byteLength": self._length}]
         text = json.dumps(self.json, allow_nan=False).encode()
         text += b" " * (-len(text) % 4)

@@ -13,7 +13,7 @@ def is_missing(image):
 
 
 def path_of(image):
-    """Its file; None where it has none, or another is meant: packed, painted or made ones."""
+    """Path of its file; None for packed, painted and generated images."""
     if image.packed_file or image.is_dirty or image.source != "FILE":
         return None
     path = bpy.path.abspath(image.filepath, library=image.library)
@@ -21,7 +21,7 @@ def path_of(image):
 
 
 def file_bytes(image):
-    """The bytes of its PNG or JPEG, as it stands in its file or packed in the .blend; None where there is none of these."""
+    """Bytes of its PNG or JPEG, from its file or packed in the .blend; None for other images."""
     data = None
     if image.packed_file and not image.is_dirty:
         data = bytes(image.packed_file.data)
@@ -32,7 +32,7 @@ def file_bytes(image):
 
 
 def pixels(image):
-    """Rows from the top, height x width x 4, as they are stored: sRGB codes from 0 to 1 of an image of bytes."""
+    """Stored values, height x width x 4, rows from the top: sRGB codes from 0 to 1 for 8-bit images."""
     width, height = image.size
     values = np.empty(4 * width * height, np.float32)
     image.pixels.foreach_get(values)
@@ -48,13 +48,13 @@ def is_data(image):
 
 
 def is_understood(image):
-    """Whether its colour space is one of those that are carried over."""
+    """Whether the add-on converts its colour space."""
     linear = ("Linear Rec.709", "Linear", "scene_linear")
     return is_srgb(image) or is_data(image) or image.colorspace_settings.name in linear
 
 
 def linear(image):
-    """Its pixels in linear Rec.709, or as they are where they are data."""
+    """Pixels in linear Rec.709; those of data images unchanged."""
     values = pixels(image)
     if is_srgb(image) and not image.is_float:
         values = values.copy()
@@ -72,7 +72,7 @@ def srgb_of_linear(values):
 
 
 def resized(values, height, width):
-    """The nearest of its pixels for each of a picture of another size."""
+    """Nearest-neighbour resize."""
     rows = (np.arange(height) * values.shape[0]) // height
     columns = (np.arange(width) * values.shape[1]) // width
     return values[rows][:, columns]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Layers of scratches and gratings: between their properties in Blender and the tables of scene files."""
+"""Converts layers of scratches and gratings between properties of Blender and tables of scene files."""
 
 import math
 
@@ -8,7 +8,7 @@ from .picture_files import png
 
 
 def material_name(material):
-    """What models call a material. Linked ones may share a name with others."""
+    """Name of a material in models. Linked materials get the name of their library, as names repeat between libraries."""
     if material is None:
         return "none"
     return f"{material.name} ({material.library.name})" if material.library else material.name
@@ -20,13 +20,13 @@ def metal_of(material):
 
 
 def stroke_sources(item):
-    """The objects along whose strokes scratches of this object run."""
+    """Curves and grease pencils that layers of this object use."""
     surfaces = [item.hairline, *(slot.material.hairline for slot in item.material_slots if slot.material)]
     return {layer.strokes.original for surface in surfaces for layer in surface.scratches if layer.strokes is not None}
 
 
 class Worn:
-    """What lies on an evaluated object: its own layers and gratings, then those of its materials."""
+    """Layers and gratings of an evaluated object: its own, then those of its materials."""
 
     def __init__(self, item, surface, slots, depsgraph, folder, notes):
         evaluated = item.evaluated_get(depsgraph)
@@ -60,7 +60,7 @@ class Worn:
         return tables
 
     def gratings(self, object_name):
-        """Those of `[[grating]]`."""
+        """The tables of `[[grating]]`."""
         tables = []
         for owner, material in self._owners:
             for grating in owner.gratings:
@@ -119,7 +119,7 @@ class Worn:
             table["hidden"] = True
         for row in rows.rows_of("grating", grating.pattern):
             row.write(grating, table)
-        # Animated or typed ones may pass each other.
+        # The pitch limits both; Blender has no such limit.
         for key in ("width_um", "jitter_um"):
             table[key] = min(table[key], table["pitch_um"])
         if grating.pattern == "uv":
@@ -137,7 +137,7 @@ class Worn:
         return table
 
     def _picture(self, image):
-        """The file of an image."""
+        """Writes an image and returns its file; None if it is missing."""
         if images.is_missing(image):
             self._tell(f'the file of the image "{image.name}" is missing ({image.filepath})', "the layer lies everywhere")
             return None
@@ -148,7 +148,7 @@ class Worn:
         return self._files[image.name_full]
 
     def _weights(self, name):
-        """The file of a picture of a vertex group's weights, by the active UV map."""
+        """Writes the weights of a vertex group as a picture in the active UV map, and returns its file."""
         key = ("vertex group", name)
         if key in self._files:
             return self._files[key]
@@ -167,7 +167,7 @@ class Worn:
 
 
 def fill(group, kind, table):
-    """Sets the properties of a layer or a grating to what a table of a scene file says. What the properties cannot say is returned, a line each."""
+    """Sets the properties of a layer or a grating from a table of a scene file. Returns a line for each key without a property."""
     left_out = []
     known = {"object", "name", "pattern", "hidden", "solo", "material"}
     table = dict(table)
@@ -194,5 +194,5 @@ def fill(group, kind, table):
 
 
 def diagonal_m(item):
-    """Of an object's box, in its own size in the world."""
+    """Diagonal of an object's box with its scale."""
     return math.dist((0, 0, 0), item.dimensions)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lights by Blender's radiometry: watts of a point, a spot or an area become radiance, a sun's strength irradiance."""
+"""Lights in Blender's radiometry: watts of points, spots and areas become radiance; the strength of suns is irradiance."""
 
 import math
 
@@ -7,24 +7,24 @@ from mathutils import Vector
 
 from .frames import tidy, unit_axes
 
-# Scratches need lamps that have a size; and single precision needs one that is not lost in a scene of metres.
+# Scratches need lamps of a finite size.
 LEAST_RADIUS_M = 1e-3
 LEAST_SUN_DEG = 0.01
 _CORNERS_OF_ELLIPSE = 64
 
 
 def table(light_object, matrix, notes):
-    """A light as `[[light]]`; None of one that shines on nothing."""
+    """The table `[[light]]` of a light; None if it emits nothing."""
     light = light_object.data
     subject = f'light "{light_object.name}"'
     color, strength = _color_and_strength(light, subject, notes)
     if strength <= 0 or max(color) <= 0:
         return None
     if hasattr(light, "cycles") and getattr(light.cycles, "is_portal", False):
-        notes.add(subject, "it is a portal", "it lights nothing")
+        notes.add(subject, "portals are not carried over", "it emits nothing")
         return None
     if not light.use_shadow:
-        notes.add(subject, "it throws no shadows", "it throws them")
+        notes.add(subject, "its shadows are switched off", "it casts shadows")
     if light_object.light_linking.receiver_collection or light_object.light_linking.blocker_collection:
         notes.add(subject, "light linking is not carried over", "it lights all")
     made = _KINDS[light.type](light, matrix, strength, subject, notes)
@@ -39,7 +39,7 @@ def _color_and_strength(light, subject, notes):
     if light.use_nodes and light.node_tree:
         color, strength = _by_nodes(light, color, strength, subject, notes)
     if any(x < 0 for x in color) or strength < 0:
-        notes.add(subject, "it takes light away", "it gives none")
+        notes.add(subject, "its power or colour is negative", "it emits nothing")
         strength = 0.0
     return [max(x, 0.0) for x in color], strength
 
@@ -80,9 +80,9 @@ def _point(light, matrix, strength, subject, notes):
 def _spot(light, matrix, strength, subject, notes):
     position, _, _, back = unit_axes(matrix)
     if light.use_square:
-        notes.add(subject, "it is square", "it is round")
+        notes.add(subject, "its square cone is not carried over", "the cone is round")
     rim = math.cos(0.5 * light.spot_size)
-    # Blender's smooth step loses half of the light between rim and core, the square of glTF two thirds: over three quarters of the way, as much.
+    # Between rim and core Blender's smoothstep loses 1/2 of the light, the square of glTF 2/3. Over 3/4 of the width glTF loses as much.
     core = rim + 0.75 * light.spot_blend * (1 - rim)
     softness = 1 - math.acos(min(core, 1.0)) / (0.5 * light.spot_size)
     return {
@@ -107,7 +107,7 @@ def _area(light, matrix, strength, subject, notes):
         corners = [(-0.5, -0.5), (-0.5, 0.5), (0.5, 0.5), (0.5, -0.5)]
     else:
         n = _CORNERS_OF_ELLIPSE
-        # A polygon of the area of its ellipse.
+        # The polygon has the area of the ellipse.
         radius = 0.5 * math.sqrt(2 * math.pi / (n * math.sin(2 * math.pi / n)))
         angles = [-2 * math.pi * i / n for i in range(n)]
         corners = [(radius * math.cos(a), radius * math.sin(a)) for a in angles]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Materials as those of glTF: metallic-roughness with the extensions that Hairline reads."""
+"""Converts shaders to glTF materials: metallic-roughness with the extensions that Hairline reads."""
 
 import numpy as np
 
@@ -9,14 +9,14 @@ from .sockets import Texture, as_number, as_rgb
 
 
 class Materials:
-    """Writes shaders into a file whose mesh has these UV maps, the first of them the active one."""
+    """Writes shaders into a glTF file. `uv_maps` are those of its mesh, the active one first."""
 
     def __init__(self, glb, uv_maps, mesh_name, notes):
         self._glb, self._uv_maps, self._mesh_name, self._notes = glb, uv_maps, mesh_name, notes
         self._name = ""
 
     def add(self, name, shader, metal=None):
-        """The number of a material; `metal`: a measured one in the place of the base colour."""
+        """Adds a material and returns its index. `metal`: a measured metal that replaces the base colour."""
         self._name = name
         material = {"name": name, "pbrMetallicRoughness": {}, "extensions": {}}
         if metal:
@@ -28,7 +28,7 @@ class Materials:
         self._coat(shader, material)
         self._emission(shader, material)
         if shader.normal:
-            # Its pixels are directions, and so are never taken for colours.
+            # Normal maps are data: no colour space applies.
             texture = self._texture(shader.normal, lambda: png(images.pixels(shader.normal.image)[..., :3]))
             material["normalTexture"] = {**texture, "scale": shader.normal_strength}
         return self._glb.add("materials", {key: value for key, value in material.items() if value})
@@ -57,7 +57,7 @@ class Materials:
         is_plain = color is texture and texture.channel == "Color" and images.is_srgb(texture.image) and (opacity == 1 or is_own_alpha)
         is_plain = is_plain and (is_own_alpha or not isinstance(alpha, Texture))
         if isinstance(alpha, Texture) and alpha.lie != texture.lie:
-            self._tell("its alpha lies another way than its colour", "it lies as the colour does")
+            self._tell("its alpha image has another mapping than its colour image", "the mapping of the colour is used")
         pbr["baseColorTexture"] = self._texture(texture, composed, is_plain)
 
     def _roughness(self, shader, material, is_metal):
@@ -73,7 +73,7 @@ class Materials:
             return
         other = metallic if texture is roughness else None
         if isinstance(other, Texture) and other.lie != texture.lie:
-            self._tell("its metallic image lies another way than that of its roughness", "it lies as the roughness does")
+            self._tell("its metallic image has another mapping than its roughness image", "the mapping of the roughness is used")
 
         def composed():
             height, width = texture.image.size[1], texture.image.size[0]
@@ -93,7 +93,7 @@ class Materials:
         aspect = (1 - 0.9 * min(shader.anisotropic, 1.0)) ** 0.5
         roughness = pbr["roughnessFactor"]
         if isinstance(shader.roughness, Texture):
-            self._tell("its anisotropy stands beside an image of its roughness", "it is that of roughness 1, everywhere")
+            self._tell("its anisotropy is not combined with the image of its roughness", "the anisotropy is that of roughness 1")
         along, across = min(roughness**2 / aspect, 1.0), roughness**2 * aspect
         pbr["roughnessFactor"] = across**0.5
         strength = max((along - across) / max(1 - across, 1e-6), 0.0) ** 0.5
@@ -140,10 +140,10 @@ class Materials:
                 return
             material["emissiveFactor"] = [x / max(color) for x in color]
         material["extensions"]["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}
-        self._tell("it glows", "it is seen, and lights nothing else; a light does")
+        self._tell("its emission lights no other objects", "its glow is visible; add a light to light the others")
 
     def _texture(self, texture, composed, is_plain=False):
-        """How a material names a texture. Its file as it is where `is_plain`, else what `composed` makes."""
+        """A material's reference to a texture: the image's own file if `is_plain`, else the PNG of `composed`."""
         data = (images.file_bytes(texture.image) if is_plain else None) or composed()
         used = {"index": self._glb.texture(data, texture.repeats), "texCoord": self._uv_set(texture.lie.uv_map)}
         transform = texture.lie.transform()
@@ -153,7 +153,9 @@ class Materials:
 
     def _uv_set(self, name):
         if not self._uv_maps:
-            self._notes.add(f'object "{self._mesh_name}"', "its material has images, and it has no UV map", "they are as at their corner")
+            self._notes.add(
+                f'object "{self._mesh_name}"', "it has no UV map for the images of its material", "the corner pixel of each image covers it"
+            )
             return 0
         if name and name not in self._uv_maps:
             self._notes.add(f'object "{self._mesh_name}"', f'it has no UV map "{name}"', "the active one is taken")
@@ -164,7 +166,7 @@ class Materials:
 
 
 def _channels(texture, count):
-    """The linear pixels of what a socket takes: three numbers or one."""
+    """Linear pixels of a socket's channel, with three numbers or one."""
     values = images.linear(texture.image)
     at = {"Red": 0, "Green": 1, "Blue": 2, "Alpha": 3}.get(texture.channel)
     if at is not None:

@@ -10,18 +10,18 @@ from .notes import Refused
 
 @dataclass
 class Triangles:
-    """A vertex for each corner that differs from the others at its place."""
+    """Triangles. Corners at one mesh vertex share a vertex if their normals and UVs are equal."""
 
     positions_m: np.ndarray
     normals: np.ndarray
     uvs: dict
     """By the name of the UV map, v downwards as in glTF."""
     corners: np.ndarray
-    """Of each triangle its three vertices."""
+    """Three vertices of each triangle."""
     slots: np.ndarray
-    """Of each triangle its material slot."""
+    """Material slot of each triangle."""
     vertex_of: np.ndarray
-    """The mesh's vertex that a vertex stands at."""
+    """Mesh vertex of each vertex."""
 
     @property
     def diagonal_m(self):
@@ -35,7 +35,7 @@ def _got(collection, attribute, width, kind=np.float32):
 
 
 def triangles(evaluated):
-    """Those of an evaluated object; None where it has no surface."""
+    """Triangles of an evaluated object; None if it has no surface."""
     mesh = evaluated.to_mesh()
     try:
         if mesh is None or not len(mesh.polygons):
@@ -49,7 +49,7 @@ def _of_mesh(mesh, name):
     mesh.calc_loop_triangles()
     positions_m = _got(mesh.vertices, "co", 3)
     _refuse_unusable(positions_m, name)
-    # By attributes: they are copied whole, and not item by item.
+    # Attributes are copied in one piece; `mesh.loops` and `mesh.polygons` item by item.
     vertex_of = _got(mesh.attributes[".corner_vert"].data, "value", 1, np.int32)
     normals = _got(mesh.corner_normals, "vector", 3)
     uvs = {layer.name: _got(layer.uv, "vector", 2) for layer in mesh.uv_layers}
@@ -71,8 +71,8 @@ def _of_mesh(mesh, name):
 
 
 def _distinct(vertex_of, vertices, values):
-    """The corners that become vertices, and the number of each corner's vertex: a corner shares that of the last corner of its mesh vertex where
-    all values are the same."""
+    """The corners that become vertices, and the vertex index of each corner. A corner shares the vertex of the last corner at its mesh vertex
+    if all values are equal."""
     last = np.zeros(vertices, np.int32)
     every = np.arange(len(vertex_of), dtype=np.int32)
     last[vertex_of] = every
@@ -87,7 +87,7 @@ def _distinct(vertex_of, vertices, values):
 
 
 def _whole(normals):
-    """Unit normals; those of corners without an area point up."""
+    """Replaces zero normals, of corners without an area, by +z."""
     is_none = ~(np.abs(normals).sum(axis=1) > 0)
     if is_none.any():
         normals = normals.copy()

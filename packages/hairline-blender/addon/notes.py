@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a picture has not of its scene: each line names what it is about."""
+"""Notes about parts of a scene that a picture lacks, and the error for scenes that cannot be rendered."""
 
 
 class Refused(Exception):
@@ -7,13 +7,13 @@ class Refused(Exception):
 
 
 class Notes:
-    """Lines that are told once each, in the order in which they were met."""
+    """Unique lines, in order of insertion."""
 
     def __init__(self):
         self._lines = {}
 
     def add(self, subject, what, instead):
-        """`subject` as artists know it: `light "Key"`; what is not carried over; what the picture has in its place."""
+        """`subject`: kind and name, `light "Key"`. `what`: the unsupported setting. `instead`: what the picture has in its place."""
         self._lines[f"{subject}: {what}; {instead}"] = True
 
     def __iter__(self):
@@ -27,10 +27,10 @@ _last = {}
 
 
 def keep(scene, notes):
-    """Keeps the lines of a scene's last picture for its panel."""
+    """Stores the notes of a scene's last picture for the render panel."""
     _last[scene.name_full] = list(notes)
 
 
 def last(scene):
-    """Those of the scene's last picture; None before the first one."""
+    """Notes of the scene's last picture; None before the first one."""
     return _last.get(scene.name_full)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What buttons of the panels do to layers and gratings."""
+"""Operators of the panels: add, remove and move layers and gratings, set the wear."""
 
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
@@ -19,7 +19,7 @@ def _owner(context, name):
 
 
 def _presets(kind):
-    """Items of an enumeration."""
+    """Enumeration items of the presets of a kind."""
     return [(preset.name, preset.name, preset.tooltip) for preset in editing.presets(kind)]
 
 
@@ -38,7 +38,7 @@ class _OnSurface:
         return owner.hairline if owner else None
 
     def items(self, context):
-        """The list, and its index's name."""
+        """The owner's properties, the list, and the name of its index."""
         surface = self.surface(context)
         name = KINDS[self.kind]
         return surface, getattr(surface, name), f"{name}_index"
@@ -53,7 +53,7 @@ class _AddPreset(_OnSurface):
         for made in editing.from_preset(self.kind, self.preset, "object", size_m):
             layers.fill(items.add(), self.kind, made.to_dict())
         if self.kind == "scratches":
-            # Each layer its own scratches.
+            # Layers of different seeds are independent.
             items[-1].seed = len(items)
         setattr(surface, index, len(items) - 1)
         rows.tag(surface)
@@ -128,7 +128,7 @@ class HAIRLINE_OT_wear(_OnSurface, bpy.types.Operator):
         return {"FINISHED"}
 
 
-# What the names of layers of wear begin with, as the package has them.
+# Prefix of the names of wear layers in the package.
 _WEAR = "wear: "
 
 _CLASSES = (HAIRLINE_OT_add_layer, HAIRLINE_OT_add_grating, HAIRLINE_OT_remove, HAIRLINE_OT_move, HAIRLINE_OT_wear)

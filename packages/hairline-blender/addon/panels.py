@@ -50,7 +50,7 @@ class HAIRLINE_PT_render(_Panel, bpy.types.Panel):
 
 
 def _folded(line, width=60):
-    """Labels do not fold by themselves."""
+    """Splits a line: labels of Blender do not wrap."""
     parts = [""]
     for word in line.split():
         if len(parts[-1]) + len(word) > width:

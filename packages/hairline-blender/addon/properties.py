@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is stored in the .blend: layers of scratches and gratings of objects and materials, and the settings of pictures."""
+"""Properties in the .blend: layers of scratches and gratings of objects and materials, and render settings."""
 
 import bpy
 import hairline
@@ -8,7 +8,7 @@ from hairline import optics
 
 from . import rows
 
-# Of all that changes a picture.
+# Options of properties that change the picture.
 _CHANGES = {"override": {"LIBRARY_OVERRIDABLE"}, "update": rows.tag}
 
 
@@ -86,7 +86,7 @@ def _list(kind):
 
 
 class HairlineSurface(bpy.types.PropertyGroup):
-    """What lies on an object, or on all that is of a material."""
+    """Scratches and gratings of an object or a material."""
 
     scratches: _list(HairlineLayer)
     scratches_index: IntProperty()
@@ -102,7 +102,7 @@ class HairlineSurface(bpy.types.PropertyGroup):
 
 
 class HairlineSettings(bpy.types.PropertyGroup):
-    """How pictures are made."""
+    """Render settings."""
 
     samples: IntProperty(
         name="Samples",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From an exported scene to arrays: what stands between Blender and the package `hairline`."""
+"""Renders an exported scene by the package `hairline` and converts its layers to passes of Blender."""
 
 import logging
 import re
@@ -19,7 +19,7 @@ class Stopped(Exception):
 
 
 def scene_of(exported, folder):
-    """The scene of the package. What is wrong with it is told by the names of Blender."""
+    """The scene as an object of the package. Errors name objects of Blender."""
     try:
         return hairline.Scene.from_dict(exported.table, folder.path)
     except hairline.SceneError as error:
@@ -30,7 +30,7 @@ _KINDS = {"object": "object", "light": "light", "scratches": "the layer", "grati
 
 
 def in_words(error, table):
-    """A message of the package with the names of things in the place of their numbers."""
+    """A message of the package with names in place of indices: `object[3]` becomes `object "Cube"`."""
 
     def name(match):
         entry = table.get(match[1], [])[int(match[2])]
@@ -42,7 +42,7 @@ def in_words(error, table):
 
 
 class _Lines(logging.Handler):
-    """Hands on what the package says of its device."""
+    """Forwards log lines of the package."""
 
     def __init__(self, tell):
         super().__init__(logging.INFO)
@@ -53,7 +53,7 @@ class _Lines(logging.Handler):
 
 
 def render(scene, table, settings, is_transparent, progress, is_stopped, tell, size_px=None):
-    """The picture. `progress` is told what is done and its share; `is_stopped` ends it by `Stopped`; `tell` takes lines."""
+    """Renders the picture. `progress` takes the stage and its share; `is_stopped` ends the work with `Stopped`; `tell` takes log lines."""
 
     def host(what, share):
         if is_stopped():
@@ -100,7 +100,7 @@ def _announce(built, tell):
     tell(f"{sum(built.scratch_counts()):,} scratches; about {needed / 1e9:.2f} GB of memory{free}")
 
 
-# Passes by the names that compositors see: how many channels, how they are called, and the layer of the picture.
+# Passes by name: number of channels, channel names, type, and the layer of the picture.
 AOVS = {
     "Hairline Base": (3, "RGB", "COLOR", lambda picture: picture.base),
     "Hairline Scratches": (3, "RGB", "COLOR", lambda picture: picture.scratches),
@@ -109,7 +109,7 @@ AOVS = {
 
 
 def pixels(picture, name, size_px):
-    """A pass as Blender takes it: rows from the bottom, a row of the array each pixel; enlarged where the picture is a coarse one."""
+    """A pass in Blender's layout: one row of the array per pixel, from the bottom. Coarse pictures are enlarged to `size_px`."""
     if name == "Combined":
         alpha = picture.alpha if picture.alpha is not None else np.ones(picture.beauty.shape[:2], np.float32)
         values = np.dstack([picture.beauty, alpha])

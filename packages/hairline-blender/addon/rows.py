@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one table of what layers and gratings have: properties, panels, import and export are made of it.
+"""The table of the numbers of layers and gratings. Properties, panels, import and export are built from it.
 
 Labels, units, ranges and tooltips are those of Hairline's viewer (`hairline.editing`), defaults and the keys of each pattern those of scene files
 (`hairline.Scratches`, `hairline.Grating`).
@@ -14,20 +14,20 @@ from hairline import editing
 
 from .frames import tidy
 
-# Sliders of lengths fit things of this diagonal: a table with what stands on it.
+# Sliders of lengths fit objects of this diagonal.
 _DIAGONAL_M = 1.0
 _CONTROLS = editing.controls(_DIAGONAL_M)
 _LARGEST_INT = 2**31 - 1
 
 
 def tag(group, _context=None):
-    """Has Blender take over a change: it does not look into properties of add-ons by itself."""
+    """Marks the owner as changed: the dependency graph does not watch properties of add-ons."""
     group.id_data.update_tag()
 
 
 @dataclass(frozen=True)
 class Row:
-    """A property: its name in Blender, its way in the table of a scene file, and the control that knows its range."""
+    """A property: its name in Blender, its keys in the table of a scene file, and the control with its range and tooltip."""
 
     attribute: str
     way: tuple
@@ -39,7 +39,7 @@ class Row:
         return self.way[0]
 
     def read(self, table):
-        """Its value in a table; None where it has none."""
+        """Value in a table; None if absent."""
         value = table.get(self.key)
         if value is None or len(self.way) == 1:
             return value
@@ -59,7 +59,7 @@ class Row:
             table.setdefault(self.key, [0.0, 0.0] if isinstance(self.way[1], int) else {})[self.way[1]] = value
 
     def definition(self, default):
-        """Its property of Blender."""
+        """The property definition for Blender."""
         control = _CONTROLS[self.control]
         unit = f" ({control.unit})" if control.unit else ""
         (low, high), (least, most) = control.slider, control.hard
@@ -139,7 +139,7 @@ RING = (
     Row("outer_radius_m", ("radius_m", 1), "outer_radius"),
 )
 
-# What is not in the table of any pattern's defaults.
+# Defaults of rows for which scene files have none.
 _OTHER_DEFAULTS = {
     "count": 5000,
     "density_per_m2": 1e4,
@@ -183,7 +183,7 @@ _DAB = {"points_m": [[0.0, 0.0, 0.0]], "radius_m": 0.01, "density_per_m": 1.0}
 
 
 def rows_of(kind, pattern):
-    """Those of the rows that a pattern has."""
+    """Rows of a pattern."""
     table = _defaults(kind, pattern)
     rows = GRATING if kind == "grating" else SCRATCHES
     amounts = ("count", "density_per_m2") if pattern != "drawn" else ()
@@ -191,7 +191,7 @@ def rows_of(kind, pattern):
 
 
 def default_of(kind, row):
-    """What a row's property is in the beginning."""
+    """Default of a row's property."""
     if row.attribute in _OTHER_DEFAULTS:
         return _OTHER_DEFAULTS[row.attribute]
     for pattern in GRATING_PATTERNS if kind == "grating" else PATTERNS:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A scene as it stands in Blender, as the table of a scene file with its models beside it.
+"""Converts the evaluated scene to the table of a scene file with glTF models beside it.
 
-Pictures and exported files come of the same table: `hairline render` of the file is the picture of F12.
+F12 and the export use the same table, so `hairline render` of the exported file makes the same picture.
 """
 
 import numpy as np
@@ -32,7 +32,7 @@ class Exported:
 
 
 def export(scene, depsgraph, folder, view, notes):
-    """The scene as `view` sees it. Its files are written to `folder`."""
+    """Converts the scene as seen by `view`, and writes its files to `folder`."""
     _tell_scene(scene, notes)
     objects = _Objects(folder, notes)
     made_lights, others, stroke_sources = [], {}, set()
@@ -63,7 +63,7 @@ def export(scene, depsgraph, folder, view, notes):
     if environment:
         table["environment"] = environment
     if "light" not in table and "environment" not in table:
-        # As in Blender it is dark; a scene file without lights would have a studio.
+        # A scene file without lights would get a studio; Blender's scene is dark.
         table["studio"] = {"hidden": True}
     return Exported(table, objects.triangle_count)
 
@@ -79,11 +79,11 @@ def _tell_scene(scene, notes):
 
 
 class _Objects:
-    """The surfaces of a scene: one model for each mesh, one object for each place that it stands at."""
+    """Collects the surfaces of a scene: one model per mesh; one object per instance if it has scratches or gratings, else one for all instances."""
 
     def __init__(self, folder, notes):
         self._folder, self._notes = folder, notes
-        # By the evaluated mesh: name, triangles, materials, and the places.
+        # By object and mesh: the original object, triangles, materials, and the matrices of all instances.
         self._surfaces = {}
         self.scratches, self.gratings = [], []
         self.triangle_count = 0
@@ -105,13 +105,13 @@ class _Objects:
         subject = f'object "{item.name}"'
         hidden = [name for name in ("camera", "diffuse", "glossy", "shadow") if not getattr(item, f"visible_{name}", True)]
         if hidden:
-            self._notes.add(subject, f"it is hidden from {', '.join(hidden)} rays", "it is seen by all")
+            self._notes.add(subject, f"it is hidden from {', '.join(hidden)} rays", "all rays see it")
         for flag, what in (("is_holdout", "a holdout"), ("is_shadow_catcher", "a shadow catcher")):
             if getattr(item, flag, False):
                 self._notes.add(subject, f"it is {what}", "it is as any other")
 
     def write(self, depsgraph):
-        """Writes the models, and makes objects and what lies on them."""
+        """Writes the models. Returns the tables of objects, and fills `scratches` and `gratings`."""
         tables = []
         for item, made, slots, places in self._surfaces.values():
             if made is None or not len(made.corners):
@@ -125,7 +125,7 @@ class _Objects:
             loose = [matrix for matrix, placed in zip(places, placings) if not worn or placed is None]
             names = []
             if loose:
-                # Places are matrices of the file's nodes, which may shear.
+                # Matrices of glTF nodes may shear.
                 tables.append({"name": self._name(item.name), **self._model(item, made, slots, worn, loose)})
                 names.append(tables[-1]["name"])
             model = None
@@ -140,7 +140,7 @@ class _Objects:
         return tables
 
     def _name(self, wanted):
-        """A name that no other object of the scene file has."""
+        """A unique name."""
         name, number = wanted, 1
         while name in self._names:
             number += 1
@@ -149,7 +149,7 @@ class _Objects:
         return name
 
     def _model(self, item, made, slots, worn, places):
-        """`mesh` and its overrides: a file with the triangles once, and a node for each place."""
+        """Writes the model, with a node per matrix of `places`. Returns the keys `mesh`, `up` and `overrides`."""
         glb = Glb()
         active = worn.uv_maps
         materials = Materials(glb, active, item.name, self._notes)

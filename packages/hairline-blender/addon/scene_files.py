@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scene files: the whole scene written as one with its models, and the layers of one laid on objects of the same names."""
+"""Operators for scene files: exports the scene with its models, imports layers onto objects by name."""
 
 import os
 
@@ -26,7 +26,7 @@ class HAIRLINE_OT_export(bpy.types.Operator, ExportHelper):
         folder, name = os.path.split(os.path.abspath(self.filepath))
         try:
             depsgraph = context.evaluated_depsgraph_get()
-            # Files beside the scene begin with its name, so that scenes of one folder keep theirs.
+            # The prefix keeps files of several scenes in one folder apart.
             files = Folder(folder, is_kept=True, prefix=f"{os.path.splitext(name)[0]} ")
             exported = export(scene, depsgraph, files, camera.of_scene(scene, depsgraph, found), found)
             exported.table["camera"]["exposure_ev"] = scene.view_settings.exposure
@@ -61,7 +61,7 @@ class HAIRLINE_OT_import(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
     def _lay(self, context, kind, table, fresh):
-        """Lays one. The first of an object replaces what lay there."""
+        """Imports one layer or grating. The first one of an owner clears its list."""
         item = context.scene.objects.get(table["object"])
         owner = item
         if item is not None and table.get("material"):

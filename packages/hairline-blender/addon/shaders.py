@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a material's nodes say: the sockets of its Principled BSDF, or of one of the simple shaders, as one record."""
+"""Reads the shader nodes of materials: the Principled BSDF, and Diffuse, Glossy and Emission."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ from .sockets import Reader, Texture, as_rgb
 
 @dataclass
 class Shader:
-    """Each a constant or a Texture, unless it says so."""
+    """Parameters of a surface. Values of type `object` are constants or Textures."""
 
     base_color: object = (0.8, 0.8, 0.8)
     metallic: object = 0.0
@@ -16,7 +16,7 @@ class Shader:
     alpha: object = 1.0
     ior: float = 1.5
     specular: float = 1.0
-    """Factor on the reflection of what is no metal, straight on and at grazing views."""
+    """Factor on dielectric reflection at all angles."""
     specular_tint: tuple = (1.0, 1.0, 1.0)
     anisotropic: float = 0.0
     rotation_rad: float = 0.0
@@ -25,11 +25,11 @@ class Shader:
     emission: object = (0.0, 0.0, 0.0)
     emission_strength: float = 0.0
     normal: object = None
-    """The Texture of a normal map."""
+    """Texture of the normal map, or None."""
     normal_strength: float = 1.0
 
 
-# What Principled has and Hairline has not: the socket that says how much, and its name.
+# Unsupported parts of the Principled BSDF, by the socket of their weight.
 _NOT_CARRIED = {
     "Subsurface Weight": "subsurface scattering",
     "Transmission Weight": "transmission",
@@ -40,7 +40,7 @@ _NOT_CARRIED = {
 
 
 def shader(material, notes):
-    """That of a material; of none the plain grey that Blender gives."""
+    """Reads a material; None gives Blender's default grey."""
     if material is None:
         return Shader(specular=0.0)
     reader = Reader(f'material "{material.name}"', notes)
@@ -102,7 +102,7 @@ def _principled(reader, node):
 
 
 def _index(reader, node):
-    """The refractive index whose reflectance straight on is that of the node's, changed by its "Specular IOR Level" as Cycles does."""
+    """Refractive index after "Specular IOR Level", which scales the reflectance at normal incidence, as in Cycles."""
     ior = reader.number(node, "IOR", 1.5)
     level = reader.number(node, "Specular IOR Level", 0.5)
     if ior < 1.0:

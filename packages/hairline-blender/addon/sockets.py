@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a socket of a shader has: a constant, or an image that lies on the surface by a UV map."""
+"""Reads shader sockets: constants, and images with their UV map and mapping."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ from . import images
 
 @dataclass(frozen=True)
 class Lie:
-    """How an image lies on a surface."""
+    """UV map and mapping of an image."""
 
     uv_map: str
     """The name of the UV map; empty for the active one."""
@@ -19,7 +19,7 @@ class Lie:
     scale: tuple = (1.0, 1.0)
 
     def transform(self):
-        """As KHR_texture_transform, whose v runs down; None where it changes nothing."""
+        """KHR_texture_transform, whose v axis points down; None for the identity."""
         if (self.offset, self.rotation_rad, self.scale) == ((0.0, 0.0), 0.0, (1.0, 1.0)):
             return None
         sine, cosine = math.sin(self.rotation_rad), math.cos(self.rotation_rad)
@@ -29,7 +29,7 @@ class Lie:
 
 @dataclass(frozen=True)
 class Texture:
-    """An image on a surface, and which of its channels a socket takes."""
+    """An image with its mapping, and the channel that the socket uses."""
 
     image: object
     lie: Lie
@@ -39,7 +39,7 @@ class Texture:
 
 
 class Reader:
-    """Reads the sockets of one owner's nodes, and tells what of them is not carried over."""
+    """Reads sockets of one owner's nodes. Unsupported links become notes."""
 
     def __init__(self, subject, notes):
         self.subject, self._notes = subject, notes
@@ -48,7 +48,7 @@ class Reader:
         self._notes.add(self.subject, what, instead)
 
     def constant(self, node, name, default=None):
-        """The value that is set in a socket."""
+        """Unlinked value of a socket."""
         socket = node.inputs.get(name)
         if socket is None:
             return default
@@ -56,13 +56,13 @@ class Reader:
         return tuple(value) if hasattr(value, "__len__") else float(value)
 
     def number(self, node, name, default=0.0):
-        """A number without a texture. A linked node is told."""
+        """Unlinked value of a number; a link becomes a note."""
         if self.source(node, name):
             self._told(node, name, self.source(node, name)[0])
         return self.constant(node, name, default)
 
     def source(self, node, name):
-        """What is linked to a socket: its node and the socket there, past reroutes. None of a muted link."""
+        """Node and socket linked to an input, past reroutes; None if unlinked or muted."""
         socket = node.inputs.get(name)
         while socket is not None and socket.is_linked and not socket.links[0].is_muted:
             link = socket.links[0]
@@ -72,7 +72,7 @@ class Reader:
         return None
 
     def value(self, node, name, default=None):
-        """A constant, or a Texture. What is neither is told, and the socket's own value stands for it."""
+        """A constant or a Texture. Other links become notes, and the socket's unlinked value is used."""
         source = self.source(node, name)
         if source is None:
             return self.constant(node, name, default)
@@ -153,10 +153,10 @@ def _constant_of(node):
 
 
 def as_rgb(value):
-    """A constant as three numbers."""
+    """Three numbers of a constant."""
     return (value,) * 3 if isinstance(value, float) else tuple(value[:3])
 
 
 def as_number(value):
-    """A constant as Blender makes a number of a colour: its luminance."""
+    """One number of a constant: the luminance of a colour, as in Blender."""
     return value if isinstance(value, float) else 0.2126 * value[0] + 0.7152 * value[1] + 0.0722 * value[2]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curves and grease pencils as the points of strokes."""
+"""Converts curves and grease pencils to the points of strokes."""
 
 from .frames import tidy
 
@@ -13,7 +13,7 @@ def points_m(source, item, depsgraph):
 
 
 def _of_curve(evaluated):
-    """Its edges as the modifiers and the resolution leave them, joined to lines."""
+    """Joins the edges of the evaluated curve to lines."""
     mesh = evaluated.to_mesh()
     try:
         if mesh is None:

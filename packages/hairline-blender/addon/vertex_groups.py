@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The weights of a vertex group as a picture that lies by a UV map."""
+"""Rasterises the weights of a vertex group in a UV map."""
 
 import numpy as np
 
@@ -7,19 +7,19 @@ _SIZE_PX = 1024
 
 
 def picture(evaluated, group, surface, uv_map):
-    """Grey, `_SIZE_PX` square, height x width x 3: the weight at each place of the UV map."""
+    """Weights as a square grey picture, height x width x 3."""
     weights = _weights(evaluated, group, surface)
     uvs = surface.uvs[uv_map][surface.corners] * _SIZE_PX
     of_corner = weights[surface.corners]
     extent = np.ptp(uvs, axis=1).max(axis=1)
     sums, counts = np.zeros(_SIZE_PX**2), np.zeros(_SIZE_PX**2)
-    # Triangles of about one size together, each at points that lie less than a pixel apart.
+    # Triangles of similar size are sampled together, at points less than a pixel apart.
     steps = 2 ** np.ceil(np.log2(np.clip(1.5 * extent, 1, 2 * _SIZE_PX))).astype(int)
     for step in np.unique(steps):
         chosen = np.flatnonzero(steps == step)
         a, b = np.meshgrid(np.arange(step + 1) / step, np.arange(step + 1) / step)
         shares = np.stack([a, b, 1 - a - b], axis=-1)[a + b <= 1 + 1e-9]
-        # No more than some million points at once.
+        # Bounds the memory: a few million points at once.
         for part in np.array_split(chosen, max(1, len(chosen) * len(shares) // 4_000_000)):
             at = np.floor(np.einsum("sk,tkc->tsc", shares, uvs[part])).astype(int) % _SIZE_PX
             place = (at[..., 1] * _SIZE_PX + at[..., 0]).ravel()
@@ -45,7 +45,7 @@ def _weights(evaluated, group, surface):
 
 
 def _bordered(grey, is_known, rings=3):
-    """Islands go on for some pixels, so that filters at their seams find them."""
+    """Extends UV islands by some pixels for texture filters."""
     for _ in range(rings):
         grown, known = grey.copy(), is_known.copy()
         for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):

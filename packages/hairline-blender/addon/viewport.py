@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The viewport's rendered view: a thread renders, Blender's own thread draws the newest picture and never waits.
 
-Only Blender's thread reads the scene and draws. The thread gets tables and files, and renders without the interpreter's lock.
+Only Blender's thread reads the scene and draws. The thread gets tables and files, and renders without the GIL.
 """
 
 import tempfile
@@ -14,14 +14,14 @@ from . import camera, notes, rendering
 from .folder import Folder
 from .scene_export import export
 
-# Of a scene, what may change beside the camera.
+# Parts of a scene that may change, besides the camera.
 _PARTS = ("environment", "studio", "materials", "objects", "scratches", "gratings", "lights", "settings")
-# Pictures of a view: how many times fewer pixels each way, and the share of the samples. The first is there in a blink.
+# Steps of refinement: divisor of the size, and samples; None: the setting.
 _STEPS = ((8, 1), (3, 1), (1, 1), (1, None))
 
 
 class Painter:
-    """Renders the newest of the scenes and views that it was given, coarse first; a newer one ends what it is at."""
+    """Renders the newest request on a thread, coarse first. A newer request stops the current one."""
 
     def __init__(self, on_picture):
         self._on_picture = on_picture
@@ -33,11 +33,11 @@ class Painter:
         self._thread.start()
 
     def paint(self, scene, table, camera_table, size_px, settings, is_transparent):
-        """Takes a scene with its table, and what sees it; `scene` is None where only the view has changed."""
+        """Requests a picture. `scene` and `table` are None if only the view has changed."""
         with self._wish:
             self._number += 1
             if scene is None and self._wanted is not None:
-                # One that waits has not been seen by anybody.
+                # The waiting request has a scene that the thread has not taken over yet.
                 scene, table = self._wanted[1:3]
             self._wanted = (self._number, scene, table, camera_table, size_px, settings, is_transparent)
             self._wish.notify()
@@ -49,7 +49,7 @@ class Painter:
             self._wish.notify()
 
     def wait(self, timeout_s):
-        """Whether the thread has ended by then."""
+        """Waits for the thread to end; False after the timeout."""
         self._thread.join(timeout_s)
         return not self._thread.is_alive()
 
@@ -82,7 +82,7 @@ class Painter:
             step_px = [max(n // coarse, 1) for n in size_px]
             chosen = SimpleNamespace(**{**vars(settings), "samples": samples or settings.samples})
             if coarse > 1:
-                # What moves has no shadows, so that it moves.
+                # Coarse pictures are for motion: shadows would slow them down.
                 chosen.shadows = False
             picture = rendering.render(self._scene, self._table, chosen, is_transparent, lambda *_: None, is_stopped, lambda _: None, step_px)
             if is_stopped():
@@ -90,7 +90,7 @@ class Painter:
             self._on_picture(picture, None, size_px)
 
     def _take_over(self, scene, table):
-        """The scene stays one for all changes: it knows what has not changed, and builds that once."""
+        """Copies changes into the one scene of the thread, which reuses unchanged parts."""
         self._table = table
         if self._scene is None:
             self._scene = scene
@@ -99,28 +99,28 @@ class Painter:
 
 
 class Viewport:
-    """One viewport that shows Hairline's picture."""
+    """State of one viewport: exports on Blender's thread, renders on the Painter's."""
 
     def __init__(self, engine):
         self._engine = engine
         self._painter = Painter(self._take)
         self._folder = tempfile.TemporaryDirectory(prefix="hairline-")
         self._files = []
-        # What the thread was given last: the scene is read, and the view is seen.
+        # The last request: whether there was a scene, and the view.
         self._has_scene, self._seen = False, None
-        # What the thread hands over: the pixels of the newest picture and their size, or a message.
+        # Newest result of the thread: pixels and their size, or a message.
         self._newest = self._texture = None
         self._lock = threading.Lock()
 
     def close(self):
         self._engine = None
         self._painter.close()
-        # Not before the thread has read what it reads; a second is more than it takes to hear of it.
+        # The thread may still read files; it stops within 0.1 s.
         if self._painter.wait(1.0):
             self._folder.cleanup()
 
     def update(self, context, depsgraph):
-        """Reads the scene anew: something in it has changed."""
+        """Exports the scene after a change."""
         found = notes.Notes()
         files = Folder(self._folder.name, is_kept=False, by_content=True)
         try:
@@ -132,7 +132,7 @@ class Viewport:
             return
         finally:
             notes.keep(depsgraph.scene, found)
-        # A picture at work may still read the files of the scene before.
+        # The thread may still read files of the previous scenes.
         self._files = [*self._files[-2:], files.written]
         files.forget_all_but(self._files)
         self._seen = None
@@ -140,7 +140,7 @@ class Viewport:
         self._look(depsgraph, view, scene, exported.table)
 
     def draw(self, context, depsgraph):
-        """Draws the newest picture, and asks for another one where the view has moved."""
+        """Draws the newest picture, and requests another if the view has moved."""
         if not self._has_scene:
             return
         try:
@@ -160,7 +160,7 @@ class Viewport:
         self._painter.paint(scene, table, *seen, settings, depsgraph.scene.render.film_transparent)
 
     def _take(self, picture, message, size_px):
-        """Called by the thread."""
+        """Takes a result; runs on the thread."""
         pixels = rendering.pixels(picture, "Combined", picture.size) if picture else None
         with self._lock:
             self._newest = (pixels, picture.size if picture else None, message)

@@ -11,12 +11,12 @@ from .notes import Refused
 from .picture_files import exr
 from .sockets import Reader, Texture, as_number, as_rgb
 
-# The middle of Blender's maps lies at +X, that of Hairline's at +Y.
+# The centre of an equirectangular map is at +X in Blender, at +Y in Hairline.
 _TURN_DEG = -90.0
 
 
 def table(world, folder, is_seen, notes):
-    """The world as `[environment]`; None of a black one. Files are put into `folder`."""
+    """The table `[environment]` of a world; None if it is black. Writes files to `folder`."""
     if world is None:
         return None
     subject = f'world "{world.name}"'
@@ -39,7 +39,7 @@ def table(world, folder, is_seen, notes):
 
 
 def _background(world, subject, notes):
-    """Colour or image, strength, and by how much its mapping turns directions about Z."""
+    """Colour or Texture, strength, and the rotation of its mapping about Z."""
     reader = Reader(subject, notes)
     if not world.use_nodes or world.node_tree is None:
         return tuple(world.color), 1.0, 0.0

@@ -86,7 +86,7 @@ def test_what_is_not_carried_over_is_told_by_name():
     for part in (
         'material "floor": transmission is not carried over',
         '"Base Color" by the node "Noise Texture"',
-        'light "lamp": it throws no shadows',
+        'light "lamp": its shadows are switched off',
         'object "floor": it is hidden from glossy rays',
         "motion blur",
     ):
