@@ -4,7 +4,10 @@
 F12 and the export use the same table, so `hairline render` of the exported file makes the same picture.
 """
 
+import itertools
+
 import numpy as np
+from mathutils import Vector
 
 from . import layers, lights, world
 from .frames import placing
@@ -78,6 +81,20 @@ def _tell_scene(scene, notes):
         notes.add(subject, "several views are not carried over", "there is one picture")
 
 
+# The range of coordinates in scene files.
+_FARTHEST_M = 1000.0
+
+
+def _refuse_far(surface, matrix, name):
+    ends_m = surface.positions_m.min(axis=0), surface.positions_m.max(axis=0)
+    corners = [matrix @ Vector(corner) for corner in itertools.product(*zip(*ends_m))]
+    farthest_m = max(abs(x) for corner in corners for x in corner)
+    if farthest_m > _FARTHEST_M:
+        raise Refused(
+            f'object "{name}": found a coordinate of {farthest_m:.5g} m; coordinates go to {_FARTHEST_M:.0f} m: move it nearer to the origin, or hide it'
+        )
+
+
 class _Objects:
     """Collects the surfaces of a scene: one model per mesh; one object per instance if it has scratches or gratings, else one for all instances."""
 
@@ -99,7 +116,9 @@ class _Objects:
             slots = [slot.material for slot in item.material_slots] or [None]
             surface = self._surfaces[key] = (item.original, made, slots, [])
         if surface[1] is not None:
-            surface[3].append(instance.matrix_world.copy())
+            matrix = instance.matrix_world.copy()
+            _refuse_far(surface[1], matrix, item.name)
+            surface[3].append(matrix)
 
     def _tell(self, item):
         subject = f'object "{item.name}"'

@@ -97,7 +97,7 @@ def test_a_thing_too_far_off_is_named():
     simple()
     bpy.data.objects["floor"].location.x = 1e5
     message = refused()
-    assert "floor" in message, message
+    assert 'object "floor": found a coordinate of 1e+05 m' in message, message
 
 
 def test_a_layer_that_cannot_be_is_named():
@@ -171,8 +171,9 @@ def test_a_million_triangles_are_exported_in_a_second():
     for i in range(3):
         path = os.path.join(stage.FOLDER, f"export {i}")
         os.makedirs(path)
-        start = time.monotonic()
+        # Of the processor: other programs may be at work.
+        start = time.process_time()
         exported = addon.scene_export.export(bpy.context.scene, depsgraph, addon.folder.Folder(path, is_kept=False), view, found)
-        times.append(time.monotonic() - start)
+        times.append(time.process_time() - start)
     print(f"{exported.triangle_count} triangles in {min(times):.2f} s")
     assert exported.triangle_count > 1_000_000 and min(times) < 1.0
