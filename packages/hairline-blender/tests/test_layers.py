@@ -36,22 +36,31 @@ def add(item, kind="scratches", preset="Turned pan", owner="object"):
 
 def layer_of(name):
     """A layer of the picture, rows from the top."""
-    engine = bpy.context.scene
-    engine.render.engine = "HAIRLINE"
-    engine.render.image_settings.file_format = "OPEN_EXR_MULTILAYER"
+    render = bpy.context.scene.render
+    settings = render.image_settings
+    render.engine = "HAIRLINE"
+    # Since Blender 5.0 the type of the medium comes first.
+    if hasattr(settings, "media_type"):
+        settings.media_type = "MULTI_LAYER_IMAGE"
+    settings.file_format = "OPEN_EXR_MULTILAYER"
+    settings.color_depth = "32"
     path = os.path.join(stage.FOLDER, "layers.exr")
-    engine.render.filepath = path
+    render.filepath = path
     bpy.ops.render.render(write_still=True)
-    engine.render.image_settings.file_format = "OPEN_EXR"
+    if hasattr(settings, "media_type"):
+        settings.media_type = "IMAGE"
+    settings.file_format, settings.color_depth = "OPEN_EXR", "32"
     return multilayer(path)[name]
 
 
 def multilayer(path):
     """The channels of Blender's EXR, by the name of the pass."""
     found = {}
-    for name, channel in OpenEXR.File(path, separate_channels=True).channels().items():
-        _, of_pass, letter = name.split(".")
-        found.setdefault(of_pass, {})[letter] = channel.pixels
+    # Blender 4.5 writes all passes into one part, 5.0 each into its own.
+    for part in OpenEXR.File(path, separate_channels=True).parts:
+        for name, channel in part.channels.items():
+            _, of_pass, letter = name.split(".")
+            found.setdefault(of_pass, {})[letter] = channel.pixels
     return {name: np.dstack([of[letter] for letter in sorted(of, key="RGBAXYZ".index)]) for name, of in found.items()}
 
 
