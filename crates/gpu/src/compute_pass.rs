@@ -135,6 +135,18 @@ impl ComputePass {
     }
 }
 
+impl Orders<'_> {
+    /// Asks for a pass without constants of its own.
+    pub(crate) fn pass(
+        &mut self,
+        name: &'static str,
+        module: &'static Module,
+        entry_point: &'static str,
+    ) -> ComputePass {
+        ComputePass::order(self, name, (module, entry_point), &[])
+    }
+}
+
 /// The dispatch of so many workgroups in a row, in two dimensions where one is not enough: a few more than asked for then.
 pub(crate) fn in_a_row(workgroups: u32) -> [u32; 2] {
     let y = workgroups.div_ceil(WORKGROUPS_MAX).max(1);

@@ -7,7 +7,6 @@ use std::sync::{Arc, OnceLock};
 use rayon::prelude::*;
 
 use crate::bindings::Layouts;
-use crate::compute_pass::ComputePass;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::shaders;
@@ -79,16 +78,6 @@ impl<'a> Orders<'a> {
             pipeline: pipeline.clone(),
         });
         pipeline
-    }
-
-    /// Asks for a pass without constants of its own.
-    pub(crate) fn pass(
-        &mut self,
-        name: &'static str,
-        module: &'static shaders::Module,
-        entry_point: &'static str,
-    ) -> ComputePass {
-        ComputePass::order(self, name, (module, entry_point), &[])
     }
 
     /// Compiles all that the device has not compiled before. Two renderers that ask for the same at once both compile.
