@@ -14,7 +14,8 @@ const WIDE: f64 = 2.0;
 /// counts. `boxes_m` are the objects' bounding boxes, in their order; where nothing is left, all count.
 pub fn objects(description: &Description, boxes_m: &[(DVec3, DVec3)]) -> Vec<usize> {
     let eye_m = DVec3::from(description.camera.position_m);
-    let mut subject: Vec<usize> = (0..boxes_m.len()).collect();
+    let is_shown = |&i: &usize| description.objects.get(i).is_none_or(|it| !it.hidden);
+    let mut subject: Vec<usize> = (0..boxes_m.len()).filter(is_shown).collect();
     // The largest first: of two tables one upon the other, both go.
     let mut by_size = subject.clone();
     by_size.sort_by(|&a, &b| size_m(&boxes_m[b]).total_cmp(&size_m(&boxes_m[a])));

@@ -8,7 +8,7 @@ mod textures;
 
 use std::fmt;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
 
@@ -19,7 +19,7 @@ use crate::estimate::Estimate;
 use crate::lamp_shape;
 use crate::light_picture::LightPicture;
 use crate::loader::{Loader, Stage};
-use crate::scene::{Object, Scene};
+use crate::scene::{Mesh, Object, Scene};
 use crate::studio::PhotoSet;
 use crate::texture::texture_bytes;
 use kept::{BuildCache, KeptPicture, KeptSurface, MapKey, Stamp, SurfaceKey};
@@ -178,7 +178,11 @@ impl<'a> Work<'a> {
             }
             scene.objects.push(Object {
                 name: object.name.clone(),
-                mesh: surface.mesh.clone(),
+                // A hidden object keeps its place in the list, without triangles.
+                mesh: match object.hidden {
+                    true => no_mesh(),
+                    false => surface.mesh.clone(),
+                },
                 scratches: Arc::default(),
                 segments: Arc::default(),
                 parts: surface.parts.clone(),
@@ -238,12 +242,14 @@ impl<'a> Work<'a> {
         surfaces: &mut Vec<Arc<KeptSurface>>,
         scene: &mut Scene,
     ) -> Result<(), Error> {
-        let bounds = scene.objects.iter().map(|object| object.mesh.bounds_m());
+        let described = self.description;
+        let shown = scene.objects.iter().zip(&described.objects);
+        let shown = shown.filter(|(_, described)| !described.hidden);
+        let bounds = shown.map(|(object, _)| object.mesh.bounds_m());
         let bounds = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
         let Some((least, most)) = bounds else {
             return Ok(());
         };
-        let described = self.description;
         let set = PhotoSet::new(&described.camera, (least.as_dvec3(), most.as_dvec3()));
         if !described.studio.hidden {
             let lights = set.lights(&described.studio);
@@ -322,4 +328,10 @@ impl<'a> Work<'a> {
         let up = self.description.camera.world_up();
         Ok(Some(convert::environment(described, map, up)))
     }
+}
+
+/// A mesh without triangles: one for all, so that a scene that is built anew has the same.
+fn no_mesh() -> Arc<Mesh> {
+    static NONE: LazyLock<Arc<Mesh>> = LazyLock::new(Arc::default);
+    NONE.clone()
 }

@@ -290,6 +290,9 @@ pub struct Object {
     /// Factors along the object's own axes, or one number for all. None may be 0; negative ones mirror. Default: 1.
     #[serde(serialize_with = "serialize_scale")]
     pub scale: [f64; 3],
+    /// Whether the scene is as if the object were not there, nor what lies on it. Default: `false`.
+    #[serde(skip_serializing_if = "is_default")]
+    pub hidden: bool,
 }
 
 /// `up` of an object with a mesh.

@@ -153,6 +153,7 @@ impl Description {
                     translation_m: [0.0; 3],
                     rotation_deg: [0.0; 3],
                     scale: [1.0; 3],
+                    hidden: false,
                 },
                 ground,
             ],

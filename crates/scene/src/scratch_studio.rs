@@ -87,7 +87,9 @@ pub(crate) struct Subject<'a> {
 impl Subject<'_> {
     /// Lights for the subject; none where there is nothing.
     pub(crate) fn lights(&self, camera: &Camera, size_px: [u32; 2]) -> Vec<Light> {
-        let bounds = self.meshes[..self.count].iter().map(|mesh| mesh.bounds_m());
+        let own = self.meshes[..self.count].iter();
+        let shown = own.filter(|mesh| !mesh.triangles.is_empty());
+        let bounds = shown.map(|mesh| mesh.bounds_m());
         let Some((least, most)) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
             return Vec::new();
         };

@@ -208,6 +208,7 @@ impl PhotoSet {
             translation_m: (self.base_m + (height_m - level) * self.up).into(),
             rotation_deg,
             scale: [1.0; 3],
+            hidden: false,
         };
         let material = Material {
             name: "ground".to_owned(),

@@ -55,6 +55,7 @@ fn is_same_object((a, x): (&Description, &Object), (b, y): (&Description, &Objec
         time_s,
         animation,
         overrides,
+        hidden,
     } = x;
     let is_same_material = match (material(a, x), material(b, y)) {
         (Some(x), Some(y)) => is_same_but_for_name(x, y),
@@ -72,6 +73,7 @@ fn is_same_object((a, x): (&Description, &Object), (b, y): (&Description, &Objec
         && *time_s == y.time_s
         && *animation == y.animation
         && *overrides == y.overrides
+        && *hidden == y.hidden
 }
 
 fn material<'d>(description: &'d Description, object: &Object) -> Option<&'d Material> {

@@ -191,7 +191,10 @@ fn contents(loaded: &Loaded) -> Contents {
     let Loaded {
         scene, description, ..
     } = loaded;
-    let objects = scene.objects.iter().map(|object| {
+    // A hidden object has no triangles.
+    let shown = scene.objects.iter();
+    let shown = shown.filter(|object| !object.mesh.triangles.is_empty());
+    let objects = shown.map(|object| {
         let (least, most) = object.mesh.bounds_m();
         Object {
             name: object.name.clone(),

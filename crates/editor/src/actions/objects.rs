@@ -53,6 +53,7 @@ fn add(
         translation_m: [0.0; 3],
         rotation_deg: [0.0; 3],
         scale: [1.0; 3],
+        hidden: false,
     };
     list::insert(description, description.objects.len(), object)
 }

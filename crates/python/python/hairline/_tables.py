@@ -335,7 +335,7 @@ class Object(Table):
     """``[[object]]``: a ``shape`` or a ``mesh``. See :meth:`from_arrays` for meshes from numpy."""
 
     _section = "object"
-    _absent = {"up": "y", "overrides": ()}
+    _absent = {"up": "y", "overrides": (), "hidden": False}
 
     name: str
     """What layers of scratches call it by."""
@@ -354,13 +354,15 @@ class Object(Table):
     animation: Optional[str] = _default()
     """With ``time_s``: the name of the animation, or its number from 0. Default: the first one."""
     overrides: Sequence[Mapping[str, Any]] = _default()
-    """Other factors for materials of a mesh's file, whose maps stay: ``material`` with ``roughness``, ``metallic``, ``base_color`` or ``metal``."""
+    """Other factors for materials of a mesh's file, whose maps stay: ``material`` with ``roughness``, ``metallic`` and ``base_color`` or ``metal``, the name of a measured metal."""
     translation_m: Vector = _default()
     """Metres, 3 numbers. Default: 0."""
     rotation_deg: Vector = _default()
     """About the world's x axis, then y, then z, degrees, 3 numbers. Default: 0."""
     scale: Union[float, Vector] = _default()
     """Factors along the object's own axes, one number or 3. Default: 1."""
+    hidden: bool = _default()
+    """As if the object were not there, nor what lies on it."""
 
     @classmethod
     def from_arrays(

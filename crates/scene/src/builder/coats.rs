@@ -117,7 +117,8 @@ impl<'a> Work<'a> {
                 }
                 None => 0,
             };
-            let is_shown = !table.hidden && (table.solo || !solo);
+            let is_on_shown = !self.description.objects[object].hidden;
+            let is_shown = is_on_shown && !table.hidden && (table.solo || !solo);
             let ground = surfaces[object].ground_if_made(&OnPart::of(table));
             // Before they are read.
             let files = self.stamps(table);

@@ -32,6 +32,9 @@ impl Work<'_> {
             let names = described.objects.iter().map(|o| o.name.as_str());
             let object = find(&grating.object, names, &format!("{key}.object"), "object")?;
             check_uvs(grating, &surfaces[object], &key)?;
+            if described.objects[object].hidden {
+                continue;
+            }
             let mut numbered = |name, kind, file: &Option<PathBuf>| {
                 let Some(file) = file else {
                     return Ok(None);

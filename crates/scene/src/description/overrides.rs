@@ -24,7 +24,7 @@ pub struct Override {
     /// Factor on its base colour map, or its base colour, linear Rec.709. In [0, 1] each. Default: as in the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub base_color: Option<[f64; 3]>,
-    /// The colour of a metal by its measured refractive index, in the place of `base_color`. Default: none.
+    /// A measured metal: its colour in the place of `base_color`, and metallic unless `metallic` says otherwise. Default: none.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "name_of")]
     pub metal: Option<Metal>,
 }
@@ -59,11 +59,10 @@ impl Override {
             metallic,
         } = &mut material.base
         {
-            *base_color = self.base_color.unwrap_or(*base_color);
-            *metallic = self.metallic.unwrap_or(*metallic);
-            if let Some(metal) = self.metal {
-                *base_color = metal.reflectance_rgb(1.0);
-            }
+            let of_metal = self.metal.map(|metal| metal.reflectance_rgb(1.0));
+            *base_color = self.base_color.or(of_metal).unwrap_or(*base_color);
+            let of_metal = self.metal.map(|_| 1.0);
+            *metallic = self.metallic.or(of_metal).unwrap_or(*metallic);
         }
     }
 

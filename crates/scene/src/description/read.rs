@@ -252,6 +252,7 @@ impl Read for Object {
                 "translation_m",
                 "rotation_deg",
                 "scale",
+                "hidden",
             ],
         )?;
         let name = table.required("name")?;
@@ -283,6 +284,7 @@ impl Read for Object {
             translation_m: table.or("translation_m", [0.0; 3])?,
             rotation_deg: table.or("rotation_deg", [0.0; 3])?,
             scale,
+            hidden: table.or("hidden", false)?,
         })
     }
 }

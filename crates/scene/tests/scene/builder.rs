@@ -429,3 +429,40 @@ fn clones_are_cheap() {
     // A busy machine is given a hundred times what it takes.
     assert!(each_us < 200.0, "{each_us} us");
 }
+
+/// A hidden object keeps its place, since layers and picks count objects; light, ground and layers are as without it.
+#[test]
+fn a_hidden_object_is_as_if_it_were_not_there() {
+    let dir = temporary_dir();
+    let mut it = files_and_scene(dir.path());
+    it.lights.clear();
+    it.studio.hidden = false;
+    it.ground = Some(Default::default());
+    let mut builder = SceneBuilder::new();
+    let loader = Loader::default();
+    let whole = builder.build(&loader, &it, dir.path()).unwrap();
+    it.objects[1].hidden = true;
+    let place_m = it.objects[1].translation_m;
+    it.objects[1].translation_m = [0.0, 0.0, -3.0];
+    let hidden = builder.build(&loader, &it, dir.path()).unwrap();
+    let own = &hidden.objects[1];
+    assert!(own.mesh.triangles.is_empty() && own.segments.is_empty() && own.gratings.is_empty());
+    assert!(!hidden.objects[0].segments.is_empty());
+    // A change elsewhere leaves it shared.
+    it.objects[0].rotation_deg[2] += 10.0;
+    let after = builder.build(&loader, &it, dir.path()).unwrap();
+    assert!(own.same_mesh(&after.objects[1]));
+    it.objects[1].hidden = false;
+    it.objects[1].translation_m = place_m;
+    let shown = builder.build(&loader, &it, dir.path()).unwrap();
+    assert_eq!(
+        shown.objects[1].segments.len(),
+        whole.objects[1].segments.len()
+    );
+    // The ground is as large as what is shown asks for.
+    let ground_m = |scene: &Scene| {
+        let (low_m, high_m) = scene.objects[3].mesh.bounds_m();
+        low_m.distance(high_m)
+    };
+    assert!(ground_m(&hidden) < 1.01 * ground_m(&whole));
+}

@@ -247,6 +247,7 @@ fn everything() -> Description {
                 translation_m: [0.0, 1.0, 2.0],
                 rotation_deg: [10.0, 20.0, 30.0],
                 scale: if i == 1 { [2.0; 3] } else { [1.0, -2.0, 3.0] },
+                hidden: i == 2,
             })
             .collect(),
         scratches,

@@ -446,8 +446,8 @@ fn primitives_keep_their_materials_and_textures() {
     else {
         panic!("{changed:?}");
     };
-    // Gold reflects red almost whole and a third of blue; what is said alone changes.
-    assert!(base_color[0] > 0.9 && base_color[2] < 0.5 && metallic == 0.25);
+    // Gold reflects red almost whole and a third of blue, and is a metal.
+    assert!(base_color[0] > 0.9 && base_color[2] < 0.5 && metallic == 1.0);
     for (more, expected) in [
         (
             "overrides = [{ material = \"maped\" }]",
@@ -456,6 +456,10 @@ fn primitives_keep_their_materials_and_textures() {
         (
             "overrides = [{ material = \"red\", roughness = 2 }]",
             "object[0].overrides[0].roughness: found 2; must be from 0 to 1",
+        ),
+        (
+            "overrides = [{ material = \"red\", metal = \"golt\" }]",
+            "object[0].overrides[0].metal: found the text \"golt\"; did you mean `gold`?",
         ),
         (
             "overrides = [{ material = \"red\", metal = \"gold\", base_color = [1, 1, 1] }]",

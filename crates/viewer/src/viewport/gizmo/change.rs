@@ -104,6 +104,7 @@ mod tests {
             translation_m: [0.0; 3],
             rotation_deg,
             scale: [1.0; 3],
+            hidden: false,
         }
     }
 
