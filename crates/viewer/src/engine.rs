@@ -129,6 +129,16 @@ impl Engine {
         self.shared.want_view(view);
     }
 
+    /// Sets whether the picture is left as it is once it has all pixels and all scratches: other work is to have the cores.
+    pub(crate) fn set_resting(&self, is_resting: bool) {
+        self.shared.set_resting(is_resting);
+    }
+
+    /// Whether a picture is left as it is once it has all pixels and all scratches.
+    pub fn is_resting(&self) -> bool {
+        self.shared.is_resting()
+    }
+
     /// The current view.
     pub fn view(&self) -> Option<View> {
         self.shared.view()

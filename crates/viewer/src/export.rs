@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{Align2, Id, ProgressBar, Rect};
-use hairline_image::Output;
+use hairline_image::{Animation, Output};
 use hairline_scene::{DEFAULT_SAMPLES, Description};
 use web_time::Instant;
 
@@ -34,6 +34,8 @@ pub(crate) struct Export {
     /// Begins as soon as the newest scene is built.
     waiting: Option<Wish>,
     running: Option<Running>,
+    /// Exports that were cancelled and have not ended yet, each with the number of pictures that was told.
+    ending: Vec<(Running, u32)>,
 }
 
 struct Running {
@@ -41,7 +43,6 @@ struct Running {
     wish: Wish,
     report: Report,
     since: Instant,
-    is_cancelled: bool,
 }
 
 impl Export {
@@ -112,7 +113,28 @@ impl Export {
     pub fn show(&mut self, ctx: &egui::Context, work: &mut Workspace, area: Rect) {
         self.start(ctx, work);
         self.end(&mut work.notices);
-        self.show_progress(ctx, area);
+        if self.show_progress(ctx, area) {
+            self.cancel(&mut work.notices);
+        }
+        self.ending.retain(|(running, told)| {
+            // A picture may have been on its way to its file.
+            if running.job.is_over() && running.report.state().written != *told {
+                running.tell_cancelled(&mut work.notices);
+            }
+            !running.job.is_over()
+        });
+        // The export gets the cores.
+        work.engine.set_resting(self.running.is_some());
+    }
+
+    /// Ends the export at once, as far as the window is concerned: its thread stops after the pixels that it is at.
+    fn cancel(&mut self, notices: &mut Notices) {
+        self.waiting = None;
+        if let Some(running) = self.running.take() {
+            running.job.stop();
+            let told = running.tell_cancelled(notices);
+            self.ending.push((running, told));
+        }
     }
 
     /// The question, if it is open. What a file is wanted for, if one is to be chosen.
@@ -166,14 +188,18 @@ impl Export {
             path: form.path(),
             backend: work.engine.backend(),
         };
-        match Output::check(&wish.frame_path(0)) {
+        let checked = match wish.is_animation() {
+            true => Animation::check(&wish.path),
+            false => Output::check(&wish.frame_path(0)).map(drop),
+        };
+        match checked {
             Err(error) => {
                 let message = error.to_string();
                 work.notices.error("export", message.clone());
                 form.refused = Some(message);
                 self.form = Some(form);
             }
-            Ok(_) => {
+            Ok(()) => {
                 work.notices.clear("export");
                 // The next picture of this name would replace this one.
                 (form.refused, form.agreed) = (None, None);
@@ -207,7 +233,6 @@ impl Export {
                     wish,
                     report,
                     since: Instant::now(),
-                    is_cancelled: false,
                 });
             }
         }
@@ -221,17 +246,9 @@ impl Export {
         let wish = &running.wish;
         let written = state.written;
         let name = |frame: u32| wish.frame_path(frame).display().to_string();
-        let kept = match written {
-            0 => "No picture was written.".to_owned(),
-            1 => format!("{} is complete and stays.", name(0)),
-            _ => format!(
-                "{written} of {} pictures are complete and stay, up to {}",
-                wish.frames(),
-                name(written - 1)
-            ),
-        };
+        let kept = wish.kept(written);
         match state.end {
-            Some(End::Complete) if written <= 1 => {
+            Some(End::Complete) if written <= 1 || wish.is_animation() => {
                 notices.note("export", format!("Saved {}", name(0)));
             }
             Some(End::Complete) => notices.note(
@@ -252,9 +269,10 @@ impl Export {
         }
     }
 
-    fn show_progress(&mut self, ctx: &egui::Context, area: Rect) {
+    /// Shows how far the export is; whether it is to be cancelled.
+    fn show_progress(&self, ctx: &egui::Context, area: Rect) -> bool {
         if !self.is_busy() {
-            return;
+            return false;
         }
         let corner = area.right_bottom() - egui::vec2(12.0, 12.0);
         let cancel = egui::Area::new(Id::unique("export progress"))
@@ -273,19 +291,21 @@ impl Export {
                     })
                     .inner
             });
-        if cancel.inner {
-            self.waiting = None;
-            if let Some(running) = &mut self.running {
-                running.is_cancelled = true;
-                running.job.stop();
-            }
-        }
         // The time that is left goes on between two bands too.
         ctx.request_repaint_after(Duration::from_millis(500));
+        cancel.inner
     }
 }
 
 impl Running {
+    /// Tells that it was cancelled, and how many pictures there are; returns that number.
+    fn tell_cancelled(&self, notices: &mut Notices) -> u32 {
+        let written = self.report.state().written;
+        let kept = self.wish.kept(written);
+        notices.note("export", format!("The export was cancelled. {kept}"));
+        written
+    }
+
     fn show(&self, ui: &mut egui::Ui) {
         let state = self.report.state();
         let frames = self.wish.frames();
@@ -296,13 +316,12 @@ impl Running {
             format!("Picture {} of {frames}", (state.written + 1).min(frames))
         };
         ui.label(what);
-        let text = match (self.is_cancelled, time_left(self.since.elapsed(), done)) {
-            (true, _) => "stopping".to_owned(),
-            (false, None) => percent(done),
-            (false, Some(left)) => format!("{}, {left} left", percent(done)),
+        let text = match time_left(self.since.elapsed(), done) {
+            None => percent(done),
+            Some(left) => format!("{}, {left} left", percent(done)),
         };
         ui.add(ProgressBar::new(done as f32).text(text));
-        if frames > 1 {
+        if frames > 1 && !self.wish.is_animation() {
             ui.weak("Cancelling keeps the pictures that are complete.");
         }
     }

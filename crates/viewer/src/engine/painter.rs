@@ -76,11 +76,14 @@ pub(super) fn run(shared: &Shared) {
 async fn work(shared: &Shared, easel: &mut impl Easel) -> Result<(), hairline_gpu::Error> {
     let mut progress = Progress::new(shared, easel.kind());
     loop {
-        // A moment to see whether the movement goes on; then finer and finer.
+        // A moment to see whether the movement goes on, or whether the rest is over; then finer and finer.
         let patience = progress.has_more().then_some(STILL);
         let Some(order) = shared.next_order(progress.done.as_ref(), patience) else {
             return Ok(());
         };
+        if progress.is_at(&order) && progress.rests(shared) {
+            continue;
+        }
         progress.go_on(shared, easel, order, None).await?;
     }
 }
@@ -109,6 +112,13 @@ impl Progress {
     /// Whether there is something finer to come of the same.
     pub fn has_more(&self) -> bool {
         !self.steps.is_empty()
+    }
+
+    /// Whether what comes next is left, for other work has the cores.
+    #[cfg(not(target_arch = "wasm32"))]
+    fn rests(&self, shared: &Shared) -> bool {
+        let next = self.steps.first();
+        shared.is_resting() && next.is_some_and(Step::is_refinement)
     }
 
     /// Whether `order` is being painted already, exposure and all.

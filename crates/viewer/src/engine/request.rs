@@ -61,6 +61,7 @@ pub(super) struct Shared {
     /// Signals something new.
     news: Condvar,
     stopped: AtomicBool,
+    resting: AtomicBool,
     backend: Mutex<Backend>,
     wake: Wake,
 }
@@ -90,6 +91,7 @@ impl Shared {
             state: Mutex::default(),
             news: Condvar::new(),
             stopped: AtomicBool::new(false),
+            resting: AtomicBool::new(false),
             backend: Mutex::new(backend),
             wake,
         }
@@ -295,6 +297,14 @@ impl Shared {
 
     pub fn set_backend(&self, backend: Backend) {
         *self.backend.lock().unwrap_or_else(PoisonError::into_inner) = backend;
+    }
+
+    pub fn is_resting(&self) -> bool {
+        self.resting.load(Ordering::Relaxed)
+    }
+
+    pub fn set_resting(&self, is_resting: bool) {
+        self.resting.store(is_resting, Ordering::Relaxed);
     }
 
     pub fn is_stopped(&self) -> bool {

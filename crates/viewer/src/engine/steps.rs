@@ -40,6 +40,11 @@ impl Step {
         is_one(self) && is_one(last) && self.samples > 1 && self.transport == last.transport
     }
 
+    /// Whether a picture with all pixels and all scratches is there before it.
+    pub fn is_refinement(&self) -> bool {
+        self.samples > 1 || self.is_added()
+    }
+
     /// Whether it is one of several whose mean is the picture.
     pub fn is_added(&self) -> bool {
         self.batch.is_some()

@@ -104,7 +104,10 @@ impl Studio {
         let gives_way = || match turn {
             Turn::First if may_be_coarser => start.elapsed() > FIRST_AT_MOST,
             Turn::First => false,
-            Turn::Between | Turn::Last => shared.is_outdated(order, on_cores),
+            Turn::Between | Turn::Last => {
+                let rests = shared.is_resting() && step.is_refinement();
+                rests || shared.is_outdated(order, on_cores)
+            }
         };
         let interrupted = || {
             shared.is_stopped() || until.is_some_and(|until| Instant::now() >= until) || gives_way()

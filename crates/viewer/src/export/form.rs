@@ -194,6 +194,7 @@ impl Form {
     fn question_before(&self) -> Option<String> {
         let frames = match self.motion() {
             Motion::Still => 1,
+            Motion::Turntable { .. } if self.motion().is_animation(&self.path()) => 1,
             Motion::Turntable { frames, .. } => frames,
         };
         let paths = (0..frames).map(|frame| self.motion().path(&self.path(), frame));
@@ -201,7 +202,7 @@ impl Form {
             .filter(|path| self.agreed.as_ref() != Some(path) && path.is_file())
             .collect();
         let first = there.first()?.display();
-        Some(match (self.is_turntable, there.len()) {
+        Some(match (frames > 1, there.len()) {
             (false, _) => format!("\"{first}\" is there already. Its contents would be lost."),
             (true, 1) => format!(
                 "\"{first}\" is there already, one of {frames} pictures. Its contents would be lost."
@@ -298,12 +299,18 @@ impl Form {
         let ending = first.extension().unwrap_or_default().to_string_lossy();
         let format = match ending.to_lowercase().as_str() {
             "png" => "PNG: as the window shows it.",
+            "apng" if self.is_turntable => {
+                "APNG: one file that browsers play, 25 pictures in a second, as the window shows them."
+            }
             "exr" => {
                 "EXR: linear radiance, with the layers base, scratches, density, depth and normal."
             }
+            _ if self.is_turntable => {
+                "End the name in .png or .exr, or in .apng for one file that plays."
+            }
             _ => "End the name in .png or .exr.",
         };
-        let names = match self.is_turntable {
+        let names = match self.is_turntable && !self.motion().is_animation(&self.path()) {
             true => {
                 let name = first.file_name().unwrap_or_default();
                 format!(" The first picture is {}.", name.to_string_lossy())

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use hairline_cpu::closed_form::TILE_PX;
 use hairline_editor::navigate;
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
-use hairline_image::{Batches, Display, Image, Output, filter_found};
+use hairline_image::{Animation, Batches, Display, Image, Output, filter_found};
 use hairline_index::method::Method;
 use hairline_scene::{Camera, Description, Scene, Transport};
 
@@ -23,14 +23,23 @@ pub(super) enum Motion {
 }
 
 impl Motion {
-    /// Path of a picture, counted from 0: NAME.png, or NAME-0001.png and on.
+    /// Path of a picture, counted from 0: NAME.png, or NAME-0001.png and on; NAME.apng has all of them.
     pub fn path(self, path: &Path, frame: u32) -> PathBuf {
         match self {
+            Self::Turntable { .. } if self.is_animation(path) => path.to_owned(),
             Self::Still => path.to_owned(),
             Self::Turntable { .. } => numbered(path, frame + 1),
         }
     }
+
+    /// Whether all pictures go into one file.
+    pub fn is_animation(self, path: &Path) -> bool {
+        matches!(self, Self::Turntable { .. }) && Animation::is_asked_by(path)
+    }
 }
+
+/// Pictures of an animation in a second.
+pub(super) const FPS: u16 = 25;
 
 /// Request for an export.
 #[derive(Clone)]
@@ -60,6 +69,26 @@ impl Wish {
     /// Path of a picture, counted from 0.
     pub fn frame_path(&self, frame: u32) -> PathBuf {
         self.motion.path(&self.path, frame)
+    }
+
+    /// Whether all pictures go into one file.
+    pub fn is_animation(&self) -> bool {
+        self.motion.is_animation(&self.path)
+    }
+
+    /// Sentence about the pictures that stay where the export ended early.
+    pub fn kept(&self, written: u32) -> String {
+        let name = |frame: u32| self.frame_path(frame).display().to_string();
+        match written {
+            _ if self.is_animation() => "No file was written.".to_owned(),
+            0 => "No picture was written.".to_owned(),
+            1 => format!("{} is complete and stays.", name(0)),
+            _ => format!(
+                "{written} of {} pictures are complete and stay, up to {}",
+                self.frames(),
+                name(written - 1)
+            ),
+        }
     }
 
     fn scene(&self, built: &Built, frame: u32) -> Scene {
@@ -172,9 +201,18 @@ pub(super) async fn run(wish: &Wish, built: &Built, stop: &Stop, report: &Report
 async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Result<bool, String> {
     let opened = Painter::open(wish, built).await;
     let mut painter = opened.map_err(|error| error.to_string())?;
+    let begin = || Animation::begin(&wish.path, wish.size_px, wish.frames(), FPS);
+    let animation = wish.is_animation().then(begin).transpose();
+    let mut animation = animation.map_err(|error| error.to_string())?;
     for frame in 0..wish.frames() {
         // Before the work: the folder may have gone meanwhile.
-        let output = Output::check(&wish.frame_path(frame)).map_err(|error| error.to_string())?;
+        let output = match animation {
+            Some(_) => None,
+            None => {
+                let output = Output::check(&wish.frame_path(frame));
+                Some(output.map_err(|error| error.to_string())?)
+            }
+        };
         let go_on = |share: f64| {
             report.tell(|state| state.share = share);
             !stop.is_asked()
@@ -196,13 +234,19 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
             let all = batches.map_or(wish.samples, |it| it.samples());
             image.alpha = Some(hairline_cpu::alpha(&scene, &built.triangles, all, all));
         }
-        let written = output.write_image(&image, &wish.display());
+        let written = match (&mut animation, &output) {
+            (Some(animation), _) => animation.add(&image.shown(), &wish.display()),
+            (None, Some(output)) => output.write_image(&image, &wish.display()),
+            (None, None) => Ok(()),
+        };
         written.map_err(|error| error.to_string())?;
         report.tell(|state| {
             state.written += 1;
             state.share = 0.0;
         });
     }
+    let finished = animation.map_or(Ok(()), Animation::finish);
+    finished.map_err(|error| error.to_string())?;
     Ok(true)
 }
 

@@ -3,7 +3,7 @@
 use crate::common;
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
@@ -216,16 +216,36 @@ fn begun(folder: &Path) -> Harness<'static, Viewer> {
 fn cancelling_leaves_whole_pictures_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
     let mut harness = begun(folder.path());
-    let asked = Instant::now();
+    assert!(harness.state().engine().is_resting());
     common::click_on(&mut harness, "Cancel the export");
+    // The window answers before the thread has ended.
+    assert!(!harness.state().is_exporting());
+    assert!(harness.query_by_label("Cancel the export").is_none());
+    common::wait_until(&mut harness, "the number of pictures", |viewer| {
+        let written = whole_pictures(folder.path());
+        assert!((2..2000).contains(&written));
+        let count = format!("{written} of 2000 pictures are complete and stay");
+        viewer.messages().concat().contains(&count)
+    });
+    assert!(!harness.state().engine().is_resting());
+}
+
+#[test]
+fn a_turntable_is_one_file_that_plays() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("turn.apng");
+    let mut harness = viewer(TINY);
+    export_turntable(&mut harness, &path, 3);
     wait_exported(&mut harness);
-    // A band takes a tenth of a second; the rest is for a machine that stands still now and then. All pictures take minutes.
-    assert!(asked.elapsed() < Duration::from_secs(20));
-    let written = whole_pictures(folder.path());
-    assert!((2..2000).contains(&written));
+    assert_eq!(names(folder.path()), ["turn.apng"]);
+    // acTL holds the number of frames.
+    let bytes = std::fs::read(&path).unwrap();
+    let at = bytes.windows(4).position(|it| it == b"acTL").unwrap();
+    assert_eq!(bytes[at + 4..at + 8], 3_u32.to_be_bytes());
+    let first = png::read_picture(&path).unwrap();
+    assert_eq!(first.size_px, [48, 32]);
     let said = harness.state().messages().concat();
-    let count = format!("{written} of 2000 pictures are complete and stay");
-    assert!(said.contains(&count), "{said}");
+    assert!(said.contains("turn.apng"), "{said}");
 }
 
 #[test]
