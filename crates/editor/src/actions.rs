@@ -3,10 +3,12 @@
 //! Each takes the place of a part in the description; those that move or remove parts also take the selection, and keep it
 //! on the same part. Hand them to [`Document::apply`](crate::Document::apply), which makes one step of each.
 
+pub mod gratings;
 pub mod layers;
 pub mod lights;
 pub mod materials;
 pub mod objects;
+pub mod pictures;
 pub mod studio;
 
 mod list;

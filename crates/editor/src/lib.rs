@@ -19,8 +19,8 @@
 //! ```
 //!
 //! The document is a [`Description`](hairline_scene::Description), the scene file itself, so what is edited is what is
-//! saved. Nothing here draws, waits or starts a thread; only opening and saving of a [`Document`], [`autosave`] and
-//! [`recent`] touch files.
+//! saved. Nothing here draws, waits or starts a thread; only opening and saving of a [`Document`], [`autosave`],
+//! [`recent`] and [`settings`] touch files.
 
 #![warn(unreachable_pub)]
 
@@ -40,11 +40,14 @@ pub mod presets;
 pub mod quantity;
 pub mod ranges;
 pub mod recent;
+mod rotation;
 pub mod selection;
+pub mod settings;
 pub mod subject;
 pub mod wear;
 
 pub use actions::ActionError;
 pub use document::Document;
 pub use history::DragKey;
+pub use rotation::rotation_deg;
 pub use selection::Selection;

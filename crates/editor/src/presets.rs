@@ -467,6 +467,14 @@ impl ShapePreset {
         }
     }
 
+    /// Words on where it is put, for a tooltip; empty where it stands at the origin.
+    pub fn tooltip(self) -> &'static str {
+        match self {
+            Self::Text => "Letters on top of the selected object, as wide as it.",
+            _ => "",
+        }
+    }
+
     /// The shape, as wide as this.
     pub fn shape(self, width_m: f64) -> Shape {
         let r = 0.5 * fitting(width_m);

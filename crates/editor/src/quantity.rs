@@ -111,14 +111,22 @@ impl Unit {
         }
     }
 
-    /// Display of numbers side by side: in one unit, to three digits of the largest, for which there is room.
-    pub fn shown_together(self, values: &[f64]) -> ShownUnit {
+    /// Display of numbers side by side: in one unit, to three digits of the largest; of lengths to steps of `fine_m` too, within five
+    /// digits, for which there is room.
+    pub fn shown_together(self, values: &[f64], fine_m: f64) -> ShownUnit {
         let largest = values.iter().fold(0.0, |m: f64, value| m.max(value.abs()));
         let shown = self.shown(largest);
         let magnitude = (largest / shown.factor).log10().floor();
         let is_usual = (-3.0..9.0).contains(&magnitude);
         ShownUnit {
-            decimals: (self != Self::None && is_usual).then(|| (2.0 - magnitude).max(0.0) as usize),
+            decimals: (self != Self::None && is_usual).then(|| {
+                let usual = (2.0 - magnitude).max(0.0);
+                let fine = match self {
+                    Self::Metre => -(fine_m / shown.factor).log10().floor(),
+                    _ => 0.0,
+                };
+                usual.max(fine.min(4.0 - magnitude)) as usize
+            }),
             ..shown
         }
     }

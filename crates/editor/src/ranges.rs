@@ -34,6 +34,19 @@ pub struct Range {
     pub tooltip: &'static str,
 }
 
+/// Largest width that the model is right for on any base, micrometres.
+const WIDE_UM: f64 = 10.0;
+/// Roughness above which a base does not bear wider scratches.
+const ROUGH: f64 = 0.1;
+
+/// Hint about scratches of a width, as a mean, on a base of a roughness, where the model is off.
+pub fn hint_on_width(width_um: f64, roughness: f64) -> Option<&'static str> {
+    (width_um > WIDE_UM && roughness > ROUGH).then_some(
+        "Wider than 10 µm on a rough base: the light of these scratches is wrong. On steel of roughness 0.3 it was \
+         off by 131 % at 30 µm and by 305 % at 100 µm against the reference.",
+    )
+}
+
 /// The diagonal of an object that is not known yet: a pan's.
 pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 
@@ -193,7 +206,7 @@ impl Parameter {
             P::Seed => (0.0..=1000.0, 0.0..=LARGEST_EXACT),
             P::Length => (1e-3 * d..=2.0 * d, above_zero(limits::SCRATCH_LENGTH_M)),
             P::LengthSpread => (0.0..=1.5, limits::LOG_NORMAL_SPREAD),
-            P::Width => (0.5..=10.0, above_zero(limits::SCRATCH_WIDTH_UM)),
+            P::Width => (0.5..=WIDE_UM, above_zero(limits::SCRATCH_WIDTH_UM)),
             P::WidthSpread => (0.0..=0.6, limits::LOG_NORMAL_SPREAD),
             P::Depth => (20.0..=600.0, above_zero(limits::SCRATCH_DEPTH_NM)),
             P::DepthSpread => (0.0..=0.5, limits::LOG_NORMAL_SPREAD),

@@ -24,6 +24,8 @@ pub enum Selection {
     Material(usize),
     /// A `[[scratches]]`.
     Layer(usize),
+    /// A `[[grating]]`.
+    Grating(usize),
     /// A `[[light]]`.
     Light(usize),
 }
@@ -41,6 +43,7 @@ impl Selection {
             Self::Object(i) => i < description.objects.len(),
             Self::Material(i) => i < description.materials.len(),
             Self::Layer(i) => i < description.scratches.len(),
+            Self::Grating(i) => i < description.gratings.len(),
             Self::Light(i) => i < description.lights.len(),
         }
     }
@@ -54,21 +57,21 @@ impl Selection {
             Self::Object(_) => last(description.objects.len(), Self::Object),
             Self::Material(_) => last(description.materials.len(), Self::Material),
             Self::Layer(_) => last(description.scratches.len(), Self::Layer),
+            Self::Grating(_) => last(description.gratings.len(), Self::Grating),
             Self::Light(_) => last(description.lights.len(), Self::Light),
             _ => Self::None,
         }
     }
 
-    /// The object that it is or belongs to: a layer's is the one that it lies on.
+    /// The object that it is or belongs to: that of a layer or a grating is the one that it lies on.
     pub fn object(self, description: &Description) -> Option<usize> {
-        match self {
-            Self::Object(i) => (i < description.objects.len()).then_some(i),
-            Self::Layer(i) => {
-                let name = &description.scratches.get(i)?.object;
-                description.objects.iter().position(|o| o.name == *name)
-            }
-            _ => None,
-        }
+        let name = match self {
+            Self::Object(i) => return (i < description.objects.len()).then_some(i),
+            Self::Layer(i) => &description.scratches.get(i)?.object,
+            Self::Grating(i) => &description.gratings.get(i)?.object,
+            _ => return None,
+        };
+        description.objects.iter().position(|o| o.name == *name)
     }
 }
 

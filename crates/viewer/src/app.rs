@@ -12,6 +12,7 @@ use std::sync::Arc;
 use eframe::egui_wgpu::RenderState;
 use hairline_editor::Document;
 use hairline_editor::bookmarks::Bookmarks;
+use hairline_editor::settings::Settings;
 use hairline_scene::description::Camera;
 use hairline_scene::{Description, Transport};
 use web_time::Instant;
@@ -98,7 +99,6 @@ impl Viewer {
         render_state: Option<RenderState>,
         options: Options,
     ) -> Result<Self, hairline_scene::Error> {
-        crate::style::set(ctx);
         let mut notices = Notices::default();
         let document = match options.scene.as_deref().map(open) {
             Some(Ok(document)) => document,
@@ -112,6 +112,8 @@ impl Viewer {
         let store = options.state_dir.as_ref();
         let mut bookmarks = Bookmarks::new(store.map(|folder| folder.join("views.toml")));
         bookmarks.open(document.path());
+        let settings = Settings::load(store.map(|folder| folder.join("settings.toml")));
+        crate::style::set(ctx, settings.high_contrast());
         let wake = ctx.clone();
         let work = Workspace {
             document,
@@ -124,10 +126,12 @@ impl Viewer {
             overlays: Overlays::default(),
             gallery: Gallery::default(),
             bookmarks,
+            settings,
             snapshots: Snapshots::default(),
             closed_lens: None,
             missing: Vec::new(),
             model_notes: Vec::new(),
+            wanted_picture: None,
             wished: Vec::new(),
         };
         let mut viewer = Self {
@@ -264,6 +268,9 @@ impl Viewer {
         if let Some(path) = recent {
             self.take_file(&ctx, &path);
         }
+        if let Some(of) = self.work.wanted_picture.take() {
+            self.ask_path(&ctx, Purpose::Picture(of));
+        }
         match panels::number::told(&ctx) {
             Some(Ok(())) => self.work.notices.clear("number"),
             Some(Err(why)) => self.work.notices.error("number", why),
@@ -271,7 +278,8 @@ impl Viewer {
         }
         let area = self.show_picture(ui);
         let is_building = self.work.engine.is_building();
-        self.work.notices.show(&ctx, area, is_building);
+        let above_strip = self.work.snapshots.above_strip(area);
+        self.work.notices.show(&ctx, above_strip, is_building);
         if let Some((of, path)) = missing::show(&ctx, &self.work, area) {
             self.sought = Some(path);
             self.ask_path(&ctx, Purpose::Find(of));

@@ -59,6 +59,7 @@ pub(crate) enum Command {
     Overlay(Overlay),
     Overlays,
     Shadows,
+    HighContrast,
 }
 
 /// Menu where a command is found.
@@ -90,6 +91,18 @@ impl Group {
             Self::Inspect => "Inspect",
             Self::Tools => "Tools",
             Self::Help => "Help",
+        }
+    }
+
+    /// Key that opens its menu, with Alt: the first letter of its name.
+    pub fn key(self) -> Key {
+        match self {
+            Self::File => Key::F,
+            Self::Edit => Key::E,
+            Self::View => Key::V,
+            Self::Inspect => Key::I,
+            Self::Tools => Key::T,
+            Self::Help => Key::H,
         }
     }
 }
@@ -179,6 +192,7 @@ const TABLE: &[Entry] = &[
     entry(Command::Overlay(Overlay::Handles), Group::View, "Handles of the selection", None),
     entry(Command::Overlay(Overlay::Names), Group::View, "Names", None),
     entry(Command::Shadows, Group::View, "Shadows", Some((Modifiers::SHIFT, Key::S))),
+    entry(Command::HighContrast, Group::View, "High contrast", None),
     entry(Command::ToggleList, Group::View, "List at the left", Some((PLAIN, Key::F9))),
     entry(Command::ToggleInspector, Group::View, "Panel at the right", Some((PLAIN, Key::F10))),
     entry(Command::FullScreen, Group::View, "Full screen", Some((PLAIN, Key::F11))),
@@ -230,6 +244,7 @@ const SECTIONS: &[Command] = &[
     Command::Deselect,
     Command::Look(Viewpoint::Front),
     Command::Shadows,
+    Command::HighContrast,
     Command::Compare,
     Command::BrushSmaller,
 ];
@@ -305,7 +320,10 @@ impl Command {
 /// Whether an event is the press of a shortcut, with further modifiers or without.
 fn is_press(event: &egui::Event, shortcut: &KeyboardShortcut) -> bool {
     matches!(event, egui::Event::Key { key, modifiers, pressed: true, .. }
-        if *key == shortcut.logical_key && modifiers.matches_logically(shortcut.modifiers))
+        if *key == shortcut.logical_key
+            // Alt alone opens menus.
+            && modifiers.alt == shortcut.modifiers.alt
+            && modifiers.matches_logically(shortcut.modifiers))
 }
 
 /// The keys of a command besides its first.

@@ -2,6 +2,7 @@
 
 mod answer;
 mod ask;
+mod completion;
 mod fit;
 mod on_disk;
 mod path_line;
@@ -145,7 +146,7 @@ const ADVICE: [(&str, [&str; 4]); 2] = [
 
 /// Shows all keys and the actions of the mouse; true when it is to be closed.
 fn help(ui: &mut Ui) -> bool {
-    const MOUSE: [(&str, &str); 9] = [
+    const MOUSE: [(&str, &str); 10] = [
         ("Drag", "turns the view"),
         ("Shift and drag, or the middle button", "moves the view"),
         (
@@ -161,12 +162,17 @@ fn help(ui: &mut Ui) -> bool {
         ("Right click", "shows what can be done with it"),
         ("Double click", "looks at the point"),
         (
+            "Drag a material, wear or scratches from their cards",
+            "onto an object or a part",
+        ),
+        (
             "Drop a file",
             "opens a scene, adds a model, sets the environment",
         ),
     ];
     // egui has these keys by itself.
     const SIZES: &str = "Ctrl and +, - or 0: all of the window larger, smaller, as it was";
+    const MENUS: &str = "Alt and the first letter of a menu: opens it";
     ui.set_width(860.0);
     ui.heading("Keys and mouse");
     // A row for each line, with what is around it: so that all of it fits a small screen, and scrolls on a smaller one.
@@ -190,6 +196,7 @@ fn help(ui: &mut Ui) -> bool {
                     ui.label(format!("{what}: {does}"));
                 }
                 ui.label(SIZES);
+                ui.label(MENUS);
             });
             for (title, lines) in ADVICE {
                 ui.collapsing(title, |ui| {

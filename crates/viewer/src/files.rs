@@ -10,6 +10,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
 use hairline_editor::Document;
+use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::autosave::{self, Autosave, Pending};
 use hairline_editor::recent::Recent;
 use hairline_scene::description::FileUse;
@@ -30,6 +31,8 @@ pub(crate) enum Purpose {
     Turntable,
     /// A file that the scene names and that is not there.
     Find(FileUse),
+    /// A mask, a map or the picture of a light.
+    Picture(PictureOf),
 }
 
 impl Purpose {
@@ -43,21 +46,25 @@ impl Purpose {
             Self::Screenshot => "Save a picture",
             Self::Turntable => "Export a turntable: name of the first frame",
             Self::Find(_) => "Find the file",
+            Self::Picture(_) => "Choose a picture",
         }
     }
 
     /// Name and extensions of the files that a dialog lists.
-    fn filter(self) -> (&'static str, &'static [&'static str]) {
+    pub fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Open => ("Hairline scenes and models", &["toml", "glb", "gltf"]),
             Self::SaveAs => ("Hairline scenes", &["toml"]),
             Self::AddModel => ("glTF models", &["glb", "gltf"]),
             Self::Environment => ("Environment maps", &["hdr", "exr"]),
-            Self::Screenshot | Self::Turntable => ("Pictures", &["png", "exr"]),
+            Self::Screenshot => ("Pictures", &["png", "exr"]),
+            Self::Turntable => ("Pictures and animations", &["png", "exr", "apng"]),
             Self::Find(FileUse::Map) => Self::Environment.filter(),
             Self::Find(FileUse::Mesh(_)) => Self::AddModel.filter(),
             Self::Find(FileUse::ScratchList(_)) => ("Lists of scratches", &["csv"]),
-            Self::Find(_) => ("Pictures", &["png", "jpg", "jpeg", "webp", "hdr", "exr"]),
+            Self::Find(_) | Self::Picture(_) => {
+                ("Pictures", &["png", "jpg", "jpeg", "webp", "hdr", "exr"])
+            }
         }
     }
 
@@ -71,7 +78,9 @@ impl Purpose {
         let stem = document.path().and_then(Path::file_stem);
         let stem = stem.map_or("scene".into(), |stem| stem.to_string_lossy());
         match self {
-            Self::Open | Self::AddModel | Self::Environment | Self::Find(_) => String::new(),
+            Self::Open | Self::AddModel | Self::Environment | Self::Find(_) | Self::Picture(_) => {
+                String::new()
+            }
             Self::SaveAs => format!("{stem}.toml"),
             Self::Screenshot => format!("{stem}.png"),
             Self::Turntable => format!("{stem}-turntable.png"),

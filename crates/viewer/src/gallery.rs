@@ -13,7 +13,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use egui::{ColorImage, TextureHandle, TextureId, TextureOptions};
 
 pub(crate) use cards::{SIDE, card, cards, metal_swatches};
-pub(crate) use thumb::Thumb;
+pub(crate) use thumb::{StandIn, Thumb};
 
 /// Width and height of a picture.
 const SIDE_PX: u32 = 96;

@@ -39,15 +39,24 @@ pub(crate) fn names(work: &Workspace, object: &str) -> Names {
     names
 }
 
-/// Material and node that distinguish the part of an object with a triangle from the other parts; none if there is one part alone.
-pub(crate) fn at(
-    scene: &Scene,
-    described: &Object,
-    object: usize,
-    triangle: usize,
-) -> (Option<String>, Option<String>) {
+/// A part of an object: the material and the node that distinguish it from the other parts. Without both it is all of the object.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Part {
+    pub material: Option<String>,
+    pub node: Option<String>,
+}
+
+impl Part {
+    /// Whether it is all of the object.
+    pub fn is_whole(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// The part of an object with a triangle; all of the object if there is one part alone.
+pub(crate) fn at(scene: &Scene, described: &Object, object: usize, triangle: usize) -> Part {
     let Some(made) = scene.objects.get(object) else {
-        return (None, None);
+        return Part::default();
     };
     let numbers = &made.mesh.triangle_materials;
     let own = numbers.get(triangle).copied();
@@ -66,5 +75,8 @@ pub(crate) fn at(
         .iter()
         .all(|it| part.is_some_and(|own| own.nodes == it.nodes));
     let node = part.filter(|_| !is_alone).and_then(|it| it.nodes.first());
-    (material, node.cloned())
+    Part {
+        material,
+        node: node.cloned(),
+    }
 }

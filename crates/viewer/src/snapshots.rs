@@ -31,6 +31,8 @@ pub(crate) struct Snapshots {
     way: Way,
     /// Position of the divider from 0, left, to 1.
     divider: f32,
+    /// Upper edge of the strip in the last pass, points.
+    strip_top: f32,
 }
 
 impl Default for Snapshots {
@@ -42,6 +44,7 @@ impl Default for Snapshots {
             is_shown: false,
             way: Way::Flip,
             divider: 0.5,
+            strip_top: f32::INFINITY,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod area;
 pub(crate) mod canvas;
+mod drop;
 mod gizmo;
 pub(crate) mod ink;
 pub(crate) mod lens;

@@ -1,11 +1,14 @@
 //! Workspace of all panels: the edited scene, its renderer, its view, and messages about it.
 
 mod fit;
+mod give;
 mod view;
 
 use std::path::{Path, PathBuf};
 
+use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::bookmarks::Bookmarks;
+use hairline_editor::settings::Settings;
 use hairline_editor::{ActionError, Document, DragKey, Selection, actions};
 use hairline_scene::description::{FileUse, Map};
 use hairline_scene::{Description, Error, Transport};
@@ -35,6 +38,7 @@ pub(crate) struct Workspace {
     pub overlays: Overlays,
     pub gallery: Gallery,
     pub bookmarks: Bookmarks,
+    pub settings: Settings,
     pub snapshots: Snapshots,
     /// Opening in millimetres and focus of the camera when depth of field was switched off, to be taken up again.
     pub closed_lens: Option<(f64, Option<f64>)>,
@@ -42,6 +46,8 @@ pub(crate) struct Workspace {
     pub missing: Vec<(FileUse, PathBuf)>,
     /// Notes on the scene's models that were shown last.
     pub model_notes: Vec<String>,
+    /// The picture whose file a panel wants to be chosen.
+    pub wanted_picture: Option<PictureOf>,
     /// Commands of panels, to be run once all panels are shown.
     pub wished: Vec<Command>,
 }
@@ -89,6 +95,11 @@ impl Workspace {
         self.apply(label, |d, _| {
             Ok(actions::set_environment(d, map, &base_dir))
         });
+    }
+
+    /// Asks for the file of a picture, if one is wanted.
+    pub fn choose_picture(&mut self, wanted: Option<PictureOf>) {
+        self.wanted_picture = wanted.or(self.wanted_picture);
     }
 
     /// Takes the scene from its file; `why` ends the sentence that tells of it.
@@ -164,6 +175,7 @@ impl Workspace {
                     selection,
                     Selection::Object(_)
                         | Selection::Layer(_)
+                        | Selection::Grating(_)
                         | Selection::Light(_)
                         | Selection::Material(_)
                 )
@@ -171,7 +183,9 @@ impl Workspace {
             Command::ToggleHidden => {
                 matches!(
                     selection,
-                    Selection::Layer(_)
+                    Selection::Object(_)
+                        | Selection::Layer(_)
+                        | Selection::Grating(_)
                         | Selection::Light(_)
                         | Selection::Studio
                         | Selection::Ground
@@ -194,6 +208,7 @@ impl Workspace {
             Command::Overlay(overlay) => Some(self.overlays.is_on(overlay)),
             Command::Overlays => Some(!self.overlays.are_hidden()),
             Command::Shadows => Some(self.transport.shadows),
+            Command::HighContrast => Some(self.settings.high_contrast()),
             _ => None,
         }
     }

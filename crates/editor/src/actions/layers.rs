@@ -78,24 +78,7 @@ pub fn delete(
     index: usize,
     selection: Selection,
 ) -> Result<Selection, ActionError> {
-    let object = list::get::<Scratches>(description, index)?.object.clone();
-    let after = list::remove::<Scratches>(description, index, selection)?;
-    if selection != Selection::Layer(index) {
-        return Ok(after);
-    }
-    let on_object = |i: &usize| {
-        let layer = description.scratches.get(*i);
-        layer.is_some_and(|layer| layer.object == object)
-    };
-    // Selects the layer in its place, else the nearest one before it.
-    let next = (index..description.scratches.len()).find(on_object);
-    Ok(match next.or_else(|| (0..index).rev().find(on_object)) {
-        Some(i) => Selection::Layer(i),
-        None => {
-            let object = description.objects.iter().position(|o| o.name == object);
-            object.map_or(Selection::None, Selection::Object)
-        }
-    })
+    list::remove_from_object::<Scratches>(description, index, selection)
 }
 
 /// Changes places with the next layer of the same object up (`by` -1) or down (1); at the end nothing happens.

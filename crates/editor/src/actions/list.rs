@@ -1,7 +1,7 @@
 //! Common interface of the parts in the lists of a description: most have a name, and they are copied, moved and removed.
 
 use hairline_scene::Description;
-use hairline_scene::description::{Light, Material, Object, Scratches};
+use hairline_scene::description::{Grating, Light, Material, Object, Scratches};
 
 use super::{ActionError, unique_name};
 use crate::Selection;
@@ -79,6 +79,29 @@ pub(super) fn remove<P: ListedPart>(
             after_removal(i, index, left).map_or(Selection::None, P::at)
         }
         None => selection,
+    })
+}
+
+/// Removes a part that lies on an object. Where it was selected, the next one on the same object is, else the object.
+pub(super) fn remove_from_object<P: ListedPart>(
+    description: &mut Description,
+    index: usize,
+    selection: Selection,
+) -> Result<Selection, ActionError> {
+    let removed = get::<P>(description, index)?.clone();
+    let object = P::at(index).object(description);
+    let after = remove::<P>(description, index, selection)?;
+    if selection != P::at(index) {
+        return Ok(after);
+    }
+    let list = P::list(description);
+    let is_beside = |i: &usize| list[*i].is_listed_with(&removed);
+    // The part in its place, else the nearest one before it.
+    let next = (index..list.len()).find(is_beside);
+    let next = next.or_else(|| (0..index).rev().find(is_beside));
+    Ok(match next {
+        Some(i) => P::at(i),
+        None => object.map_or(Selection::None, Selection::Object),
     })
 }
 
@@ -200,6 +223,18 @@ part!(Light, "light", "a light", lights, Light, {
     }
     fn set_name(&mut self, name: Option<String>) {
         self.name = name;
+    }
+});
+
+part!(Grating, "grating", "a grating", gratings, Grating, {
+    fn name(&self) -> Option<&str> {
+        self.name.as_deref()
+    }
+    fn set_name(&mut self, name: Option<String>) {
+        self.name = name;
+    }
+    fn is_listed_with(&self, other: &Self) -> bool {
+        self.object == other.object
     }
 });
 

@@ -1,7 +1,8 @@
 //! Materials.
 
+use hairline_optics::metal::Metal;
 use hairline_scene::Description;
-use hairline_scene::description::{Material, Object};
+use hairline_scene::description::{Material, Object, Override};
 
 use super::{ActionError, list};
 use crate::Selection;
@@ -9,6 +10,52 @@ use crate::Selection;
 /// Adds a material, under another name if its own is taken.
 pub fn add(description: &mut Description, material: Material) -> Selection {
     list::insert(description, description.materials.len(), material)
+}
+
+/// Gives an object a material: one of the scene that is equal, else a new one. All of a model is of it then.
+///
+/// # Errors
+/// [`ActionError::Missing`]: no such object.
+pub fn give(
+    description: &mut Description,
+    object: usize,
+    material: Material,
+) -> Result<Selection, ActionError> {
+    list::get::<Object>(description, object)?;
+    if !description.materials.contains(&material) {
+        add(description, material.clone());
+    }
+    let equal = description.materials.iter().find(|it| **it == material);
+    // The material's own name may have been taken.
+    let given = equal.or(description.materials.last());
+    let given = given.map(|it| it.name.clone());
+    let own = list::get_mut::<Object>(description, object)?;
+    own.material = given;
+    // Those of a file's materials.
+    own.overrides.clear();
+    Ok(Selection::Object(object))
+}
+
+/// Makes a material of a model's file a metal; its roughness and its maps stay.
+///
+/// # Errors
+/// [`ActionError::Missing`]: no such object.
+pub fn make_metal(
+    description: &mut Description,
+    object: usize,
+    material: &str,
+    metal: Metal,
+) -> Result<Selection, ActionError> {
+    let overrides = &mut list::get_mut::<Object>(description, object)?.overrides;
+    let known = overrides.iter().find(|it| it.material == material).cloned();
+    overrides.retain(|it| it.material != material);
+    overrides.push(Override {
+        metal: Some(metal),
+        base_color: None,
+        metallic: None,
+        ..known.unwrap_or_else(|| Override::new(material))
+    });
+    Ok(Selection::Object(object))
 }
 
 /// Adds a copy, behind the original.

@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
+use glam::{DMat3, DVec3};
 use hairline_scene::Description;
 use hairline_scene::description::{Grating, Material, Object, Scratches, Shape, Surface, Up};
 
 use super::{ActionError, list, materials};
-use crate::{Selection, paths, presets};
+use crate::presets::{self, ShapePreset};
+use crate::{Selection, paths, rotation_deg};
 
 /// Adds a mesh file, with the materials of the file, named after it. `file` is written relative to `base_dir`, the
 /// document's.
@@ -33,6 +35,59 @@ pub fn add_shape(
     let material = Some(material.name.clone());
     let name = shape.kind();
     Ok(add(description, name, Surface::Shape(shape), material))
+}
+
+/// Adds a text on top of a box: as wide as the box, and upright for the camera.
+///
+/// # Errors
+/// None.
+pub fn add_text(
+    description: &mut Description,
+    (low_m, high_m): (DVec3, DVec3),
+) -> Result<Selection, ActionError> {
+    let camera = &description.camera;
+    let up = camera.world_up();
+    let middle_m = 0.5 * (low_m + high_m);
+    let away = middle_m - DVec3::from(camera.position_m);
+    // Along the edges of the box: away from the camera, and to its right.
+    let along = nearest_axis(away - up * away.dot(up));
+    let right = along.cross(up);
+    let sides_m = high_m - low_m;
+    let [width_m, length_m] = [right, along].map(|axis| sides_m.dot(axis).abs());
+    let Shape::Text {
+        line,
+        height_m,
+        depth_m,
+    } = ShapePreset::Text.shape(TEXT_SHARE * width_m)
+    else {
+        return Err(ActionError::Missing("text"));
+    };
+    // On a narrow box it is as high as that is long.
+    let narrower = (TEXT_SHARE * length_m / height_m).min(1.0);
+    let shape = Shape::Text {
+        line,
+        height_m: height_m * narrower,
+        depth_m: depth_m * narrower,
+    };
+    let top_m = middle_m + up * (0.5 * sides_m.dot(up).abs());
+    let added = add_shape(description, shape, None)?;
+    if let Some(text) = description.objects.last_mut() {
+        // Digits that nobody sees, in a file that people read.
+        text.translation_m = top_m.to_array().map(|m| (m * 1e6).round() / 1e6);
+        text.rotation_deg = rotation_deg(DMat3::from_cols(right, along, up));
+    }
+    Ok(added)
+}
+
+/// Width of a text over that of what it stands on.
+const TEXT_SHARE: f64 = 0.8;
+
+/// The axis of the world that is nearest to a direction.
+fn nearest_axis(direction: DVec3) -> DVec3 {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let signed = axes.into_iter().flat_map(|axis| [axis, -axis]);
+    let by_share = |a: &DVec3, b: &DVec3| a.dot(direction).total_cmp(&b.dot(direction));
+    signed.max_by(by_share).unwrap_or(DVec3::Y)
 }
 
 fn add(
@@ -102,15 +157,12 @@ pub fn delete(
     if description.objects.len() == 1 {
         return Err(ActionError::LastObject(name));
     }
+    // What lies on the object goes with it: as if the object had been selected.
     let selection = match selection {
-        Selection::Layer(i) => match description.scratches.get(i) {
-            Some(layer) if layer.object != name => {
-                let before = description.scratches[..i].iter();
-                Selection::Layer(before.filter(|layer| layer.object != name).count())
-            }
-            // The layer goes with its object: as if that had been selected.
-            _ => Selection::Object(index),
-        },
+        Selection::Layer(i) => place_left(&description.scratches, i, |it| it.object == name)
+            .map_or(Selection::Object(index), Selection::Layer),
+        Selection::Grating(i) => place_left(&description.gratings, i, |it| it.object == name)
+            .map_or(Selection::Object(index), Selection::Grating),
         other => other,
     };
     description.scratches.retain(|layer| layer.object != name);
@@ -118,6 +170,26 @@ pub fn delete(
         .gratings
         .retain(|grating| grating.object != name);
     list::remove::<Object>(description, index, selection)
+}
+
+/// The place of a part once some parts of its list are gone; none if it is one of them.
+fn place_left<P>(list: &[P], place: usize, goes: impl Fn(&P) -> bool) -> Option<usize> {
+    let is_left = |part: &&P| !goes(part);
+    list.get(place).filter(is_left)?;
+    Some(list[..place].iter().filter(is_left).count())
+}
+
+/// Hides an object with all that lies on it, or shows it again.
+///
+/// # Errors
+/// [`ActionError::Missing`].
+pub fn toggle_hidden(
+    description: &mut Description,
+    index: usize,
+) -> Result<Selection, ActionError> {
+    let object: &mut Object = list::get_mut(description, index)?;
+    object.hidden = !object.hidden;
+    Ok(Selection::Object(index))
 }
 
 /// Changes places with the next one up (`by` -1) or down (1); at the end nothing happens.
@@ -162,6 +234,16 @@ pub fn layers(description: &Description, index: usize) -> Vec<usize> {
         return Vec::new();
     };
     list::places(description, |layer: &Scratches| layer.object == object.name)
+}
+
+/// The places of the gratings on an object, in their order.
+pub fn gratings(description: &Description, index: usize) -> Vec<usize> {
+    let Some(object) = description.objects.get(index) else {
+        return Vec::new();
+    };
+    list::places(description, |grating: &Grating| {
+        grating.object == object.name
+    })
 }
 
 /// Sets another material of the scene for an object; none where a mesh shall have those of its file.

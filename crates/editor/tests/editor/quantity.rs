@@ -103,19 +103,19 @@ fn numbers_are_shown_in_the_unit_that_reads_best() {
     assert_eq!(Unit::None.shown(3400.0).text(123_456.0), "123456");
     // Side by side in one unit, short enough for three in a row.
     let three = [-0.006_193_4, -0.3524, 0.2883];
-    let shown = Unit::Metre.shown_together(&three);
+    let shown = Unit::Metre.shown_together(&three, 1.0);
     let texts = three.map(|value| shown.text(value));
     assert_eq!(texts, ["-6 mm", "-352 mm", "288 mm"]);
-    let shown = Unit::Metre.shown_together(&[0.0083774, -1e-9]);
+    let shown = Unit::Metre.shown_together(&[0.0083774, -1e-9], 1.0);
     assert_eq!(
         [shown.text(0.0083774), shown.text(-1e-9)],
         ["8.38 mm", "0 mm"]
     );
     assert_eq!(
-        Unit::None.shown_together(&[0.8071, 0.1]).text(0.8071),
+        Unit::None.shown_together(&[0.8071, 0.1], 1e-4).text(0.8071),
         "0.8071"
     );
-    assert_eq!(Unit::Metre.shown_together(&[0.0; 3]).text(0.0), "0 mm");
+    assert_eq!(Unit::Metre.shown_together(&[0.0; 3], 1.0).text(0.0), "0 mm");
     // A displayed number is read back as the same number.
     for value in [0.105, 4e-6, 2.5, -0.27, 1e-9, 1234.0] {
         let shown = Unit::Metre.shown(value);
@@ -124,4 +124,26 @@ fn numbers_are_shown_in_the_unit_that_reads_best() {
             value,
         );
     }
+}
+
+/// A watch of 3 cm under a lamp at 1.2 m is placed to tenths of a millimetre.
+#[test]
+fn positions_about_a_small_object_have_its_digits() {
+    let fine_m = 1e-4;
+    let lamp_m = [0.30123, -0.02, 1.20346];
+    let shown = Unit::Metre.shown_together(&lamp_m, fine_m);
+    assert_eq!(
+        lamp_m.map(|m| shown.text(m)),
+        ["0.3012 m", "-0.02 m", "1.2035 m"]
+    );
+    let near_m = [0.030251, -0.12346, 0.0];
+    let shown = Unit::Metre.shown_together(&near_m, fine_m);
+    assert_eq!(
+        near_m.map(|m| shown.text(m)),
+        ["30.3 mm", "-123.5 mm", "0 mm"]
+    );
+    // There is room for five digits.
+    let far_m = [120.0, 0.12345, 0.0];
+    let shown = Unit::Metre.shown_together(&far_m, fine_m);
+    assert_eq!(far_m.map(|m| shown.text(m)), ["120 m", "0.12 m", "0 m"]);
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairline_editor::actions::{self, layers, objects};
+use hairline_editor::actions::{self, layers, objects, pictures};
 use hairline_scene::description::Map;
 use hairline_scene::probe::{self, MeshSummary};
 
@@ -53,6 +53,13 @@ impl Viewer {
                 self.export.take_path(work, purpose, path, has_asked);
             }
             Purpose::Find(_) => self.take_found(path),
+            Purpose::Picture(of) => {
+                let base_dir = self.work.document.base_dir().to_owned();
+                let file = absolute(path);
+                let label = "Choose a picture";
+                self.work
+                    .apply(label, |d, _| pictures::set(d, of, &file, &base_dir));
+            }
         }
     }
 

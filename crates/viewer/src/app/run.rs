@@ -1,7 +1,7 @@
 //! Effects of commands.
 
 use egui::ViewportCommand;
-use hairline_editor::actions::{layers, lights, materials, objects, studio};
+use hairline_editor::actions::{gratings, layers, lights, materials, objects, studio};
 use hairline_editor::{Selection, navigate};
 
 use super::Viewer;
@@ -90,6 +90,11 @@ impl Viewer {
             Command::View(command) => self.work.change_view(command),
             Command::Overlay(overlay) => self.work.overlays.toggle(overlay),
             Command::Overlays => self.work.overlays.toggle_all(),
+            Command::HighContrast => {
+                let is_high = !self.work.settings.high_contrast();
+                self.work.settings.set_high_contrast(is_high);
+                crate::style::set(ctx, is_high);
+            }
             Command::Shadows => self.work.transport.shadows = !self.work.transport.shadows,
         }
     }
@@ -109,10 +114,12 @@ impl Viewer {
             Ok(match (command, selection) {
                 (Command::Duplicate, S::Object(i)) => objects::duplicate(d, i)?,
                 (Command::Duplicate, S::Layer(i)) => layers::duplicate(d, i)?,
+                (Command::Duplicate, S::Grating(i)) => gratings::duplicate(d, i)?,
                 (Command::Duplicate, S::Light(i)) => lights::duplicate(d, i)?,
                 (Command::Duplicate, S::Material(i)) => materials::duplicate(d, i)?,
                 (Command::Delete, S::Object(i)) => objects::delete(d, i, selection)?,
                 (Command::Delete, S::Layer(i)) => layers::delete(d, i, selection)?,
+                (Command::Delete, S::Grating(i)) => gratings::delete(d, i, selection)?,
                 (Command::Delete, S::Light(i)) => lights::delete(d, i, selection)?,
                 (Command::Delete, S::Material(i)) => materials::delete(d, i, selection)?,
                 (Command::MoveUp | Command::MoveDown, _) => {
@@ -120,11 +127,14 @@ impl Viewer {
                     match selection {
                         S::Object(i) => objects::shift(d, i, by, selection)?,
                         S::Layer(i) => layers::shift(d, i, by, selection)?,
+                        S::Grating(i) => gratings::shift(d, i, by, selection)?,
                         S::Light(i) => lights::shift(d, i, by, selection)?,
                         S::Material(i) => materials::shift(d, i, by, selection)?,
                         other => other,
                     }
                 }
+                (Command::ToggleHidden, S::Object(i)) => objects::toggle_hidden(d, i)?,
+                (Command::ToggleHidden, S::Grating(i)) => gratings::toggle_hidden(d, i)?,
                 (Command::ToggleHidden, S::Layer(i)) => layers::toggle_hidden(d, i)?,
                 (Command::ToggleHidden, S::Light(i)) => lights::toggle_hidden(d, i)?,
                 (Command::ToggleHidden, S::Studio) => studio::toggle_hidden(d),

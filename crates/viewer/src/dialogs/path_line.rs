@@ -2,9 +2,12 @@
 
 use std::path::Path;
 
-use egui::{Context, Event, Id, Key, Modal, TextEdit};
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
+use egui::{Context, Event, Id, Key, Modal, Modifiers, Response, TextEdit};
 
 use super::answer::Answer;
+use super::completion::{Completion, completion};
 use crate::files::{Purpose, from_home};
 
 /// The line, with the path as typed.
@@ -13,6 +16,10 @@ pub(crate) struct PathLine {
     text: String,
     /// Reason why the text before was of no use.
     refused: Option<String>,
+    /// Names with which the path may go on, after Tab.
+    choices: Vec<String>,
+    /// The text was completed, and the cursor is to stand at its end.
+    is_completed: bool,
 }
 
 impl PathLine {
@@ -21,6 +28,8 @@ impl PathLine {
             purpose,
             text,
             refused: None,
+            choices: Vec::new(),
+            is_completed: false,
         }
     }
 
@@ -42,16 +51,30 @@ impl PathLine {
             ui.set_width(460.0);
             ui.heading(self.purpose.title());
             let label = ui.label("Path");
-            let edit = TextEdit::singleline(&mut self.text).desired_width(f32::INFINITY);
+            if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab)) {
+                self.complete();
+            }
+            // Tab completes, and does not go on to the next widget.
+            let edit = TextEdit::singleline(&mut self.text)
+                .desired_width(f32::INFINITY)
+                .lock_focus(true);
             let response = ui.add(edit).labelled_by(label.id);
+            if std::mem::take(&mut self.is_completed) {
+                end_at(&response, self.text.chars().count());
+            }
             if response.changed() {
                 self.refused = None;
+                self.choices.clear();
             }
             let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             // Asked for before it is read, the focus would not count as lost.
             if !entered && ctx.memory(|memory| memory.focused().is_none()) {
                 response.request_focus();
             }
+            ui.weak(match self.choices.is_empty() {
+                true => "Tab completes the path.".to_owned(),
+                false => self.choices.join("   "),
+            });
             if let Some(refused) = &self.refused {
                 ui.colored_label(ui.visuals().error_fg_color, refused);
             }
@@ -72,6 +95,13 @@ impl PathLine {
         }
     }
 
+    /// Completes the path as far as there is one way to go on.
+    fn complete(&mut self) {
+        let Completion { text, choices } = completion(&self.text, self.purpose.filter().1);
+        (self.text, self.choices) = (text, choices);
+        self.is_completed = true;
+    }
+
     /// The line has the keyboard from the next pass on.
     fn take_what_is_typed(&mut self, ctx: &Context) {
         ctx.input(|input| {
@@ -82,4 +112,12 @@ impl PathLine {
             }
         });
     }
+}
+
+/// Moves the cursor of a line behind its last character.
+fn end_at(response: &Response, count: usize) {
+    let mut state = TextEditState::load(&response.ctx, response.id).unwrap_or_default();
+    let end = CCursorRange::one(CCursor::new(count));
+    state.cursor.set_char_range(Some(end));
+    state.store(&response.ctx, response.id);
 }

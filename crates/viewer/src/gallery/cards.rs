@@ -46,7 +46,7 @@ pub(crate) fn cards<T: Copy>(
     chosen
 }
 
-/// A picture, `side` points wide, with a name below it, to be clicked.
+/// A picture, `side` points wide, with a name below it, to be clicked, or dragged onto an object.
 pub(crate) fn card(
     ui: &mut Ui,
     gallery: &mut Gallery,
@@ -55,7 +55,15 @@ pub(crate) fn card(
     is_selected: bool,
 ) -> Response {
     let size = vec2(side + 8.0, side + 24.0);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let is_given = thumb.given_name().is_some();
+    let sense = match is_given {
+        true => Sense::click_and_drag(),
+        false => Sense::click(),
+    };
+    let (rect, response) = ui.allocate_exact_size(size, sense);
+    if is_given {
+        response.dnd_set_drag_payload(thumb);
+    }
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, name));
     let texture = gallery.texture(ui.ctx(), thumb);
     if ui.is_rect_visible(rect) {
@@ -80,7 +88,7 @@ pub(crate) fn card(
                     .rect_filled(picture, 3.0, Color32::from_gray(30));
             }
         }
-        if let Thumb::Material(MaterialPreset::Metal(metal)) = thumb {
+        if let Thumb::Material(MaterialPreset::Metal(metal), _) = thumb {
             let at = picture.right_bottom() - vec2(10.0, 10.0);
             ui.painter()
                 .circle_filled(at, 8.0, Color32::from_black_alpha(160));

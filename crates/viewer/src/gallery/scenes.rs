@@ -8,11 +8,13 @@ use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_editor::place_light::place_highlight;
 use hairline_editor::presets::LayerPreset;
 use hairline_image::{Picture, png};
-use hairline_scene::description::{Light, Material, MaterialKind, Object, Scratches, Surface};
+use hairline_scene::description::{
+    Light, LightKind, Material, MaterialKind, Scratches, Shape, Surface,
+};
 use hairline_scene::environment::BuiltInMap;
 use hairline_scene::{Description, Environment, Loader};
 
-use super::thumb::Thumb;
+use super::thumb::{StandIn, Thumb};
 
 /// A shallow dome of steel under a lamp, seen from above at a slant. The lamp's reflection lies a little behind the
 /// dome's middle.
@@ -67,6 +69,8 @@ material = "m"
 
 /// Diagonal of the dome's box.
 const DOME_DIAGONAL_M: f64 = 0.051;
+/// Diagonal of the box of a round or a tall body.
+const BODY_M: f64 = 0.06;
 
 /// Renderer of small pictures. It keeps the map that several of them use.
 #[derive(Default)]
@@ -78,16 +82,34 @@ impl Studio {
     /// Renders a picture; none where the scene cannot be made, which a test excludes.
     pub fn picture(&mut self, thumb: Thumb, side_px: u32) -> Option<ColorImage> {
         let (description, map) = match thumb {
-            Thumb::Layer(preset) => {
-                let mut dome = dome(&layer(preset));
+            Thumb::Layer(preset, StandIn::Flat) => {
+                let mut dome = dome(&[preset.layer("o", DOME_DIAGONAL_M)]);
                 if matches!(preset, LayerPreset::PolishedWatch | LayerPreset::SpunDisk) {
                     // Scratches that run to the middle light up between it and a lamp beside it.
                     dome.lights[0] = mirrored(dome.lights[0].clone(), &dome, BESIDE_M);
                 }
                 (dome, None)
             }
-            Thumb::Wear(wear) => (dome(&wear.layers("o", 0.7 * DOME_DIAGONAL_M)), None),
-            Thumb::Material(preset) => (ball(&preset.material()), Some(BuiltInMap::Studio)),
+            Thumb::Layer(preset, form) => (body(form, &[preset.layer("o", BODY_M)]), None),
+            Thumb::Wear(wear, StandIn::Flat) => {
+                (dome(&wear.layers("o", 0.7 * DOME_DIAGONAL_M)), None)
+            }
+            Thumb::Wear(wear, form) => (body(form, &wear.layers("o", 0.7 * BODY_M)), None),
+            Thumb::Grating(preset, form) => {
+                let mut grooved = match form {
+                    StandIn::Flat => dome(&[]),
+                    form => body(form, &[]),
+                };
+                grooved.gratings = vec![preset.grating("o")];
+                (grooved, None)
+            }
+            Thumb::Material(preset, form) => {
+                let mut made = of_form(form);
+                let material = preset.material();
+                made.objects[0].material = Some(material.name.clone());
+                made.materials = vec![material];
+                (made, Some(BuiltInMap::Studio))
+            }
             Thumb::Map(map) => (read(BALL), Some(map)),
             Thumb::Shape(preset) => {
                 let mut shape = read(BALL);
@@ -108,8 +130,11 @@ impl Studio {
         let mut description = description;
         description.render.size_px = [side_px; 2];
         let mut scene = Loader::default().build(&description, Path::new("")).ok()?;
-        if matches!(thumb, Thumb::Shape(_) | Thumb::Material(_)) {
-            description.camera.exposure_ev = 0.5;
+        match thumb {
+            // A flat one mirrors the soft box above it alone.
+            Thumb::Material(_, StandIn::Flat) => description.camera.exposure_ev = -1.5,
+            Thumb::Shape(_) | Thumb::Material(..) => description.camera.exposure_ev = 0.5,
+            _ => {}
         }
         if let Some(map) = map {
             let is_seen = matches!(thumb, Thumb::Map(_));
@@ -171,14 +196,12 @@ fn clay() -> Material {
     }
 }
 
-/// The texts are part of the program.
+/// The scene of a text, without what a scene without lights is given. The texts are part of the program.
 fn read(text: &str) -> Description {
-    Description::from_toml(text, Path::new("small picture"))
-        .unwrap_or_else(|error| unreachable!("{error}"))
-}
-
-fn layer(preset: LayerPreset) -> Vec<Scratches> {
-    vec![preset.layer("o", DOME_DIAGONAL_M)]
+    let mut read = Description::from_toml(text, Path::new("small picture"))
+        .unwrap_or_else(|error| unreachable!("{error}"));
+    (read.studio.hidden, read.ground) = (true, None);
+    read
 }
 
 fn dome(layers: &[Scratches]) -> Description {
@@ -187,15 +210,43 @@ fn dome(layers: &[Scratches]) -> Description {
     description
 }
 
-fn ball(material: &Material) -> Description {
-    let mut description = read(BALL);
-    let name = material.name.clone();
-    description.objects = vec![Object {
-        material: Some(name),
-        ..description.objects[0].clone()
-    }];
-    description.materials = vec![material.clone()];
-    description
+/// A stand-in without light.
+fn of_form(form: StandIn) -> Description {
+    let mut made = read(match form {
+        StandIn::Flat => DOME,
+        StandIn::Round | StandIn::Tall => BALL,
+    });
+    made.lights.clear();
+    if form == StandIn::Tall {
+        made.objects[0].surface = Surface::Shape(Shape::Cylinder {
+            radius_m: 0.011,
+            height_m: 0.04,
+            rounding_m: 0.002,
+        });
+    }
+    made
+}
+
+/// A round or a tall body with scratches, under the lights of the dome: the lamp is mirrored in its front.
+fn body(form: StandIn, layers: &[Scratches]) -> Description {
+    let mut lit = of_form(form);
+    let dome = read(DOME);
+    // A bent surface shows lamps smaller, and larger ones keep the light of its scratches.
+    let (way, reach_m, lamp) = match form {
+        StandIn::Flat | StandIn::Round => (DVec3::new(-0.25, -0.85, 0.4), 0.02, 5.0),
+        StandIn::Tall => (DVec3::new(-0.25, -0.95, 0.0), 0.011, 2.0),
+    };
+    let normal = way.normalize();
+    let mut lights = dome.lights;
+    if let LightKind::Sphere { radius_m, .. } = &mut lights[0].kind {
+        *radius_m *= lamp;
+    }
+    let eye_m = DVec3::from(lit.camera.position_m);
+    place_highlight(&mut lights[0], eye_m, reach_m * normal, normal);
+    lit.lights = lights;
+    lit.camera.exposure_ev = dome.camera.exposure_ev;
+    lit.scratches = layers.to_vec();
+    lit
 }
 
 const MIDDLE_M: DVec3 = DVec3::new(0.0, 0.002, 0.0008);
@@ -211,18 +262,24 @@ fn mirrored(mut light: Light, description: &Description, point_m: DVec3) -> Ligh
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hairline_editor::grating_presets::GratingPreset;
     use hairline_editor::presets::{LightPreset, MaterialPreset, ShapePreset};
     use hairline_editor::wear::Wear;
 
     #[test]
     fn each_has_a_picture_of_its_own() {
-        let layers = LayerPreset::ALL.map(Thumb::Layer).into_iter();
-        let mut all: Vec<Thumb> = layers
-            .chain(MaterialPreset::all().map(Thumb::Material))
-            .chain(LightPreset::ALL.map(Thumb::Light))
+        let on = |form: StandIn| {
+            let layers = LayerPreset::ALL.map(|p| Thumb::Layer(p, form)).into_iter();
+            layers
+                .chain(MaterialPreset::all().map(move |p| Thumb::Material(p, form)))
+                .chain(Wear::ALL.map(|p| Thumb::Wear(p, form)))
+                .chain(GratingPreset::ALL.map(|p| Thumb::Grating(p, form)))
+        };
+        let lights = LightPreset::ALL.map(Thumb::Light).into_iter();
+        let mut all: Vec<Thumb> = lights
             .chain(ShapePreset::ALL.map(Thumb::Shape))
             .chain(BuiltInMap::ALL.map(Thumb::Map))
-            .chain(Wear::ALL.map(Thumb::Wear))
+            .chain(StandIn::ALL.into_iter().flat_map(on))
             .collect();
         let mut studio = Studio::default();
         let side_px = match std::env::var_os("HAIRLINE_GALLERY") {
@@ -230,7 +287,7 @@ mod tests {
             None => {
                 // The most expensive pictures are like others.
                 let dense = &Wear::ALL[2..];
-                all.retain(|thumb| !matches!(thumb, Thumb::Wear(wear) if dense.contains(wear)));
+                all.retain(|thumb| !matches!(thumb, Thumb::Wear(wear, _) if dense.contains(wear)));
                 16
             }
         };

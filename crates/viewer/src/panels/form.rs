@@ -4,21 +4,27 @@
 //! it, so that all that one control does while it is held becomes one step.
 
 use std::hash::Hash;
+use std::path::PathBuf;
 
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{Align, Context, Id, Layout, Response, Slider, SliderClamping, TextEdit, Ui};
 use hairline_editor::DragKey;
+use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::quantity::ShownUnit;
 use hairline_editor::ranges::{Parameter, Range};
 use hairline_scene::description::Distribution;
 
 use super::number::NumberBox;
+use crate::platform::HAS_DISK;
 
 /// Width of the labels' column, points.
 const LABEL_WIDTH: f32 = 110.0;
 /// Width of a number's box.
 const VALUE_WIDTH: f32 = 78.0;
+
+/// Steps of positions that are shown, over the size of the object.
+const FINE: f64 = 1.0 / 300.0;
 
 /// The label of the row that a part is called by.
 pub(super) const NAME: &str = "Name";
@@ -40,6 +46,8 @@ pub(crate) struct Form<'a> {
     /// Names the part, so that controls of two parts are two.
     scope: DragKey,
     change: Option<Change>,
+    /// The picture whose file is to be chosen.
+    wanted: Option<PictureOf>,
 }
 
 impl<'a> Form<'a> {
@@ -49,6 +57,7 @@ impl<'a> Form<'a> {
             diagonal_m,
             scope: DragKey::of(scope),
             change: None,
+            wanted: None,
         }
     }
 
@@ -129,7 +138,7 @@ impl<'a> Form<'a> {
     }
 
     fn boxes_labelled(&mut self, label: &str, range: &Range, names: &[&str], values: &mut [f64]) {
-        let shown = range.unit.shown_together(values);
+        let shown = range.unit.shown_together(values, FINE * self.diagonal_m);
         self.row(label, range.tooltip, |ui, _| {
             let width = share(ui, names.len());
             names
@@ -192,30 +201,46 @@ impl<'a> Form<'a> {
     pub fn text(&mut self, label: &str, tooltip: &str, value: &mut String) {
         let scope = self.scope;
         self.row(label, tooltip, |ui, text| {
-            let id = ui.make_persistent_id((scope, label));
-            // Unfinished input is in egui's memory.
-            let mut typed = ui
-                .data(|data| data.get_temp::<String>(id))
-                .unwrap_or_else(|| value.clone());
-            let edit = TextEdit::singleline(&mut typed).desired_width(ui.available_width() - 8.0);
-            let response = ui.add(edit).labelled_by(text.id);
-            if label == NAME && end_naming(ui.ctx()) {
-                select_all(&response, value.chars().count());
-            }
-            if response.has_focus() {
-                ui.data_mut(|data| data.insert_temp(id, typed));
-                return false;
-            }
-            ui.data_mut(|data| data.remove_temp::<String>(id));
-            let is_given_up = ui.input(|input| input.key_pressed(egui::Key::Escape));
-            let changed = response.lost_focus() && typed != *value && !is_given_up;
-            if changed {
-                // Pasted text may have line ends, which names and paths of scene files have not.
-                typed.retain(|c| !c.is_control());
-                *value = typed;
-            }
-            changed
+            let width = ui.available_width() - 8.0;
+            line(ui, width, (scope, label), text, value)
         });
+    }
+
+    /// The file of a picture, as the scene file writes it, and a button to choose it.
+    pub fn picture(
+        &mut self,
+        label: &str,
+        tooltip: &str,
+        file: &mut Option<PathBuf>,
+        of: PictureOf,
+    ) {
+        const BUTTON_WIDTH: f32 = 30.0;
+        let scope = self.scope;
+        let shown = file.as_deref().map(|file| file.to_string_lossy());
+        let mut typed = shown.unwrap_or_default().into_owned();
+        let mut is_to_be_chosen = false;
+        self.row(label, tooltip, |ui, text| {
+            let left = if HAS_DISK { BUTTON_WIDTH } else { 0.0 };
+            let width = ui.available_width() - 8.0 - left;
+            let has_changed = line(ui, width, (scope, label), text, &mut typed);
+            if HAS_DISK {
+                let button = ui.button("…").on_hover_text("Choose the file");
+                ui.ctx().accesskit_node_builder(button.id, |node| {
+                    node.set_label(format!("Choose {}", label.to_lowercase()));
+                });
+                is_to_be_chosen = button.clicked();
+            }
+            has_changed
+        });
+        *file = (!typed.is_empty()).then(|| typed.into());
+        if is_to_be_chosen {
+            self.wanted = Some(of);
+        }
+    }
+
+    /// The picture whose file is to be chosen, if its button was pressed.
+    pub fn wanted(&self) -> Option<PictureOf> {
+        self.wanted
     }
 
     /// Row for one of several places, counted from 1 on the screen.
@@ -230,9 +255,10 @@ impl<'a> Form<'a> {
         let range = Parameter::ProfileRadius.range(self.diagonal_m);
         let heights = Parameter::ProfileHeight.range(self.diagonal_m);
         let label = format!("Point {}", i + 1);
+        let fine_m = FINE * self.diagonal_m;
         self.row(&label, range.tooltip, |ui, _| {
             let width = share(ui, 2);
-            let shown = range.unit.shown_together(&[*radius_m, *height_m]);
+            let shown = range.unit.shown_together(&[*radius_m, *height_m], fine_m);
             let parts = [("r", &range, radius_m), ("z", &heights, height_m)];
             parts
                 .into_iter()
@@ -280,6 +306,39 @@ impl<'a> Form<'a> {
     ) {
         self.row(label, tooltip, control);
     }
+}
+
+/// A line of text beside its label; returns whether it was left with another text.
+fn line(
+    ui: &mut Ui,
+    width: f32,
+    key: (DragKey, &str),
+    label: &Response,
+    value: &mut String,
+) -> bool {
+    let id = ui.make_persistent_id(key);
+    // Unfinished input is in egui's memory.
+    let mut typed = ui
+        .data(|data| data.get_temp::<String>(id))
+        .unwrap_or_else(|| value.clone());
+    let edit = TextEdit::singleline(&mut typed).desired_width(width);
+    let response = ui.add(edit).labelled_by(label.id);
+    if key.1 == NAME && end_naming(ui.ctx()) {
+        select_all(&response, value.chars().count());
+    }
+    if response.has_focus() {
+        ui.data_mut(|data| data.insert_temp(id, typed));
+        return false;
+    }
+    ui.data_mut(|data| data.remove_temp::<String>(id));
+    let is_given_up = ui.input(|input| input.key_pressed(egui::Key::Escape));
+    let changed = response.lost_focus() && typed != *value && !is_given_up;
+    if changed {
+        // Pasted text may have line ends, which names and paths of scene files have not.
+        typed.retain(|c| !c.is_control());
+        *value = typed;
+    }
+    changed
 }
 
 fn slider_and_box(ui: &mut Ui, label: &Response, range: &Range, value: &mut f64) -> bool {

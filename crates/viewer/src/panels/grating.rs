@@ -1,53 +1,41 @@
-//! The gratings of an object.
+//! A grating.
 
-use egui::{CollapsingHeader, Ui};
-use hairline_editor::grating_presets::GratingPreset;
+use egui::Ui;
+use hairline_editor::Selection;
+use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::ranges::Parameter;
-use hairline_scene::description::Grating;
 
-use super::form::Form;
+use super::form::{Form, NAME};
 use super::groove_pattern;
-use super::layer_place::{picture, tile};
+use super::layer_place::tile;
+use crate::command::Command;
 use crate::workspace::Workspace;
-
-/// Section of the gratings of the object with this index, with a menu that adds one.
-pub(super) fn section(ui: &mut Ui, work: &mut Workspace, object: usize) {
-    let description = work.document.description().clone();
-    let Some(name) = description.objects.get(object).map(|o| o.name.clone()) else {
-        return;
-    };
-    ui.strong("Gratings");
-    let own = (0..).zip(&description.gratings);
-    for (index, grating) in own.filter(|(_, grating)| grating.object == name) {
-        let title = grating.name.as_deref().unwrap_or("grating");
-        let title = format!("{title}, {} µm", grating.pitch_um);
-        CollapsingHeader::new(title)
-            .id_salt(("grating", index))
-            .show(ui, |ui| rows(ui, work, object, index, grating.clone()));
-    }
-    ui.menu_button("Add grating…", |ui| {
-        for preset in GratingPreset::ALL {
-            let button = ui.button(preset.name()).on_hover_text(preset.tooltip());
-            if button.clicked() {
-                let grating = preset.grating(&name);
-                work.apply("Add grating", |d, selection| {
-                    d.gratings.push(grating);
-                    Ok(selection)
-                });
-                ui.close();
-            }
-        }
-    })
-    .response
-    .on_hover_text("Grooves side by side, finer than a pixel: their light interferes");
-}
 
 /// Width of the narrowest ring, in the object's size.
 const LEAST_RING: f64 = 1e-4;
 
-fn rows(ui: &mut Ui, work: &mut Workspace, object: usize, index: usize, mut grating: Grating) {
-    let everywhere_m = work.diagonal_m(Some(object));
+pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
+    let description = work.document.description().clone();
+    let Some(mut grating) = description.gratings.get(index).cloned() else {
+        return;
+    };
+    let object = Selection::Grating(index).object(&description);
+    let everywhere_m = work.diagonal_m(object);
+    ui.heading("Grating");
     let mut form = Form::new(ui, ("grating", index), everywhere_m);
+    let mut name = grating.name.clone().unwrap_or_default();
+    form.text(NAME, "What the outliner calls it", &mut name);
+    grating.name = (!name.is_empty()).then_some(name);
+    let objects = description
+        .objects
+        .iter()
+        .map(|o| (o.name.clone(), o.name.clone()));
+    form.choice(
+        "Object",
+        "What its grooves are in",
+        objects,
+        &mut grating.object,
+    );
     form.toggle(
         "Hidden",
         "As if the grating were not there",
@@ -69,16 +57,16 @@ fn rows(ui: &mut Ui, work: &mut Workspace, object: usize, index: usize, mut grat
     form.number(Parameter::Displacement, &mut grating.jitter_um);
     form.seed(&mut grating.seed);
     grating.jitter_um = grating.jitter_um.min(grating.pitch_um);
-    groove_pattern::rows(&mut form, &mut grating.pattern);
+    groove_pattern::rows(&mut form, &mut grating.pattern, index);
     if grating.pattern.around().is_some() {
         grating.center_m = None;
     }
     form.number(Parameter::Coverage, &mut grating.coverage);
-    picture(
-        &mut form,
+    form.picture(
         "Mask",
         "A picture, relative to the scene file: the darker it is, the less of the surface the grooves cover. None: alike everywhere",
         &mut grating.mask,
+        PictureOf::GratingMask(index),
     );
     match grating.mask {
         Some(_) => tile(&mut form, &mut grating.tile_m),
@@ -104,15 +92,21 @@ fn rows(ui: &mut Ui, work: &mut Workspace, object: usize, index: usize, mut grat
             }
         }
     }
+    work.choose_picture(form.wanted());
     if let Some(change) = form.change() {
         work.drag(&change.label, change.key, |d| {
             d.gratings[index] = grating.clone();
         });
     }
-    if ui.button("Delete grating").clicked() {
-        work.apply("Delete grating", |d, selection| {
-            d.gratings.remove(index);
-            Ok(selection)
-        });
-    }
+    ui.add_space(8.0);
+    ui.horizontal_wrapped(|ui| {
+        for command in [
+            Command::Duplicate,
+            Command::MoveUp,
+            Command::MoveDown,
+            Command::Delete,
+        ] {
+            super::button(ui, work, command);
+        }
+    });
 }

@@ -1,12 +1,13 @@
 //! Controls for the directions of a grating's grooves.
 
+use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::ranges::Parameter;
 use hairline_scene::description::{Around, GroovePattern, UvAxis};
 
 use super::form::Form;
-use super::layer_place::picture;
 
-pub(super) fn rows(form: &mut Form, pattern: &mut GroovePattern) {
+/// Rows for the pattern of the grating with this index.
+pub(super) fn rows(form: &mut Form, pattern: &mut GroovePattern, index: usize) {
     let mut kind = Kind::of(pattern);
     form.choice(
         "Pattern",
@@ -49,11 +50,11 @@ pub(super) fn rows(form: &mut Form, pattern: &mut GroovePattern) {
                 [(UvAxis::U, "u".to_owned()), (UvAxis::V, "v".to_owned())],
                 along,
             );
-            picture(
-                form,
+            form.picture(
                 "Direction map",
                 "A picture, relative to the scene file, that turns the grooves: red and green are the parts along the coordinate and across it, as in anisotropy textures of glTF. None: as they are",
                 directions,
+                PictureOf::GratingDirections(index),
             );
         }
     }

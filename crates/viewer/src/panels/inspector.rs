@@ -3,7 +3,7 @@
 use egui::{Panel, ScrollArea, Ui};
 use hairline_editor::Selection;
 
-use super::{camera, environment, layer, light, material, object, studio};
+use super::{camera, environment, grating, layer, light, material, object, studio};
 use crate::workspace::Workspace;
 
 pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
@@ -15,6 +15,7 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
                 ui.add_space(4.0);
                 // Whatever is selected, the panel keeps its width: else the picture would jump.
                 ui.set_width(ui.available_width());
+                super::menu::brush_settings(ui, work);
                 match work.selection() {
                     Selection::None => overview(ui, work),
                     Selection::Camera => camera::show(ui, work),
@@ -25,9 +26,9 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
                     Selection::Object(i) => object::show(ui, work, i),
                     Selection::Material(i) => material::show(ui, work, i),
                     Selection::Layer(i) => layer::show(ui, work, i),
+                    Selection::Grating(i) => grating::show(ui, work, i),
                     Selection::Light(i) => light::show(ui, work, i),
                 }
-                super::menu::brush_settings(ui, work);
                 super::form::end_naming(ui.ctx());
             });
         });

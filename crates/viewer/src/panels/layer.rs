@@ -3,13 +3,13 @@
 use egui::Ui;
 use hairline_editor::Selection;
 use hairline_editor::presets::LayerPreset;
-use hairline_editor::ranges::Parameter;
+use hairline_editor::ranges::{Parameter, hint_on_width};
 use hairline_scene::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
 
 use super::form::{Form, NAME};
 use super::layer_place;
 use crate::command::Command;
-use crate::parts;
+use crate::parts::{self, Names};
 use crate::style::beside;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
@@ -22,6 +22,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let object = Selection::Layer(index).object(&description);
     let diagonal_m = work.diagonal_m(object);
     let names = parts::names(work, &layer.object);
+    let roughness = roughest(work, &layer.object, &names);
     ui.heading("Scratches");
     let mut form = Form::new(ui, ("layer", index), diagonal_m);
     let mut name = layer.name.clone().unwrap_or_default();
@@ -42,16 +43,12 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         "If a layer is solo, only solo layers are seen",
         &mut layer.solo,
     );
-    let picks = layer_place::show(&mut form, &mut layer, names);
+    let picks = layer_place::show(&mut form, &mut layer, index, names);
     match &mut layer.layer {
-        Layer::Laid(laid) => laid_rows(&mut form, laid),
+        Layer::Laid(laid) => laid_rows(&mut form, laid, roughness),
         Layer::Brushed(brushed) => {
             form.section("Look");
-            form.distribution(
-                Parameter::Width,
-                Parameter::WidthSpread,
-                &mut brushed.width_um,
-            );
+            width(&mut form, &mut brushed.width_um, roughness);
             form.distribution(
                 Parameter::Depth,
                 Parameter::DepthSpread,
@@ -70,6 +67,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             false
         }),
     }
+    work.choose_picture(form.wanted());
     if let Some(change) = form.change() {
         work.drag(&change.label, change.key, |d| {
             d.scratches[index] = layer.clone();
@@ -82,7 +80,30 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     buttons(ui, work, index, &layer, diagonal_m);
 }
 
-fn laid_rows(form: &mut Form, laid: &mut Laid) {
+/// The largest roughness of an object's materials; 0 before they are known.
+fn roughest(work: &Workspace, object: &str, names: &Names) -> f64 {
+    let description = work.document.description();
+    let described = description.objects.iter().find(|it| it.name == object);
+    if let Some(name) = described.and_then(|it| it.material.as_ref()) {
+        let own = description.materials.iter().find(|it| it.name == *name);
+        return own.map_or(0.0, |material| material.roughness);
+    }
+    let built = work.engine.built();
+    let materials = built.iter().flat_map(|built| built.scene.materials.iter());
+    let own = materials.filter(|it| names.materials.contains(&it.name));
+    own.map(|material| material.roughness).fold(0.0, f64::max)
+}
+
+/// Rows for the width, with a hint where the model is off on a base of this roughness.
+fn width(form: &mut Form, width_um: &mut Distribution, roughness: f64) {
+    form.distribution(Parameter::Width, Parameter::WidthSpread, width_um);
+    if let Some(hint) = hint_on_width(width_um.mean, roughness) {
+        let color = form.ui.visuals().warn_fg_color;
+        form.ui.colored_label(color, hint);
+    }
+}
+
+fn laid_rows(form: &mut Form, laid: &mut Laid, roughness: f64) {
     let mut kind = Kind::of(&laid.pattern);
     form.choice(
         "Pattern",
@@ -95,7 +116,7 @@ fn laid_rows(form: &mut Form, laid: &mut Laid) {
     }
     amount(form, &mut laid.amount);
     form.section("Look");
-    form.distribution(Parameter::Width, Parameter::WidthSpread, &mut laid.width_um);
+    width(form, &mut laid.width_um, roughness);
     form.distribution(Parameter::Depth, Parameter::DepthSpread, &mut laid.depth_nm);
     form.distribution(
         Parameter::Length,

@@ -1,8 +1,8 @@
 //! Controls for the parts of its object on which a layer of scratches lies, and for its density.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 
+use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::ranges::Parameter;
 use hairline_scene::description::{LayerPlaces, Scratches};
 
@@ -10,7 +10,7 @@ use super::form::Form;
 use crate::parts::Names;
 
 /// Shows the rows; returns true where a part is to be picked in the picture.
-pub(super) fn show(form: &mut Form, layer: &mut Scratches, names: Names) -> bool {
+pub(super) fn show(form: &mut Form, layer: &mut Scratches, index: usize, names: Names) -> bool {
     form.section("Where");
     let has_parts = names.materials.len() > 1 || names.nodes.len() > 1;
     if names.materials.len() > 1 || layer.material.is_some() {
@@ -32,7 +32,7 @@ pub(super) fn show(form: &mut Form, layer: &mut Scratches, names: Names) -> bool
         );
     }
     let picks = has_parts && pick(form);
-    places(form, &mut layer.place);
+    places(form, &mut layer.place, index);
     picks
 }
 
@@ -59,7 +59,7 @@ fn one_of(
     form.choice(label, tooltip, std::iter::once(all).chain(named), chosen);
 }
 
-fn places(form: &mut Form, place: &mut LayerPlaces) {
+fn places(form: &mut Form, place: &mut LayerPlaces, index: usize) {
     form.number(Parameter::Edges, &mut place.edges);
     match place.edges > 0.0 {
         true => {
@@ -73,27 +73,20 @@ fn places(form: &mut Form, place: &mut LayerPlaces) {
         }
         false => place.edge_width_m = None,
     }
-    picture(
-        form,
+    form.picture(
         "Mask",
         "A picture, relative to the scene file: scratches lie where it is light, and end where it is dark. None: everywhere",
         &mut place.mask,
+        PictureOf::LayerMask(index),
     );
-    picture(
-        form,
+    form.picture(
         "Density map",
         "A picture, relative to the scene file: the lighter it is, the more scratches there are. None: alike everywhere",
         &mut place.density,
+        PictureOf::LayerDensity(index),
     );
     tiles(form, place);
     radii(form, place);
-}
-
-pub(super) fn picture(form: &mut Form, label: &str, tooltip: &str, chosen: &mut Option<PathBuf>) {
-    let shown = chosen.as_deref().map(|file| file.to_string_lossy());
-    let mut file = shown.unwrap_or_default().into_owned();
-    form.text(label, tooltip, &mut file);
-    *chosen = (!file.is_empty()).then(|| file.into());
 }
 
 /// Control for the mapping of the pictures.

@@ -1,10 +1,9 @@
 //! A light.
 
-use std::path::Path;
-
 use egui::Ui;
 use glam::DVec3;
 use hairline_editor::actions::lights;
+use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::ranges::Parameter;
 use hairline_editor::{Selection, place_light};
 use hairline_scene::description::{Cone, Light, LightKind};
@@ -100,7 +99,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     }
     cone(&mut form, &mut light);
     doors(&mut form, &mut light);
-    picture(&mut form, &mut light);
+    picture(&mut form, &mut light, index);
+    work.choose_picture(form.wanted());
     if let Some(change) = form.change() {
         work.drag(&change.label, change.key, |d| {
             d.lights[index] = light.clone();
@@ -150,20 +150,18 @@ fn cone(form: &mut Form, light: &mut Light) {
     }
 }
 
-/// The picture on a rectangle: its file, as the scene file writes it.
-fn picture(form: &mut Form, light: &mut Light) {
+/// The picture on a rectangle.
+fn picture(form: &mut Form, light: &mut Light, index: usize) {
     if !matches!(light.kind, LightKind::Rectangle { .. }) {
         light.picture = None;
         return;
     }
-    let shown = light.picture.as_deref().unwrap_or(Path::new(""));
-    let mut file = shown.to_string_lossy().into_owned();
-    form.text(
+    form.picture(
         "Picture",
         "A .png, .jpg, .webp, .hdr or .exr on the light, relative to the scene file: what a soft box looks like. None: an even light",
-        &mut file,
+        &mut light.picture,
+        PictureOf::Light(index),
     );
-    light.picture = (!file.is_empty()).then(|| file.into());
 }
 
 /// Flaps beside a disk or a rectangle; a light whose two sides shine has none.

@@ -10,7 +10,7 @@ use hairline_scene::{Anisotropy, Coat, Specular};
 
 use super::form::{Form, NAME};
 use crate::command::Command;
-use crate::gallery::{Thumb, cards, metal_swatches};
+use crate::gallery::{StandIn, Thumb, cards, metal_swatches};
 use crate::workspace::Workspace;
 
 /// Kinds of materials, each with its defaults.
@@ -125,11 +125,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     }
     match &mut material.kind {
         MaterialKind::Metal(MetalColor::Measured(metal)) => {
-            let metals = MaterialPreset::all().filter_map(|preset| match preset {
-                MaterialPreset::Metal(metal) => Some((metal, preset.name().to_owned())),
-                _ => None,
-            });
-            form.choice("Metal", "By its measured n and k", metals, metal);
+            form.choice("Metal", "By its measured n and k", metals(), metal);
             let hint = "Their reflectance at normal incidence in daylight, D65";
             form.custom("", hint, |ui, _| metal_swatches(ui, metal));
         }
@@ -172,7 +168,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     ui.add_space(8.0);
     ui.horizontal_wrapped(|ui| {
         ui.menu_button("Replace by a preset…", |ui| {
-            if let Some(preset) = material_cards(ui, work) {
+            let stand_in = work.stand_in(None);
+            if let Some(preset) = material_cards(ui, work, stand_in) {
                 work.document.edit("Material preset", |d| {
                     let name = d.materials[index].name.clone();
                     d.materials[index] = hairline_scene::description::Material {
@@ -187,8 +184,21 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     });
 }
 
+/// The measured metals, by name.
+pub(super) fn metals() -> impl Iterator<Item = (Metal, String)> {
+    MaterialPreset::all().filter_map(|preset| match preset {
+        MaterialPreset::Metal(metal) => Some((metal, preset.name().to_owned())),
+        _ => None,
+    })
+}
+
 /// Cards of all materials to begin with.
-pub(super) fn material_cards(ui: &mut Ui, work: &mut Workspace) -> Option<MaterialPreset> {
-    let choices = MaterialPreset::all().map(|p| (p, Thumb::Material(p), p.name(), p.tooltip()));
+pub(super) fn material_cards(
+    ui: &mut Ui,
+    work: &mut Workspace,
+    stand_in: StandIn,
+) -> Option<MaterialPreset> {
+    let choices =
+        MaterialPreset::all().map(|p| (p, Thumb::Material(p, stand_in), p.name(), p.tooltip()));
     cards(ui, &mut work.gallery, "materials", choices)
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use egui::scroll_area::ScrollBarVisibility;
-use egui::{Button, MenuBar, Panel, RichText, ScrollArea, Ui};
+use egui::{Button, MenuBar, Modifiers, Panel, Popup, RichText, ScrollArea, Ui};
 use hairline_editor::ranges::Parameter;
 
 use super::form::Form;
@@ -37,6 +37,11 @@ fn bar(ui: &mut Ui, work: &mut Workspace, files: &Files, is_comparing: bool) -> 
     MenuBar::new().ui(ui, |ui| {
         for group in Group::ALL {
             let menu = ui.menu_button(group.name(), |ui| menu(ui, work, group, files));
+            if ui.input_mut(|input| input.consume_key(Modifiers::ALT, group.key())) {
+                let popup = Popup::default_response_id(&menu.response);
+                Popup::open_id(ui.ctx(), popup);
+                menu.response.request_focus();
+            }
             chosen = menu.inner.flatten().or(chosen.take());
         }
         ui.separator();
@@ -142,6 +147,9 @@ pub(crate) fn on_selection(ui: &mut Ui, work: &mut Workspace) {
         ui.menu_button("Add scratches", |ui| {
             super::object::add_layer(ui, work, object)
         });
+        ui.menu_button("Add grating", |ui| {
+            super::object::add_grating(ui, work, object)
+        });
         ui.separator();
     }
     for command in [
@@ -168,8 +176,6 @@ pub(super) fn brush_settings(ui: &mut Ui, work: &mut Workspace) {
     }
     let diagonal_m = work.diagonal_m(work.selected_object());
     let mut brush = work.brush();
-    ui.add_space(12.0);
-    ui.separator();
     ui.heading(Command::Pick(work.toolbox.tool).label());
     let mut form = Form::new(ui, "brush", diagonal_m);
     form.number(Parameter::BrushRadius, &mut brush.radius_m);
@@ -182,4 +188,6 @@ pub(super) fn brush_settings(ui: &mut Ui, work: &mut Workspace) {
     if form.change().is_some() {
         work.toolbox.brush = Some(brush);
     }
+    ui.add_space(6.0);
+    ui.separator();
 }

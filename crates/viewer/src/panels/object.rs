@@ -2,7 +2,8 @@
 
 use egui::Ui;
 use hairline_editor::Selection;
-use hairline_editor::actions::{layers, materials, objects};
+use hairline_editor::actions::{gratings, layers, objects};
+use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::LayerPreset;
 use hairline_editor::ranges::Parameter;
 use hairline_editor::wear::{self, Wear};
@@ -13,6 +14,7 @@ use super::material::material_cards;
 use super::overrides;
 use crate::command::Command;
 use crate::gallery::{SIDE, Thumb, card, cards};
+use crate::parts::Part;
 use crate::workspace::Workspace;
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
@@ -26,6 +28,11 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let mut form = Form::new(ui, ("object", index), diagonal_m);
     let mut name = object.name.clone();
     form.text(NAME, "What layers of scratches call it", &mut name);
+    form.toggle(
+        "Hidden",
+        "As if the object were not there, nor what lies on it",
+        &mut object.hidden,
+    );
     // A mesh may keep the materials of its file.
     let keeps_own =
         matches!(object.surface, Surface::Mesh(_)).then(|| (None, "of its file".to_owned()));
@@ -64,6 +71,10 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         if name != object.name {
             work.apply("Rename object", |d, _| objects::rename(d, index, &name));
         } else {
+            if object.material.is_some() {
+                // Those of a file's materials.
+                object.overrides.clear();
+            }
             work.drag(&change.label, change.key, |d| {
                 d.objects[index] = object.clone()
             });
@@ -82,7 +93,15 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         ui.menu_button("Make it of…", |ui| make_of(ui, work, index));
     });
     ui.add_space(8.0);
-    super::grating::section(ui, work, index);
+    ui.strong("Gratings");
+    for i in objects::gratings(&description, index) {
+        if ui.link(gratings::title(&description.gratings[i])).clicked() {
+            work.document.select(Selection::Grating(i));
+        }
+    }
+    ui.menu_button("Add grating…", |ui| add_grating(ui, work, index))
+        .response
+        .on_hover_text("Grooves side by side, finer than a pixel: their light interferes");
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         for command in [Command::FrameSelection, Command::Duplicate, Command::Delete] {
@@ -91,33 +110,41 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     });
 }
 
-/// The presets of materials as a menu. A material of the scene that is like the preset is taken again.
+/// The presets of materials as a menu. A material of the scene that is equal to the preset is taken again.
 fn make_of(ui: &mut Ui, work: &mut Workspace, object: usize) {
-    let Some(preset) = material_cards(ui, work) else {
-        return;
-    };
-    work.apply("Material", |d, selection| {
-        let material = preset.material();
-        if !d.materials.contains(&material) {
-            materials::add(d, material.clone());
-        }
-        let same = d.materials.iter().find(|it| **it == material);
-        // The material's own name may have been taken.
-        let given = same.or(d.materials.last()).map(|it| it.name.clone());
-        d.objects[object].material = given;
-        Ok(selection)
-    });
+    let stand_in = work.stand_in(Some(object));
+    if let Some(preset) = material_cards(ui, work, stand_in) {
+        work.give(Thumb::Material(preset, stand_in), object, Part::default());
+    }
 }
 
-/// The presets as a menu.
+/// The presets of scratches as a menu.
 pub(super) fn add_layer(ui: &mut Ui, work: &mut Workspace, object: usize) {
-    let choices = LayerPreset::ALL.map(|p| (p, Thumb::Layer(p), p.name(), p.tooltip()));
-    if let Some(preset) = cards(ui, &mut work.gallery, "layers", choices) {
-        let diagonal_m = work.diagonal_m(Some(object));
-        work.apply("Add scratches", |d, _| {
-            let name = d.objects[object].name.clone();
-            layers::add(d, preset.layer(name, diagonal_m))
-        });
+    let stand_in = work.stand_in(Some(object));
+    let thumbs = LayerPreset::ALL.map(|p| (Thumb::Layer(p, stand_in), p.name(), p.tooltip()));
+    give_cards(ui, work, object, "layers", &thumbs);
+}
+
+/// The presets of gratings as a menu.
+pub(super) fn add_grating(ui: &mut Ui, work: &mut Workspace, object: usize) {
+    let stand_in = work.stand_in(Some(object));
+    let thumbs = GratingPreset::ALL.map(|p| (Thumb::Grating(p, stand_in), p.name(), p.tooltip()));
+    give_cards(ui, work, object, "gratings", &thumbs);
+}
+
+/// A menu of presets that are given to an object.
+fn give_cards(
+    ui: &mut Ui,
+    work: &mut Workspace,
+    object: usize,
+    id: &str,
+    thumbs: &[(Thumb, &'static str, &'static str)],
+) {
+    let choices = thumbs
+        .iter()
+        .map(|(thumb, name, hint)| (*thumb, *thumb, *name, *hint));
+    if let Some(preset) = cards(ui, &mut work.gallery, id, choices) {
+        work.give(preset, object, Part::default());
     }
 }
 
@@ -126,7 +153,7 @@ const FAINT: f32 = 0.08;
 
 /// Row for the object's wear: one choice over its layers of wear.
 fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
-    let diagonal_m = work.diagonal_m(Some(object));
+    let stand_in = work.stand_in(Some(object));
     let description = work.document.description();
     let Some(name) = description.objects.get(object).map(|o| o.name.clone()) else {
         return;
@@ -141,7 +168,7 @@ fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 0.0;
             for &grade in row {
-                let (thumb, is_it) = ((Thumb::Wear(grade), side), is == Some(grade));
+                let (thumb, is_it) = ((Thumb::Wear(grade, stand_in), side), is == Some(grade));
                 let card = card(ui, &mut work.gallery, thumb, grade.name(), is_it);
                 if card.on_hover_text(grade.tooltip()).clicked() {
                     chosen = Some(grade);
@@ -167,7 +194,7 @@ fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
     }
     ui.add_space(6.0);
     if let Some(grade) = chosen.filter(|grade| is != Some(*grade)) {
-        work.apply("Wear", |d, _| wear::set_wear(d, object, diagonal_m, grade));
+        work.give(Thumb::Wear(grade, stand_in), object, Part::default());
     }
 }
 

@@ -1,17 +1,18 @@
 //! The list of all that the scene has.
 
-use egui::{Panel, RichText, ScrollArea, Ui};
+use egui::{Panel, RichText, ScrollArea, StrokeKind, Ui};
 use hairline_editor::Selection;
-use hairline_editor::actions::{ActionError, layers, lights, materials, objects, studio};
+use hairline_editor::actions::{ActionError, gratings, layers, lights, materials, objects, studio};
 use hairline_editor::maps;
 use hairline_editor::presets::{LightPreset, ShapePreset};
 use hairline_scene::Description;
 use hairline_scene::description::Map;
 
 use super::material::material_cards;
-use super::object::add_layer;
+use super::object::{add_grating, add_layer};
 use crate::command::Command;
 use crate::gallery::{Thumb, cards};
+use crate::parts::Part;
 use crate::workspace::Workspace;
 
 pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
@@ -49,14 +50,39 @@ fn rows(ui: &mut Ui, work: &mut Workspace) {
         add_shape(ui, work);
     });
     for (i, object) in description.objects.iter().enumerate() {
-        line(ui, work, Selection::Object(i), &object.name, true);
+        let there = Switched {
+            selection: Selection::Object(i),
+            name: &object.name,
+            is_shown: !object.hidden,
+            what: &format!("object {}", i + 1),
+            tooltip: "Hide or show the object with all that lies on it",
+        };
+        there.line(ui, work, |d| objects::toggle_hidden(d, i));
         ui.indent(("layers", i), |ui| {
             for layer in objects::layers(&description, i) {
                 layer_line(ui, work, &description, layer);
             }
-            let add = ui.menu_button("+ scratches", |ui| add_layer(ui, work, i));
-            add.response
-                .on_hover_text(format!("Lay a layer of scratches on {}", object.name));
+            for grating in objects::gratings(&description, i) {
+                let grooves = &description.gratings[grating];
+                let shining = Switched {
+                    selection: Selection::Grating(grating),
+                    name: &gratings::title(grooves),
+                    is_shown: !grooves.hidden,
+                    what: &format!("grating {}", grating + 1),
+                    tooltip: "Hide or show the grating",
+                };
+                shining.line(ui, work, |d| gratings::toggle_hidden(d, grating));
+            }
+            ui.horizontal(|ui| {
+                let add = ui.menu_button("+ scratches", |ui| add_layer(ui, work, i));
+                add.response
+                    .on_hover_text(format!("Lay a layer of scratches on {}", object.name));
+                let add = ui.menu_button("+ grating", |ui| add_grating(ui, work, i));
+                add.response.on_hover_text(format!(
+                    "Cover {} with grooves that are finer than a pixel",
+                    object.name
+                ));
+            });
         });
     }
 
@@ -168,6 +194,16 @@ fn line(ui: &mut Ui, work: &mut Workspace, selection: Selection, name: &str, is_
     };
     let is_selected = work.selection() == selection;
     let response = ui.add(egui::Button::selectable(is_selected, text).truncate());
+    if let Selection::Object(object) = selection {
+        let hovering = response.dnd_hover_payload::<Thumb>().is_some();
+        if let Some(preset) = response.dnd_release_payload::<Thumb>() {
+            work.give(*preset, object, Part::default());
+        } else if hovering {
+            let line = ui.visuals().selection.stroke;
+            ui.painter()
+                .rect_stroke(response.rect, 3.0, line, StrokeKind::Inside);
+        }
+    }
     if response.clicked() {
         work.document.select(selection);
     }
@@ -202,11 +238,13 @@ fn section(ui: &mut Ui, title: &str, add: impl FnOnce(&mut Ui)) {
 }
 
 fn add_shape(ui: &mut Ui, work: &mut Workspace) {
-    let choices = ShapePreset::ALL.map(|p| (p, Thumb::Shape(p), p.name(), ""));
+    let choices = ShapePreset::ALL.map(|p| (p, Thumb::Shape(p), p.name(), p.tooltip()));
     if let Some(preset) = cards(ui, &mut work.gallery, "shapes", choices) {
         let diagonal_m = work.diagonal_m(None);
-        work.apply("Add an object", |d, _| {
-            objects::add_shape(d, preset.shape(diagonal_m), None)
+        let bounds_m = work.bounds_m(work.selected_object());
+        work.apply("Add an object", |d, _| match preset {
+            ShapePreset::Text => objects::add_text(d, bounds_m),
+            _ => objects::add_shape(d, preset.shape(diagonal_m), None),
         });
     }
 }
@@ -224,7 +262,8 @@ fn add_light(ui: &mut Ui, work: &mut Workspace) {
 }
 
 fn add_material(ui: &mut Ui, work: &mut Workspace) {
-    if let Some(preset) = material_cards(ui, work) {
+    let stand_in = work.stand_in(None);
+    if let Some(preset) = material_cards(ui, work, stand_in) {
         // The selected object is made of the new material.
         let object = work.selected_object();
         work.apply("Add a material", |d, _| {
@@ -232,6 +271,7 @@ fn add_material(ui: &mut Ui, work: &mut Workspace) {
             let name = d.materials.last().map(|material| material.name.clone());
             if let Some(object) = object.and_then(|object| d.objects.get_mut(object)) {
                 object.material = name;
+                object.overrides.clear();
             }
             Ok(selection)
         });

@@ -6,6 +6,7 @@ use hairline_scene::description::{Object, Override};
 use hairline_scene::{Base, Material};
 
 use super::form::Form;
+use super::material::metals;
 use crate::parts;
 use crate::workspace::Workspace;
 
@@ -55,6 +56,18 @@ fn rows(ui: &mut Ui, work: &mut Workspace, index: usize, name: &str, made: &Mate
     let known = overrides.iter().find(|it| it.material == name).cloned();
     let mut own = known.clone().unwrap_or_else(|| Override::new(name));
     let mut form = Form::new(ui, ("override", index, name), work.diagonal_m(Some(index)));
+    let as_in_file = std::iter::once((None, "as in the file".to_owned()));
+    let metals = metals().map(|(metal, name)| (Some(metal), name));
+    let metal_before = own.metal;
+    form.choice(
+        "Metal",
+        "A measured metal in the place of the file's colour; its maps stay",
+        as_in_file.chain(metals),
+        &mut own.metal,
+    );
+    if own.metal != metal_before {
+        (own.base_color, own.metallic) = (None, None);
+    }
     let mut roughness = own.roughness.unwrap_or(made.roughness);
     let mut metallic = own.metallic.unwrap_or(made_metallic);
     let mut color = own.base_color.unwrap_or(made_color);
@@ -69,7 +82,10 @@ fn rows(ui: &mut Ui, work: &mut Workspace, index: usize, name: &str, made: &Mate
         own.metallic = Some(metallic);
     }
     if color != before.2 {
-        (own.base_color, own.metal) = (Some(color), None);
+        if own.metal.take().is_some() {
+            own.metallic = Some(metallic);
+        }
+        own.base_color = Some(color);
     }
     if let Some(change) = form.change() {
         work.drag(&change.label, change.key, |d| {

@@ -98,9 +98,14 @@ fn lines(reading: &Reading, view: &View) -> Vec<(&'static str, String)> {
         lines.push(("Object", "none: background".to_owned()));
         return lines;
     };
+    const MOST_LAYERS: usize = 4;
     let layers = match &under.layers[..] {
         [] => "none".to_owned(),
-        names => names.join(", "),
+        names if names.len() <= MOST_LAYERS => names.join(", "),
+        names => {
+            let more = names.len() - MOST_LAYERS;
+            format!("{} and {more} more", names[..MOST_LAYERS].join(", "))
+        }
     };
     lines.extend([
         ("Depth", length(reading.depth_m)),
@@ -139,22 +144,14 @@ fn rows(ui: &mut Ui, reading: &Reading, view: &View) {
                 }
                 // The window keeps its width, whatever things are called.
                 let width = 200.0;
-                if name == "Layers" {
-                    ui.horizontal_wrapped(|ui| {
-                        ui.set_width(width);
-                        ui.add(Label::new(value).wrap());
-                    });
-                    ui.end_row();
-                    continue;
-                }
-                ui.horizontal(|ui| {
+                ui.horizontal_wrapped(|ui| {
                     ui.set_width(width);
                     if name == "sRGB" {
                         let (rect, _) =
                             ui.allocate_exact_size(vec2(14.0, 14.0), egui::Sense::hover());
                         ui.painter().rect_filled(rect, 2.0, swatch);
                     }
-                    ui.add(Label::new(value).truncate());
+                    ui.add(Label::new(value).wrap());
                 });
                 ui.end_row();
             }

@@ -18,7 +18,7 @@ impl Snapshots {
     /// Shows it; the index of the one that is to be restored.
     pub(super) fn strip(&mut self, ui: &mut Ui, area: &Area) -> Option<usize> {
         let corner = area.rect.left_bottom() + vec2(12.0, -12.0);
-        egui::Area::new(Id::unique("snapshots"))
+        let shown = egui::Area::new(Id::unique("snapshots"))
             .pivot(Align2::LEFT_BOTTOM)
             .fixed_pos(corner)
             .show(ui.ctx(), |ui| {
@@ -43,9 +43,17 @@ impl Snapshots {
                     });
                     restored
                 })
-            })
-            .inner
-            .inner
+            });
+        self.strip_top = shown.response.rect.top();
+        shown.inner.inner
+    }
+
+    /// The part of `area` above the strip, if there is one: room for messages.
+    pub fn above_strip(&self, area: Rect) -> Rect {
+        match self.is_empty() {
+            true => area,
+            false => area.with_max_y(self.strip_top.clamp(area.top(), area.bottom())),
+        }
     }
 
     /// Tools of the chosen snapshot.

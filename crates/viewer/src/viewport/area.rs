@@ -59,7 +59,7 @@ impl Area {
         }
     }
 
-    /// Dims the area outside the scene's picture.
+    /// Dims the area outside the scene's picture, and draws the line between them.
     pub fn paint_frame(&self, ui: &egui::Ui) {
         let dim = egui::Color32::from_black_alpha(110);
         let (all, frame) = (self.rect, self.frame);
@@ -75,8 +75,14 @@ impl Area {
                 egui::pos2(all.max.x, frame.max.y),
             ),
         ];
-        for rect in around.into_iter().filter(Rect::is_positive) {
-            ui.painter().rect_filled(rect, 0.0, dim);
+        let around: Vec<Rect> = around.into_iter().filter(Rect::is_positive).collect();
+        for rect in &around {
+            ui.painter().rect_filled(*rect, 0.0, dim);
+        }
+        if !around.is_empty() {
+            let line = egui::Stroke::new(1.0, egui::Color32::from_white_alpha(90));
+            ui.painter()
+                .rect_stroke(frame, 0.0, line, egui::StrokeKind::Outside);
         }
     }
 }
@@ -92,5 +98,39 @@ pub(crate) fn camera(camera: &description::Camera) -> Camera {
         // Shown by a `Display`, so that a change of it paints nothing anew.
         exposure_ev: 0.0,
         lens: camera.lens(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{Context, RawInput, Shape};
+
+    /// Numbers of lines around and of dimmed bands beside a frame of this shape.
+    fn lines_and_bands(picture_px: [u32; 2]) -> (usize, usize) {
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(
+                egui::Pos2::ZERO,
+                egui::vec2(400.0, 300.0),
+            )),
+            ..RawInput::default()
+        };
+        let output = Context::default().run_ui(input, |ui| {
+            let rect = Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(400.0, 300.0));
+            Area::new(rect, picture_px, 1.0).paint_frame(ui);
+        });
+        let shapes = output.shapes.iter().map(|clipped| &clipped.shape);
+        let rects = shapes.filter_map(|shape| match shape {
+            Shape::Rect(rect) => Some(rect.stroke.width > 0.0),
+            _ => None,
+        });
+        let (lines, bands): (Vec<bool>, Vec<bool>) = rects.partition(|is_line| *is_line);
+        (lines.len(), bands.len())
+    }
+
+    #[test]
+    fn the_frame_has_a_line_where_something_is_beside_it() {
+        assert_eq!(lines_and_bands([400, 300]), (0, 0));
+        assert_eq!(lines_and_bands([300, 300]), (1, 2));
     }
 }

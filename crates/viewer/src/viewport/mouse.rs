@@ -68,6 +68,7 @@ impl Viewport {
             });
         }
         self.wheel(ui, work, area, response);
+        self.take_presets(ui, work, area, response);
         self.note_pointer(ui.ctx(), area, response);
         if !is_shielded {
             self.click(work, area, response);
@@ -148,12 +149,19 @@ fn pick_part(work: &mut Workspace, hit: &Picked) {
     let (Some(described), Some(built)) = (described, work.engine.built()) else {
         return;
     };
-    let (material, node) = parts::at(&built.scene, &described, hit.object, hit.triangle);
+    let part = parts::at(&built.scene, &described, hit.object, hit.triangle);
     work.toolbox.tool = Tool::Select;
+    if part.is_whole() {
+        let text = format!(
+            "\"{}\" is one part: its file has one material and one node. The layer lies on all of it.",
+            described.name
+        );
+        work.notices.note("part", text);
+    }
     work.document.edit("Pick a part", |d| {
         if let Some(layer) = d.scratches.get_mut(i) {
             layer.object.clone_from(&described.name);
-            (layer.material, layer.node) = (material, node);
+            (layer.material, layer.node) = (part.material, part.node);
         }
     });
 }

@@ -26,7 +26,10 @@ impl Viewport {
                 _ => None,
             };
             let painter = ui.painter().with_clip_rect(area.rect);
-            gizmo::show_lights(&painter, &lens, description, selected);
+            let pointer = ui.ctx().pointer_hover_pos();
+            let pointer = pointer.filter(|pos| area.rect.contains(*pos));
+            let pointed = pointer.and_then(|pos| gizmo::light_at(description, &lens, pos));
+            gizmo::show_lights(&painter, &lens, description, [selected, pointed]);
         }
         if work.overlays.has(Overlay::Handles) {
             self.gizmo.show(ui, work, area);

@@ -149,6 +149,8 @@ impl Workspace {
     /// The box around some objects.
     fn bounds_of(&self, is_one: impl Fn(usize) -> bool) -> Option<(DVec3, DVec3)> {
         let boxes = self.boxes_m().into_iter().enumerate();
+        // A hidden object has no box.
+        let boxes = boxes.filter(|(_, (low_m, high_m))| low_m.cmple(*high_m).all());
         boxes
             .filter_map(|(i, one)| is_one(i).then_some(one))
             .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))

@@ -29,20 +29,23 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// Body of the selection; none where that has no place, or is a hidden light.
+    /// Body of the selection; none where that has no place, or is hidden.
     pub fn of(description: &Description, selection: Selection) -> Option<Self> {
         match selection {
             Selection::Light(i) => {
                 let light = description.lights.get(i).filter(|light| !light.hidden)?;
                 Some(Self::of_light(light, description))
             }
-            Selection::Object(i) => Some(Self {
-                noun: "object",
-                center_m: description.objects.get(i)?.translation_m.into(),
-                moves: true,
-                turns: true,
-                ..Self::default()
-            }),
+            Selection::Object(i) => {
+                let object = description.objects.get(i).filter(|it| !it.hidden)?;
+                Some(Self {
+                    noun: "object",
+                    center_m: object.translation_m.into(),
+                    moves: true,
+                    turns: true,
+                    ..Self::default()
+                })
+            }
             _ => None,
         }
     }

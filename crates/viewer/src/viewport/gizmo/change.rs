@@ -1,6 +1,6 @@
 //! Changes of the scene by the motion of a handle.
 
-use glam::{DMat3, DVec3, EulerRot};
+use glam::{DMat3, DVec3};
 use hairline_editor::{Selection, place_light};
 use hairline_scene::Description;
 use hairline_scene::description::{Light, Object};
@@ -79,11 +79,7 @@ fn turned(object: &Object, axis: DVec3, angle_rad: f64) -> [f64; 3] {
         ..object.clone()
     };
     let before = DMat3::from_mat4(unplaced.world_from_object());
-    let after = DMat3::from_axis_angle(axis, angle_rad) * before;
-    // The scene file turns about the world's x, then y, then z: that is z, y, x about the object's own.
-    let (z, y, x) = after.to_euler(EulerRot::ZYX);
-    // Digits that nobody sees, in a file that people read.
-    [x, y, z].map(|angle| (angle.to_degrees() * 1e6).round() / 1e6)
+    hairline_editor::rotation_deg(DMat3::from_axis_angle(axis, angle_rad) * before)
 }
 
 #[cfg(test)]

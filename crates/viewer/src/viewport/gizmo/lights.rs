@@ -21,20 +21,26 @@ const SUN_REACH: f32 = 120.0;
 /// Length of the tick on the side on which a polygon shines.
 const TICK: f32 = 18.0;
 
-/// The outlines of all lights but hidden ones.
+/// Share of the ink of a light that is neither selected nor under the pointer: its outline may lie across the object.
+const FAINT: f32 = 0.3;
+
+/// The outlines of all lights but hidden ones. `chosen` are at hand, selected or under the pointer, and the others faint.
 pub(in crate::viewport) fn show(
     painter: &Painter,
     lens: &Lens,
     description: &Description,
-    selected: Option<usize>,
+    chosen: [Option<usize>; 2],
 ) {
     for (i, light) in description.lights.iter().enumerate() {
         if light.hidden {
             continue;
         }
-        let (width, color) = match selected == Some(i) {
+        let (width, color) = match chosen.contains(&Some(i)) {
             true => (1.75, Color32::from_rgba_unmultiplied(255, 224, 160, 230)),
-            false => (1.25, Color32::from_rgba_unmultiplied(255, 236, 200, 190)),
+            false => {
+                let color = Color32::from_rgba_unmultiplied(255, 236, 200, 190);
+                (1.0, color.gamma_multiply(FAINT))
+            }
         };
         for piece in outline(light, lens, description) {
             ink::segment(painter, piece, width, color);
@@ -163,4 +169,38 @@ fn tick(light: &Light, lens: &Lens) -> Option<Pos2> {
     let center_m = place_light::center(light);
     let length_m = lens.m_per_point(center_m) * f64::from(TICK);
     lens.project(center_m + place_light::facing(light)? * length_m)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::viewport::Area;
+    use egui::{Context, RawInput, Rect, Shape, pos2};
+    use hairline_fixtures::scenes::bare_plate;
+
+    /// The strongest ink of the outlines.
+    fn strongest(chosen: [Option<usize>; 2]) -> u8 {
+        let lit = bare_plate().sphere([0.06, 0.10, 0.25], 0.02, 40.0);
+        let description = lit.description();
+        let output = Context::default().run_ui(RawInput::default(), |ui| {
+            let rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(400.0, 300.0));
+            let area = Area::new(rect, [400, 300], 1.0);
+            let lens = Lens::new(&description.camera, &area);
+            show(ui.painter(), &lens, &description, chosen);
+        });
+        let inks = output.shapes.iter().map(|clipped| match &clipped.shape {
+            Shape::LineSegment { stroke, .. } => stroke.color.a(),
+            Shape::Circle(circle) => circle.fill.a(),
+            _ => 0,
+        });
+        inks.max().unwrap_or(0)
+    }
+
+    #[test]
+    fn lights_are_faint_until_they_are_at_hand() {
+        let [faint, selected, pointed] =
+            [[None, None], [Some(0), None], [None, Some(0)]].map(strongest);
+        assert!(0 < faint && faint < 90, "{faint}");
+        assert!(selected > 200 && pointed > 200, "{selected} {pointed}");
+    }
 }

@@ -1,0 +1,160 @@
+//! Things that are within reach: files chosen by a button, paths completed, menus by Alt, hints and messages where they are looked for.
+
+use crate::common::{
+    self, SMALL, click_on, description, key, picture, viewer, viewer_of_file, viewer_with,
+    wait_built,
+};
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use hairline_editor::Selection;
+use hairline_viewer::engine::Backend;
+use hairline_viewer::{Options, Viewer};
+use std::path::Path;
+
+fn select(harness: &mut Harness<'static, Viewer>, selection: Selection) {
+    harness.state_mut().document_mut().select(selection);
+    harness.run_steps(3);
+}
+
+/// Types into the line for a path.
+fn type_path(harness: &mut Harness<'static, Viewer>, path: &str) {
+    harness.run_steps(2);
+    harness.event(egui::Event::Text(path.to_owned()));
+    harness.run_steps(2);
+}
+
+#[test]
+fn a_mask_is_chosen_by_its_button_and_named_relative_to_the_scene() {
+    let dir = tempfile::tempdir().unwrap();
+    let [here, masks] = ["scene", "masks"].map(|name| dir.path().join(name));
+    for folder in [&here, &masks] {
+        std::fs::create_dir(folder).unwrap();
+    }
+    let asset = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/hairline.png");
+    std::fs::copy(asset, masks.join("leaf.png")).unwrap();
+    let scene = here.join("a.toml");
+    std::fs::write(&scene, SMALL).unwrap();
+    let mut harness = viewer_of_file(&scene);
+    select(&mut harness, Selection::Layer(0));
+    let before = description(&harness);
+    click_on(&mut harness, "Choose density map");
+    type_path(&mut harness, &format!("{}/l", masks.display()));
+    // The rest by Tab.
+    key(&mut harness, Key::Tab);
+    let line = harness.get_by_role_and_label(Role::TextInput, "Path");
+    let typed = line.accesskit_node().value().unwrap_or_default();
+    assert!(typed.ends_with("masks/leaf.png"), "{typed}");
+    key(&mut harness, Key::Enter);
+    harness.run_steps(3);
+    let file = description(&harness).scratches[0].place.density.clone();
+    assert_eq!(file.as_deref(), Some(Path::new("../masks/leaf.png")));
+    common::undo(&mut harness);
+    assert_eq!(*description(&harness), *before);
+}
+
+#[test]
+fn alt_and_a_letter_open_a_menu_and_run_no_command() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    let before = harness.state().camera();
+    harness.key_press_modifiers(Modifiers::ALT, Key::F);
+    harness.run_steps(3);
+    harness.get_by_label_contains("Save as…");
+    assert_eq!(harness.state().camera(), before);
+}
+
+#[test]
+fn high_contrast_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let open = || {
+        viewer_with(Options {
+            scene: None,
+            built_in: SMALL,
+            backend: Backend::Cpu,
+            state_dir: Some(folder.path().to_owned()),
+            native_dialogs: false,
+            transport: hairline_scene::Transport::DIRECT,
+        })
+    };
+    let is_black = |harness: &Harness<'static, Viewer>| {
+        let style = harness.ctx.style_of(egui::Theme::Dark);
+        style.visuals.panel_fill == egui::Color32::BLACK
+    };
+    let mut harness = open();
+    wait_built(&mut harness);
+    assert!(!is_black(&harness));
+    click_on(&mut harness, "View");
+    click_on(&mut harness, "High contrast");
+    assert!(is_black(&harness));
+    drop(harness);
+    assert!(is_black(&open()));
+}
+
+#[test]
+fn wide_scratches_on_a_rough_base_have_a_hint() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    select(&mut harness, Selection::Layer(0));
+    let has_hint = |harness: &mut Harness<'static, Viewer>, width_um: f64, roughness: f64| {
+        let document = harness.state_mut().document_mut();
+        document.edit("by the test", |d| {
+            d.materials[0].roughness = roughness;
+            if let hairline_scene::description::Layer::Laid(laid) = &mut d.scratches[0].layer {
+                laid.width_um.mean = width_um;
+            }
+        });
+        harness.run_steps(3);
+        harness
+            .query_by_label_contains("Wider than 10 µm")
+            .is_some()
+    };
+    assert!(has_hint(&mut harness, 30.0, 0.3));
+    assert!(!has_hint(&mut harness, 30.0, 0.05));
+    assert!(!has_hint(&mut harness, 6.0, 0.3));
+}
+
+#[test]
+fn picking_a_part_of_a_model_of_one_part_says_so() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    select(&mut harness, Selection::Layer(0));
+    key(&mut harness, Key::P);
+    let on_disk = picture(&harness).center() + vec2(40.0, 60.0);
+    common::click_at(&mut harness, on_disk);
+    harness.run_steps(2);
+    let said = harness.state().messages().concat();
+    assert!(said.contains("\"disk\" is one part"), "{said}");
+}
+
+#[test]
+fn the_brush_is_set_above_the_panel_of_what_is_selected() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    select(&mut harness, Selection::Layer(0));
+    key(&mut harness, Key::B);
+    let top = |harness: &Harness<'static, Viewer>, name: &str| {
+        let numbers = harness.query_all_by_role_and_label(Role::SpinButton, name);
+        numbers.map(|it| it.rect().top()).fold(f32::MAX, f32::min)
+    };
+    assert!(top(&harness, "Brush radius") < top(&harness, "Count"));
+}
+
+#[test]
+fn messages_stand_above_the_snapshots() {
+    let mut harness = viewer(SMALL);
+    common::wait_until(&mut harness, "a picture", |viewer| {
+        viewer.engine().latest().is_some()
+    });
+    key(&mut harness, Key::S);
+    harness.run_steps(3);
+    let strip = harness.get_by_label("Restore").rect();
+    select(&mut harness, Selection::None);
+    key(&mut harness, Key::L);
+    let on_disk = picture(&harness).center() + vec2(40.0, 60.0);
+    common::click_at(&mut harness, on_disk);
+    harness.run_steps(3);
+    let message = harness.get_by_label_contains("Select a light first").rect();
+    assert!(message.bottom() <= strip.top(), "{message:?} {strip:?}");
+}
