@@ -132,7 +132,7 @@ impl Studio {
         let mut scene = Loader::default().build(&description, Path::new("")).ok()?;
         match thumb {
             // A flat one mirrors the soft box above it alone.
-            Thumb::Material(_, StandIn::Flat) => description.camera.exposure_ev = -1.5,
+            Thumb::Material(_, StandIn::Flat) => description.camera.exposure_ev = -3.8,
             Thumb::Shape(_) | Thumb::Material(..) => description.camera.exposure_ev = 0.5,
             _ => {}
         }
