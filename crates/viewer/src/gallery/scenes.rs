@@ -6,7 +6,7 @@ use egui::ColorImage;
 use glam::DVec3;
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_editor::place_light::place_highlight;
-use hairline_editor::presets::LayerPreset;
+use hairline_editor::presets::{LayerPreset, MaterialPreset};
 use hairline_image::{Picture, png};
 use hairline_scene::description::{
     Light, LightKind, Material, MaterialKind, Scratches, Shape, Surface,
@@ -132,7 +132,9 @@ impl Studio {
         let mut scene = Loader::default().build(&description, Path::new("")).ok()?;
         match thumb {
             // A flat one mirrors the soft box above it alone.
-            Thumb::Material(_, StandIn::Flat) => description.camera.exposure_ev = -3.8,
+            Thumb::Material(MaterialPreset::Metal(_) | MaterialPreset::Mirror, StandIn::Flat) => {
+                description.camera.exposure_ev = -3.5;
+            }
             Thumb::Shape(_) | Thumb::Material(..) => description.camera.exposure_ev = 0.5,
             _ => {}
         }
@@ -263,7 +265,7 @@ fn mirrored(mut light: Light, description: &Description, point_m: DVec3) -> Ligh
 mod tests {
     use super::*;
     use hairline_editor::grating_presets::GratingPreset;
-    use hairline_editor::presets::{LightPreset, MaterialPreset, ShapePreset};
+    use hairline_editor::presets::{LightPreset, ShapePreset};
     use hairline_editor::wear::Wear;
 
     #[test]
