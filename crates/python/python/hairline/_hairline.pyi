@@ -90,22 +90,22 @@ class Image:
         """Width and height, pixels."""
     @property
     def notes(self) -> dict[str, str]:
-        """What the picture remembers of its making."""
+        """Notes on the picture's making."""
     @property
     def exposure_ev(self) -> float:
-        """Stops, for what is displayed."""
+        """Exposure of the displayed picture in stops."""
     @property
     def tone_map(self) -> str:
-        """The curve of what is displayed."""
+        """Tone curve of the displayed picture."""
     @property
     def beauty(self) -> _Singles:
         """Base plus scratches: float32, height x width x 3, W sr^-1 m^-2. Made when first asked for, and kept."""
     @property
     def base(self) -> _Singles:
-        """Light by way of the base and the background: float32, height x width x 3, W sr^-1 m^-2."""
+        """Light off the base and of the background: float32, height x width x 3, W sr^-1 m^-2."""
     @property
     def scratches(self) -> _Singles:
-        """Light by way of the scratches: float32, height x width x 3, W sr^-1 m^-2."""
+        """Light off the scratches: float32, height x width x 3, W sr^-1 m^-2."""
     @property
     def density(self) -> _Singles:
         """The share of the base's energy that scratches took: float32, height x width x 3, from 0 to 1."""
