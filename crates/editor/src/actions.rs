@@ -8,6 +8,7 @@ pub mod layers;
 pub mod lights;
 pub mod materials;
 pub mod objects;
+pub mod parts;
 pub mod pictures;
 pub mod studio;
 

@@ -69,31 +69,6 @@ pub fn reseed(description: &mut Description, index: usize) -> Result<Selection, 
     Ok(Selection::Layer(index))
 }
 
-/// Removes a layer. Where it was selected, the next one on the same object is, else the object.
-///
-/// # Errors
-/// [`ActionError::Missing`].
-pub fn delete(
-    description: &mut Description,
-    index: usize,
-    selection: Selection,
-) -> Result<Selection, ActionError> {
-    list::remove_from_object::<Scratches>(description, index, selection)
-}
-
-/// Changes places with the next layer of the same object up (`by` -1) or down (1); at the end nothing happens.
-///
-/// # Errors
-/// [`ActionError::Missing`].
-pub fn shift(
-    description: &mut Description,
-    index: usize,
-    by: isize,
-    selection: Selection,
-) -> Result<Selection, ActionError> {
-    list::shift::<Scratches>(description, index, by, selection)
-}
-
 /// Sets the name of a layer; an empty one removes it.
 ///
 /// # Errors
@@ -104,19 +79,6 @@ pub fn rename(
     name: &str,
 ) -> Result<Selection, ActionError> {
     list::rename_freely::<Scratches>(description, index, name)
-}
-
-/// Hides a layer or shows it again.
-///
-/// # Errors
-/// [`ActionError::Missing`].
-pub fn toggle_hidden(
-    description: &mut Description,
-    index: usize,
-) -> Result<Selection, ActionError> {
-    let layer: &mut Scratches = list::get_mut(description, index)?;
-    layer.hidden = !layer.hidden;
-    Ok(Selection::Layer(index))
 }
 
 /// Makes a layer solo, or ends that. While any is solo, the scene shows only those.

@@ -58,15 +58,6 @@ pub fn make_metal(
     Ok(Selection::Object(object))
 }
 
-/// Adds a copy, behind the original.
-///
-/// # Errors
-/// [`ActionError::Missing`].
-pub fn duplicate(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
-    let copy: Material = list::get(description, index).cloned()?;
-    Ok(list::insert(description, index + 1, copy))
-}
-
 /// Removes a material that no object has.
 ///
 /// # Errors
@@ -86,19 +77,6 @@ pub fn delete(
         return Err(ActionError::MaterialInUse { material, users });
     }
     list::remove::<Material>(description, index, selection)
-}
-
-/// Changes places with the next one up (`by` -1) or down (1); at the end nothing happens.
-///
-/// # Errors
-/// [`ActionError::Missing`].
-pub fn shift(
-    description: &mut Description,
-    index: usize,
-    by: isize,
-    selection: Selection,
-) -> Result<Selection, ActionError> {
-    list::shift::<Material>(description, index, by, selection)
 }
 
 /// Renames a material; objects that have it keep it.

@@ -179,32 +179,6 @@ fn place_left<P>(list: &[P], place: usize, goes: impl Fn(&P) -> bool) -> Option<
     Some(list[..place].iter().filter(is_left).count())
 }
 
-/// Hides an object with all that lies on it, or shows it again.
-///
-/// # Errors
-/// [`ActionError::Missing`].
-pub fn toggle_hidden(
-    description: &mut Description,
-    index: usize,
-) -> Result<Selection, ActionError> {
-    let object: &mut Object = list::get_mut(description, index)?;
-    object.hidden = !object.hidden;
-    Ok(Selection::Object(index))
-}
-
-/// Changes places with the next one up (`by` -1) or down (1); at the end nothing happens.
-///
-/// # Errors
-/// [`ActionError::Missing`].
-pub fn shift(
-    description: &mut Description,
-    index: usize,
-    by: isize,
-    selection: Selection,
-) -> Result<Selection, ActionError> {
-    list::shift::<Object>(description, index, by, selection)
-}
-
 /// Renames an object; its layers stay on it.
 ///
 /// # Errors

@@ -7,12 +7,6 @@ use hairline_scene::description::{Ground, Studio};
 use super::lights;
 use crate::Selection;
 
-/// Puts the studio out or on again.
-pub fn toggle_hidden(description: &mut Description) -> Selection {
-    description.studio.hidden = !description.studio.hidden;
-    Selection::Studio
-}
-
 /// Takes the ground away or lays it again.
 pub fn toggle_ground(description: &mut Description) -> Selection {
     match &mut description.ground {

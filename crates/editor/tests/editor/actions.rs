@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::DVec3;
-use hairline_editor::actions::{self, layers, lights, materials, objects};
+use hairline_editor::actions::{self, layers, lights, materials, objects, parts};
 use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::*;
 use hairline_editor::{ActionError, Selection};
@@ -58,18 +58,38 @@ fn every_selection(description: &Description) -> Vec<Selection> {
 fn deleting_and_moving_leave_the_selection_on_its_part() {
     type Action = fn(&mut Description, usize, Selection) -> Result<Selection, ActionError>;
     let cases: [(&str, usize, Action); 12] = [
-        ("layer", 5, layers::delete),
-        ("layer", 5, |d, i, s| layers::shift(d, i, -1, s)),
-        ("layer", 5, |d, i, s| layers::shift(d, i, 1, s)),
-        ("light", 3, lights::delete),
-        ("light", 3, |d, i, s| lights::shift(d, i, -1, s)),
-        ("light", 3, |d, i, s| lights::shift(d, i, 1, s)),
+        ("layer", 5, |d, i, s| {
+            parts::delete(d, Selection::Layer(i), s)
+        }),
+        ("layer", 5, |d, i, s| {
+            parts::shift(d, Selection::Layer(i), -1, s)
+        }),
+        ("layer", 5, |d, i, s| {
+            parts::shift(d, Selection::Layer(i), 1, s)
+        }),
+        ("light", 3, |d, i, s| {
+            parts::delete(d, Selection::Light(i), s)
+        }),
+        ("light", 3, |d, i, s| {
+            parts::shift(d, Selection::Light(i), -1, s)
+        }),
+        ("light", 3, |d, i, s| {
+            parts::shift(d, Selection::Light(i), 1, s)
+        }),
         ("object", 3, objects::delete),
-        ("object", 3, |d, i, s| objects::shift(d, i, -1, s)),
-        ("object", 3, |d, i, s| objects::shift(d, i, 1, s)),
+        ("object", 3, |d, i, s| {
+            parts::shift(d, Selection::Object(i), -1, s)
+        }),
+        ("object", 3, |d, i, s| {
+            parts::shift(d, Selection::Object(i), 1, s)
+        }),
         ("material", 3, materials::delete),
-        ("material", 3, |d, i, s| materials::shift(d, i, -1, s)),
-        ("material", 3, |d, i, s| materials::shift(d, i, 1, s)),
+        ("material", 3, |d, i, s| {
+            parts::shift(d, Selection::Material(i), -1, s)
+        }),
+        ("material", 3, |d, i, s| {
+            parts::shift(d, Selection::Material(i), 1, s)
+        }),
     ];
     for (kind, count, action) in cases {
         for index in 0..count {
@@ -111,7 +131,8 @@ fn deleting_and_moving_leave_the_selection_on_its_part() {
 #[test]
 fn a_deleted_layer_hands_over_to_a_neighbour_on_its_object() {
     let mut description = scene();
-    let mut delete = |i| layers::delete(&mut description, i, Selection::Layer(i)).unwrap();
+    let mut delete =
+        |i| parts::delete(&mut description, Selection::Layer(i), Selection::Layer(i)).unwrap();
     assert_eq!(delete(2), Selection::Layer(3), "seed 4, the next on a");
     assert_eq!(delete(3), Selection::Layer(0), "seed 0, the one before it");
     assert_eq!(delete(0), Selection::Object(0));
@@ -126,13 +147,19 @@ fn layers_move_among_those_of_their_object() {
             .filter_map(|layer| layer.layer.seed())
             .collect()
     };
-    let selection = layers::shift(&mut description, 2, 1, Selection::Layer(2)).unwrap();
+    let selection = parts::shift(
+        &mut description,
+        Selection::Layer(2),
+        1,
+        Selection::Layer(2),
+    )
+    .unwrap();
     assert_eq!(
         (seeds(&description), selection),
         (vec![0, 1, 4, 3, 2], Selection::Layer(4))
     );
-    layers::shift(&mut description, 4, 1, Selection::None).unwrap();
-    layers::shift(&mut description, 1, -1, Selection::None).unwrap();
+    parts::shift(&mut description, Selection::Layer(4), 1, Selection::None).unwrap();
+    parts::shift(&mut description, Selection::Layer(1), -1, Selection::None).unwrap();
     assert_eq!(
         seeds(&description),
         [0, 1, 4, 3, 2],
@@ -233,15 +260,15 @@ fn hidden_and_solo_decide_what_is_shown() {
             .filter(|&i| layers::is_shown(d, i))
             .collect::<Vec<_>>()
     };
-    layers::toggle_hidden(&mut description, 1).unwrap();
+    parts::toggle_hidden(&mut description, Selection::Layer(1)).unwrap();
     assert_eq!(shown(&description), [0, 2, 3, 4]);
     layers::toggle_solo(&mut description, 1).unwrap();
     layers::toggle_solo(&mut description, 3).unwrap();
     assert_eq!(shown(&description), [3]);
     layers::toggle_solo(&mut description, 3).unwrap();
-    layers::toggle_hidden(&mut description, 1).unwrap();
+    parts::toggle_hidden(&mut description, Selection::Layer(1)).unwrap();
     assert_eq!(shown(&description), [1]);
-    lights::toggle_hidden(&mut description, 2).unwrap();
+    parts::toggle_hidden(&mut description, Selection::Light(2)).unwrap();
     assert!(description.lights[2].hidden);
     assert_eq!(shown(&description)[..], [1]);
 }

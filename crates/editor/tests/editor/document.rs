@@ -136,7 +136,7 @@ fn steps_restore_what_was_selected() {
     document.select(Selection::Layer(1));
     document
         .apply("delete layer", |d, selection| {
-            actions::layers::delete(d, 1, selection)
+            actions::parts::delete(d, Selection::Layer(1), selection)
         })
         .unwrap();
     assert_eq!(document.selection(), Selection::Object(1));

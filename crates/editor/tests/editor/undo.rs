@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec2, dvec3};
-use hairline_editor::actions::{self, layers, lights, materials, objects};
+use hairline_editor::actions::{self, layers, lights, materials, objects, parts};
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
 use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
 use hairline_editor::{Document, DragKey, Selection, navigate, place_light};
@@ -39,9 +39,9 @@ fn perform(document: &mut Document, (deed, i, by): Deed) {
     };
     match deed {
         0 => apply(&|d, _| layers::duplicate(d, i)),
-        1 => apply(&|d, s| layers::delete(d, i, s)),
-        2 => apply(&|d, s| layers::shift(d, i, up_or_down, s)),
-        3 => apply(&|d, _| layers::toggle_hidden(d, i)),
+        1 => apply(&|d, s| parts::delete(d, Selection::Layer(i), s)),
+        2 => apply(&|d, s| parts::shift(d, Selection::Layer(i), up_or_down, s)),
+        3 => apply(&|d, _| parts::toggle_hidden(d, Selection::Layer(i))),
         4 => apply(&|d, _| layers::toggle_solo(d, i)),
         5 => apply(&|d, _| {
             let object = d.objects[i % d.objects.len()].name.clone();
@@ -58,9 +58,9 @@ fn perform(document: &mut Document, (deed, i, by): Deed) {
                 ),
             ))
         }),
-        8 => apply(&|d, s| lights::delete(d, i, s)),
-        9 => apply(&|d, _| lights::duplicate(d, i)),
-        10 => apply(&|d, s| lights::shift(d, i, up_or_down, s)),
+        8 => apply(&|d, s| parts::delete(d, Selection::Light(i), s)),
+        9 => apply(&|d, _| parts::duplicate(d, Selection::Light(i))),
+        10 => apply(&|d, s| parts::shift(d, Selection::Light(i), up_or_down, s)),
         11 => apply(&|d, _| {
             Ok(materials::add(
                 d,

@@ -1,7 +1,7 @@
 //! Effects of commands.
 
 use egui::ViewportCommand;
-use hairline_editor::actions::{gratings, layers, lights, materials, objects, studio};
+use hairline_editor::actions::{layers, parts};
 use hairline_editor::{Selection, navigate};
 
 use super::Viewer;
@@ -109,39 +109,17 @@ impl Viewer {
     }
 
     fn on_selection(&mut self, command: Command) {
-        use Selection as S;
-        self.work.apply(command.label(), |d, selection| {
-            Ok(match (command, selection) {
-                (Command::Duplicate, S::Object(i)) => objects::duplicate(d, i)?,
-                (Command::Duplicate, S::Layer(i)) => layers::duplicate(d, i)?,
-                (Command::Duplicate, S::Grating(i)) => gratings::duplicate(d, i)?,
-                (Command::Duplicate, S::Light(i)) => lights::duplicate(d, i)?,
-                (Command::Duplicate, S::Material(i)) => materials::duplicate(d, i)?,
-                (Command::Delete, S::Object(i)) => objects::delete(d, i, selection)?,
-                (Command::Delete, S::Layer(i)) => layers::delete(d, i, selection)?,
-                (Command::Delete, S::Grating(i)) => gratings::delete(d, i, selection)?,
-                (Command::Delete, S::Light(i)) => lights::delete(d, i, selection)?,
-                (Command::Delete, S::Material(i)) => materials::delete(d, i, selection)?,
-                (Command::MoveUp | Command::MoveDown, _) => {
-                    let by = if command == Command::MoveUp { -1 } else { 1 };
-                    match selection {
-                        S::Object(i) => objects::shift(d, i, by, selection)?,
-                        S::Layer(i) => layers::shift(d, i, by, selection)?,
-                        S::Grating(i) => gratings::shift(d, i, by, selection)?,
-                        S::Light(i) => lights::shift(d, i, by, selection)?,
-                        S::Material(i) => materials::shift(d, i, by, selection)?,
-                        other => other,
-                    }
+        self.work
+            .apply(command.label(), |d, selection| match command {
+                Command::Duplicate => parts::duplicate(d, selection),
+                Command::Delete => parts::delete(d, selection, selection),
+                Command::MoveUp => parts::shift(d, selection, -1, selection),
+                Command::MoveDown => parts::shift(d, selection, 1, selection),
+                Command::ToggleHidden => parts::toggle_hidden(d, selection),
+                Command::ToggleSolo if let Selection::Layer(i) = selection => {
+                    layers::toggle_solo(d, i)
                 }
-                (Command::ToggleHidden, S::Object(i)) => objects::toggle_hidden(d, i)?,
-                (Command::ToggleHidden, S::Grating(i)) => gratings::toggle_hidden(d, i)?,
-                (Command::ToggleHidden, S::Layer(i)) => layers::toggle_hidden(d, i)?,
-                (Command::ToggleHidden, S::Light(i)) => lights::toggle_hidden(d, i)?,
-                (Command::ToggleHidden, S::Studio) => studio::toggle_hidden(d),
-                (Command::ToggleHidden, S::Ground) => studio::toggle_ground(d),
-                (Command::ToggleSolo, S::Layer(i)) => layers::toggle_solo(d, i)?,
-                (_, other) => other,
-            })
-        });
+                _ => Ok(selection),
+            });
     }
 }

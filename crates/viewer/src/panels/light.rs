@@ -2,7 +2,7 @@
 
 use egui::Ui;
 use glam::DVec3;
-use hairline_editor::actions::lights;
+use hairline_editor::actions::parts;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::ranges::Parameter;
 use hairline_editor::{Selection, place_light};
@@ -118,7 +118,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             work.toolbox.tool = Tool::PlaceLight;
         }
         if ui.button(Command::Duplicate.label()).clicked() {
-            work.apply("Duplicate light", |d, _| lights::duplicate(d, index));
+            work.apply("Duplicate light", |d, _| {
+                parts::duplicate(d, Selection::Light(index))
+            });
         }
         super::button(ui, work, Command::Delete);
     });

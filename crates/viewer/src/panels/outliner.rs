@@ -2,7 +2,7 @@
 
 use egui::{Panel, RichText, ScrollArea, StrokeKind, Ui};
 use hairline_editor::Selection;
-use hairline_editor::actions::{ActionError, gratings, layers, lights, materials, objects, studio};
+use hairline_editor::actions::{gratings, layers, lights, materials, objects, parts};
 use hairline_editor::maps;
 use hairline_editor::presets::{LightPreset, ShapePreset};
 use hairline_scene::Description;
@@ -57,7 +57,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace) {
             what: &format!("object {}", i + 1),
             tooltip: "Hide or show the object with all that lies on it",
         };
-        there.line(ui, work, |d| objects::toggle_hidden(d, i));
+        there.line(ui, work);
         ui.indent(("layers", i), |ui| {
             for layer in objects::layers(&description, i) {
                 layer_line(ui, work, &description, layer);
@@ -71,7 +71,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace) {
                     what: &format!("grating {}", grating + 1),
                     tooltip: "Hide or show the grating",
                 };
-                shining.line(ui, work, |d| gratings::toggle_hidden(d, grating));
+                shining.line(ui, work);
             }
             ui.horizontal(|ui| {
                 let add = ui.menu_button("+ scratches", |ui| add_layer(ui, work, i));
@@ -93,7 +93,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace) {
         what: "the ground",
         tooltip: "Whether there is a floor under all objects",
     };
-    ground.line(ui, work, |d| Ok(studio::toggle_ground(d)));
+    ground.line(ui, work);
 
     section(ui, "Lights", |ui| add_light(ui, work));
     let of_studio = Switched {
@@ -103,7 +103,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace) {
         what: "the studio",
         tooltip: "Whether soft boxes, a lamp and a dim room light all objects",
     };
-    of_studio.line(ui, work, |d| Ok(studio::toggle_hidden(d)));
+    of_studio.line(ui, work);
     for (i, light) in description.lights.iter().enumerate() {
         let shining = Switched {
             selection: Selection::Light(i),
@@ -112,7 +112,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace) {
             what: &format!("light {}", i + 1),
             tooltip: "Whether it shines",
         };
-        shining.line(ui, work, |d| lights::toggle_hidden(d, i));
+        shining.line(ui, work);
     }
 
     section(ui, "Materials", |ui| add_material(ui, work));
@@ -130,7 +130,9 @@ fn layer_line(ui: &mut Ui, work: &mut Workspace, description: &Description, i: u
             .on_hover_text("Hide or show the layer");
         name_node(ui, &eye, &format!("Show layer {}", i + 1));
         if eye.changed() {
-            work.apply("Hide or show a layer", |d, _| layers::toggle_hidden(d, i));
+            work.apply("Hide or show a layer", |d, _| {
+                parts::toggle_hidden(d, Selection::Layer(i))
+            });
         }
         let solo = ui
             .selectable_label(layer.solo, "S")
@@ -161,18 +163,15 @@ struct Switched<'n> {
 }
 
 impl Switched<'_> {
-    fn line(
-        &self,
-        ui: &mut Ui,
-        work: &mut Workspace,
-        toggle: impl FnOnce(&mut Description) -> Result<Selection, ActionError>,
-    ) {
+    fn line(&self, ui: &mut Ui, work: &mut Workspace) {
         ui.horizontal(|ui| {
             let mut is_shown = self.is_shown;
             let eye = ui.checkbox(&mut is_shown, "").on_hover_text(self.tooltip);
             name_node(ui, &eye, &format!("Show {}", self.what));
             if eye.changed() {
-                work.apply(&format!("Hide or show {}", self.what), |d, _| toggle(d));
+                work.apply(&format!("Hide or show {}", self.what), |d, _| {
+                    parts::toggle_hidden(d, self.selection)
+                });
             }
             line(ui, work, self.selection, self.name, is_shown);
         });
