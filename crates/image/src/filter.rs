@@ -259,7 +259,12 @@ impl Guides {
         let on_plane = p.per_depth + p.slope[0] * dx as f32 + p.slope[1] * dy as f32;
         let off = (q.per_depth - on_plane).abs() / p.per_depth;
         let off = off / OFF_PLANE;
-        cos.powf(normal_power) / (1.0 + off * off)
+        let bent = if cos >= 1.0 {
+            1.0
+        } else {
+            cos.powf(normal_power)
+        };
+        bent / (1.0 + off * off)
     }
 }
 
@@ -279,47 +284,60 @@ fn filter_layer(guides: &Guides, found: &Found, layer: Layer) -> Vec<Signals> {
     if !signals.par_iter().any(is_noisy) {
         return Vec::new();
     }
-    signals = smooth_variances(guides, layer, &signals, rounds);
+    // Passes read one and write the other: memory that is new in each pass costs more than the pass where many threads ask for it at once.
+    let mut filtered = signals.clone();
+    over_pixels(guides, &mut filtered, |i, [x, y]| {
+        smooth_variance(guides, layer, &signals, rounds, i, [x, y])
+    });
     for pass in 0..PASSES {
-        let step = 1i32 << pass;
-        signals = over_pixels(guides, |i, [x, y]| {
-            let own = &signals[i];
-            let guide = &guides.pixels[i];
-            let is_still = own.share[3] <= 0.0 && own.bounced[3] <= 0.0;
-            if is_still || guide.object == 0 || !layer.reaches(step, guide) {
-                return *own;
-            }
-            let normal_power = layer.normal_power(guide);
-            let mut sums = [Sum::default(), Sum::default()];
-            for (dy, wy) in TAPS {
-                for (dx, wx) in TAPS {
-                    let to = [x + dx * step, y + dy * step];
-                    let Some(j) = guides.index(to) else { continue };
-                    let alike = if i == j {
-                        1.0
-                    } else {
-                        guides.alike(
-                            normal_power,
-                            guide,
-                            &guides.pixels[j],
-                            [dx * step, dy * step],
-                        )
-                    };
-                    if alike < LEAST_ALIKE {
-                        continue;
-                    }
-                    let other = &signals[j];
-                    sums[0].add(&own.share, &other.share, wx * wy * alike);
-                    sums[1].add(&own.bounced, &other.bounced, wx * wy * alike);
-                }
-            }
-            Signals {
-                share: sums[0].mean(&own.share),
-                bounced: sums[1].mean(&own.bounced),
-            }
+        std::mem::swap(&mut signals, &mut filtered);
+        over_pixels(guides, &mut filtered, |i, [x, y]| {
+            filter_pixel(guides, layer, &signals, 1 << pass, i, [x, y])
         });
     }
-    signals
+    filtered
+}
+
+/// One pass for a pixel: the mean over nine pixels, `step` apart.
+fn filter_pixel(
+    guides: &Guides,
+    layer: Layer,
+    signals: &[Signals],
+    step: i32,
+    i: usize,
+    [x, y]: [i32; 2],
+) -> Signals {
+    let own = &signals[i];
+    let guide = &guides.pixels[i];
+    let is_still = own.share[3] <= 0.0 && own.bounced[3] <= 0.0;
+    if is_still || guide.object == 0 || !layer.reaches(step, guide) {
+        return *own;
+    }
+    let normal_power = layer.normal_power(guide);
+    let mut sums = [Sum::default(), Sum::default()];
+    for (dy, wy) in TAPS {
+        for (dx, wx) in TAPS {
+            let off = [dx * step, dy * step];
+            let Some(j) = guides.index([x + off[0], y + off[1]]) else {
+                continue;
+            };
+            let alike = if i == j {
+                1.0
+            } else {
+                guides.alike(normal_power, guide, &guides.pixels[j], off)
+            };
+            if alike < LEAST_ALIKE {
+                continue;
+            }
+            let other = &signals[j];
+            sums[0].add(&own.share, &other.share, wx * wy * alike);
+            sums[1].add(&own.bounced, &other.bounced, wx * wy * alike);
+        }
+    }
+    Signals {
+        share: sums[0].mean(&own.share),
+        bounced: sums[1].mean(&own.bounced),
+    }
 }
 
 /// A weighted mean of a signal over pixels.
@@ -360,43 +378,43 @@ impl Sum {
 
 /// Variances of few rounds are noisy themselves: each becomes the mean over the pixels around. After one round alone they are those of the
 /// values there. Outliers of bounced light go first.
-fn smooth_variances(
+fn smooth_variance(
     guides: &Guides,
     layer: Layer,
     signals: &[Signals],
     rounds: u32,
-) -> Vec<Signals> {
-    over_pixels(guides, |i, [x, y]| {
-        let guide = &guides.pixels[i];
-        let mut own = signals[i];
-        if guide.object == 0 {
-            return own;
-        }
-        let normal_power = layer.normal_power(guide);
-        let mut around = [Around::default(); 2];
-        for dy in -VARIANCE_PX..=VARIANCE_PX {
-            for dx in -VARIANCE_PX..=VARIANCE_PX {
-                let Some(j) = guides.index([x + dx, y + dy]) else {
-                    continue;
-                };
-                if i == j {
-                    continue;
-                }
-                let alike = guides.alike(normal_power, guide, &guides.pixels[j], [dx, dy]);
-                if alike >= LEAST_ALIKE {
-                    let other = &signals[j];
-                    around[0].add(&other.share, alike);
-                    around[1].add(&other.bounced, alike);
-                }
+    i: usize,
+    [x, y]: [i32; 2],
+) -> Signals {
+    let guide = &guides.pixels[i];
+    let mut own = signals[i];
+    if guide.object == 0 {
+        return own;
+    }
+    let normal_power = layer.normal_power(guide);
+    let mut around = [Around::default(); 2];
+    for dy in -VARIANCE_PX..=VARIANCE_PX {
+        for dx in -VARIANCE_PX..=VARIANCE_PX {
+            let Some(j) = guides.index([x + dx, y + dy]) else {
+                continue;
+            };
+            if i == j {
+                continue;
+            }
+            let alike = guides.alike(normal_power, guide, &guides.pixels[j], [dx, dy]);
+            if alike >= LEAST_ALIKE {
+                let other = &signals[j];
+                around[0].add(&other.share, alike);
+                around[1].add(&other.bounced, alike);
             }
         }
-        own.bounced = around[1].without_outlier(own.bounced, rounds);
-        for (signal, mut around) in [&mut own.share, &mut own.bounced].into_iter().zip(around) {
-            around.add(signal, 1.0);
-            signal[3] = around.smoothed(signal[3], rounds);
-        }
-        own
-    })
+    }
+    own.bounced = around[1].without_outlier(own.bounced, rounds);
+    for (signal, mut around) in [&mut own.share, &mut own.bounced].into_iter().zip(around) {
+        around.add(signal, 1.0);
+        signal[3] = around.smoothed(signal[3], rounds);
+    }
+    own
 }
 
 /// Weighted sums of a signal over the pixels around.
@@ -470,11 +488,16 @@ impl Guides {
     }
 }
 
-fn over_pixels(guides: &Guides, of: impl Fn(usize, [i32; 2]) -> Signals + Sync) -> Vec<Signals> {
-    let [width, _] = guides.size_px;
-    (0..guides.pixels.len())
-        .into_par_iter()
-        .with_min_len(width.max(1))
-        .map(|i| of(i, [(i % width) as i32, (i / width) as i32]))
-        .collect()
+/// Writes `of` each pixel, by its number and its place, to `into`.
+fn over_pixels(
+    guides: &Guides,
+    into: &mut [Signals],
+    of: impl Fn(usize, [i32; 2]) -> Signals + Sync,
+) {
+    let width = guides.size_px[0].max(1);
+    into.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+        for (x, signals) in row.iter_mut().enumerate() {
+            *signals = of(y * width + x, [x as i32, y as i32]);
+        }
+    });
 }
