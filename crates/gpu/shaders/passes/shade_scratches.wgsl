@@ -46,6 +46,8 @@ var<workgroup> results: array<vec3f, LANES>;
 var<workgroup> shares: array<vec2f, LANES>;
 // The pixel in 6 bits, the light in 3, the place of the segment in the chunk.
 var<workgroup> queue: array<u32, QUEUE>;
+// Which of the pairs that are lit together belong to each pixel: two words of a bit for each lane.
+var<workgroup> own_lit: array<atomic<u32>, 2u * LANES>;
 var<workgroup> is_shaded: atomic<u32>;
 var<workgroup> any_is_shaded: u32;
 
@@ -296,6 +298,7 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                         pair.seen.node = one_line_node(index);
                     }
                     results[lane] = share.segment * light_pair(pair, range.first + ((item >> 6u) & 7u));
+                    atomicOr(&own_lit[2u * (item & 63u) + lane / 32u], 1u << (lane % 32u));
                 } else {
                     var energy = vec3f(0.0);
                     if !PICKS || lights_are_none() {
@@ -311,20 +314,24 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
             }
             if lights_now {
                 workgroupBarrier();
-                for (var j = 0u; j < waiting; j += 1u) {
-                    let item_lit = queue[(lit + j) % QUEUE];
-                    let is_own = (item_lit & 63u) == lane;
-                    if PICKS && is_own {
-                        state.sum += max(rgb_luminance(results[j]), 0.0);
-                        // Picks whose threshold the sum has passed.
-                        while pick_is_due(state) {
-                            let source = select(range.first + ((item_lit >> 6u) & 7u), frame.light_count, lights_are_around());
-                            let segment = entries[chunk.first_entry + (item_lit >> 9u)].y;
-                            chunk_words[first_pick + pick_to(own_point, state)] = pick_packed(segment, source, results[j]);
-                            state.next += 1u;
+                for (var word = 0u; word < 2u; word += 1u) {
+                    var left = atomicExchange(&own_lit[2u * lane + word], 0u);
+                    while left != 0u {
+                        let j = 32u * word + firstTrailingBit(left);
+                        left &= left - 1u;
+                        if PICKS {
+                            let item_lit = queue[(lit + j) % QUEUE];
+                            state.sum += max(rgb_luminance(results[j]), 0.0);
+                            // Picks whose threshold the sum has passed.
+                            while pick_is_due(state) {
+                                let source = select(range.first + ((item_lit >> 6u) & 7u), frame.light_count, lights_are_around());
+                                let segment = entries[chunk.first_entry + (item_lit >> 9u)].y;
+                                chunk_words[first_pick + pick_to(own_point, state)] = pick_packed(segment, source, results[j]);
+                                state.next += 1u;
+                            }
                         }
+                        sum.radiance += results[j];
                     }
-                    sum.radiance += select(vec3f(0.0), results[j], is_own);
                 }
                 lit += waiting;
             } else {
