@@ -109,7 +109,8 @@ pub fn tone_into_gamut(rgb: [f32; 3]) -> [f32; 3] {
         return [0.0; 3];
     }
     let keep = luminance / (luminance - lowest);
-    rgb.map(|c| (luminance + keep * (c - luminance)).max(0.0))
+    // The lowest becomes exactly zero.
+    rgb.map(|c| keep * (c - lowest))
 }
 
 /// Khronos PBR Neutral. Takes the 4 % that a dielectric's surface reflects off the base colour, so that base colours

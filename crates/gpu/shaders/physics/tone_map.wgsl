@@ -62,7 +62,8 @@ fn tone_into_gamut(rgb: vec3<f32>) -> vec3<f32> {
         return vec3<f32>(0.0);
     }
     let keep = luminance / (luminance - lowest);
-    return max(luminance + keep * (rgb - luminance), vec3<f32>(0.0));
+    // The lowest becomes exactly zero.
+    return keep * (rgb - lowest);
 }
 
 fn tone_neutral(rgb: vec3<f32>) -> vec3<f32> {
