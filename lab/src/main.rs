@@ -6,6 +6,7 @@ mod fuzz;
 mod gratings;
 mod make_models;
 mod models;
+mod passes;
 mod plot;
 mod unbiased;
 mod wear;
@@ -27,6 +28,8 @@ enum Command {
     MakeModels(make_models::MakeModels),
     /// Open and render glTF files of public repositories, and write docs/accuracy/models.md.
     Models(models::Models),
+    /// Measure the time of each pass on a graphics adapter, for pictures with default options.
+    Passes(passes::Passes),
     /// Measure shadows and bounces against the path tracer, and write docs/accuracy/shadows.md.
     Unbiased(unbiased::Unbiased),
     /// Measure how much of models shows their wear, in the light of `hairline render MODEL`.
@@ -41,6 +44,7 @@ fn main() -> anyhow::Result<()> {
         Command::Gratings(command) => command.run(),
         Command::MakeModels(command) => command.run(),
         Command::Models(command) => command.run(),
+        Command::Passes(command) => command.run(),
         Command::Unbiased(command) => command.run(),
         Command::Wear(command) => command.run(),
     }

@@ -12,6 +12,7 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::DisplaySettings;
 use crate::shaders;
+use crate::timing::Timing;
 
 pub(crate) struct DisplayPass {
     pipeline: wgpu::RenderPipeline,
@@ -80,7 +81,7 @@ impl DisplayPass {
     pub(crate) fn record(
         &self,
         gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
+        (encoder, timing): (&mut wgpu::CommandEncoder, &Timing),
         canvas: &Canvas,
         display: &Display,
         target: &wgpu::TextureView,
@@ -100,6 +101,7 @@ impl DisplayPass {
                 resolve_target: None,
                 ops: Default::default(),
             })],
+            timestamp_writes: timing.render("display"),
             ..Default::default()
         });
         pass.set_pipeline(&self.pipeline);

@@ -19,6 +19,7 @@ use crate::film::FilmFound;
 use crate::layout::FilterSettings;
 use crate::pipelines::compiled;
 use crate::shaders;
+use crate::timing::Timing;
 
 /// Diffuse, specular, scratches. Twin: filter.wgsl.
 const LAYERS: u32 = 3;
@@ -36,6 +37,7 @@ pub(crate) struct FilterPasses {
 }
 
 struct Pass {
+    name: &'static str,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
     bindings: &'static [u32],
@@ -78,6 +80,7 @@ impl FilterPasses {
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
+        timing: &Timing,
         canvas: &Canvas,
     ) -> Result<(), Error> {
         let films: Vec<_> = canvas.films().collect();
@@ -129,8 +132,14 @@ impl FilterPasses {
             for (rows, film) in &films {
                 let from = Inputs::of(&room, film, 1);
                 let size = all([size_px[0], rows.len() as u32]);
-                self.signals
-                    .run(gpu, encoder, &from, &mut settings, in_band(rows), size);
+                self.signals.run(
+                    gpu,
+                    (encoder, timing),
+                    &from,
+                    &mut settings,
+                    in_band(rows),
+                    size,
+                );
             }
             let mut at = 0;
             for pass in 0..=PASSES {
@@ -140,14 +149,27 @@ impl FilterPasses {
                     _ => (&self.step, 1 << (pass - 1)),
                 };
                 let with = FilterSettings { step, ..whole };
-                own.run(gpu, encoder, &from, &mut settings, with, all(size_px));
+                own.run(
+                    gpu,
+                    (encoder, timing),
+                    &from,
+                    &mut settings,
+                    with,
+                    all(size_px),
+                );
                 at = 1 - at;
             }
             for (rows, film) in &films {
                 let from = Inputs::of(&room, film, at);
                 let size = all([size_px[0], rows.len() as u32]);
-                self.film
-                    .run(gpu, encoder, &from, &mut settings, in_band(rows), size);
+                self.film.run(
+                    gpu,
+                    (encoder, timing),
+                    &from,
+                    &mut settings,
+                    in_band(rows),
+                    size,
+                );
             }
         }
         let mut bytes = Vec::with_capacity(settings.len() * SETTINGS_STRIDE as usize);
@@ -188,6 +210,7 @@ impl Pass {
                 cache: None,
             });
         Self {
+            name: entry_point,
             layout: group_layout,
             pipeline,
             bindings,
@@ -198,7 +221,7 @@ impl Pass {
     fn run(
         &self,
         gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
+        (encoder, timing): (&mut wgpu::CommandEncoder, &Timing),
         inputs: &Inputs<'_>,
         settings: &mut Vec<FilterSettings>,
         own: FilterSettings,
@@ -220,8 +243,8 @@ impl Pass {
         let offset = settings.len() as u32 * SETTINGS_STRIDE as u32;
         settings.push(own);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some("filter"),
-            timestamp_writes: None,
+            label: Some(self.name),
+            timestamp_writes: timing.compute(self.name),
         });
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &group, &[offset]);

@@ -330,15 +330,18 @@ impl Renderer {
             Entry::Occupied(entry) => entry.into_mut(),
             Entry::Vacant(entry) => entry.insert(DisplayPass::new(&self.gpu, format).await?),
         };
+        let timing = &self.strips.timing;
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         if canvas.films().any(|(_, film)| film.found.is_some()) {
             let filter = match &mut self.filter {
                 Some(filter) => filter,
                 none => none.insert(FilterPasses::new(&self.gpu).await?),
             };
-            filter.record(&self.gpu, &mut encoder, canvas).await?;
+            filter
+                .record(&self.gpu, &mut encoder, timing, canvas)
+                .await?;
         }
-        pass.record(&self.gpu, &mut encoder, canvas, display, target);
+        pass.record(&self.gpu, (&mut encoder, timing), canvas, display, target);
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.check()
     }
