@@ -7,7 +7,6 @@ mod paths;
 mod pictures;
 mod rooms;
 mod shaders;
-mod touches;
 mod web;
 mod wheel;
 
@@ -30,8 +29,6 @@ enum Command {
     Rooms(rooms::Rooms),
     /// Write the shaders as JSON, for tests/tint.
     Shaders(shaders::Shaders),
-    /// Count the files that a new groove parameter and a new light shape would touch.
-    Touches(touches::Touches),
     /// Make the viewer for browsers, a folder of static files.
     Web(web::Web),
     /// Make the package for Python, a wheel for Linux, and test it in an environment of its own.
@@ -47,7 +44,6 @@ fn main() -> anyhow::Result<()> {
         Command::Pictures(command) => command.run(),
         Command::Rooms(command) => command.run(),
         Command::Shaders(command) => command.run(),
-        Command::Touches(command) => command.run(),
         Command::Web(command) => command.run(),
         Command::Wheel(command) => command.run(),
     }

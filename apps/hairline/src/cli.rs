@@ -7,7 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairline_image::{FPS_MAX, Layer, ToneMap};
 use hairline_scene::DEFAULT_SAMPLES;
-use hairline_scene::description::limits::TIME_S;
+use hairline_scene::schema::object::TIME_S;
 
 use crate::compare::limits::{self, Limit};
 use crate::highlight;
@@ -447,7 +447,7 @@ fn parse_times(text: &str) -> Result<[f64; 2], String> {
     let time = |text: &str| {
         text.parse::<f64>()
             .ok()
-            .filter(|time| TIME_S.contains(time))
+            .filter(|time| TIME_S.bounds.ends().contains(time))
     };
     let (from, to) = text.split_once(':').unwrap_or((text, text));
     let ends = time(from).zip(time(to));

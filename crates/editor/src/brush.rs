@@ -5,8 +5,9 @@
 
 use glam::{DMat4, DVec3};
 use hairline_scene::Description;
-use hairline_scene::description::limits;
+use hairline_scene::description::STROKE_POINTS;
 use hairline_scene::description::{Brush, Layer, Stroke};
+use hairline_scene::schema::{LARGEST_M, SMALLEST_M, stroke};
 
 use crate::actions::{layers, objects};
 use crate::{ActionError, Selection, presets};
@@ -47,7 +48,7 @@ impl BrushSettings {
         let on_screen_m = SHARE_OF_VIEW * view_height_m;
         let radius_m = on_screen_m
             .min(MOST_OF_OBJECT * diagonal_m)
-            .clamp(limits::SMALLEST_M, limits::LARGEST_M);
+            .clamp(SMALLEST_M, LARGEST_M);
         Self {
             radius_m: two_digits(radius_m),
             density_per_m: two_digits(90.0 / radius_m),
@@ -132,7 +133,7 @@ impl Recorder {
         } = self.settings;
         let mut straying_m = STRAYING * radius_m;
         let mut way = thinned(&self.way_m, straying_m);
-        while way.len() > *limits::STROKE_POINTS.end() {
+        while way.len() > *STROKE_POINTS.end() {
             straying_m *= 2.0;
             way = thinned(&way, straying_m);
         }
@@ -146,7 +147,7 @@ impl Recorder {
         if points_m.is_empty() {
             return None;
         }
-        let factor = |x: f64| x.clamp(*limits::STROKE_FACTOR.start(), *limits::STROKE_FACTOR.end());
+        let factor = |x: f64| stroke::WIDTH.bounds.clamp(x);
         Some(Stroke {
             points_m,
             radius_m,

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec2, DVec3};
 use hairline_scene::CameraFrame;
 use hairline_scene::camera::framing;
 use hairline_scene::description::Camera;
-use hairline_scene::description::limits;
+use hairline_scene::schema::{LARGEST_M, SMALLEST_M};
 
 /// A view along `up` has no up, so the poles are kept away from by this: less than a pixel's difference to the eye.
 const POLE_RAD: f64 = 1e-3;
@@ -15,7 +15,7 @@ const TURN_PER_HEIGHT_RAD: f64 = std::f64::consts::PI;
 /// Factor of one step of a wheel on the distance.
 const STEP_FACTOR: f64 = 0.88;
 /// The target is never nearer than this, nor farther than that.
-const DISTANCES_M: std::ops::RangeInclusive<f64> = 10.0 * limits::SMALLEST_M..=limits::LARGEST_M;
+const DISTANCES_M: std::ops::RangeInclusive<f64> = 10.0 * SMALLEST_M..=LARGEST_M;
 /// Share of the view, on its tighter side, that framed points fill: a margin of 6 % stays on each side.
 const FRAMED_SHARE: f64 = 0.88;
 
@@ -107,7 +107,7 @@ pub fn frame_points(camera: &mut Camera, points_m: &[DVec3], aspect: f64) {
     if !(low.is_finite() && high.is_finite()) {
         return;
     }
-    if low.distance(high) < limits::SMALLEST_M {
+    if low.distance(high) < SMALLEST_M {
         center_on(camera, 0.5 * (low + high));
         return;
     }
@@ -295,7 +295,7 @@ impl Axes {
             forward,
             right,
             up: right.cross(forward),
-            distance_m: way.length().max(limits::SMALLEST_M),
+            distance_m: way.length().max(SMALLEST_M),
         }
     }
 }

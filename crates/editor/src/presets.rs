@@ -8,8 +8,9 @@ use glam::DVec3;
 use hairline_optics::metal::Metal;
 use hairline_scene::description::{
     Amount, Around, Brushed, Distribution, Laid, Layer, Light, LightKind, Material, MaterialKind,
-    MetalColor, Pattern, SUN_DEG, Scratches, Shape,
+    MetalColor, Pattern, Scratches, Shape,
 };
+use hairline_scene::schema::light::SUN_DEG;
 use hairline_scene::wear::{count, fitting};
 use hairline_scene::{Coat, Specular};
 

@@ -36,6 +36,22 @@ pub enum Unit {
 }
 
 impl Unit {
+    /// The unit that a key of the schema is in. Controls show lengths in millimetres in metres.
+    pub(crate) fn named(unit: &str) -> Self {
+        match unit {
+            "m" | "mm" => Self::Metre,
+            "µm" => Self::Micrometre,
+            "nm" => Self::Nanometre,
+            "°" => Self::Degree,
+            "1/m" => Self::PerMetre,
+            "1/m²" => Self::PerSquareMetre,
+            "stops" => Self::Exposure,
+            "pixels" => Self::Pixel,
+            "K" => Self::Kelvin,
+            _ => Self::None,
+        }
+    }
+
     fn dimension(self) -> Dimension {
         let none = Dimension::NONE;
         match self {

@@ -3,7 +3,9 @@
 use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::LayerPreset;
 use hairline_editor::quantity::Unit;
-use hairline_editor::ranges::Parameter;
+
+use hairline_editor::ranges::{Range, range, second_range};
+use hairline_scene::schema::{Form, Key, SECTIONS};
 use hairline_scene::wear::Wear;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -27,21 +29,40 @@ type Control = (
 #[pyfunction]
 pub(crate) fn controls(py: Python<'_>, diagonal_m: f64) -> PyResult<Bound<'_, PyDict>> {
     let controls = PyDict::new(py);
-    for parameter in Parameter::ALL {
-        let range = parameter.range(diagonal_m);
-        let ends = |range: std::ops::RangeInclusive<f64>| (*range.start(), *range.end());
-        let control: Control = (
-            range.label,
-            unit(range.unit),
-            ends(range.slider),
-            ends(range.hard),
-            range.logarithmic,
-            range.is_whole,
-            range.tooltip,
-        );
-        controls.set_item(snake(&format!("{parameter:?}")), control)?;
+    for section in SECTIONS {
+        for key in section.all_keys() {
+            let name = format!("{}.{}", section.name, key.name);
+            if key.control.is_some() {
+                controls.set_item(&name, control(range(key, diagonal_m)))?;
+            }
+            if key.second.is_some() {
+                let second = control(second_range(key, diagonal_m));
+                controls.set_item(format!("{name}.{}", second_name(key)), second)?;
+            }
+        }
     }
     Ok(controls)
+}
+
+/// The name of the second of two numbers.
+fn second_name(key: &Key) -> &'static str {
+    match key.form {
+        Form::Sizes => "spread",
+        _ => "second",
+    }
+}
+
+fn control(range: Range) -> Control {
+    let ends = |range: std::ops::RangeInclusive<f64>| (*range.start(), *range.end());
+    (
+        range.label,
+        unit(range.unit),
+        ends(range.slider),
+        ends(range.hard),
+        range.logarithmic,
+        range.is_whole,
+        range.tooltip,
+    )
 }
 
 fn unit(unit: Unit) -> &'static str {

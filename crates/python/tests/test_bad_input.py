@@ -196,7 +196,7 @@ def test_a_scene_takes_tables_of_its_own_alone(scene):
 
 def test_lists_of_tables_are_lists(scene):
     lamp = scene.lights[0]
-    for wrong, found in ((lamp, "hairline._tables.SphereLight"), (None, "builtins.NoneType"), ({"light": lamp}, "builtins.dict")):
+    for wrong, found in ((lamp, "hairline._keys.SphereLight"), (None, "builtins.NoneType"), ({"light": lamp}, "builtins.dict")):
         with pytest.raises(hairline.SceneError, match=f"lights: found an object of type {found}; must be a list of hairline.Light"):
             scene.lights = wrong
     with pytest.raises(KeyError, match="no light is called 'key'; there are none"):

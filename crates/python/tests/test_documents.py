@@ -47,6 +47,6 @@ def test_help_tells_every_key_with_its_unit():
         assert set(signature.parameters) == kind._keys - set(kind._fixed)
         for key in kind._keys:
             assert f"\n\n{key}\n    " in kind.__doc__, key
-    assert "radius_m\n    Metres." in hairline.SphereLight.__doc__
+    assert "radius_m\n    Its radius. Unit: m." in hairline.SphereLight.__doc__
     needed = [key for key, it in inspect.signature(hairline.SphereLight).parameters.items() if it.default is it.empty]
     assert needed == ["center_m", "radius_m"]

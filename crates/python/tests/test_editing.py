@@ -11,8 +11,8 @@ def test_controls_lie_within_their_ends_and_fit_the_object():
     for control in small.values():
         (low, high), (least, most) = control.slider, control.hard
         assert least <= low < high <= most and control.tooltip.endswith(".")
-    assert large["length"].slider[1] == pytest.approx(100 * small["length"].slider[1])
-    assert small["width"].unit == "µm" and small["count"].is_whole and small["pitch"].is_logarithmic
+    assert large["scratches.length_m"].slider[1] == pytest.approx(100 * small["scratches.length_m"].slider[1])
+    assert small["scratches.width_um"].unit == "µm" and small["scratches.count"].is_whole and small["grating.pitch_um"].is_logarithmic
 
 
 @pytest.mark.parametrize("kind", ["scratches", "grating", "wear"])

@@ -1,7 +1,7 @@
 //! Rays through pixels, and the footprints of pixels on a surface.
 
-use crate::description::limits;
 use crate::scene::{Camera, Lens, RenderSettings};
+use crate::schema::SMALLEST_M;
 use glam::{DVec2, DVec3};
 use hairline_image::Batch;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -108,7 +108,7 @@ pub fn framing(points_m: &[DVec3], [right, up, forward]: [DVec3; 3], tan: DVec2)
     }
     let cz = ((least - most) / (2.0 * tan)).min_element();
     // A limit that keeps the camera out of a flat object that is seen edge-on.
-    let cz = cz.min(nearest - 10.0 * limits::SMALLEST_M);
+    let cz = cz.min(nearest - 10.0 * SMALLEST_M);
     let mut c = 0.5 * (least + most);
     // Along the axis that has room to spare, as much of it on either side: steps too short to overshoot.
     for _ in 0..16 {

@@ -12,7 +12,6 @@ pub(crate) mod hint;
 mod lens;
 mod light_kind;
 mod lights;
-pub mod limits;
 mod overrides;
 mod parse;
 mod place;
@@ -21,7 +20,6 @@ mod read;
 pub(crate) mod references;
 mod scratches;
 mod shapes;
-mod sizes;
 mod studio;
 mod table;
 mod values;
@@ -35,16 +33,18 @@ use serde::Serialize;
 
 use crate::environment::BuiltInMap;
 use crate::scene::{Anisotropy, Coat, Specular};
+use crate::schema;
 use crate::upright::vertical_axis;
 use values::{Named, is_default, serialize_named, serialize_scale};
 
+pub use check::STROKE_POINTS;
 pub use files::FileUse;
 pub use gratings::{Grating, GroovePattern, UvAxis};
-pub use light_kind::{LightKind, SUN_DEG};
+pub use light_kind::LightKind;
 pub use lights::{Cone, Light};
 pub use overrides::Override;
 pub use place::LayerPlaces;
-pub(crate) use scratches::DEFAULT_SEED;
+pub use ranges::LARGEST_SEED;
 pub use scratches::{
     Amount, Around, Brush, Brushed, Distribution, Laid, Layer, Listed, Pattern, Scratches, Stroke,
 };
@@ -153,9 +153,9 @@ pub struct Render {
 impl Default for Render {
     fn default() -> Self {
         Self {
-            size_px: [1280, 720],
-            filter_std_px: 0.5,
-            tone_map: ToneMap::Neutral,
+            size_px: schema::render::SIZE_PX.initial(),
+            filter_std_px: schema::render::FILTER_STD_PX.initial(),
+            tone_map: schema::render::TONE_MAP.initial(),
         }
     }
 }

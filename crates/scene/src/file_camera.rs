@@ -5,10 +5,10 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use crate::description::limits;
 use crate::description::{Camera, Description, Surface};
 use crate::error::Error;
 use crate::mesh_file::{self, FileCamera, Placing};
+use crate::schema::SMALLEST_M;
 use crate::upright::vertical_axis;
 
 impl Description {
@@ -94,7 +94,7 @@ fn camera(seen: &FileCamera, before: &Camera, world_up: DVec3) -> Result<Camera,
         return Err(mesh_file::Flaw::new(found, "must stand upright"));
     }
     let middle = DVec3::from(before.target_m) - seen.position;
-    let distance_m = middle.dot(seen.forward).max(10.0 * limits::SMALLEST_M);
+    let distance_m = middle.dot(seen.forward).max(10.0 * SMALLEST_M);
     Ok(Camera {
         of_file: None,
         position_m: seen.position.into(),

@@ -49,6 +49,7 @@ mod polygon;
 pub mod probe;
 pub mod reading;
 pub mod scene;
+pub mod schema;
 mod scratch_studio;
 mod scratches;
 mod seen_surface;

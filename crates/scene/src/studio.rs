@@ -4,9 +4,10 @@ use glam::DVec3;
 
 use crate::description::{
     self, Camera, Environment, Light, LightKind, Map, Material, MaterialKind, Object, Shape,
-    Studio, Surface, Up, limits,
+    Studio, Surface, Up,
 };
 use crate::environment::BuiltInMap;
+use crate::schema::{LARGEST_M, SMALLEST_M};
 
 /// Radiance of the room around: enough that metal is nowhere black, too little to be seen as a wall.
 const ROOM_INTENSITY: f64 = 0.25;
@@ -196,8 +197,7 @@ impl PhotoSet {
         let object = Object {
             name: "ground".to_owned(),
             surface: Surface::Shape(Shape::Disk {
-                radius_m: (GROUND_RADII * self.radius_m)
-                    .clamp(limits::SMALLEST_M, limits::LARGEST_M),
+                radius_m: (GROUND_RADII * self.radius_m).clamp(SMALLEST_M, LARGEST_M),
             }),
             up: Up::default(),
             fit_m: None,

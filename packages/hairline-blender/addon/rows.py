@@ -27,12 +27,18 @@ def tag(group, _context=None):
 
 @dataclass(frozen=True)
 class Row:
-    """A property: its name in Blender, its keys in the table of a scene file, and the control with its range and tooltip."""
+    """A property: its name in Blender, its keys in a table of a scene file, and that table."""
 
     attribute: str
     way: tuple
-    control: str
+    section: str
     size: int = 1
+
+    @property
+    def control(self):
+        """Name of the control with its range and tooltip."""
+        ends = {"mean": [], "where": [], 0: [], 1: ["second"]}
+        return ".".join([self.section, *(name for part in self.way for name in ends.get(part, [part]))])
 
     @property
     def key(self):
@@ -84,59 +90,48 @@ class Row:
         return FloatProperty(default=float(default), **settings)
 
 
-def _sizes(key, attribute, control, spread_control=None):
-    spread = attribute.rsplit("_", 1)[0].split("_per")[0] + "_spread"
-    return (
-        Row(attribute, (key, "mean"), control),
-        Row(spread, (key, "spread"), spread_control or f"{control}_spread"),
-    )
+def _sizes(section, key):
+    spread = key.rsplit("_", 1)[0].split("_per")[0] + "_spread"
+    return Row(key, (key, "mean"), section), Row(spread, (key, "spread"), section)
 
 
-_AXES = (
-    Row("direction", ("direction",), "direction", 3),
-    Row("axis", ("axis",), "axis", 3),
-    Row("center_m", ("center_m",), "axis_center", 3),
-)
+def _axes(section):
+    return tuple(Row(key, (key,), section, 3) for key in ("direction", "axis", "center_m"))
+
+
+def _rows(section, *keys):
+    return tuple(Row(key, (key,), section) for key in keys)
+
 
 SCRATCHES = (
-    Row("count", ("count",), "count"),
-    Row("density_per_m2", ("density_per_m2",), "density"),
-    *_sizes("width_um", "width_um", "width"),
-    *_sizes("depth_nm", "depth_nm", "depth"),
-    *_sizes("length_m", "length_m", "length"),
-    Row("jitter_deg", ("jitter_deg",), "jitter"),
-    *_sizes("curvature_per_m", "curvature_per_m", "curvature"),
-    *_AXES,
-    Row("seed", ("seed",), "seed"),
+    *_rows("scratches", "count", "density_per_m2"),
+    *_sizes("scratches", "width_um"),
+    *_sizes("scratches", "depth_nm"),
+    *_sizes("scratches", "length_m"),
+    *_rows("scratches", "jitter_deg"),
+    *_sizes("scratches", "curvature_per_m"),
+    *_axes("scratches"),
+    *_rows("scratches", "seed"),
 )
 
-PLACE = (
-    Row("edges", ("where", "edges"), "edges"),
-    Row("edge_width_m", ("where", "edge_width_m"), "edge_width"),
-    Row("tile_m", ("where", "tile_m"), "tile"),
-)
+PLACE = tuple(Row(key, ("where", key), "where") for key in ("edges", "edge_width_m", "tile_m"))
 
 STROKES = (
-    Row("brush_radius_m", ("radius_m",), "brush_radius"),
-    Row("brush_density_per_m", ("density_per_m",), "brush_density"),
+    Row("brush_radius_m", ("radius_m",), "strokes"),
+    Row("brush_density_per_m", ("density_per_m",), "strokes"),
 )
 
 GRATING = (
-    Row("pitch_um", ("pitch_um",), "pitch"),
-    Row("width_um", ("width_um",), "groove_width"),
-    *_sizes("depth_nm", "depth_nm", "depth", "groove_depth_spread"),
-    Row("jitter_um", ("jitter_um",), "displacement"),
-    Row("jitter_deg", ("jitter_deg",), "groove_angles"),
-    Row("curvature_per_m", ("curvature_per_m",), "curvature"),
-    Row("spacing_m", ("spacing_m",), "spot_spacing"),
-    *_AXES,
-    Row("coverage", ("coverage",), "coverage"),
-    Row("seed", ("seed",), "seed"),
+    *_rows("grating", "pitch_um", "width_um"),
+    *_sizes("grating", "depth_nm"),
+    *_rows("grating", "jitter_um", "jitter_deg", "curvature_per_m", "spacing_m"),
+    *_axes("grating"),
+    *_rows("grating", "coverage", "seed"),
 )
 
 RING = (
-    Row("inner_radius_m", ("radius_m", 0), "inner_radius"),
-    Row("outer_radius_m", ("radius_m", 1), "outer_radius"),
+    Row("inner_radius_m", ("radius_m", 0), "grating"),
+    Row("outer_radius_m", ("radius_m", 1), "grating"),
 )
 
 # Defaults of rows for which scene files have none.

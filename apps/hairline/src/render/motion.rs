@@ -3,7 +3,8 @@
 use anyhow::anyhow;
 use glam::DVec3;
 use hairline_editor::navigate;
-use hairline_scene::description::{self, limits};
+use hairline_scene::description;
+use hairline_scene::schema::Bounds;
 
 use crate::cli::SequenceFlags;
 use hairline_work::failure::Failure;
@@ -76,8 +77,9 @@ impl Motion {
         let distance_m = DVec3::from(camera.position_m).distance(camera.target_m.into());
         for factor in self.zoom {
             let there_m = distance_m / factor;
-            if !limits::SIZE_M.contains(&there_m) {
-                let (least, most) = (limits::SIZE_M.start(), limits::SIZE_M.end());
+            let sizes_m = Bounds::Size.ends();
+            if !sizes_m.contains(&there_m) {
+                let (least, most) = sizes_m.into_inner();
                 return Err(Failure::Input(anyhow!(
                     "--zoom: at {factor} the camera would be {there_m:.3e} m from its target; {least} m to {most} m are possible"
                 )));

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hairline_scene::Description;
-use hairline_scene::description::limits::LARGEST_SEED;
+use hairline_scene::description::LARGEST_SEED;
 use hairline_scene::description::{Layer, Listed, Object, Pattern, Scratches};
 
 use super::{ActionError, list};
@@ -53,20 +53,6 @@ pub fn add_list(
 pub fn duplicate(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
     let copy: Scratches = list::get(description, index).cloned()?;
     Ok(insert(description, index + 1, copy))
-}
-
-/// Sets a seed for a layer that no other one has: the same wear, other scratches. Layers without a seed stay as they
-/// are.
-///
-/// # Errors
-/// [`ActionError::Missing`].
-pub fn reseed(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
-    list::get::<Scratches>(description, index)?;
-    let seed = free_seed(description);
-    if let Some(own) = description.scratches[index].layer.seed_mut() {
-        *own = seed;
-    }
-    Ok(Selection::Layer(index))
 }
 
 /// Sets the name of a layer; an empty one removes it.

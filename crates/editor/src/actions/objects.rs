@@ -219,24 +219,3 @@ pub fn gratings(description: &Description, index: usize) -> Vec<usize> {
         grating.object == object.name
     })
 }
-
-/// Sets another material of the scene for an object; none where a mesh shall have those of its file.
-///
-/// # Errors
-/// [`ActionError::Missing`]: no such object or material, or none for a shape.
-pub fn set_material(
-    description: &mut Description,
-    index: usize,
-    material: Option<usize>,
-) -> Result<Selection, ActionError> {
-    let object: &Object = list::get(description, index)?;
-    let name = match material {
-        Some(i) => Some(list::get::<Material>(description, i)?.name.clone()),
-        None if matches!(object.surface, Surface::Shape(_)) => {
-            return Err(ActionError::Missing("material"));
-        }
-        None => None,
-    };
-    description.objects[index].material = name;
-    Ok(Selection::Object(index))
-}

@@ -22,25 +22,23 @@ if sys.platform == "linux":
 from ._compare import Comparison, compare
 from ._errors import Error, InterruptedWarning, SceneError, WorkError
 from ._hairline import Image, __version__, read_image
-from ._scene import Scene, load
-from ._tables import (
-    Camera,
+from ._keys import (
     DiskLight,
     Environment,
     Grating,
     Ground,
     Light,
     Material,
-    Object,
     PolygonLight,
     RectangleLight,
-    Scratches,
     Settings,
     SphereLight,
     Studio,
     SunLight,
     TubeLight,
 )
+from ._scene import Scene, load
+from ._tables import Camera, Object, Scratches
 
 if TYPE_CHECKING:
     from . import cluster, editing, optics

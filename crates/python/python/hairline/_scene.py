@@ -13,22 +13,9 @@ from . import _hairline as core
 from ._errors import InterruptedWarning, argument_error
 from ._hairline import Image
 from ._host import Host, Progress
-from ._tables import (
-    Camera,
-    Environment,
-    Grating,
-    Ground,
-    Light,
-    Material,
-    Object,
-    Path,
-    Scratches,
-    Settings,
-    Studio,
-    Table,
-    Tables,
-    table_of,
-)
+from ._keys import Environment, Grating, Ground, Light, Material, Settings, Studio
+from ._table import Path, Table
+from ._tables import Camera, Object, Scratches, Tables, table_of
 
 T = TypeVar("T", bound=Table)
 

@@ -2,7 +2,7 @@
 
     from hairline import editing
 
-    editing.controls()["width"].tooltip
+    editing.controls()["scratches.width_um"].tooltip
     [preset.name for preset in editing.presets("wear")]
     scene.scratches.extend(editing.from_preset("wear", "Worn", "plate", diagonal_m=0.28))
 """
@@ -12,7 +12,8 @@ from __future__ import annotations
 from typing import NamedTuple, Union
 
 from . import _hairline as core
-from ._tables import Grating, Scratches
+from ._keys import Grating
+from ._tables import Scratches
 
 __all__ = ["Control", "Preset", "controls", "from_preset", "presets"]
 
@@ -45,7 +46,7 @@ class Preset(NamedTuple):
 
 
 def controls(diagonal_m: float = 0.3) -> dict[str, Control]:
-    """What is known of each number of a scene, by name. Sliders of lengths fit an object whose bounding box has this diagonal."""
+    """What is known of each number of a scene, by its key: ``"scratches.width_um"``, ``"scratches.width_um.spread"``, ``"grating.radius_m.second"``. Sliders of lengths fit an object whose bounding box has this diagonal."""
     return {name: Control(*control) for name, control in core.controls(diagonal_m).items()}
 
 

@@ -1,17 +1,13 @@
 //! Checks of the ranges of numbers, whoever wrote them.
 
-use super::limits;
-use super::ranges::{
-    Check, check_seed, components, direction, finite, found, jitter, not_negative, point, size,
-    spread, within,
-};
-use super::sizes;
+use super::ranges::{Check, check_seed};
 use super::{
     Amount, Around, Brush, Camera, Description, Distribution, Grating, Laid, Layer, LayerPlaces,
     Light, Material, MaterialKind, MetalColor, Object, Override, Pattern, Render, Scratches,
     Stroke, Surface,
 };
 use crate::error::Error;
+use crate::schema::{self, Key, environment, material, object, place, scratches, stroke};
 use crate::text::shown;
 use std::collections::HashSet;
 
@@ -21,25 +17,25 @@ impl Description {
     /// # Errors
     /// What is out of range, and where.
     pub fn check(&self) -> Result<(), Error> {
-        camera(&self.camera, "camera")?;
-        render(&self.render, "render")?;
-        if let Some(environment) = &self.environment {
-            finite("environment.rotation_deg", environment.rotation_deg)?;
-            not_negative("environment.intensity", environment.intensity)?;
+        check_camera(&self.camera, "camera")?;
+        check_render(&self.render, "render")?;
+        if let Some(it) = &self.environment {
+            environment::ROTATION_DEG.check("environment", &it.rotation_deg)?;
+            environment::INTENSITY.check("environment", &it.intensity)?;
         }
         self.studio.check()?;
         if let Some(ground) = &self.ground {
             ground.check()?;
         }
-        each("material", &self.materials, material)?;
+        each("material", &self.materials, check_material)?;
         unique("material", self.materials.iter().map(|m| m.name.as_str()))?;
         if self.objects.is_empty() {
             let right = "must have at least one `[[object]]`";
             return Err(Error::new("object", "found no object", right));
         }
-        each("object", &self.objects, object)?;
+        each("object", &self.objects, check_object)?;
         unique("object", self.objects.iter().map(|o| o.name.as_str()))?;
-        each("scratches", &self.scratches, scratches)?;
+        each("scratches", &self.scratches, check_scratches)?;
         each("grating", &self.gratings, Grating::check_at)?;
         each("light", &self.lights, Light::check_at)
     }
@@ -67,49 +63,21 @@ fn unique<'n>(key: &str, names: impl Iterator<Item = &'n str>) -> Check {
     Ok(())
 }
 
-fn camera(camera: &Camera, key: &str) -> Check {
-    point(&format!("{key}.position_m"), camera.position_m)?;
-    point(&format!("{key}.target_m"), camera.target_m)?;
-    direction(&format!("{key}.up"), camera.up)?;
-    finite(&format!("{key}.exposure_ev"), camera.exposure_ev)?;
-    within(
-        &format!("{key}.exposure_ev"),
-        camera.exposure_ev,
-        limits::EXPOSURE_EV,
-    )?;
-    within(
-        &format!("{key}.fov_y_deg"),
-        camera.fov_y_deg,
-        limits::FOV_Y_DEG,
-    )?;
-    if let Some(sensor_mm) = camera.sensor_width_mm {
-        within(
-            &format!("{key}.sensor_width_mm"),
-            sensor_mm,
-            limits::SENSOR_WIDTH_MM,
-        )?;
-    }
-    if let Some(aperture_mm) = camera.aperture_mm {
-        within(
-            &format!("{key}.aperture_mm"),
-            aperture_mm,
-            limits::APERTURE_MM,
-        )?;
-    }
-    if let Some(focus_distance_m) = camera.focus_distance_m {
-        within(
-            &format!("{key}.focus_distance_m"),
-            focus_distance_m,
-            limits::SIZE_M,
-        )?;
-    }
-    for (i, shift) in camera.shift.into_iter().flatten().enumerate() {
-        within(&format!("{key}.shift[{i}]"), shift, limits::SHIFT)?;
-    }
+fn check_camera(camera: &Camera, key: &str) -> Check {
+    use schema::camera as keys;
+    keys::POSITION_M.check(key, &camera.position_m)?;
+    keys::TARGET_M.check(key, &camera.target_m)?;
+    keys::UP.check(key, &camera.up)?;
+    keys::EXPOSURE_EV.check(key, &camera.exposure_ev)?;
+    keys::FOV_Y_DEG.check(key, &camera.fov_y_deg)?;
+    keys::SENSOR_WIDTH_MM.check(key, &camera.sensor_width_mm)?;
+    keys::APERTURE_MM.check(key, &camera.aperture_mm)?;
+    keys::FOCUS_DISTANCE_M.check(key, &camera.focus_distance_m)?;
+    keys::SHIFT.check(key, &camera.shift)?;
     let [position, target, up] =
         [camera.position_m, camera.target_m, camera.up].map(glam::DVec3::from_array);
     let view = target - position;
-    if view.length() < limits::SMALLEST_M {
+    if view.length() < schema::SMALLEST_M {
         return Err(Error::new(
             format!("{key}.target_m"),
             "found the camera's own position",
@@ -128,95 +96,57 @@ fn camera(camera: &Camera, key: &str) -> Check {
     Ok(())
 }
 
-fn render(render: &Render, key: &str) -> Check {
-    for (i, &size) in render.size_px.iter().enumerate() {
-        let key = format!("{key}.size_px[{i}]");
-        within(&key, size.into(), limits::PICTURE_PX)?;
-    }
-    within(
-        &format!("{key}.filter_std_px"),
-        render.filter_std_px,
-        limits::FILTER_STD_PX,
-    )
+fn check_render(render: &Render, key: &str) -> Check {
+    schema::render::SIZE_PX.check(key, &render.size_px)?;
+    schema::render::FILTER_STD_PX.check(key, &render.filter_std_px)
 }
 
-fn material(material: &Material, key: &str) -> Check {
-    within(
-        &format!("{key}.roughness"),
-        material.roughness,
-        limits::ROUGHNESS,
-    )?;
-    let coherence = format!("{key}.coherence_um");
-    within(&coherence, material.coherence_um, limits::COHERENCE_UM)?;
-    if let Some(coat) = material.coat {
-        within(&format!("{key}.clearcoat"), coat.weight, limits::CLEARCOAT)?;
-        let roughness = format!("{key}.clearcoat_roughness");
-        within(&roughness, coat.roughness, limits::ROUGHNESS)?;
+fn check_material(it: &Material, key: &str) -> Check {
+    material::ROUGHNESS.check(key, &it.roughness)?;
+    material::COHERENCE_UM.check(key, &it.coherence_um)?;
+    if let Some(coat) = it.coat {
+        material::CLEARCOAT.check(key, &coat.weight)?;
+        material::CLEARCOAT_ROUGHNESS.check(key, &coat.roughness)?;
     }
-    if let Some(anisotropy) = material.anisotropy {
-        let strength = format!("{key}.anisotropy");
-        within(&strength, anisotropy.strength, limits::ANISOTROPY)?;
-        let direction = format!("{key}.anisotropy_direction_deg");
-        finite(&direction, anisotropy.direction_deg)?;
+    if let Some(anisotropy) = it.anisotropy {
+        material::ANISOTROPY.check(key, &anisotropy.strength)?;
+        material::ANISOTROPY_DIRECTION_DEG.check(key, &anisotropy.direction_deg)?;
     }
-    let color = |rgb: [f64; 3]| components(&format!("{key}.base_color"), rgb, limits::BASE_COLOR);
-    match material.kind {
+    match &it.kind {
         MaterialKind::Metal(MetalColor::Measured(_)) | MaterialKind::Mirror => Ok(()),
-        MaterialKind::Metal(MetalColor::Color(base_color)) => color(base_color),
+        MaterialKind::Metal(MetalColor::Color(color)) => material::METAL_COLOR.check(key, color),
         MaterialKind::Dielectric { ior, base_color } => {
-            within(&format!("{key}.ior"), ior, limits::IOR)?;
-            color(base_color)
+            material::IOR.check(key, ior)?;
+            material::BODY_COLOR.check(key, base_color)
         }
         MaterialKind::MetallicRoughness {
             base_color,
             metallic,
             specular,
         } => {
-            within(&format!("{key}.metallic"), metallic, limits::METALLIC)?;
-            let weight = format!("{key}.specular");
-            within(&weight, specular.weight, limits::SPECULAR)?;
-            let of_color = format!("{key}.specular_color");
-            components(&of_color, specular.color, limits::SPECULAR)?;
-            color(base_color)
+            material::METALLIC.check(key, metallic)?;
+            material::SPECULAR.check(key, &specular.weight)?;
+            material::SPECULAR_COLOR.check(key, &specular.color)?;
+            material::BASE_COLOR.check(key, base_color)
         }
     }
 }
 
-fn object(object: &Object, key: &str) -> Check {
-    point(&format!("{key}.translation_m"), object.translation_m)?;
-    for (i, angle) in object.rotation_deg.into_iter().enumerate() {
-        finite(&format!("{key}.rotation_deg[{i}]"), angle)?;
+fn check_object(it: &Object, key: &str) -> Check {
+    object::TRANSLATION_M.check(key, &it.translation_m)?;
+    object::ROTATION_DEG.check(key, &it.rotation_deg)?;
+    match it.scale {
+        [x, y, z] if x == y && y == z => object::SCALE.check(key, &x)?,
+        _ => object::SCALE.check(key, &it.scale)?,
     }
-    let scale = object.scale;
-    let scale_key = |i: usize| match scale[0] == scale[1] && scale[1] == scale[2] {
-        true => format!("{key}.scale"),
-        false => format!("{key}.scale[{i}]"),
-    };
-    for (i, factor) in scale.into_iter().enumerate() {
-        finite(&scale_key(i), factor)?;
-        if !limits::SCALE.contains(&factor.abs()) {
-            return Err(Error::new(
-                scale_key(i),
-                found(factor),
-                "its size must be between 1e-6 and 1e6",
-            ));
-        }
-    }
-    if let Some(fit_m) = object.fit_m {
-        size(&format!("{key}.fit_m"), fit_m)?;
-    }
-    if let Some(time_s) = object.time_s
-        && !limits::TIME_S.contains(&time_s)
-    {
-        let right = "must be from 0 to 1e6";
-        return Err(Error::new(format!("{key}.time_s"), found(time_s), right));
-    }
-    if object.animation.is_some() && object.time_s.is_none() {
+    object::FIT_M.check(key, &it.fit_m)?;
+    object::TIME_S.check(key, &it.time_s)?;
+    if it.animation.is_some() && it.time_s.is_none() {
         let right = "add one, such as `time_s = 0`: an animation is shown at a time";
         let found = "found no `time_s` beside it";
         return Err(Error::new(format!("{key}.animation"), found, right));
     }
-    if let (Some(_), [_, ..]) = (&object.material, &object.overrides[..]) {
+    if let (Some(_), [_, ..]) = (&it.material, &it.overrides[..]) {
         return Err(Error::new(
             format!("{key}.overrides"),
             "found `material` beside it, of which all of the mesh is",
@@ -224,8 +154,8 @@ fn object(object: &Object, key: &str) -> Check {
         ));
     }
     let overrides = format!("{key}.overrides");
-    each(&overrides, &object.overrides, Override::check_at)?;
-    match (&object.surface, &object.material) {
+    each(&overrides, &it.overrides, Override::check_at)?;
+    match (&it.surface, &it.material) {
         (Surface::Shape(shape), Some(_)) => shape.check_at(&format!("{key}.shape")),
         (Surface::Shape(_), None) => Err(Error::new(
             key,
@@ -236,72 +166,73 @@ fn object(object: &Object, key: &str) -> Check {
     }
 }
 
-fn scratches(scratches: &Scratches, key: &str) -> Check {
-    match &scratches.layer {
-        Layer::Laid(laid) => self::laid(laid, key)?,
+fn check_scratches(it: &Scratches, key: &str) -> Check {
+    match &it.layer {
+        Layer::Laid(laid) => check_laid(laid, key)?,
         Layer::Brushed(brushed) => {
-            drawn(brushed.seed, brushed.sizes(), key)?;
-            jitter(brushed.jitter_deg, key)?;
+            check_drawn(brushed.seed, brushed.sizes(), key)?;
+            scratches::JITTER_DEG.check(key, &brushed.jitter_deg)?;
         }
         Layer::Listed(_) => {}
     }
-    place(&scratches.place, &format!("{key}.where"))?;
-    let paints = matches!(scratches.layer, Layer::Brushed(_));
-    each(&format!("{key}.strokes"), &scratches.strokes, |s, key| {
-        stroke(s, paints, key)
+    check_place(&it.place, &format!("{key}.where"))?;
+    let paints = matches!(it.layer, Layer::Brushed(_));
+    each(&format!("{key}.strokes"), &it.strokes, |s, key| {
+        check_stroke(s, paints, key)
     })
 }
 
 /// Refuses values out of range, and keys that need another one.
-fn place(place: &LayerPlaces, key: &str) -> Check {
-    let way = |name: &str| format!("{key}.{name}");
+fn check_place(it: &LayerPlaces, key: &str) -> Check {
     let alone = |name: &str, right: &str| {
         let found = "found it without what it belongs to";
-        Err(Error::new(way(name), found, right))
+        Err(Error::new(format!("{key}.{name}"), found, right))
     };
-    if let Some(tile_m) = place.tile_m {
-        size(&way("tile_m"), tile_m)?;
-        if place.files().next().is_none() {
-            return alone("tile_m", "belongs to `mask` or `density`");
-        }
+    place::TILE_M.check(key, &it.tile_m)?;
+    if it.tile_m.is_some() && it.files().next().is_none() {
+        return alone("tile_m", "belongs to `mask` or `density`");
     }
-    within(&way("edges"), place.edges, limits::EDGES)?;
-    if let Some(edge_width_m) = place.edge_width_m {
-        size(&way("edge_width_m"), edge_width_m)?;
-        if place.edges == 0.0 {
-            return alone("edge_width_m", "belongs to `edges`, such as `edges = 0.8`");
-        }
+    place::EDGES.check(key, &it.edges)?;
+    place::EDGE_WIDTH_M.check(key, &it.edge_width_m)?;
+    if it.edge_width_m.is_some() && it.edges == 0.0 {
+        return alone("edge_width_m", "belongs to `edges`, such as `edges = 0.8`");
     }
-    if let Some([least, most]) = place.radius_m {
-        within(&way("radius_m[0]"), least, limits::PROFILE_RADIUS_M)?;
-        within(&way("radius_m[1]"), most, limits::PROFILE_RADIUS_M)?;
-        if least >= most {
-            let found = format!("found {least} and {most}");
-            let right = "the second must be the greater one";
-            return Err(Error::new(way("radius_m"), found, right));
-        }
+    check_radii(&place::RADIUS_M, key, it.radius_m)?;
+    if it.center_m.is_some() && it.radius_m.is_none() {
+        return alone("center_m", "belongs to `radius_m`");
     }
-    match (place.center_m, place.radius_m) {
-        (Some(_), None) => alone("center_m", "belongs to `radius_m`"),
-        (Some(center_m), _) => point(&way("center_m"), center_m),
-        (None, _) => Ok(()),
+    place::CENTER_M.check(key, &it.center_m)
+}
+
+/// The least and the greatest distance from a middle.
+pub(super) fn check_radii(radii: &Key, key: &str, radius_m: Option<[f64; 2]>) -> Check {
+    radii.check(key, &radius_m)?;
+    match radius_m {
+        Some([least, most]) if least >= most => Err(Error::new(
+            format!("{key}.{}", radii.name),
+            format!("found {least} and {most}"),
+            "the second must be the greater one",
+        )),
+        _ => Ok(()),
     }
 }
 
+/// Points of one stroke.
+pub const STROKE_POINTS: std::ops::RangeInclusive<usize> = 1..=65_536;
+
 /// Checks a stroke; `paints` says whether the layer takes strokes that lay scratches.
-fn stroke(stroke: &Stroke, paints: bool, key: &str) -> Check {
-    let points = format!("{key}.points_m");
-    if !limits::STROKE_POINTS.contains(&stroke.points_m.len()) {
-        let (least, most) = limits::STROKE_POINTS.into_inner();
+fn check_stroke(it: &Stroke, paints: bool, key: &str) -> Check {
+    if !STROKE_POINTS.contains(&it.points_m.len()) {
+        let (least, most) = STROKE_POINTS.into_inner();
         return Err(Error::new(
-            points,
-            format!("found {} points", stroke.points_m.len()),
+            format!("{key}.points_m"),
+            format!("found {} points", it.points_m.len()),
             format!("must be from {least} to {most}"),
         ));
     }
-    each(&points, &stroke.points_m, |p, key| point(key, *p))?;
-    size(&format!("{key}.radius_m"), stroke.radius_m)?;
-    match stroke.brush {
+    stroke::POINTS_M.check(key, &it.points_m[..])?;
+    stroke::RADIUS_M.check(key, &it.radius_m)?;
+    match &it.brush {
         Brush::Erase => Ok(()),
         Brush::Paint { .. } if !paints => Err(Error::new(
             key,
@@ -313,56 +244,51 @@ fn stroke(stroke: &Stroke, paints: bool, key: &str) -> Check {
             width,
             depth,
         } => {
-            not_negative(&format!("{key}.density_per_m"), density_per_m)?;
-            within(&format!("{key}.width"), width, limits::STROKE_FACTOR)?;
-            within(&format!("{key}.depth"), depth, limits::STROKE_FACTOR)
+            stroke::DENSITY_PER_M.check(key, density_per_m)?;
+            stroke::WIDTH.check(key, width)?;
+            stroke::DEPTH.check(key, depth)
         }
     }
 }
 
 /// The seed of a layer that draws random numbers, and its lengths, widths and depths.
-fn drawn(seed: u64, sizes: [Distribution; 3], key: &str) -> Check {
+fn check_drawn(seed: u64, [lengths, widths, depths]: [Distribution; 3], key: &str) -> Check {
     check_seed(seed, key)?;
-    sizes::check(sizes, key)
+    scratches::LENGTH_M.check(key, &lengths)?;
+    scratches::WIDTH_UM.check(key, &widths)?;
+    scratches::DEPTH_NM.check(key, &depths)
 }
 
-fn laid(laid: &Laid, key: &str) -> Check {
+fn check_laid(laid: &Laid, key: &str) -> Check {
     if let Amount::DensityPerM2(density) = laid.amount {
-        not_negative(&format!("{key}.density_per_m2"), density)?;
+        scratches::DENSITY_PER_M2.check(key, &density)?;
     }
-    drawn(laid.seed, laid.sizes(), key)?;
+    check_drawn(laid.seed, laid.sizes(), key)?;
     laid.pattern.check_at(key)
 }
 
 impl Pattern {
     /// Refuses values out of range; `key` is the way to the table that has the pattern.
     pub(super) fn check_at(&self, key: &str) -> Check {
-        let jitter = |jitter_deg| jitter(jitter_deg, key);
-        let around = |around: &Around| around.check_at(key);
-        let curvature = |drawn: Distribution| {
-            let way = format!("{key}.curvature_per_m");
-            spread(&way, drawn, limits::CURVATURE_SPREAD_PER_M)?;
-            within(&way, drawn.mean, limits::CURVATURE_PER_M)
-        };
         match self {
-            Self::Random { curvature_per_m } => curvature(*curvature_per_m),
+            Self::Random { curvature_per_m } => scratches::BEND_PER_M.check(key, curvature_per_m),
             Self::Parallel {
-                direction: along,
+                direction,
                 jitter_deg,
             } => {
-                direction(&format!("{key}.direction"), *along)?;
-                jitter(*jitter_deg)
+                scratches::DIRECTION.check(key, direction)?;
+                scratches::JITTER_DEG.check(key, jitter_deg)
             }
-            Self::Circular(axis) | Self::Radial(axis) => around(axis),
+            Self::Circular(around) | Self::Radial(around) => around.check_at(key),
             Self::Spun {
-                around: axis,
+                around,
                 curvature_per_m,
             } => {
-                around(axis)?;
-                curvature(*curvature_per_m)
+                around.check_at(key)?;
+                scratches::TOOL_PER_M.check(key, curvature_per_m)
             }
             Self::Swirl { curvature_per_m } => {
-                curvature(*curvature_per_m)?;
+                scratches::SWIRL_PER_M.check(key, curvature_per_m)?;
                 if curvature_per_m.mean == 0.0 {
                     return Err(Error::new(
                         format!("{key}.curvature_per_m"),
@@ -379,8 +305,8 @@ impl Pattern {
 impl Around {
     /// Refuses values out of range; `key` is the way to the table that has the axis.
     pub(super) fn check_at(&self, key: &str) -> Check {
-        direction(&format!("{key}.axis"), self.axis)?;
-        point(&format!("{key}.center_m"), self.center_m)?;
-        jitter(self.jitter_deg, key)
+        scratches::AXIS.check(key, &self.axis)?;
+        scratches::CENTER_M.check(key, &self.center_m)?;
+        scratches::JITTER_DEG.check(key, &self.jitter_deg)
     }
 }

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use serde::Serialize;
 use toml::de::DeValue;
 
-use super::limits;
-use super::ranges::{Check, check_seed, direction, jitter, positive, size, within};
+use super::check::check_radii;
+use super::ranges::{Check, check_seed, within};
 use super::read::around;
-use super::scratches::{Around, DEFAULT_SEED, Distribution};
+use super::scratches::{Around, Distribution};
 use super::table::{Read, Table, Value};
 use super::values::{Named, is_default, is_false, serialize_named};
 use crate::error::Error;
+use crate::schema::{grating, scratches};
 
 /// `[[grating]]`: grooves side by side, nearer to one another than a pixel can show. They interfere, as those of a compact disc do.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -142,11 +143,11 @@ impl GroovePattern {
     fn check_at(&self, key: &str) -> Check {
         match self {
             Self::Parallel {
-                direction: along,
+                direction,
                 jitter_deg,
             } => {
-                direction(&format!("{key}.direction"), *along)?;
-                jitter(*jitter_deg, key)
+                scratches::DIRECTION.check(key, direction)?;
+                grating::JITTER_DEG.check(key, jitter_deg)
             }
             Self::Circular(around) | Self::Radial(around) => around.check_at(key),
             Self::Spun {
@@ -154,26 +155,16 @@ impl GroovePattern {
                 curvature_per_m,
             } => {
                 around.check_at(key)?;
-                let way = format!("{key}.curvature_per_m");
-                within(&way, *curvature_per_m, limits::CURVATURE_PER_M)
+                grating::CURVATURE_PER_M.check(key, curvature_per_m)
             }
             Self::Swirl { around, spacing_m } => {
                 around.check_at(key)?;
-                size(&format!("{key}.spacing_m"), *spacing_m)
+                grating::SPACING_M.check(key, spacing_m)
             }
-            Self::Uv { jitter_deg, .. } => jitter(*jitter_deg, key),
+            Self::Uv { jitter_deg, .. } => grating::JITTER_DEG.check(key, jitter_deg),
         }
     }
 }
-
-/// Depths where a grating does not say them.
-const DEFAULT_DEPTH_NM: Distribution = Distribution {
-    mean: 120.0,
-    spread: 0.0,
-};
-
-/// Default distance of spots.
-const DEFAULT_SPACING_M: f64 = 0.004;
 
 /// Widths where a grating does not say them, as shares of the pitch.
 const DEFAULT_FILL: f64 = 0.4;
@@ -188,10 +179,10 @@ impl Grating {
             pattern,
             pitch_um,
             width_um: DEFAULT_FILL * pitch_um,
-            depth_nm: DEFAULT_DEPTH_NM,
-            jitter_um: 0.0,
-            seed: DEFAULT_SEED,
-            coverage: 1.0,
+            depth_nm: grating::DEPTH_NM.initial(),
+            jitter_um: grating::JITTER_UM.initial(),
+            seed: grating::SEED.initial(),
+            coverage: grating::COVERAGE.initial(),
             mask: None,
             tile_m: None,
             radius_m: None,
@@ -202,59 +193,32 @@ impl Grating {
     /// Refuses values out of range.
     pub(super) fn check_at(&self, key: &str) -> Check {
         self.pattern.check_at(key)?;
-        within(&format!("{key}.pitch_um"), self.pitch_um, limits::PITCH_UM)?;
-        let width = format!("{key}.width_um");
-        positive(&width, self.width_um)?;
+        grating::PITCH_UM.check(key, &self.pitch_um)?;
+        grating::WIDTH_UM.check(key, &self.width_um)?;
+        let width = format!("{key}.{}", grating::WIDTH_UM.name);
         within(&width, self.width_um, 0.0..=self.pitch_um)?;
-        let Distribution { mean, spread } = self.depth_nm;
-        let depth = format!("{key}.depth_nm");
-        within(&depth, mean, limits::SCRATCH_DEPTH_NM)?;
-        within(
-            &format!("{depth}.spread"),
-            spread,
-            limits::GRATING_DEPTH_SPREAD,
-        )?;
-        within(
-            &format!("{key}.jitter_um"),
-            self.jitter_um,
-            0.0..=self.pitch_um,
-        )?;
+        grating::DEPTH_NM.check(key, &self.depth_nm)?;
+        let jitter = format!("{key}.{}", grating::JITTER_UM.name);
+        within(&jitter, self.jitter_um, 0.0..=self.pitch_um)?;
         check_seed(self.seed, key)?;
-        within(&format!("{key}.coverage"), self.coverage, limits::COVERAGE)?;
-        if let Some(tile_m) = self.tile_m {
-            let way = format!("{key}.tile_m");
-            size(&way, tile_m)?;
-            if self.mask.is_none() {
-                let found = "found a width without a picture";
-                return Err(Error::new(way, found, "belongs to `mask`"));
-            }
+        grating::COVERAGE.check(key, &self.coverage)?;
+        grating::TILE_M.check(key, &self.tile_m)?;
+        if self.tile_m.is_some() && self.mask.is_none() {
+            return Err(Error::new(
+                format!("{key}.tile_m"),
+                "found a width without a picture",
+                "belongs to `mask`",
+            ));
         }
-        let radius = format!("{key}.radius_m");
-        let Some([least, most]) = self.radius_m else {
-            let Some(_) = self.center_m else {
-                return Ok(());
-            };
+        if self.center_m.is_some() && self.radius_m.is_none() {
             return Err(Error::new(
                 format!("{key}.center_m"),
                 "found a middle for distances that are not there",
                 "belongs to `radius_m`",
             ));
-        };
-        if let Some(center_m) = self.center_m {
-            for (i, value) in center_m.into_iter().enumerate() {
-                within(&format!("{key}.center_m[{i}]"), value, limits::COORDINATE_M)?;
-            }
         }
-        within(&format!("{radius}[0]"), least, limits::PROFILE_RADIUS_M)?;
-        within(&format!("{radius}[1]"), most, limits::PROFILE_RADIUS_M)?;
-        if least >= most {
-            return Err(Error::new(
-                radius,
-                format!("found {least} and {most}"),
-                "the second must be the greater one",
-            ));
-        }
-        Ok(())
+        grating::CENTER_M.check(key, &self.center_m)?;
+        check_radii(&grating::RADIUS_M, key, self.radius_m)
     }
 }
 
@@ -276,77 +240,49 @@ fn refuse_crossings(value: &Value, key: &str) -> Result<(), Error> {
 
 impl Read for Grating {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        const AROUND: [&str; 3] = ["axis", "center_m", "jitter_deg"];
         refuse_crossings(value, key)?;
-        let (pattern, table) = Table::read_kind(
-            value,
-            key,
-            "pattern",
-            &[
-                "object",
-                "pattern",
-                "name",
-                "hidden",
-                "pitch_um",
-                "width_um",
-                "depth_nm",
-                "jitter_um",
-                "seed",
-                "coverage",
-                "mask",
-                "tile_m",
-                "radius_m",
-            ],
-            &[
-                ("parallel", &["direction", "jitter_deg", "center_m"]),
-                ("circular", &AROUND),
-                ("radial", &AROUND),
-                ("spun", &[&AROUND[..], &["curvature_per_m"]].concat()),
-                ("swirl", &[&AROUND[..], &["spacing_m"]].concat()),
-                ("uv", &["along", "directions", "jitter_deg", "center_m"]),
-            ],
-        )?;
+        let (pattern, table) = Table::of_kind(&grating::GRATING, value, key)?;
         let pattern = match pattern {
             "parallel" => GroovePattern::Parallel {
-                direction: table.or("direction", [1.0, 0.0, 0.0])?,
-                jitter_deg: table.or("jitter_deg", 0.0)?,
+                direction: table.value(&scratches::DIRECTION)?,
+                jitter_deg: table.value(&grating::JITTER_DEG)?,
             },
             "circular" => GroovePattern::Circular(around(&table)?),
             "radial" => GroovePattern::Radial(around(&table)?),
             "spun" => GroovePattern::Spun {
                 around: around(&table)?,
-                curvature_per_m: table.or("curvature_per_m", 20.0)?,
+                curvature_per_m: table.value(&grating::CURVATURE_PER_M)?,
             },
             "swirl" => GroovePattern::Swirl {
                 around: around(&table)?,
-                spacing_m: table.or("spacing_m", DEFAULT_SPACING_M)?,
+                spacing_m: table.value(&grating::SPACING_M)?,
             },
             _ => GroovePattern::Uv {
-                along: table.or("along", UvAxis::default())?,
-                directions: table.optional("directions")?,
-                jitter_deg: table.or("jitter_deg", 0.0)?,
+                along: table.value(&grating::ALONG)?,
+                directions: table.value(&grating::DIRECTIONS)?,
+                jitter_deg: table.value(&grating::JITTER_DEG)?,
             },
         };
         let has_axis = pattern.around().is_some();
         let default = Self::new(
-            table.required::<String>("object")?,
+            table.value::<String>(&grating::OBJECT)?,
             pattern,
-            table.required("pitch_um")?,
+            table.value(&grating::PITCH_UM)?,
         );
         Ok(Self {
-            name: table.optional("name")?,
-            hidden: table.or("hidden", false)?,
-            width_um: table.or("width_um", default.width_um)?,
-            depth_nm: table.or("depth_nm", default.depth_nm)?,
-            jitter_um: table.or("jitter_um", default.jitter_um)?,
-            seed: table.or("seed", default.seed)?,
-            coverage: table.or("coverage", default.coverage)?,
-            mask: table.optional("mask")?,
-            tile_m: table.optional("tile_m")?,
-            radius_m: table.optional("radius_m")?,
+            name: table.value(&grating::NAME)?,
+            hidden: table.value(&grating::HIDDEN)?,
+            width_um: table.or(grating::WIDTH_UM.name, default.width_um)?,
+            depth_nm: table.value(&grating::DEPTH_NM)?,
+            jitter_um: table.value(&grating::JITTER_UM)?,
+            seed: table.value(&grating::SEED)?,
+            coverage: table.value(&grating::COVERAGE)?,
+            mask: table.value(&grating::MASK)?,
+            tile_m: table.value(&grating::TILE_M)?,
+            radius_m: table.value(&grating::RADIUS_M)?,
             center_m: match has_axis {
                 true => None,
-                false => table.optional("center_m")?,
+                false => table.value(&grating::CENTER_M)?,
             },
             ..default
         })

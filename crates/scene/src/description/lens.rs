@@ -3,32 +3,28 @@
 use glam::DVec2;
 
 use super::Camera;
-use super::limits::{APERTURE_MM, F_STOP, FOCAL_LENGTH_MM, FOV_Y_DEG, SENSOR_WIDTH_MM};
-use super::ranges::{found, within};
+use super::ranges::found;
 use super::table::Table;
 use crate::error::Error;
 use crate::scene::Lens;
+use crate::schema::camera as keys;
 
-/// Width of the film of a 35 mm camera.
-const FULL_FRAME_MM: f64 = 36.0;
+/// The table that has the keys of a lens.
+const SECTION: &str = "camera";
 /// `fov_y_deg` beside a lens may be rounded by this.
 const ROUNDING_DEG: f64 = 0.05;
 
 /// `aperture_mm` beside an f-stop may be rounded by this share.
 const ROUNDING: f64 = 1e-3;
 
-/// The keys of a lens.
-pub(super) const KEYS: [&str; 3] = ["focal_length_mm", "sensor_width_mm", "f_stop"];
-
 /// Reads the vertical field of view of a `[camera]` that states it by its lens. The sensor is as wide as the picture.
 pub(super) fn fov_y_deg(camera: &Table, [width, height]: [u32; 2]) -> Result<Option<f64>, Error> {
-    let Some(focal_length_mm) = camera.optional::<f64>("focal_length_mm")? else {
+    let Some(focal_length_mm) = camera.value::<Option<f64>>(&keys::FOCAL_LENGTH_MM)? else {
         return Ok(None);
     };
-    let sensor_mm = camera.or("sensor_width_mm", FULL_FRAME_MM)?;
-    let way = camera.way("focal_length_mm");
-    within(&way, focal_length_mm, FOCAL_LENGTH_MM)?;
-    within(&camera.way("sensor_width_mm"), sensor_mm, SENSOR_WIDTH_MM)?;
+    let sensor_mm = camera.value(&keys::SENSOR_WIDTH_MM)?;
+    keys::FOCAL_LENGTH_MM.check(SECTION, &focal_length_mm)?;
+    keys::SENSOR_WIDTH_MM.check(SECTION, &sensor_mm)?;
     let fov_y_deg = seen_deg(focal_length_mm, sensor_mm, [width, height]);
     match camera.optional::<f64>("fov_y_deg")? {
         Some(given) if (given - fov_y_deg).abs() > ROUNDING_DEG => Err(Error::new(
@@ -49,11 +45,10 @@ pub(super) fn aperture_mm(camera: &Table) -> Result<Option<f64>, Error> {
     let Some(f_stop) = camera.optional::<f64>("f_stop")? else {
         return Ok(given);
     };
-    let way = camera.way("f_stop");
-    within(&way, f_stop, F_STOP)?;
+    keys::F_STOP.check(SECTION, &f_stop)?;
     let Some(focal_length_mm) = camera.optional::<f64>("focal_length_mm")? else {
         return Err(Error::new(
-            way,
+            camera.way("f_stop"),
             "found no `focal_length_mm` that it belongs to",
             "give the camera one, or `aperture_mm` in place of the f-stop",
         ));
@@ -84,6 +79,11 @@ pub(super) fn focus_distance_m(camera: &Table) -> Result<Option<f64>, Error> {
     Ok(given)
 }
 
+/// Width of the film of a 35 mm camera.
+fn full_frame_mm() -> f64 {
+    keys::SENSOR_WIDTH_MM.initial()
+}
+
 /// Height of a film that is `sensor_mm` wide and has the shape of the picture.
 fn film_height_mm(sensor_mm: f64, [width, height]: [u32; 2]) -> f64 {
     sensor_mm * f64::from(height) / f64::from(width.max(1))
@@ -98,7 +98,7 @@ fn seen_deg(focal_length_mm: f64, sensor_mm: f64, size_px: [u32; 2]) -> f64 {
 impl Camera {
     /// Width of the film.
     pub fn sensor_mm(&self) -> f64 {
-        self.sensor_width_mm.unwrap_or(FULL_FRAME_MM)
+        self.sensor_width_mm.unwrap_or(full_frame_mm())
     }
 
     /// Focal length with the camera's field of view, for a picture of this size.
@@ -125,19 +125,19 @@ impl Camera {
     /// Puts a wider or narrower film behind the lens, whose focal length and opening stay.
     pub fn set_sensor_width_mm(&mut self, sensor_mm: f64, size_px: [u32; 2]) {
         let focal_length_mm = self.focal_length_mm(size_px);
-        self.sensor_width_mm = (sensor_mm != FULL_FRAME_MM).then_some(sensor_mm);
+        self.sensor_width_mm = (sensor_mm != full_frame_mm()).then_some(sensor_mm);
         self.see_by(focal_length_mm, size_px);
     }
 
     /// Opens or closes the lens, as far as openings go.
     pub fn set_f_stop(&mut self, f_stop: f64, size_px: [u32; 2]) {
         let aperture_mm = self.focal_length_mm(size_px) / f_stop;
-        self.aperture_mm = Some(aperture_mm.clamp(*APERTURE_MM.start(), *APERTURE_MM.end()));
+        self.aperture_mm = Some(keys::APERTURE_MM.bounds.clamp(aperture_mm));
     }
 
     fn see_by(&mut self, focal_length_mm: f64, size_px: [u32; 2]) {
         let fov_y_deg = seen_deg(focal_length_mm, self.sensor_mm(), size_px);
-        self.fov_y_deg = fov_y_deg.clamp(*FOV_Y_DEG.start(), *FOV_Y_DEG.end());
+        self.fov_y_deg = keys::FOV_Y_DEG.bounds.clamp(fov_y_deg);
     }
 
     /// Shift of the picture at unit depth.

@@ -5,11 +5,11 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use serde::Serialize;
 
-use super::limits::{ROTATION_DEG, SUN_ANGLE_DEG};
-use super::ranges::{Check, direction, not_negative, point, size, within};
+use super::ranges::Check;
 use super::table::Table;
 use super::values::{is_false, is_zero};
 use crate::error::Error;
+use crate::schema::light;
 use crate::{polygon, scene};
 
 /// `kind` of a `[[light]]`
@@ -77,36 +77,6 @@ pub enum LightKind {
     },
 }
 
-/// The angle that the sun spans as the earth sees it, degrees.
-pub const SUN_DEG: f64 = 0.53;
-
-/// The keys of lights that stand somewhere.
-const NEAR: [&str; 4] = ["radiance", "visible", "cone_deg", "cone_softness"];
-
-/// The keys that belong to each kind.
-pub(super) fn keys() -> [(&'static str, Vec<&'static str>); 6] {
-    let near = |own: &[&'static str]| [own, &NEAR].concat();
-    let rectangle = [
-        "center_m",
-        "target_m",
-        "width_m",
-        "height_m",
-        "rotation_deg",
-        "two_sided",
-    ];
-    [
-        ("sphere", near(&["center_m", "radius_m", "target_m"])),
-        (
-            "disk",
-            near(&["center_m", "target_m", "radius_m", "two_sided"]),
-        ),
-        ("rectangle", near(&rectangle)),
-        ("polygon", near(&["vertices_m", "two_sided"])),
-        ("tube", near(&["ends_m", "radius_m", "target_m"])),
-        ("sun", vec!["direction", "angle_deg", "irradiance"]),
-    ]
-}
-
 impl LightKind {
     /// A sphere.
     pub fn sphere(center_m: [f64; 3], radius_m: f64) -> Self {
@@ -125,8 +95,8 @@ impl LightKind {
     pub fn sun(direction: [f64; 3]) -> Self {
         Self::Sun {
             direction,
-            angle_deg: SUN_DEG,
-            irradiance: 1.0,
+            angle_deg: light::ANGLE_DEG.initial(),
+            irradiance: light::IRRADIANCE.initial(),
         }
     }
 
@@ -260,12 +230,10 @@ impl LightKind {
     }
 
     pub(super) fn check_at(&self, key: &str) -> Check {
-        let point_at = |name: &str, m: &[f64; 3]| point(&format!("{key}.{name}"), *m);
-        let size_at = |name: &str, m: &f64| size(&format!("{key}.{name}"), *m);
         match self {
             Self::Sphere { center_m, radius_m } => {
-                point_at("center_m", center_m)?;
-                size_at("radius_m", radius_m)
+                light::CENTER_M.check(key, center_m)?;
+                light::RADIUS_M.check(key, radius_m)
             }
             Self::Disk {
                 center_m,
@@ -273,9 +241,9 @@ impl LightKind {
                 radius_m,
                 ..
             } => {
-                point_at("center_m", center_m)?;
-                point_at("target_m", target_m)?;
-                size_at("radius_m", radius_m)?;
+                light::CENTER_M.check(key, center_m)?;
+                light::TARGET_M.check(key, target_m)?;
+                light::RADIUS_M.check(key, radius_m)?;
                 aimed(key, *center_m, *target_m)
             }
             Self::Rectangle {
@@ -286,18 +254,16 @@ impl LightKind {
                 rotation_deg,
                 ..
             } => {
-                point_at("center_m", center_m)?;
-                point_at("target_m", target_m)?;
-                size_at("width_m", width_m)?;
-                size_at("height_m", height_m)?;
-                within(&format!("{key}.rotation_deg"), *rotation_deg, ROTATION_DEG)?;
+                light::CENTER_M.check(key, center_m)?;
+                light::TARGET_M.check(key, target_m)?;
+                light::WIDTH_M.check(key, width_m)?;
+                light::HEIGHT_M.check(key, height_m)?;
+                light::ROTATION_DEG.check(key, rotation_deg)?;
                 aimed(key, *center_m, *target_m)
             }
             Self::Tube { ends_m, radius_m } => {
-                for (i, end_m) in ends_m.iter().enumerate() {
-                    point(&format!("{key}.ends_m[{i}]"), *end_m)?;
-                }
-                size_at("radius_m", radius_m)?;
+                light::ENDS_M.check(key, &ends_m[..])?;
+                light::RADIUS_M.check(key, radius_m)?;
                 let [a, b] = ends_m.map(DVec3::from);
                 match a.distance(b) >= NEAREST_TARGET_M {
                     true => Ok(()),
@@ -309,21 +275,19 @@ impl LightKind {
                 }
             }
             Self::Sun {
-                direction: towards,
+                direction,
                 angle_deg,
                 irradiance,
             } => {
-                direction(&format!("{key}.direction"), *towards)?;
-                within(&format!("{key}.angle_deg"), *angle_deg, SUN_ANGLE_DEG)?;
-                not_negative(&format!("{key}.irradiance"), *irradiance)
+                light::DIRECTION.check(key, direction)?;
+                light::ANGLE_DEG.check(key, angle_deg)?;
+                light::IRRADIANCE.check(key, irradiance)
             }
             Self::Polygon { vertices_m, .. } => {
-                let key = format!("{key}.vertices_m");
-                for (i, vertex) in vertices_m.iter().enumerate() {
-                    point(&format!("{key}[{i}]"), *vertex)?;
-                }
-                polygon::check(&self.corners_m())
-                    .map_err(|flaw| Error::new(key, flaw.to_string(), flaw.remedy()))
+                light::VERTICES_M.check(key, &vertices_m[..])?;
+                polygon::check(&self.corners_m()).map_err(|flaw| {
+                    Error::new(format!("{key}.vertices_m"), flaw.to_string(), flaw.remedy())
+                })
             }
         }
     }
@@ -357,35 +321,35 @@ impl LightKind {
     pub(super) fn read(kind: &str, table: &Table) -> Result<Self, Error> {
         Ok(match kind {
             "sphere" => Self::Sphere {
-                center_m: table.required("center_m")?,
-                radius_m: table.required("radius_m")?,
+                center_m: table.value(&light::CENTER_M)?,
+                radius_m: table.value(&light::RADIUS_M)?,
             },
             "disk" => Self::Disk {
-                center_m: table.required("center_m")?,
-                target_m: table.required("target_m")?,
-                radius_m: table.required("radius_m")?,
-                two_sided: table.or("two_sided", false)?,
+                center_m: table.value(&light::CENTER_M)?,
+                target_m: table.value(&light::TARGET_M)?,
+                radius_m: table.value(&light::RADIUS_M)?,
+                two_sided: table.value(&light::TWO_SIDED)?,
             },
             "rectangle" => Self::Rectangle {
-                center_m: table.required("center_m")?,
-                target_m: table.required("target_m")?,
-                width_m: table.required("width_m")?,
-                height_m: table.required("height_m")?,
-                rotation_deg: table.or("rotation_deg", 0.0)?,
-                two_sided: table.or("two_sided", false)?,
+                center_m: table.value(&light::CENTER_M)?,
+                target_m: table.value(&light::TARGET_M)?,
+                width_m: table.value(&light::WIDTH_M)?,
+                height_m: table.value(&light::HEIGHT_M)?,
+                rotation_deg: table.value(&light::ROTATION_DEG)?,
+                two_sided: table.value(&light::TWO_SIDED)?,
             },
             "tube" => Self::Tube {
-                ends_m: table.required("ends_m")?,
-                radius_m: table.required("radius_m")?,
+                ends_m: table.required(light::ENDS_M.name)?,
+                radius_m: table.value(&light::RADIUS_M)?,
             },
             "sun" => Self::Sun {
-                direction: table.required("direction")?,
-                angle_deg: table.or("angle_deg", SUN_DEG)?,
-                irradiance: table.or("irradiance", 1.0)?,
+                direction: table.value(&light::DIRECTION)?,
+                angle_deg: table.value(&light::ANGLE_DEG)?,
+                irradiance: table.value(&light::IRRADIANCE)?,
             },
             _ => Self::Polygon {
-                vertices_m: table.required("vertices_m")?,
-                two_sided: table.or("two_sided", false)?,
+                vertices_m: table.value(&light::VERTICES_M)?,
+                two_sided: table.value(&light::TWO_SIDED)?,
             },
         })
     }

@@ -6,13 +6,13 @@ use glam::DVec3;
 use hairline_optics::spectrum::black_body_rgb;
 use serde::Serialize;
 
-use super::light_kind::{self, LightKind, aimed};
-use super::limits::{BARN_DOOR_DEG, CONE_DEG, EXPOSURE_EV, TEMPERATURE_K};
-use super::ranges::{Check, components, not_negative, point, within};
+use super::light_kind::{LightKind, aimed};
+use super::ranges::Check;
 use super::table::{Read, Table, Value};
 use super::values::{is_false, is_zero};
 use crate::error::Error;
 use crate::scene;
+use crate::schema::light;
 
 /// `[[light]]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -60,7 +60,6 @@ pub struct Cone {
     /// Full angle of the cone from rim to rim. Required.
     pub cone_deg: f64,
     /// The part of the way from rim to axis in which light falls off. Default: 0.1.
-    #[serde(skip_serializing_if = "is_default_softness")]
     pub cone_softness: f64,
     /// Target of the cone of a sphere or a tube; required there. Others have their own axis.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -68,13 +67,7 @@ pub struct Cone {
 }
 
 fn is_one(factor: &f64) -> bool {
-    *factor == 1.0
-}
-
-const DEFAULT_SOFTNESS: f64 = 0.1;
-
-fn is_default_softness(softness: &f64) -> bool {
-    *softness == DEFAULT_SOFTNESS
+    *factor == light::RADIANCE.initial::<f64>()
 }
 
 impl Cone {
@@ -82,18 +75,14 @@ impl Cone {
     pub fn new(cone_deg: f64, target_m: Option<[f64; 3]>) -> Self {
         Self {
             cone_deg,
-            cone_softness: DEFAULT_SOFTNESS,
+            cone_softness: light::CONE_SOFTNESS.initial(),
             target_m,
         }
     }
 
     fn check_at(&self, key: &str, kind: &LightKind) -> Check {
-        within(&format!("{key}.cone_deg"), self.cone_deg, CONE_DEG)?;
-        within(
-            &format!("{key}.cone_softness"),
-            self.cone_softness,
-            0.0..=1.0,
-        )?;
+        light::CONE_DEG.check(key, &self.cone_deg)?;
+        light::CONE_SOFTNESS.check(key, &self.cone_softness)?;
         if kind.is_two_sided() {
             return Err(Error::new(
                 format!("{key}.cone_deg"),
@@ -106,7 +95,7 @@ impl Cone {
         }
         match self.target_m {
             Some(target_m) => {
-                point(&format!("{key}.target_m"), target_m)?;
+                light::CONE_TARGET_M.check(key, &target_m)?;
                 aimed(key, kind.middle_m().into(), target_m)
             }
             None => Err(Error::new(
@@ -137,10 +126,10 @@ impl Light {
             hidden: false,
             visible: false,
             kind,
-            radiance: 1.0,
-            exposure_ev: 0.0,
+            radiance: light::RADIANCE.initial(),
+            exposure_ev: light::EXPOSURE_EV.initial(),
             temperature_k: None,
-            color: [1.0; 3],
+            color: light::COLOR.initial(),
             cone: None,
             barn_doors_deg: None,
             picture: None,
@@ -158,19 +147,13 @@ impl Light {
     }
 
     pub(super) fn check_at(&self, key: &str) -> Check {
-        not_negative(&format!("{key}.radiance"), self.radiance)?;
-        components(&format!("{key}.color"), self.color, 0.0..=f64::MAX)?;
-        within(&format!("{key}.exposure_ev"), self.exposure_ev, EXPOSURE_EV)?;
-        if let Some(temperature_k) = self.temperature_k {
-            within(
-                &format!("{key}.temperature_k"),
-                temperature_k,
-                TEMPERATURE_K,
-            )?;
-        }
+        light::RADIANCE.check(key, &self.radiance)?;
+        light::COLOR.check(key, &self.color)?;
+        light::EXPOSURE_EV.check(key, &self.exposure_ev)?;
+        light::TEMPERATURE_K.check(key, &self.temperature_k)?;
         self.kind.check_at(key)?;
         self.check_sun(key)?;
-        self.check_doors(&format!("{key}.barn_doors_deg"))?;
+        self.check_doors(key)?;
         if self.picture.is_some() && !matches!(self.kind, LightKind::Rectangle { .. }) {
             return Err(Error::new(
                 format!("{key}.picture"),
@@ -191,7 +174,7 @@ impl Light {
         }
         let odd = [
             ("visible", self.visible),
-            ("radiance", self.radiance != 1.0),
+            ("radiance", !is_one(&self.radiance)),
             ("cone_deg", self.cone.is_some()),
         ];
         match odd.into_iter().find(|(_, is_there)| *is_there) {
@@ -205,19 +188,17 @@ impl Light {
     }
 
     fn check_doors(&self, key: &str) -> Check {
-        let Some(doors_deg) = self.barn_doors_deg else {
+        if self.barn_doors_deg.is_none() {
             return Ok(());
-        };
+        }
         if self.kind.across().is_none() || self.kind.is_two_sided() {
             return Err(Error::new(
-                key,
+                format!("{key}.barn_doors_deg"),
                 format!("found barn doors of a {}", self.kind.title()),
                 "must be those of a disk or a rectangle that shines to one side",
             ));
         }
-        doors_deg.iter().enumerate().try_for_each(|(i, angle_deg)| {
-            within(&format!("{key}[{i}]"), *angle_deg, BARN_DOOR_DEG)
-        })
+        light::BARN_DOORS_DEG.check(key, &self.barn_doors_deg)
     }
 
     fn doors(&self) -> Option<scene::Doors> {
@@ -255,43 +236,23 @@ impl Light {
 
 impl Read for Light {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let kinds = light_kind::keys();
-        let kinds = kinds.each_ref().map(|(kind, own)| (*kind, &own[..]));
-        let (kind, table) = Table::read_kind(
-            value,
-            key,
-            "kind",
-            &[
-                "kind",
-                "name",
-                "hidden",
-                "exposure_ev",
-                "temperature_k",
-                "color",
-                "barn_doors_deg",
-                "picture",
-            ],
-            &kinds,
-        )?;
+        let (kind, table) = Table::of_kind(&light::LIGHT, value, key)?;
         let kind = LightKind::read(kind, &table)?;
-        let is_sun = kind.sunbeam().is_some();
-        let cone = if is_sun { None } else { cone(&table, &kind)? };
+        let mut read = Self::new(kind);
+        if read.kind.sunbeam().is_none() {
+            read.radiance = table.value(&light::RADIANCE)?;
+            read.visible = table.value(&light::VISIBLE)?;
+            read.cone = cone(&table, &read.kind)?;
+        }
         Ok(Self {
-            name: table.optional("name")?,
-            hidden: table.or("hidden", false)?,
-            visible: !is_sun && table.or("visible", false)?,
-            radiance: if is_sun {
-                1.0
-            } else {
-                table.or("radiance", 1.0)?
-            },
-            kind,
-            exposure_ev: table.or("exposure_ev", 0.0)?,
-            temperature_k: table.optional("temperature_k")?,
-            color: table.or("color", [1.0; 3])?,
-            cone,
-            barn_doors_deg: table.optional("barn_doors_deg")?,
-            picture: table.optional("picture")?,
+            name: table.value(&light::NAME)?,
+            hidden: table.value(&light::HIDDEN)?,
+            exposure_ev: table.value(&light::EXPOSURE_EV)?,
+            temperature_k: table.value(&light::TEMPERATURE_K)?,
+            color: table.value(&light::COLOR)?,
+            barn_doors_deg: table.value(&light::BARN_DOORS_DEG)?,
+            picture: table.value(&light::PICTURE)?,
+            ..read
         })
     }
 }
@@ -301,7 +262,7 @@ fn cone(table: &Table, kind: &LightKind) -> Result<Option<Cone>, Error> {
         true => &["cone_softness"][..],
         false => &["cone_softness", "target_m"],
     };
-    let Some(cone_deg) = table.optional("cone_deg")? else {
+    let Some(cone_deg) = table.value(&light::CONE_DEG)? else {
         return match own.iter().find(|name| table.has(name)) {
             Some(name) => Err(Error::new(
                 table.way(name),
@@ -313,10 +274,10 @@ fn cone(table: &Table, kind: &LightKind) -> Result<Option<Cone>, Error> {
     };
     Ok(Some(Cone {
         cone_deg,
-        cone_softness: table.or("cone_softness", DEFAULT_SOFTNESS)?,
+        cone_softness: table.value(&light::CONE_SOFTNESS)?,
         target_m: match kind.has_target() || kind.axis().is_some() {
             true => None,
-            false => table.optional("target_m")?,
+            false => table.value(&light::CONE_TARGET_M)?,
         },
     }))
 }

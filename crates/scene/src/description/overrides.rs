@@ -3,12 +3,12 @@
 use hairline_optics::metal::Metal;
 use serde::{Serialize, Serializer};
 
-use super::limits;
-use super::ranges::{Check, components, within};
+use super::ranges::Check;
 use super::table::{Read, Table, Value};
 use super::values::serialize_named;
 use crate::error::Error;
 use crate::scene::{Base, Material};
+use crate::schema::overrides;
 
 /// One of `overrides`: other factors for a material of a model's file. Its maps stay, and multiply these factors.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -68,35 +68,28 @@ impl Override {
 
     /// Refuses values out of range.
     pub(super) fn check_at(&self, key: &str) -> Check {
-        let way = |name: &str| format!("{key}.{name}");
-        if let Some(roughness) = self.roughness {
-            within(&way("roughness"), roughness, limits::ROUGHNESS)?;
-        }
-        if let Some(metallic) = self.metallic {
-            within(&way("metallic"), metallic, limits::METALLIC)?;
-        }
+        overrides::ROUGHNESS.check(key, &self.roughness)?;
+        overrides::METALLIC.check(key, &self.metallic)?;
         match (self.base_color, self.metal) {
             (Some(_), Some(_)) => Err(Error::new(
-                way("metal"),
+                format!("{key}.metal"),
                 "found `base_color` beside it",
                 "must have one of them at most",
             )),
-            (Some(color), None) => components(&way("base_color"), color, limits::BASE_COLOR),
-            (None, _) => Ok(()),
+            (color, _) => overrides::BASE_COLOR.check(key, &color),
         }
     }
 }
 
 impl Read for Override {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let keys = ["material", "roughness", "metallic", "base_color", "metal"];
-        let table = Table::read(value, key, &keys)?;
+        let table = Table::of(&overrides::OVERRIDES, value, key)?;
         Ok(Self {
-            material: table.required("material")?,
-            roughness: table.optional("roughness")?,
-            metallic: table.optional("metallic")?,
-            base_color: table.optional("base_color")?,
-            metal: table.optional("metal")?,
+            material: table.value(&overrides::MATERIAL)?,
+            roughness: table.value(&overrides::ROUGHNESS)?,
+            metallic: table.value(&overrides::METALLIC)?,
+            base_color: table.value(&overrides::BASE_COLOR)?,
+            metal: table.value(&overrides::METAL)?,
         })
     }
 }

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::table::{Read, Table, Value};
 use super::values::is_default;
 use crate::error::Error;
+use crate::schema::place;
 
 /// `where`: places of an object, and how thickly they are scratched.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -52,27 +53,15 @@ impl LayerPlaces {
 
 impl Read for LayerPlaces {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::read(
-            value,
-            key,
-            &[
-                "mask",
-                "density",
-                "tile_m",
-                "edges",
-                "edge_width_m",
-                "radius_m",
-                "center_m",
-            ],
-        )?;
+        let table = Table::of(&place::WHERE, value, key)?;
         Ok(Self {
-            mask: table.optional("mask")?,
-            density: table.optional("density")?,
-            tile_m: table.optional("tile_m")?,
-            edges: table.or("edges", 0.0)?,
-            edge_width_m: table.optional("edge_width_m")?,
-            radius_m: table.optional("radius_m")?,
-            center_m: table.optional("center_m")?,
+            mask: table.value(&place::MASK)?,
+            density: table.value(&place::DENSITY)?,
+            tile_m: table.value(&place::TILE_M)?,
+            edges: table.value(&place::EDGES)?,
+            edge_width_m: table.value(&place::EDGE_WIDTH_M)?,
+            radius_m: table.value(&place::RADIUS_M)?,
+            center_m: table.value(&place::CENTER_M)?,
         })
     }
 }

@@ -3,15 +3,15 @@
 use toml::de::{DeTable, DeValue};
 
 use super::lens;
-use super::sizes;
 use super::table::{Read, Table, Value, number, wrong_type};
 use super::{
     Amount, Around, Brush, Brushed, Camera, Description, Distribution, Environment, Laid, Layer,
     LayerPlaces, Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render,
-    Scratches, Stroke, Studio, Surface, Up,
+    Scratches, Stroke, Studio, Surface,
 };
 use crate::error::Error;
 use crate::scene::{Anisotropy, Coat, Specular};
+use crate::schema::{camera, environment, material, object, render, scratches, stroke};
 
 /// Reads a whole scene file.
 pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
@@ -46,8 +46,8 @@ pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
         notes: Vec::new(),
     };
     // A lens sees by the picture's shape.
-    if let Some(camera) = table.get("camera") {
-        let camera = Table::read(camera, "camera", &CAMERA_KEYS)?;
+    if let Some(value) = table.get("camera") {
+        let camera = Table::of(&camera::CAMERA, value, "camera")?;
         if let Some(fov_y_deg) = lens::fov_y_deg(&camera, description.render.size_px)? {
             description.camera.fov_y_deg = fov_y_deg;
         }
@@ -72,46 +72,33 @@ pub(super) fn keys_without_effect(
     gather.map(|_| ("render.gather", why)).into_iter()
 }
 
-const CAMERA_KEYS: [&str; 13] = [
-    "of_file",
-    "position_m",
-    "target_m",
-    "up",
-    "fov_y_deg",
-    "exposure_ev",
-    lens::KEYS[0],
-    lens::KEYS[1],
-    lens::KEYS[2],
-    "aperture_mm",
-    "focus_distance_m",
-    "shift",
-    "world_up",
-];
-
 impl Read for Camera {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::read(value, key, &CAMERA_KEYS)?;
-        let of_file: Option<String> = table.optional("of_file")?;
+        let table = Table::of(&camera::CAMERA, value, key)?;
+        let of_file: Option<String> = table.value(&camera::OF_FILE)?;
         // Until the file is read, anywhere.
         let [position_m, target_m] = match of_file {
             Some(_) => [
-                table.or("position_m", [0.0; 3])?,
-                table.or("target_m", [1.0; 3])?,
+                table.or(camera::POSITION_M.name, [0.0; 3])?,
+                table.or(camera::TARGET_M.name, [1.0; 3])?,
             ],
-            None => [table.required("position_m")?, table.required("target_m")?],
+            None => [
+                table.value(&camera::POSITION_M)?,
+                table.value(&camera::TARGET_M)?,
+            ],
         };
         Ok(Self {
             of_file,
             position_m,
             target_m,
-            up: table.or("up", [0.0, 1.0, 0.0])?,
-            fov_y_deg: table.or("fov_y_deg", 30.0)?,
-            exposure_ev: table.or("exposure_ev", 0.0)?,
-            sensor_width_mm: table.optional("sensor_width_mm")?,
+            up: table.value(&camera::UP)?,
+            fov_y_deg: table.value(&camera::FOV_Y_DEG)?,
+            exposure_ev: table.value(&camera::EXPOSURE_EV)?,
+            sensor_width_mm: table.value(&camera::SENSOR_WIDTH_MM)?,
             aperture_mm: lens::aperture_mm(&table)?,
             focus_distance_m: lens::focus_distance_m(&table)?,
-            shift: table.optional("shift")?,
-            world_up: table.optional("world_up")?,
+            shift: table.value(&camera::SHIFT)?,
+            world_up: table.value(&camera::WORLD_UP)?,
         })
     }
 }
@@ -119,86 +106,58 @@ impl Read for Camera {
 impl Read for Render {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         // `gather` was a key of earlier versions: see `keys_without_effect`.
-        let keys = ["size_px", "filter_std_px", "tone_map", "gather"];
-        let table = Table::read(value, key, &keys)?;
-        let default = Self::default();
+        let known = [&render::SIZE_PX, &render::FILTER_STD_PX, &render::TONE_MAP];
+        let known = [&known.map(|key| key.name)[..], &["gather"]].concat();
+        let table = Table::read(value, key, &known)?;
         Ok(Self {
-            size_px: table.or("size_px", default.size_px)?,
-            filter_std_px: table.or("filter_std_px", default.filter_std_px)?,
-            tone_map: table.or("tone_map", default.tone_map)?,
+            size_px: table.value(&render::SIZE_PX)?,
+            filter_std_px: table.value(&render::FILTER_STD_PX)?,
+            tone_map: table.value(&render::TONE_MAP)?,
         })
     }
 }
 
 impl Read for Environment {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::read(
-            value,
-            key,
-            &["file", "builtin", "rotation_deg", "intensity", "visible"],
-        )?;
+        let table = Table::of(&environment::ENVIRONMENT, value, key)?;
         Ok(Self {
             map: match table.either("file", "builtin")? {
                 "file" => Map::File(table.required("file")?),
                 _ => Map::BuiltIn(table.required("builtin")?),
             },
-            rotation_deg: table.or("rotation_deg", 0.0)?,
-            intensity: table.or("intensity", 1.0)?,
-            visible: table.or("visible", true)?,
+            rotation_deg: table.value(&environment::ROTATION_DEG)?,
+            intensity: table.value(&environment::INTENSITY)?,
+            visible: table.value(&environment::VISIBLE)?,
         })
     }
 }
 
 impl Read for Material {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        const SHARED: [&str; 8] = [
-            "name",
-            "kind",
-            "roughness",
-            "coherence_um",
-            "clearcoat",
-            "clearcoat_roughness",
-            "anisotropy",
-            "anisotropy_direction_deg",
-        ];
-        let (kind, table) = Table::read_kind(
-            value,
-            key,
-            "kind",
-            &SHARED,
-            &[
-                ("metal", &["metal", "base_color"]),
-                ("dielectric", &["ior", "base_color"]),
-                (
-                    "metallic-roughness",
-                    &["base_color", "metallic", "specular", "specular_color"],
-                ),
-                ("mirror", &[]),
-            ],
-        )?;
+        let (kind, table) = Table::of_kind(&material::MATERIAL, value, key)?;
         let kind = match kind {
             "metal" => MaterialKind::Metal(match table.either("metal", "base_color")? {
                 "metal" => MetalColor::Measured(table.required("metal")?),
                 _ => MetalColor::Color(table.required("base_color")?),
             }),
             "dielectric" => MaterialKind::Dielectric {
-                ior: table.or("ior", 1.5)?,
-                base_color: table.or("base_color", [0.5; 3])?,
+                ior: table.value(&material::IOR)?,
+                base_color: table.value(&material::BODY_COLOR)?,
             },
             "metallic-roughness" => MaterialKind::MetallicRoughness {
-                base_color: table.or("base_color", [1.0; 3])?,
-                metallic: table.or("metallic", 1.0)?,
+                base_color: table.value(&material::BASE_COLOR)?,
+                metallic: table.value(&material::METALLIC)?,
                 specular: Specular {
-                    weight: table.or("specular", 1.0)?,
-                    color: table.or("specular_color", [1.0; 3])?,
+                    weight: table.value(&material::SPECULAR)?,
+                    color: table.value(&material::SPECULAR_COLOR)?,
                 },
             },
             _ => MaterialKind::Mirror,
         };
-        let coat = match table.optional("clearcoat")? {
+        let coat = match table.value(&material::CLEARCOAT)? {
             Some(weight) => Some(Coat {
                 weight,
-                roughness: table.or("clearcoat_roughness", 0.0)?,
+                roughness: table.value(&material::CLEARCOAT_ROUGHNESS)?,
             }),
             None if table.has("clearcoat_roughness") => {
                 return Err(Error::new(
@@ -209,10 +168,10 @@ impl Read for Material {
             }
             None => None,
         };
-        let anisotropy = match table.optional("anisotropy")? {
+        let anisotropy = match table.value(&material::ANISOTROPY)? {
             Some(strength) => Some(Anisotropy {
                 strength,
-                direction_deg: table.or("anisotropy_direction_deg", 0.0)?,
+                direction_deg: table.value(&material::ANISOTROPY_DIRECTION_DEG)?,
             }),
             None if table.has("anisotropy_direction_deg") => {
                 return Err(Error::new(
@@ -226,36 +185,18 @@ impl Read for Material {
         Ok(Self {
             coat,
             anisotropy,
-            name: table.required("name")?,
+            name: table.value(&material::NAME)?,
             kind,
-            roughness: table.or("roughness", 0.1)?,
-            coherence_um: table.or("coherence_um", super::DEFAULT_COHERENCE_UM)?,
+            roughness: table.value(&material::ROUGHNESS)?,
+            coherence_um: table.value(&material::COHERENCE_UM)?,
         })
     }
 }
 
 impl Read for Object {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::read(
-            value,
-            key,
-            &[
-                "name",
-                "shape",
-                "mesh",
-                "material",
-                "up",
-                "fit_m",
-                "time_s",
-                "animation",
-                "overrides",
-                "translation_m",
-                "rotation_deg",
-                "scale",
-                "hidden",
-            ],
-        )?;
-        let name = table.required("name")?;
+        let table = Table::of(&object::OBJECT, value, key)?;
+        let name = table.value(&object::NAME)?;
         let surface = match table.either("shape", "mesh")? {
             "shape" => Surface::Shape(table.required("shape")?),
             _ => Surface::Mesh(table.required("mesh")?),
@@ -275,16 +216,16 @@ impl Read for Object {
         Ok(Self {
             name,
             surface,
-            material: table.optional("material")?,
-            up: table.or("up", Up::default())?,
-            fit_m: table.optional("fit_m")?,
-            time_s: table.optional("time_s")?,
-            animation: table.optional("animation")?,
-            overrides: table.or("overrides", Vec::new())?,
-            translation_m: table.or("translation_m", [0.0; 3])?,
-            rotation_deg: table.or("rotation_deg", [0.0; 3])?,
+            material: table.value(&object::MATERIAL)?,
+            up: table.value(&object::UP)?,
+            fit_m: table.value(&object::FIT_M)?,
+            time_s: table.value(&object::TIME_S)?,
+            animation: table.value(&object::ANIMATION)?,
+            overrides: table.value(&object::OVERRIDES)?,
+            translation_m: table.value(&object::TRANSLATION_M)?,
+            rotation_deg: table.value(&object::ROTATION_DEG)?,
             scale,
-            hidden: table.or("hidden", false)?,
+            hidden: table.value(&object::HIDDEN)?,
         })
     }
 }
@@ -303,86 +244,69 @@ impl Read for ScaleFactors {
 
 impl Read for Scratches {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        const AROUND: [&str; 3] = ["axis", "center_m", "jitter_deg"];
-        const AMOUNTS: [&str; 2] = ["count", "density_per_m2"];
-        let with = |own: &[&'static str]| [&AMOUNTS[..], &["seed"], &sizes::KEYS, own].concat();
-        let (pattern, table) = Table::read_kind(
-            value,
-            key,
-            "pattern",
-            &[
-                "object", "material", "node", "where", "pattern", "name", "hidden", "solo",
-                "strokes",
-            ],
-            &[
-                ("random", &with(&["curvature_per_m"])),
-                ("parallel", &with(&["direction", "jitter_deg"])),
-                ("circular", &with(&AROUND)),
-                ("radial", &with(&AROUND)),
-                ("spun", &with(&[&AROUND[..], &["curvature_per_m"]].concat())),
-                ("swirl", &with(&["curvature_per_m"])),
-                (
-                    "drawn",
-                    &[&sizes::KEYS[..], &["seed", "jitter_deg"]].concat(),
-                ),
-                ("file", &["file"]),
-            ],
-        )?;
+        let (pattern, table) = Table::of_kind(&scratches::SCRATCHES, value, key)?;
         Ok(Self {
-            object: table.required("object")?,
-            material: table.optional("material")?,
-            node: table.optional("node")?,
-            place: table.or("where", LayerPlaces::default())?,
-            name: table.optional("name")?,
-            hidden: table.or("hidden", false)?,
-            solo: table.or("solo", false)?,
+            object: table.value(&scratches::OBJECT)?,
+            material: table.value(&scratches::MATERIAL)?,
+            node: table.value(&scratches::NODE)?,
+            place: table.or(scratches::WHERE.name, LayerPlaces::default())?,
+            name: table.value(&scratches::NAME)?,
+            hidden: table.value(&scratches::HIDDEN)?,
+            solo: table.value(&scratches::SOLO)?,
             layer: layer(pattern, &table)?,
-            strokes: table.or("strokes", Vec::new())?,
+            strokes: table.value(&scratches::STROKES)?,
         })
     }
 }
 
 /// The axis that a pattern turns about.
 pub(super) fn around(table: &Table) -> Result<Around, Error> {
-    let default = Around::default();
     Ok(Around {
-        axis: table.or("axis", default.axis)?,
-        center_m: table.or("center_m", default.center_m)?,
-        jitter_deg: table.or("jitter_deg", default.jitter_deg)?,
+        axis: table.value(&scratches::AXIS)?,
+        center_m: table.value(&scratches::CENTER_M)?,
+        jitter_deg: table.value(&scratches::JITTER_DEG)?,
     })
+}
+
+/// Lengths, widths and depths.
+fn sizes(table: &Table) -> Result<[Distribution; 3], Error> {
+    Ok([
+        table.value(&scratches::LENGTH_M)?,
+        table.value(&scratches::WIDTH_UM)?,
+        table.value(&scratches::DEPTH_NM)?,
+    ])
 }
 
 /// Reads the keys of a `[[scratches]]` that belong to its pattern.
 fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
     if pattern == "file" {
-        let file = table.required("file")?;
+        let file = table.required(scratches::FILE.name)?;
         return Ok(Layer::Listed(Listed { file }));
     }
-    let seed = table.or("seed", super::DEFAULT_SEED)?;
-    let sizes = sizes::read(table)?;
+    let seed = table.value(&scratches::SEED)?;
+    let sizes = sizes(table)?;
     let around = || around(table);
-    let curvature_per_m = |mean, spread| table.or("curvature_per_m", Distribution { mean, spread });
     let pattern = match pattern {
         "random" => Pattern::Random {
-            curvature_per_m: curvature_per_m(0.0, 0.0)?,
+            curvature_per_m: table.value(&scratches::BEND_PER_M)?,
         },
         "parallel" => Pattern::Parallel {
-            direction: table.or("direction", [1.0, 0.0, 0.0])?,
-            jitter_deg: table.or("jitter_deg", 0.0)?,
+            direction: table.value(&scratches::DIRECTION)?,
+            jitter_deg: table.value(&scratches::JITTER_DEG)?,
         },
         "circular" => Pattern::Circular(around()?),
         "radial" => Pattern::Radial(around()?),
         "spun" => Pattern::Spun {
             around: around()?,
-            curvature_per_m: curvature_per_m(20.0, 0.0)?,
+            curvature_per_m: table.value(&scratches::TOOL_PER_M)?,
         },
         "swirl" => Pattern::Swirl {
-            curvature_per_m: curvature_per_m(25.0, 8.0)?,
+            curvature_per_m: table.value(&scratches::SWIRL_PER_M)?,
         },
         _ => {
             return Ok(Layer::Brushed(Brushed {
                 seed,
-                ..Brushed::new(table.or("jitter_deg", 0.0)?, sizes)
+                ..Brushed::new(table.value(&scratches::JITTER_DEG)?, sizes)
             }));
         }
     };
@@ -399,9 +323,8 @@ fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
 impl Read for Stroke {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         const PAINT: [&str; 3] = ["density_per_m", "width", "depth"];
-        let known = [&["points_m", "radius_m", "erase"][..], &PAINT[..]].concat();
-        let table = Table::read(value, key, &known)?;
-        let brush = match table.or("erase", false)? {
+        let table = Table::of(&stroke::STROKES, value, key)?;
+        let brush = match table.value(&stroke::ERASE)? {
             true => {
                 if let Some(extra) = PAINT.into_iter().find(|name| table.get(name).is_some()) {
                     return Err(Error::new(
@@ -421,13 +344,13 @@ impl Read for Stroke {
             }
             false => Brush::Paint {
                 density_per_m: table.required("density_per_m")?,
-                width: table.or("width", 1.0)?,
-                depth: table.or("depth", 1.0)?,
+                width: table.value(&stroke::WIDTH)?,
+                depth: table.value(&stroke::DEPTH)?,
             },
         };
         Ok(Self {
-            points_m: table.required("points_m")?,
-            radius_m: table.required("radius_m")?,
+            points_m: table.value(&stroke::POINTS_M)?,
+            radius_m: table.value(&stroke::RADIUS_M)?,
             brush,
         })
     }

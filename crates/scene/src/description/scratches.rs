@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde::{Serialize, Serializer};
 
 use super::place::LayerPlaces;
+use crate::schema::scratches;
 
 /// `[[scratches]]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -114,11 +115,11 @@ pub struct Brushed {
 impl Default for Brushed {
     fn default() -> Self {
         Self {
-            jitter_deg: 0.0,
-            seed: DEFAULT_SEED,
-            length_m: DEFAULT_LENGTH_M,
-            width_um: DEFAULT_WIDTH_UM,
-            depth_nm: DEFAULT_DEPTH_NM,
+            jitter_deg: scratches::JITTER_DEG.initial(),
+            seed: scratches::SEED.initial(),
+            length_m: scratches::LENGTH_M.initial(),
+            width_um: scratches::WIDTH_UM.initial(),
+            depth_nm: scratches::DEPTH_NM.initial(),
         }
     }
 }
@@ -286,9 +287,9 @@ pub struct Around {
 impl Default for Around {
     fn default() -> Self {
         Self {
-            axis: [0.0, 0.0, 1.0],
-            center_m: [0.0; 3],
-            jitter_deg: 0.0,
+            axis: scratches::AXIS.initial(),
+            center_m: scratches::CENTER_M.initial(),
+            jitter_deg: scratches::JITTER_DEG.initial(),
         }
     }
 }
@@ -304,24 +305,6 @@ pub struct Distribution {
     /// Spread of the values, not negative.
     pub spread: f64,
 }
-
-/// Default seed of layers that draw random numbers.
-pub(crate) const DEFAULT_SEED: u64 = 1;
-/// Lengths where a layer does not say them.
-pub(crate) const DEFAULT_LENGTH_M: Distribution = Distribution {
-    mean: 0.02,
-    spread: 0.5,
-};
-/// Widths where a layer does not say them.
-pub(crate) const DEFAULT_WIDTH_UM: Distribution = Distribution {
-    mean: 1.5,
-    spread: 0.3,
-};
-/// Depths where a layer does not say them.
-pub(crate) const DEFAULT_DEPTH_NM: Distribution = Distribution {
-    mean: 200.0,
-    spread: 0.2,
-};
 
 impl Serialize for Distribution {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -343,7 +326,7 @@ impl Laid {
         Self {
             pattern,
             amount,
-            seed: DEFAULT_SEED,
+            seed: scratches::SEED.initial(),
             length_m,
             width_um,
             depth_nm,

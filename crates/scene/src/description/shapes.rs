@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::limits;
-use super::ranges::{Check, found, size, within, written};
+use super::ranges::{Check, found, written};
 use super::table::{Read, Table, Value};
 use crate::error::Error;
+use crate::schema::{Bounds, Key, shape};
 use crate::shape::text;
 
 /// A built-in shape about the origin, z up.
@@ -107,108 +107,119 @@ impl Shape {
 
     /// Refuses values out of range; `key` is the way to `shape`.
     pub(super) fn check_at(&self, key: &str) -> Check {
-        let way = |name: &str| format!("{key}.{}.{name}", self.kind());
-        let sized = |name: &str, value: f64| size(&way(name), value);
-        let edges = |edges: &[f64]| {
-            edges
-                .iter()
-                .enumerate()
-                .try_for_each(|(i, &edge)| sized(&format!("size_m[{i}]"), edge))
-        };
-        let rounding = |value: f64, most: f64, what: &str| {
-            let key = way("rounding_m");
-            within(&key, value, limits::ROUNDING_M)?;
-            at_most(&key, value, most, what)
+        let table = format!("{key}.{}", self.kind());
+        let way = |key: &Key| format!("{table}.{}", key.name);
+        let rounding = |key: &Key, value: f64, most: f64, what: &str| {
+            key.check(&table, &value)?;
+            at_most(&way(key), value, most, what)
         };
         match self {
-            Self::Plane { size_m } => edges(size_m),
-            Self::Disk { radius_m } | Self::Sphere { radius_m } => sized("radius_m", *radius_m),
+            Self::Plane { size_m } => shape::PLANE_SIZE_M.check(&table, size_m),
+            Self::Disk { radius_m } | Self::Sphere { radius_m } => {
+                shape::RADIUS_M.check(&table, radius_m)
+            }
             Self::Box { size_m, rounding_m } => {
-                edges(size_m)?;
+                shape::BOX_SIZE_M.check(&table, size_m)?;
                 let shortest = size_m.iter().copied().fold(f64::INFINITY, f64::min);
-                rounding(*rounding_m, 0.5 * shortest, "half of the shortest edge")
+                let what = "half of the shortest edge";
+                rounding(&shape::BOX_ROUNDING_M, *rounding_m, 0.5 * shortest, what)
             }
             Self::Cylinder {
                 radius_m,
                 height_m,
                 rounding_m,
             } => {
-                sized("radius_m", *radius_m)?;
-                sized("height_m", *height_m)?;
+                shape::RADIUS_M.check(&table, radius_m)?;
+                shape::HEIGHT_M.check(&table, height_m)?;
                 let most = radius_m.min(0.5 * height_m);
-                rounding(*rounding_m, most, "the radius and half of the height")
+                let what = "the radius and half of the height";
+                rounding(&shape::CYLINDER_ROUNDING_M, *rounding_m, most, what)
             }
             Self::Torus {
                 radius_m,
                 tube_radius_m,
             } => {
-                sized("radius_m", *radius_m)?;
-                sized("tube_radius_m", *tube_radius_m)?;
+                shape::RING_RADIUS_M.check(&table, radius_m)?;
+                shape::TUBE_RADIUS_M.check(&table, tube_radius_m)?;
                 match tube_radius_m < radius_m {
                     true => Ok(()),
                     false => Err(Error::new(
-                        way("tube_radius_m"),
+                        way(&shape::TUBE_RADIUS_M),
                         found(*tube_radius_m),
                         format!("must be below `radius_m`, {}", written(*radius_m)),
                     )),
                 }
             }
             Self::Dome { radius_m, height_m } => {
-                sized("radius_m", *radius_m)?;
-                sized("height_m", *height_m)?;
-                at_most(&way("height_m"), *height_m, *radius_m, "`radius_m`")
+                shape::RADIUS_M.check(&table, radius_m)?;
+                shape::DOME_HEIGHT_M.check(&table, height_m)?;
+                at_most(
+                    &way(&shape::DOME_HEIGHT_M),
+                    *height_m,
+                    *radius_m,
+                    "`radius_m`",
+                )
             }
             Self::Sweep {
                 size_m,
                 height_m,
                 rounding_m,
             } => {
-                edges(size_m)?;
-                sized("height_m", *height_m)?;
+                shape::PLANE_SIZE_M.check(&table, size_m)?;
+                shape::HEIGHT_M.check(&table, height_m)?;
                 let most = height_m.min(size_m[1]);
-                rounding(*rounding_m, most, "`height_m` and the extent along y")
+                let what = "`height_m` and the extent along y";
+                rounding(&shape::SWEEP_ROUNDING_M, *rounding_m, most, what)
             }
             Self::Text {
                 line,
                 height_m,
                 depth_m,
             } => {
-                let key = way("line");
                 let count = line.chars().count();
-                if line.trim().is_empty() || count > limits::TEXT_MOST {
+                if line.trim().is_empty() || count > CHARACTERS_MOST {
                     let found = format!("found {count} characters");
-                    let right = format!("must be 1 to {}, not blank", limits::TEXT_MOST);
-                    return Err(Error::new(key, found, right));
+                    let right = format!("must be 1 to {CHARACTERS_MOST}, not blank");
+                    return Err(Error::new(way(&shape::LINE), found, right));
                 }
                 let missing = text::missing(line);
                 if !missing.is_empty() {
                     let found = format!("found {missing:?}");
                     let right = "must be characters of the font, Ubuntu Light, in one line";
-                    return Err(Error::new(key, found, right));
+                    return Err(Error::new(way(&shape::LINE), found, right));
                 }
-                sized("height_m", *height_m)?;
-                sized("depth_m", *depth_m)
+                shape::CAPITALS_M.check(&table, height_m)?;
+                shape::DEPTH_M.check(&table, depth_m)
             }
             Self::Lathe {
                 profile_m,
                 segments,
                 ..
             } => {
-                within(&way("segments"), (*segments).into(), limits::LATHE_SEGMENTS)?;
-                let profile = way("profile_m");
+                shape::SEGMENTS.check(&table, &f64::from(*segments))?;
+                let profile = way(&shape::PROFILE_M);
                 if profile_m.len() < 2 {
                     let found = format!("found {} points", profile_m.len());
                     return Err(Error::new(profile, found, "must be at least two"));
                 }
+                let heights = shape::PROFILE_M
+                    .second
+                    .as_ref()
+                    .map_or(Bounds::Any, |it| it.bounds);
                 for (i, [r, z]) in profile_m.iter().enumerate() {
-                    within(&format!("{profile}[{i}][0]"), *r, limits::PROFILE_RADIUS_M)?;
-                    within(&format!("{profile}[{i}][1]"), *z, limits::COORDINATE_M)?;
+                    shape::PROFILE_M
+                        .bounds
+                        .check(&format!("{profile}[{i}][0]"), *r)?;
+                    heights.check(&format!("{profile}[{i}][1]"), *z)?;
                 }
                 Ok(())
             }
         }
     }
 }
+
+/// Characters of a text.
+const CHARACTERS_MOST: usize = 200;
 
 fn at_most(key: &str, value: f64, most: f64, what: &str) -> Check {
     match value <= most {
@@ -223,85 +234,63 @@ fn at_most(key: &str, value: f64, most: f64, what: &str) -> Check {
 
 impl Read for Shape {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        const KINDS: [&str; 10] = [
-            "plane", "disk", "sphere", "box", "cylinder", "torus", "dome", "sweep", "text", "lathe",
-        ];
-        let outer = Table::read(value, key, &KINDS)?;
-        let mut present = KINDS.iter().filter(|kind| outer.get(kind).is_some());
-        let (Some(kind), None) = (present.next(), present.next()) else {
+        let kinds: Vec<&str> = shape::SHAPE.choices.iter().map(|it| it.name).collect();
+        let outer = Table::read(value, key, &kinds)?;
+        let mut present = shape::SHAPE.choices.iter().filter(|it| outer.has(it.name));
+        let (Some(choice), None) = (present.next(), present.next()) else {
             let found = format!("found {} shapes", outer.entries.len());
             let right = "must be one, such as `{ disk = { radius_m = 0.1 } }`";
             return Err(Error::new(key, found, right));
         };
-        let inner = |keys| {
-            let value = outer.get(kind).expect("the kind was found just now");
-            Table::read(value, &outer.way(kind), keys)
-        };
-        Ok(match *kind {
+        let value = outer.get(choice.name).expect("the kind was found just now");
+        let table = Table::of_choice(choice, value, &outer.way(choice.name))?;
+        Ok(match choice.name {
             "plane" => Self::Plane {
-                size_m: inner(&["size_m"])?.required("size_m")?,
+                size_m: table.value(&shape::PLANE_SIZE_M)?,
             },
             "disk" => Self::Disk {
-                radius_m: inner(&["radius_m"])?.required("radius_m")?,
+                radius_m: table.value(&shape::RADIUS_M)?,
             },
             "sphere" => Self::Sphere {
-                radius_m: inner(&["radius_m"])?.required("radius_m")?,
+                radius_m: table.value(&shape::RADIUS_M)?,
             },
-            "box" => {
-                let table = inner(&["size_m", "rounding_m"])?;
-                Self::Box {
-                    size_m: table.required("size_m")?,
-                    rounding_m: table.or("rounding_m", 0.0)?,
-                }
-            }
-            "cylinder" => {
-                let table = inner(&["radius_m", "height_m", "rounding_m"])?;
-                Self::Cylinder {
-                    radius_m: table.required("radius_m")?,
-                    height_m: table.required("height_m")?,
-                    rounding_m: table.or("rounding_m", 0.0)?,
-                }
-            }
-            "torus" => {
-                let table = inner(&["radius_m", "tube_radius_m"])?;
-                Self::Torus {
-                    radius_m: table.required("radius_m")?,
-                    tube_radius_m: table.required("tube_radius_m")?,
-                }
-            }
-            "dome" => {
-                let table = inner(&["radius_m", "height_m"])?;
-                Self::Dome {
-                    radius_m: table.required("radius_m")?,
-                    height_m: table.required("height_m")?,
-                }
-            }
+            "box" => Self::Box {
+                size_m: table.value(&shape::BOX_SIZE_M)?,
+                rounding_m: table.value(&shape::BOX_ROUNDING_M)?,
+            },
+            "cylinder" => Self::Cylinder {
+                radius_m: table.value(&shape::RADIUS_M)?,
+                height_m: table.value(&shape::HEIGHT_M)?,
+                rounding_m: table.value(&shape::CYLINDER_ROUNDING_M)?,
+            },
+            "torus" => Self::Torus {
+                radius_m: table.value(&shape::RING_RADIUS_M)?,
+                tube_radius_m: table.value(&shape::TUBE_RADIUS_M)?,
+            },
+            "dome" => Self::Dome {
+                radius_m: table.value(&shape::RADIUS_M)?,
+                height_m: table.value(&shape::DOME_HEIGHT_M)?,
+            },
             "sweep" => {
-                let table = inner(&["size_m", "height_m", "rounding_m"])?;
-                let size_m: [f64; 2] = table.required("size_m")?;
-                let height_m: f64 = table.required("height_m")?;
+                let size_m: [f64; 2] = table.value(&shape::PLANE_SIZE_M)?;
+                let height_m: f64 = table.value(&shape::HEIGHT_M)?;
+                let half = 0.5 * height_m.min(size_m[1]);
                 Self::Sweep {
                     size_m,
                     height_m,
-                    rounding_m: table.or("rounding_m", 0.5 * height_m.min(size_m[1]))?,
+                    rounding_m: table.or(shape::SWEEP_ROUNDING_M.name, half)?,
                 }
             }
-            "text" => {
-                let table = inner(&["line", "height_m", "depth_m"])?;
-                Self::Text {
-                    line: table.required("line")?,
-                    height_m: table.required("height_m")?,
-                    depth_m: table.required("depth_m")?,
-                }
-            }
-            _ => {
-                let table = inner(&["profile_m", "segments", "smooth"])?;
-                Self::Lathe {
-                    profile_m: table.required("profile_m")?,
-                    segments: table.or("segments", 256)?,
-                    smooth: table.or("smooth", true)?,
-                }
-            }
+            "text" => Self::Text {
+                line: table.value(&shape::LINE)?,
+                height_m: table.value(&shape::CAPITALS_M)?,
+                depth_m: table.value(&shape::DEPTH_M)?,
+            },
+            _ => Self::Lathe {
+                profile_m: table.required(shape::PROFILE_M.name)?,
+                segments: table.value(&shape::SEGMENTS)?,
+                smooth: table.value(&shape::SMOOTH)?,
+            },
         })
     }
 }

@@ -2,11 +2,12 @@
 
 use serde::Serialize;
 
-use super::ranges::{Check, components, finite, not_negative, within};
+use super::Description;
+use super::ranges::Check;
 use super::table::{Read, Table, Value};
 use super::values::{is_false, is_zero};
-use super::{Description, limits};
 use crate::error::Error;
+use crate::schema::{ground, studio};
 
 /// `[studio]`: soft boxes, a lamp and a dim room about the camera's subject. Scene files without `[[light]]` and `[environment]` have one
 /// that they do not name, with a ground.
@@ -27,8 +28,8 @@ impl Default for Studio {
     fn default() -> Self {
         Self {
             hidden: false,
-            intensity: 1.0,
-            rotation_deg: 0.0,
+            intensity: studio::INTENSITY.initial(),
+            rotation_deg: studio::ROTATION_DEG.initial(),
         }
     }
 }
@@ -46,8 +47,8 @@ impl Studio {
     }
 
     pub(super) fn check(&self) -> Check {
-        not_negative("studio.intensity", self.intensity)?;
-        finite("studio.rotation_deg", self.rotation_deg)
+        studio::INTENSITY.check("studio", &self.intensity)?;
+        studio::ROTATION_DEG.check("studio", &self.rotation_deg)
     }
 }
 
@@ -68,15 +69,12 @@ pub struct Ground {
     pub height_m: Option<f64>,
 }
 
-const DARK_GREY: [f64; 3] = [0.1, 0.1, 0.105];
-const SATIN: f64 = 0.55;
-
 impl Default for Ground {
     fn default() -> Self {
         Self {
             hidden: false,
-            color: DARK_GREY,
-            roughness: SATIN,
+            color: ground::COLOR.initial(),
+            roughness: ground::ROUGHNESS.initial(),
             height_m: None,
         }
     }
@@ -84,12 +82,9 @@ impl Default for Ground {
 
 impl Ground {
     pub(super) fn check(&self) -> Check {
-        components("ground.color", self.color, limits::BASE_COLOR)?;
-        within("ground.roughness", self.roughness, limits::ROUGHNESS)?;
-        match self.height_m {
-            Some(height_m) => within("ground.height_m", height_m, limits::COORDINATE_M),
-            None => Ok(()),
-        }
+        ground::COLOR.check("ground", &self.color)?;
+        ground::ROUGHNESS.check("ground", &self.roughness)?;
+        ground::HEIGHT_M.check("ground", &self.height_m)
     }
 }
 
@@ -100,39 +95,37 @@ impl Description {
     }
 }
 
-fn is_one(value: &f64) -> bool {
-    *value == 1.0
+fn is_one(intensity: &f64) -> bool {
+    *intensity == studio::INTENSITY.initial::<f64>()
 }
 
 fn is_dark_grey(color: &[f64; 3]) -> bool {
-    *color == DARK_GREY
+    *color == ground::COLOR.initial::<[f64; 3]>()
 }
 
 fn is_satin(roughness: &f64) -> bool {
-    *roughness == SATIN
+    *roughness == ground::ROUGHNESS.initial::<f64>()
 }
 
 impl Read for Studio {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::read(value, key, &["hidden", "intensity", "rotation_deg"])?;
-        let default = Self::default();
+        let table = Table::of(&studio::STUDIO, value, key)?;
         Ok(Self {
-            hidden: table.or("hidden", default.hidden)?,
-            intensity: table.or("intensity", default.intensity)?,
-            rotation_deg: table.or("rotation_deg", default.rotation_deg)?,
+            hidden: table.value(&studio::HIDDEN)?,
+            intensity: table.value(&studio::INTENSITY)?,
+            rotation_deg: table.value(&studio::ROTATION_DEG)?,
         })
     }
 }
 
 impl Read for Ground {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::read(value, key, &["hidden", "color", "roughness", "height_m"])?;
-        let default = Self::default();
+        let table = Table::of(&ground::GROUND, value, key)?;
         Ok(Self {
-            hidden: table.or("hidden", default.hidden)?,
-            color: table.or("color", default.color)?,
-            roughness: table.or("roughness", default.roughness)?,
-            height_m: table.optional("height_m")?,
+            hidden: table.value(&ground::HIDDEN)?,
+            color: table.value(&ground::COLOR)?,
+            roughness: table.value(&ground::ROUGHNESS)?,
+            height_m: table.value(&ground::HEIGHT_M)?,
         })
     }
 }

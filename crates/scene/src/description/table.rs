@@ -6,8 +6,10 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::hint;
+use super::scratches::Distribution;
 use super::values::Named;
 use crate::error::Error;
+use crate::schema::{Choice, Initial, Key, Section};
 use crate::text::shown;
 
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
@@ -16,6 +18,22 @@ pub(super) type Value<'a> = Spanned<DeValue<'a>>;
 pub(super) trait Read: Sized {
     /// `key` is the way to the value, for errors.
     fn read(value: &Value, key: &str) -> Result<Self, Error>;
+}
+
+/// A value of a key that a file may leave out.
+pub(super) trait Held: Read {
+    /// The value where a file leaves the key out; none where it needs the key.
+    fn initial(initial: Initial) -> Option<Self>;
+}
+
+impl Key {
+    /// The value where a file leaves the key out.
+    ///
+    /// # Panics
+    /// Where the schema has none of this type: that is seen in the first test that asks.
+    pub(super) fn initial<T: Held>(&self) -> T {
+        T::initial(self.initial).unwrap_or_else(|| panic!("{} has no initial value", self.name))
+    }
 }
 
 /// A table all of whose keys are known.
@@ -51,6 +69,39 @@ impl<'a> Table<'a> {
             DeValue::Table(entries) => Self::open(entries, key, known),
             _ => Err(wrong_type(value, key, "a table")),
         }
+    }
+
+    /// Opens a table whose keys are those of a section without kinds.
+    pub(super) fn of(section: &Section, value: &'a Value<'a>, key: &str) -> Result<Self, Error> {
+        Self::read(value, key, &names(section.keys))
+    }
+
+    /// Opens the table of a kind that has one of its own.
+    pub(super) fn of_choice(
+        choice: &Choice,
+        value: &'a Value<'a>,
+        key: &str,
+    ) -> Result<Self, Error> {
+        Self::read(value, key, &names(choice.keys))
+    }
+
+    /// Opens a table whose keys are those of a section and of its kind, and returns the kind.
+    pub(super) fn of_kind(
+        section: &'static Section,
+        value: &'a Value<'a>,
+        key: &str,
+    ) -> Result<(&'static str, Self), Error> {
+        let kinds: Vec<_> = section
+            .choices
+            .iter()
+            .map(|it| (it.name, names(it.keys)))
+            .collect();
+        let kinds: Vec<_> = kinds
+            .iter()
+            .map(|(name, keys)| (*name, &keys[..]))
+            .collect();
+        let shared = [&[section.tag], &names(section.keys)[..]].concat();
+        Self::read_kind(value, key, section.tag, &shared, &kinds)
     }
 
     /// Reads a table in which the value of `tag` decides which keys are allowed besides the `shared` ones.
@@ -136,6 +187,14 @@ impl<'a> Table<'a> {
         })
     }
 
+    /// The value of a key, or its initial one.
+    pub(super) fn value<T: Held>(&self, key: &Key) -> Result<T, Error> {
+        match (self.optional(key.name)?, T::initial(key.initial)) {
+            (Some(value), _) | (None, Some(value)) => Ok(value),
+            (None, None) => self.required(key.name),
+        }
+    }
+
     /// Returns the one of two exclusive keys that is there.
     pub(super) fn either(&self, a: &'static str, b: &'static str) -> Result<&'static str, Error> {
         match (self.get(a), self.get(b)) {
@@ -153,6 +212,103 @@ impl<'a> Table<'a> {
                 ))
             }
         }
+    }
+}
+
+fn names(keys: &[&'static Key]) -> Vec<&'static str> {
+    keys.iter().map(|key| key.name).collect()
+}
+
+impl Held for f64 {
+    fn initial(initial: Initial) -> Option<Self> {
+        match initial {
+            Initial::Number(number) => Some(number),
+            _ => None,
+        }
+    }
+}
+
+impl Held for u64 {
+    fn initial(initial: Initial) -> Option<Self> {
+        f64::initial(initial).map(|number| number as Self)
+    }
+}
+
+impl Held for u32 {
+    fn initial(initial: Initial) -> Option<Self> {
+        f64::initial(initial).map(|number| number as Self)
+    }
+}
+
+impl Held for bool {
+    fn initial(initial: Initial) -> Option<Self> {
+        match initial {
+            Initial::Flag(flag) => Some(flag),
+            _ => None,
+        }
+    }
+}
+
+impl<const N: usize> Held for [f64; N] {
+    fn initial(initial: Initial) -> Option<Self> {
+        match initial {
+            Initial::Numbers(numbers) => numbers.try_into().ok(),
+            _ => None,
+        }
+    }
+}
+
+impl<const N: usize> Held for [u32; N] {
+    fn initial(initial: Initial) -> Option<Self> {
+        <[f64; N]>::initial(initial).map(|numbers| numbers.map(|number| number as u32))
+    }
+}
+
+impl Held for Distribution {
+    fn initial(initial: Initial) -> Option<Self> {
+        let (mean, spread) = match initial {
+            Initial::Number(mean) => (mean, 0.0),
+            Initial::Sizes(mean, spread) => (mean, spread),
+            _ => return None,
+        };
+        Some(Self { mean, spread })
+    }
+}
+
+impl Held for String {
+    fn initial(initial: Initial) -> Option<Self> {
+        match initial {
+            Initial::Text(text) => Some(text.to_owned()),
+            _ => None,
+        }
+    }
+}
+
+impl<T: Named> Held for T {
+    fn initial(initial: Initial) -> Option<Self> {
+        let name = String::initial(initial)?;
+        T::NAMES
+            .iter()
+            .find(|(known, _)| *known == name)
+            .map(|(_, value)| *value)
+    }
+}
+
+impl<T: Read> Held for Option<T> {
+    fn initial(_: Initial) -> Option<Self> {
+        Some(None)
+    }
+}
+
+impl<T: Read> Held for Vec<T> {
+    fn initial(initial: Initial) -> Option<Self> {
+        matches!(initial, Initial::Words(_)).then(Vec::new)
+    }
+}
+
+impl<T: Read> Read for Option<T> {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        T::read(value, key).map(Some)
     }
 }
 

@@ -5,8 +5,8 @@ use glam::{DMat3, DMat4, DVec3};
 use super::flaw::Flaw;
 use super::pose::Moment;
 use super::shapes::Shapes;
-use crate::description::limits::LARGEST_M;
 use crate::description::{Object, Up};
+use crate::schema::LARGEST_M;
 
 /// The keys `up`, `fit_m`, `time_s` and `animation` of an object.
 #[derive(Clone, Debug, PartialEq)]

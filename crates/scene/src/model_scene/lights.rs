@@ -3,9 +3,10 @@
 use glam::DVec3;
 use std::f64::consts::PI;
 
-use crate::description::limits::{CONE_DEG, LARGEST_M, SMALLEST_M};
-use crate::description::{Cone, Light, LightKind, SUN_DEG};
+use crate::description::{Cone, Light, LightKind};
 use crate::mesh_file::{Punctual, PunctualKind};
+use crate::schema::light::{CONE_DEG, SUN_DEG};
+use crate::schema::{LARGEST_M, SMALLEST_M};
 
 /// Radius of a lamp over the extent of its model, small enough for scratches to show clear colours.
 const LAMP_RADIUS: f64 = 0.01;
@@ -57,7 +58,8 @@ pub(super) fn lamp(
             inner_rad,
             outer_rad,
         } => {
-            let cone_deg = (2.0 * outer_rad.to_degrees()).clamp(*CONE_DEG.start(), 180.0);
+            let cone_deg =
+                (2.0 * outer_rad.to_degrees()).clamp(*CONE_DEG.bounds.ends().start(), 180.0);
             Some(Cone {
                 cone_softness: (1.0 - inner_rad / outer_rad.max(1e-9)).clamp(0.0, 1.0),
                 ..Cone::new(

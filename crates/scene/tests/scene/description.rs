@@ -577,9 +577,17 @@ fn a_lens_is_one_state_with_the_field_of_view() {
     for focal_length_mm in [0.1, 1e4] {
         camera.set_focal_length_mm(focal_length_mm, SIZE_PX);
         camera.set_f_stop(0.1, SIZE_PX);
-        assert!(hairline_scene::description::limits::FOV_Y_DEG.contains(&camera.fov_y_deg));
         assert!(
-            hairline_scene::description::limits::APERTURE_MM.contains(&camera.aperture_mm.unwrap())
+            hairline_scene::schema::camera::FOV_Y_DEG
+                .bounds
+                .ends()
+                .contains(&camera.fov_y_deg)
+        );
+        assert!(
+            hairline_scene::schema::camera::APERTURE_MM
+                .bounds
+                .ends()
+                .contains(&camera.aperture_mm.unwrap())
         );
     }
 }

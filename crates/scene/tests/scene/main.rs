@@ -18,6 +18,7 @@ mod meshopt;
 mod places;
 mod poses;
 mod probe;
+mod schema;
 mod scratch_studio;
 mod scratches;
 mod strokes;

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use egui::{Button, Id, Ui};
 use hairline_editor::navigate::{self, Viewpoint};
-use hairline_editor::ranges::Parameter;
 use hairline_image::ToneMap;
 use hairline_scene::description::{Camera, Description};
+use hairline_scene::schema::{self, Key};
 
 use super::form::Form;
 use crate::command::Command;
@@ -19,14 +19,14 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     let description = work.document.description();
     let mut camera = description.camera.clone();
     let mut form = Form::new(ui, "camera", work.diagonal_m(None));
-    form.number(Parameter::Exposure, &mut camera.exposure_ev);
-    form.number(Parameter::FieldOfView, &mut camera.fov_y_deg);
+    form.number(&schema::camera::EXPOSURE_EV, &mut camera.exposure_ev);
+    form.number(&schema::camera::FOV_Y_DEG, &mut camera.fov_y_deg);
     let size_px = description.render.size_px;
     focal_length(&mut form, &mut camera, size_px);
     lens(&mut form, &mut camera, size_px, &mut work.closed_lens);
-    form.vector(Parameter::CameraPosition, &mut camera.position_m);
-    form.vector(Parameter::CameraTarget, &mut camera.target_m);
-    form.vector(Parameter::CameraUp, &mut camera.up);
+    form.vector(&schema::camera::POSITION_M, &mut camera.position_m);
+    form.vector(&schema::camera::TARGET_M, &mut camera.target_m);
+    form.vector(&schema::camera::UP, &mut camera.up);
     if let Some(change) = form.change() {
         // Changes here should be visible, so the free view ends; the exposure is the same in all views.
         if camera.exposure_ev == work.document.description().camera.exposure_ev {
@@ -87,22 +87,27 @@ fn show_file_cameras(ui: &mut Ui, work: &mut Workspace) {
 fn focal_length(form: &mut Form, camera: &mut Camera, size_px: [u32; 2]) {
     in_metres(
         form,
-        Parameter::FocalLength,
+        &schema::camera::FOCAL_LENGTH_MM,
         camera.focal_length_mm(size_px),
         |mm| {
             camera.set_focal_length_mm(mm, size_px);
         },
     );
-    in_metres(form, Parameter::SensorWidth, camera.sensor_mm(), |mm| {
-        camera.set_sensor_width_mm(mm, size_px);
-    });
+    in_metres(
+        form,
+        &schema::camera::SENSOR_WIDTH_MM,
+        camera.sensor_mm(),
+        |mm| {
+            camera.set_sensor_width_mm(mm, size_px);
+        },
+    );
 }
 
 /// A control of a length that scene files have in millimetres. What is not touched keeps all of its digits.
-fn in_metres(form: &mut Form, parameter: Parameter, before_mm: f64, set_mm: impl FnOnce(f64)) {
+fn in_metres(form: &mut Form, key: &Key, before_mm: f64, set_mm: impl FnOnce(f64)) {
     let before_m = 1e-3 * before_mm;
     let mut after_m = before_m;
-    form.number(parameter, &mut after_m);
+    form.number(key, &mut after_m);
     if after_m != before_m {
         // Not 18.000000000000004, in a file that people read.
         set_mm((1e12 * after_m).round() / 1e9);
@@ -138,16 +143,16 @@ fn lens(
     // A closed one has no f-stop.
     if let Some(before) = camera.f_stop(size_px) {
         let mut f_stop = before;
-        form.number(Parameter::FStop, &mut f_stop);
+        form.number(&schema::camera::F_STOP, &mut f_stop);
         if f_stop != before {
             camera.set_f_stop(f_stop, size_px);
         }
     }
-    in_metres(form, Parameter::Aperture, aperture_mm, |mm| {
+    in_metres(form, &schema::camera::APERTURE_MM, aperture_mm, |mm| {
         camera.aperture_mm = Some(mm);
     });
     let focus_before_m = focus_m;
-    form.number(Parameter::FocusDistance, &mut focus_m);
+    form.number(&schema::camera::FOCUS_DISTANCE_M, &mut focus_m);
     if focus_m != focus_before_m {
         camera.focus_distance_m = Some(focus_m);
     }
@@ -226,9 +231,9 @@ pub(super) fn show_render(ui: &mut Ui, work: &mut Workspace) {
         curves,
         &mut render.tone_map,
     );
-    form.number(Parameter::Filter, &mut render.filter_std_px);
+    form.number(&schema::render::FILTER_STD_PX, &mut render.filter_std_px);
     let mut size = render.size_px.map(f64::from);
-    form.boxes(Parameter::PictureSize, &["w", "h"], &mut size);
+    form.boxes(&schema::render::SIZE_PX, &["w", "h"], &mut size);
     if let Some(change) = form.change() {
         render.size_px = size.map(|side| side.round() as u32);
         work.drag(&change.label, change.key, |d| d.render = render);

@@ -2,10 +2,10 @@
 
 use egui::Ui;
 use hairline_editor::maps;
-use hairline_editor::ranges::Parameter;
 use hairline_scene::Light;
 use hairline_scene::description::Map;
 use hairline_scene::environment::BuiltInMap;
+use hairline_scene::schema;
 
 use super::form::Form;
 use crate::command::Command;
@@ -39,10 +39,10 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     }
     let mut form = Form::new(ui, "environment", work.diagonal_m(None));
     form.number(
-        Parameter::EnvironmentRotation,
+        &schema::environment::ROTATION_DEG,
         &mut environment.rotation_deg,
     );
-    form.number(Parameter::EnvironmentIntensity, &mut environment.intensity);
+    form.number(&schema::environment::INTENSITY, &mut environment.intensity);
     form.toggle(
         "Visible",
         "Whether the camera sees it behind the objects; it lights them either way",

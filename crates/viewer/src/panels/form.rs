@@ -12,8 +12,9 @@ use egui::{Align, Context, Id, Layout, Response, Slider, SliderClamping, TextEdi
 use hairline_editor::DragKey;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::quantity::ShownUnit;
-use hairline_editor::ranges::{Parameter, Range};
+use hairline_editor::ranges::{Range, range, second_range};
 use hairline_scene::description::Distribution;
+use hairline_scene::schema::{self, Key};
 
 use super::number::NumberBox;
 use crate::platform::HAS_DISK;
@@ -104,36 +105,44 @@ impl<'a> Form<'a> {
     }
 
     /// A number: slider and box.
-    pub fn number(&mut self, parameter: Parameter, value: &mut f64) {
-        let range = parameter.range(self.diagonal_m);
-        self.row(range.label, range.tooltip, |ui, label| {
-            slider_and_box(ui, label, &range, value)
-        });
+    pub fn number(&mut self, key: &Key, value: &mut f64) {
+        self.ranged(&range(key, self.diagonal_m), value);
     }
 
     /// A whole number.
-    pub fn whole(&mut self, parameter: Parameter, value: &mut u64) {
+    pub fn whole(&mut self, key: &Key, value: &mut u64) {
         let mut number = *value as f64;
-        self.number(parameter, &mut number);
+        self.number(key, &mut number);
         if number != *value as f64 {
             *value = number.max(0.0).round() as u64;
         }
     }
 
     /// A number that is drawn for each scratch: its mean, and how far it spreads.
-    pub fn distribution(&mut self, mean: Parameter, spread: Parameter, value: &mut Distribution) {
-        self.number(mean, &mut value.mean);
-        self.number(spread, &mut value.spread);
+    pub fn distribution(&mut self, key: &Key, value: &mut Distribution) {
+        self.number(key, &mut value.mean);
+        self.second(key, &mut value.spread);
+    }
+
+    /// The second of two numbers that differ.
+    pub fn second(&mut self, key: &Key, value: &mut f64) {
+        self.ranged(&second_range(key, self.diagonal_m), value);
+    }
+
+    fn ranged(&mut self, range: &Range, value: &mut f64) {
+        self.row(range.label, range.tooltip, |ui, label| {
+            slider_and_box(ui, label, range, value)
+        });
     }
 
     /// Three numbers side by side.
-    pub fn vector(&mut self, parameter: Parameter, value: &mut [f64; 3]) {
-        self.boxes(parameter, &["x", "y", "z"], value);
+    pub fn vector(&mut self, key: &Key, value: &mut [f64; 3]) {
+        self.boxes(key, &["x", "y", "z"], value);
     }
 
     /// Numbers side by side, each a box to drag in.
-    pub fn boxes(&mut self, parameter: Parameter, names: &[&str], values: &mut [f64]) {
-        let range = parameter.range(self.diagonal_m);
+    pub fn boxes(&mut self, key: &Key, names: &[&str], values: &mut [f64]) {
+        let range = range(key, self.diagonal_m);
         self.boxes_labelled(range.label, &range, names, values);
     }
 
@@ -151,8 +160,8 @@ impl<'a> Form<'a> {
     }
 
     /// A linear colour, each channel in [0, 1].
-    pub fn color(&mut self, parameter: Parameter, value: &mut [f64; 3]) {
-        let range = parameter.range(self.diagonal_m);
+    pub fn color(&mut self, key: &Key, value: &mut [f64; 3]) {
+        let range = range(key, self.diagonal_m);
         self.row(range.label, range.tooltip, |ui, label| {
             let mut rgb = value.map(|channel| channel as f32);
             let response = ui.color_edit_button_rgb(&mut rgb).labelled_by(label.id);
@@ -244,16 +253,16 @@ impl<'a> Form<'a> {
     }
 
     /// Row for one of several places, counted from 1 on the screen.
-    pub fn numbered(&mut self, parameter: Parameter, i: usize, position_m: &mut [f64; 3]) {
-        let range = parameter.range(self.diagonal_m);
+    pub fn numbered(&mut self, key: &Key, i: usize, position_m: &mut [f64; 3]) {
+        let range = range(key, self.diagonal_m);
         let label = format!("{} {}", range.label, i + 1);
         self.boxes_labelled(&label, &range, &["x", "y", "z"], position_m);
     }
 
     /// A point of a lathe's profile.
     pub fn point(&mut self, i: usize, radius_m: &mut f64, height_m: &mut f64) {
-        let range = Parameter::ProfileRadius.range(self.diagonal_m);
-        let heights = Parameter::ProfileHeight.range(self.diagonal_m);
+        let range = range(&schema::shape::PROFILE_M, self.diagonal_m);
+        let heights = second_range(&schema::shape::PROFILE_M, self.diagonal_m);
         let label = format!("Point {}", i + 1);
         let fine_m = FINE * self.diagonal_m;
         self.row(&label, range.tooltip, |ui, _| {
@@ -270,7 +279,7 @@ impl<'a> Form<'a> {
 
     /// A number that stands for a draw of lots, with a die that throws another.
     pub fn seed(&mut self, value: &mut u64) {
-        let range = Parameter::Seed.range(self.diagonal_m);
+        let range = range(&schema::scratches::SEED, self.diagonal_m);
         self.row(range.label, range.tooltip, |ui, label| {
             let mut number = *value as f64;
             let typed = NumberBox {

@@ -3,7 +3,7 @@
 use egui::Ui;
 use hairline_editor::Selection;
 use hairline_editor::actions::pictures::PictureOf;
-use hairline_editor::ranges::Parameter;
+use hairline_scene::schema;
 
 use super::form::{Form, NAME};
 use super::groove_pattern;
@@ -42,7 +42,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         &mut grating.hidden,
     );
     let mut pitch_um = grating.pitch_um;
-    form.number(Parameter::Pitch, &mut pitch_um);
+    form.number(&schema::grating::PITCH_UM, &mut pitch_um);
     if pitch_um != grating.pitch_um {
         // Grooves keep their share of the surface, and order its measure.
         let factor = pitch_um / grating.pitch_um;
@@ -50,18 +50,18 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         grating.jitter_um *= factor;
         grating.pitch_um = pitch_um;
     }
-    form.number(Parameter::GrooveWidth, &mut grating.width_um);
+    form.number(&schema::grating::WIDTH_UM, &mut grating.width_um);
     grating.width_um = grating.width_um.min(grating.pitch_um);
-    form.number(Parameter::Depth, &mut grating.depth_nm.mean);
-    form.number(Parameter::GrooveDepthSpread, &mut grating.depth_nm.spread);
-    form.number(Parameter::Displacement, &mut grating.jitter_um);
+    form.number(&schema::grating::DEPTH_NM, &mut grating.depth_nm.mean);
+    form.second(&schema::grating::DEPTH_NM, &mut grating.depth_nm.spread);
+    form.number(&schema::grating::JITTER_UM, &mut grating.jitter_um);
     form.seed(&mut grating.seed);
     grating.jitter_um = grating.jitter_um.min(grating.pitch_um);
     groove_pattern::rows(&mut form, &mut grating.pattern, index);
     if grating.pattern.around().is_some() {
         grating.center_m = None;
     }
-    form.number(Parameter::Coverage, &mut grating.coverage);
+    form.number(&schema::grating::COVERAGE, &mut grating.coverage);
     form.picture(
         "Mask",
         "A picture, relative to the scene file: the darker it is, the less of the surface the grooves cover. None: alike everywhere",
@@ -82,13 +82,13 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         (false, _) => (grating.radius_m, grating.center_m) = (None, None),
         (true, None) => grating.radius_m = Some([0.0, everywhere_m]),
         (true, Some([least, most])) => {
-            form.number(Parameter::InnerRadius, least);
-            form.number(Parameter::OuterRadius, most);
+            form.number(&schema::grating::RADIUS_M, least);
+            form.second(&schema::grating::RADIUS_M, most);
             // The outer one stays the greater.
             *most = most.max(*least + LEAST_RING * everywhere_m);
             if grating.pattern.around().is_none() {
                 let center_m = grating.center_m.get_or_insert_default();
-                form.vector(Parameter::AxisCenter, center_m);
+                form.vector(&schema::grating::CENTER_M, center_m);
             }
         }
     }

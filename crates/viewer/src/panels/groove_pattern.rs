@@ -1,8 +1,8 @@
 //! Controls for the directions of a grating's grooves.
 
 use hairline_editor::actions::pictures::PictureOf;
-use hairline_editor::ranges::Parameter;
 use hairline_scene::description::{Around, GroovePattern, UvAxis};
+use hairline_scene::schema;
 
 use super::form::Form;
 
@@ -23,8 +23,8 @@ pub(super) fn rows(form: &mut Form, pattern: &mut GroovePattern, index: usize) {
             direction,
             jitter_deg,
         } => {
-            form.number(Parameter::GrooveAngles, jitter_deg);
-            form.vector(Parameter::Direction, direction);
+            form.number(&schema::grating::JITTER_DEG, jitter_deg);
+            form.vector(&schema::scratches::DIRECTION, direction);
         }
         GroovePattern::Circular(around) | GroovePattern::Radial(around) => axis(form, around),
         GroovePattern::Spun {
@@ -32,18 +32,18 @@ pub(super) fn rows(form: &mut Form, pattern: &mut GroovePattern, index: usize) {
             curvature_per_m,
         } => {
             axis(form, around);
-            form.number(Parameter::Curvature, curvature_per_m);
+            form.number(&schema::grating::CURVATURE_PER_M, curvature_per_m);
         }
         GroovePattern::Swirl { around, spacing_m } => {
             axis(form, around);
-            form.number(Parameter::SpotSpacing, spacing_m);
+            form.number(&schema::grating::SPACING_M, spacing_m);
         }
         GroovePattern::Uv {
             along,
             directions,
             jitter_deg,
         } => {
-            form.number(Parameter::GrooveAngles, jitter_deg);
+            form.number(&schema::grating::JITTER_DEG, jitter_deg);
             form.choice(
                 "Along",
                 "Which texture coordinate the grooves run along",
@@ -61,9 +61,9 @@ pub(super) fn rows(form: &mut Form, pattern: &mut GroovePattern, index: usize) {
 }
 
 fn axis(form: &mut Form, around: &mut Around) {
-    form.number(Parameter::GrooveAngles, &mut around.jitter_deg);
-    form.vector(Parameter::Axis, &mut around.axis);
-    form.vector(Parameter::AxisCenter, &mut around.center_m);
+    form.number(&schema::grating::JITTER_DEG, &mut around.jitter_deg);
+    form.vector(&schema::scratches::AXIS, &mut around.axis);
+    form.vector(&schema::scratches::CENTER_M, &mut around.center_m);
 }
 
 /// A pattern by name.

@@ -3,8 +3,9 @@
 use egui::Ui;
 use hairline_editor::Selection;
 use hairline_editor::presets::LayerPreset;
-use hairline_editor::ranges::{Parameter, hint_on_width};
+use hairline_editor::ranges::hint_on_width;
 use hairline_scene::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
+use hairline_scene::schema;
 
 use super::form::{Form, NAME};
 use super::layer_place;
@@ -49,17 +50,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         Layer::Brushed(brushed) => {
             form.section("Look");
             width(&mut form, &mut brushed.width_um, roughness);
-            form.distribution(
-                Parameter::Depth,
-                Parameter::DepthSpread,
-                &mut brushed.depth_nm,
-            );
-            form.distribution(
-                Parameter::Length,
-                Parameter::LengthSpread,
-                &mut brushed.length_m,
-            );
-            form.number(Parameter::Jitter, &mut brushed.jitter_deg);
+            form.distribution(&schema::scratches::DEPTH_NM, &mut brushed.depth_nm);
+            form.distribution(&schema::scratches::LENGTH_M, &mut brushed.length_m);
+            form.number(&schema::scratches::JITTER_DEG, &mut brushed.jitter_deg);
             form.seed(&mut brushed.seed);
         }
         Layer::Listed(listed) => form.custom("File", "", |ui, _| {
@@ -96,7 +89,7 @@ fn roughest(work: &Workspace, object: &str, names: &Names) -> f64 {
 
 /// Rows for the width, with a hint where the model is off on a base of this roughness.
 fn width(form: &mut Form, width_um: &mut Distribution, roughness: f64) {
-    form.distribution(Parameter::Width, Parameter::WidthSpread, width_um);
+    form.distribution(&schema::scratches::WIDTH_UM, width_um);
     if let Some(hint) = hint_on_width(width_um.mean, roughness) {
         let color = form.ui.visuals().warn_fg_color;
         form.ui.colored_label(color, hint);
@@ -117,12 +110,8 @@ fn laid_rows(form: &mut Form, laid: &mut Laid, roughness: f64) {
     amount(form, &mut laid.amount);
     form.section("Look");
     width(form, &mut laid.width_um, roughness);
-    form.distribution(Parameter::Depth, Parameter::DepthSpread, &mut laid.depth_nm);
-    form.distribution(
-        Parameter::Length,
-        Parameter::LengthSpread,
-        &mut laid.length_m,
-    );
+    form.distribution(&schema::scratches::DEPTH_NM, &mut laid.depth_nm);
+    form.distribution(&schema::scratches::LENGTH_M, &mut laid.length_m);
     form.section("Direction and bend");
     match &mut laid.pattern {
         Pattern::Random { curvature_per_m } | Pattern::Swirl { curvature_per_m } => {
@@ -132,8 +121,8 @@ fn laid_rows(form: &mut Form, laid: &mut Laid, roughness: f64) {
             direction,
             jitter_deg,
         } => {
-            form.number(Parameter::Jitter, jitter_deg);
-            form.vector(Parameter::Direction, direction);
+            form.number(&schema::scratches::JITTER_DEG, jitter_deg);
+            form.vector(&schema::scratches::DIRECTION, direction);
         }
         Pattern::Circular(around) | Pattern::Radial(around) => axis(form, around),
         Pattern::Spun {
@@ -148,13 +137,13 @@ fn laid_rows(form: &mut Form, laid: &mut Laid, roughness: f64) {
 }
 
 fn curvature(form: &mut Form, value: &mut Distribution) {
-    form.distribution(Parameter::Curvature, Parameter::CurvatureSpread, value);
+    form.distribution(&schema::scratches::BEND_PER_M, value);
 }
 
 fn axis(form: &mut Form, around: &mut Around) {
-    form.number(Parameter::Jitter, &mut around.jitter_deg);
-    form.vector(Parameter::Axis, &mut around.axis);
-    form.vector(Parameter::AxisCenter, &mut around.center_m);
+    form.number(&schema::scratches::JITTER_DEG, &mut around.jitter_deg);
+    form.vector(&schema::scratches::AXIS, &mut around.axis);
+    form.vector(&schema::scratches::CENTER_M, &mut around.center_m);
 }
 
 /// A number of scratches, or a number on each square metre.
@@ -175,8 +164,8 @@ fn amount(form: &mut Form, amount: &mut Amount) {
         _ => {}
     }
     match amount {
-        Amount::Count(count) => form.whole(Parameter::Count, count),
-        Amount::DensityPerM2(density) => form.number(Parameter::Density, density),
+        Amount::Count(count) => form.whole(&schema::scratches::COUNT, count),
+        Amount::DensityPerM2(density) => form.number(&schema::scratches::DENSITY_PER_M2, density),
     }
 }
 

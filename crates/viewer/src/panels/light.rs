@@ -4,9 +4,9 @@ use egui::Ui;
 use glam::DVec3;
 use hairline_editor::actions::parts;
 use hairline_editor::actions::pictures::PictureOf;
-use hairline_editor::ranges::Parameter;
 use hairline_editor::{Selection, place_light};
 use hairline_scene::description::{Cone, Light, LightKind};
+use hairline_scene::schema;
 
 use super::form::{Form, NAME};
 use crate::command::Command;
@@ -29,9 +29,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     form.toggle("Hidden", "A hidden light gives no light", &mut light.hidden);
     if light.kind.sunbeam().is_none() {
         form.toggle("Visible", "The camera sees its shape", &mut light.visible);
-        form.number(Parameter::Radiance, &mut light.radiance);
+        form.number(&schema::light::RADIANCE, &mut light.radiance);
     }
-    form.number(Parameter::LightExposure, &mut light.exposure_ev);
+    form.number(&schema::light::EXPOSURE_EV, &mut light.exposure_ev);
     let mut glows = light.temperature_k.is_some();
     form.toggle(
         "Black body",
@@ -40,17 +40,17 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     );
     if glows {
         form.number(
-            Parameter::LightTemperature,
+            &schema::light::TEMPERATURE_K,
             light.temperature_k.get_or_insert(DAYLIGHT_K),
         );
     } else {
         light.temperature_k = None;
     }
-    form.color(Parameter::LightColor, &mut light.color);
+    form.color(&schema::light::COLOR, &mut light.color);
     match &mut light.kind {
         LightKind::Sphere { center_m, radius_m } => {
-            form.vector(Parameter::LightCenter, center_m);
-            form.number(Parameter::LightRadius, radius_m);
+            form.vector(&schema::light::CENTER_M, center_m);
+            form.number(&schema::light::RADIUS_M, radius_m);
         }
         LightKind::Disk {
             center_m,
@@ -58,9 +58,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             radius_m,
             two_sided,
         } => {
-            form.vector(Parameter::LightCenter, center_m);
-            form.vector(Parameter::LightTarget, target_m);
-            form.number(Parameter::LightRadius, radius_m);
+            form.vector(&schema::light::CENTER_M, center_m);
+            form.vector(&schema::light::TARGET_M, target_m);
+            form.number(&schema::light::RADIUS_M, radius_m);
             form.toggle("Two-sided", TWO_SIDED, two_sided);
         }
         LightKind::Rectangle {
@@ -71,18 +71,18 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             rotation_deg,
             two_sided,
         } => {
-            form.vector(Parameter::LightCenter, center_m);
-            form.vector(Parameter::LightTarget, target_m);
-            form.number(Parameter::LightWidth, width_m);
-            form.number(Parameter::LightHeight, height_m);
-            form.number(Parameter::LightRotation, rotation_deg);
+            form.vector(&schema::light::CENTER_M, center_m);
+            form.vector(&schema::light::TARGET_M, target_m);
+            form.number(&schema::light::WIDTH_M, width_m);
+            form.number(&schema::light::HEIGHT_M, height_m);
+            form.number(&schema::light::ROTATION_DEG, rotation_deg);
             form.toggle("Two-sided", TWO_SIDED, two_sided);
         }
         LightKind::Tube { ends_m, radius_m } => {
             for (i, end_m) in ends_m.iter_mut().enumerate() {
-                form.numbered(Parameter::LightEnd, i, end_m);
+                form.numbered(&schema::light::ENDS_M, i, end_m);
             }
-            form.number(Parameter::LightRadius, radius_m);
+            form.number(&schema::light::RADIUS_M, radius_m);
         }
         LightKind::Polygon { two_sided, .. } => {
             form.toggle("Two-sided", TWO_SIDED, two_sided);
@@ -92,9 +92,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             angle_deg,
             irradiance,
         } => {
-            form.number(Parameter::Irradiance, irradiance);
-            form.vector(Parameter::SunDirection, direction);
-            form.number(Parameter::SunAngle, angle_deg);
+            form.number(&schema::light::IRRADIANCE, irradiance);
+            form.vector(&schema::light::DIRECTION, direction);
+            form.number(&schema::light::ANGLE_DEG, angle_deg);
         }
     }
     cone(&mut form, &mut light);
@@ -145,10 +145,10 @@ fn cone(form: &mut Form, light: &mut Light) {
     let below = place_light::center(light) + DVec3::NEG_Z;
     let target_m = light.kind.axis().is_none().then(|| below.into());
     let cone = light.cone.get_or_insert_with(|| Cone::new(40.0, target_m));
-    form.number(Parameter::LightCone, &mut cone.cone_deg);
-    form.number(Parameter::LightSoftness, &mut cone.cone_softness);
+    form.number(&schema::light::CONE_DEG, &mut cone.cone_deg);
+    form.number(&schema::light::CONE_SOFTNESS, &mut cone.cone_softness);
     if let Some(target_m) = &mut cone.target_m {
-        form.vector(Parameter::LightTarget, target_m);
+        form.vector(&schema::light::TARGET_M, target_m);
     }
 }
 
@@ -184,8 +184,12 @@ fn doors(form: &mut Form, light: &mut Light) {
     }
     let doors_deg = light.barn_doors_deg.get_or_insert([45.0; 4]);
     let (beside, above_and_below) = doors_deg.split_at_mut(2);
-    form.boxes(Parameter::LightDoor, &["left", "right"], beside);
-    form.boxes(Parameter::LightDoor, &["above", "below"], above_and_below);
+    form.boxes(&schema::light::BARN_DOORS_DEG, &["left", "right"], beside);
+    form.boxes(
+        &schema::light::BARN_DOORS_DEG,
+        &["above", "below"],
+        above_and_below,
+    );
 }
 
 /// The corners of a polygon: they stay in its plane.
@@ -199,7 +203,7 @@ fn vertices(ui: &mut Ui, work: &mut Workspace, index: usize, vertices_m: &[[f64;
         ui.horizontal(|ui| {
             let mut position_m = *vertex_m;
             let mut form = Form::new(ui, ("corner", index, i), work.diagonal_m(None));
-            form.numbered(Parameter::LightVertex, i, &mut position_m);
+            form.numbered(&schema::light::VERTICES_M, i, &mut position_m);
             if let Some(change) = form.change() {
                 moved = Some((i, position_m, change));
             }

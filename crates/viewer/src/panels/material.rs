@@ -3,9 +3,9 @@
 use egui::Ui;
 use hairline_editor::actions::materials;
 use hairline_editor::presets::MaterialPreset;
-use hairline_editor::ranges::Parameter;
 use hairline_optics::metal::Metal;
 use hairline_scene::description::{MaterialKind, MetalColor};
+use hairline_scene::schema;
 use hairline_scene::{Anisotropy, Coat, Specular};
 
 use super::form::{Form, NAME};
@@ -68,8 +68,8 @@ fn coat_rows(form: &mut Form, coat: &mut Option<Coat>) {
     match coat {
         Some(_) if !is_coated => *coat = None,
         Some(coat) => {
-            form.number(Parameter::Clearcoat, &mut coat.weight);
-            form.number(Parameter::ClearcoatRoughness, &mut coat.roughness);
+            form.number(&schema::material::CLEARCOAT, &mut coat.weight);
+            form.number(&schema::material::CLEARCOAT_ROUGHNESS, &mut coat.roughness);
         }
         None if is_coated => {
             *coat = Some(Coat {
@@ -89,9 +89,9 @@ fn anisotropy_rows(form: &mut Form, anisotropy: &mut Option<Anisotropy>) {
     match anisotropy {
         Some(_) if !is_brushed => *anisotropy = None,
         Some(anisotropy) => {
-            form.number(Parameter::Anisotropy, &mut anisotropy.strength);
+            form.number(&schema::material::ANISOTROPY, &mut anisotropy.strength);
             form.number(
-                Parameter::AnisotropyDirection,
+                &schema::material::ANISOTROPY_DIRECTION_DEG,
                 &mut anisotropy.direction_deg,
             );
         }
@@ -130,31 +130,31 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             form.custom("", hint, |ui, _| metal_swatches(ui, metal));
         }
         MaterialKind::Metal(MetalColor::Color(base_color)) => {
-            form.color(Parameter::BaseColor, base_color);
+            form.color(&schema::material::METAL_COLOR, base_color);
         }
         MaterialKind::Dielectric { ior, base_color } => {
-            form.color(Parameter::BaseColor, base_color);
-            form.number(Parameter::Ior, ior);
+            form.color(&schema::material::BODY_COLOR, base_color);
+            form.number(&schema::material::IOR, ior);
         }
         MaterialKind::MetallicRoughness {
             base_color,
             metallic,
             specular,
         } => {
-            form.color(Parameter::BaseColor, base_color);
-            form.number(Parameter::Metallic, metallic);
+            form.color(&schema::material::BASE_COLOR, base_color);
+            form.number(&schema::material::METALLIC, metallic);
             // A metal takes no part in it.
             if *metallic < 1.0 {
-                form.number(Parameter::Specular, &mut specular.weight);
-                form.color(Parameter::SpecularColor, &mut specular.color);
+                form.number(&schema::material::SPECULAR, &mut specular.weight);
+                form.color(&schema::material::SPECULAR_COLOR, &mut specular.color);
             }
         }
         MaterialKind::Mirror => {}
     }
-    form.number(Parameter::Roughness, &mut material.roughness);
+    form.number(&schema::material::ROUGHNESS, &mut material.roughness);
     anisotropy_rows(&mut form, &mut material.anisotropy);
     coat_rows(&mut form, &mut material.coat);
-    form.number(Parameter::Coherence, &mut material.coherence_um);
+    form.number(&schema::material::COHERENCE_UM, &mut material.coherence_um);
     if let Some(change) = form.change() {
         if name != material.name {
             // Objects call it by its name.

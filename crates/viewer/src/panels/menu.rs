@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use egui::scroll_area::ScrollBarVisibility;
 use egui::{Button, MenuBar, Modifiers, Panel, Popup, RichText, ScrollArea, Ui};
-use hairline_editor::ranges::Parameter;
+use hairline_scene::schema;
 
 use super::form::Form;
 use crate::command::{self, Command, Group};
@@ -178,11 +178,11 @@ pub(super) fn brush_settings(ui: &mut Ui, work: &mut Workspace) {
     let mut brush = work.brush();
     ui.heading(Command::Pick(work.toolbox.tool).label());
     let mut form = Form::new(ui, "brush", diagonal_m);
-    form.number(Parameter::BrushRadius, &mut brush.radius_m);
+    form.number(&schema::stroke::RADIUS_M, &mut brush.radius_m);
     if work.toolbox.tool == Tool::Brush {
-        form.number(Parameter::BrushDensity, &mut brush.density_per_m);
-        form.number(Parameter::BrushWidth, &mut brush.width);
-        form.number(Parameter::BrushDepth, &mut brush.depth);
+        form.number(&schema::stroke::DENSITY_PER_M, &mut brush.density_per_m);
+        form.number(&schema::stroke::WIDTH, &mut brush.width);
+        form.number(&schema::stroke::DEPTH, &mut brush.depth);
     }
     // Settings of a tool are no part of the scene.
     if form.change().is_some() {

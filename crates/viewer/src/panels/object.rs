@@ -5,9 +5,9 @@ use hairline_editor::Selection;
 use hairline_editor::actions::{gratings, layers, objects};
 use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::LayerPreset;
-use hairline_editor::ranges::Parameter;
 use hairline_editor::wear::{self, Wear};
 use hairline_scene::description::{Shape, Surface, Up};
+use hairline_scene::schema::{self, Key};
 
 use super::form::{Form, NAME};
 use super::material::material_cards;
@@ -46,8 +46,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         keeps_own.into_iter().chain(named),
         &mut object.material,
     );
-    form.vector(Parameter::Translation, &mut object.translation_m);
-    form.vector(Parameter::Rotation, &mut object.rotation_deg);
+    form.vector(&schema::object::TRANSLATION_M, &mut object.translation_m);
+    form.vector(&schema::object::ROTATION_DEG, &mut object.rotation_deg);
     scale(&mut form, &mut object.scale);
     match &mut object.surface {
         Surface::Mesh(file) => {
@@ -202,13 +202,13 @@ fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
 fn scale(form: &mut Form, scale: &mut [f64; 3]) {
     if scale[0] == scale[1] && scale[1] == scale[2] {
         let mut factor = scale[0];
-        form.number(Parameter::Scale, &mut factor);
+        form.number(&schema::object::SCALE, &mut factor);
         // Zero would have no surface; the slider passes it by.
         if factor != scale[0] && factor != 0.0 {
             *scale = [factor; 3];
         }
     } else {
-        form.vector(Parameter::Scale, scale);
+        form.vector(&schema::object::SCALE, scale);
     }
 }
 
@@ -222,7 +222,7 @@ fn fit_rows(form: &mut Form, fit_m: &mut Option<f64>) {
     );
     match fit_m {
         Some(_) if !is_fitted => *fit_m = None,
-        Some(size_m) => form.number(Parameter::FitSize, size_m),
+        Some(size_m) => form.number(&schema::object::FIT_M, size_m),
         None if is_fitted => *fit_m = Some(form.diagonal_m),
         None => {}
     }
@@ -239,7 +239,7 @@ fn time_rows(form: &mut Form, time_s: &mut Option<f64>, animation: &mut Option<S
     match time_s {
         Some(_) if !is_animated => (*time_s, *animation) = (None, None),
         Some(time_s) => {
-            form.number(Parameter::Time, time_s);
+            form.number(&schema::object::TIME_S, time_s);
             let mut name = animation.clone().unwrap_or_default();
             let tooltip = "Which animation, by its name or its number from 0; empty for the first";
             form.text("Animation", tooltip, &mut name);
@@ -251,57 +251,62 @@ fn time_rows(form: &mut Form, time_s: &mut Option<f64>, animation: &mut Option<S
 }
 
 /// A number that another one of the shape bounds; it follows where that falls below it.
-fn up_to(form: &mut Form, parameter: Parameter, value: &mut f64, most: f64) {
-    form.number(parameter, value);
+fn up_to(form: &mut Form, key: &Key, value: &mut f64, most: f64) {
+    form.number(key, value);
     *value = value.min(most);
 }
 
 fn shape_rows(form: &mut Form, shape: &mut Shape) {
     match shape {
-        Shape::Plane { size_m } => form.boxes(Parameter::PlaneSize, &["x", "y"], size_m),
+        Shape::Plane { size_m } => form.boxes(&schema::shape::PLANE_SIZE_M, &["x", "y"], size_m),
         Shape::Disk { radius_m } | Shape::Sphere { radius_m } => {
-            form.number(Parameter::ShapeRadius, radius_m);
+            form.number(&schema::shape::RADIUS_M, radius_m);
         }
         Shape::Box { size_m, rounding_m } => {
-            form.boxes(Parameter::PlaneSize, &["x", "y", "z"], size_m);
+            form.boxes(&schema::shape::BOX_SIZE_M, &["x", "y", "z"], size_m);
             let shortest = size_m.iter().copied().fold(f64::INFINITY, f64::min);
-            up_to(form, Parameter::Rounding, rounding_m, 0.5 * shortest);
+            up_to(
+                form,
+                &schema::shape::BOX_ROUNDING_M,
+                rounding_m,
+                0.5 * shortest,
+            );
         }
         Shape::Cylinder {
             radius_m,
             height_m,
             rounding_m,
         } => {
-            form.number(Parameter::ShapeRadius, radius_m);
-            form.number(Parameter::ShapeHeight, height_m);
+            form.number(&schema::shape::RADIUS_M, radius_m);
+            form.number(&schema::shape::HEIGHT_M, height_m);
             let most = radius_m.min(0.5 * *height_m);
-            up_to(form, Parameter::Rounding, rounding_m, most);
+            up_to(form, &schema::shape::CYLINDER_ROUNDING_M, rounding_m, most);
         }
         Shape::Torus {
             radius_m,
             tube_radius_m,
         } => {
-            form.number(Parameter::ShapeRadius, radius_m);
+            form.number(&schema::shape::RING_RADIUS_M, radius_m);
             up_to(
                 form,
-                Parameter::TubeRadius,
+                &schema::shape::TUBE_RADIUS_M,
                 tube_radius_m,
                 0.999 * *radius_m,
             );
         }
         Shape::Dome { radius_m, height_m } => {
-            form.number(Parameter::ShapeRadius, radius_m);
-            up_to(form, Parameter::ShapeHeight, height_m, *radius_m);
+            form.number(&schema::shape::RADIUS_M, radius_m);
+            up_to(form, &schema::shape::DOME_HEIGHT_M, height_m, *radius_m);
         }
         Shape::Sweep {
             size_m,
             height_m,
             rounding_m,
         } => {
-            form.boxes(Parameter::PlaneSize, &["x", "y"], size_m);
-            form.number(Parameter::ShapeHeight, height_m);
+            form.boxes(&schema::shape::PLANE_SIZE_M, &["x", "y"], size_m);
+            form.number(&schema::shape::HEIGHT_M, height_m);
             let most = height_m.min(size_m[1]);
-            up_to(form, Parameter::Rounding, rounding_m, most);
+            up_to(form, &schema::shape::SWEEP_ROUNDING_M, rounding_m, most);
         }
         Shape::Text {
             line,
@@ -315,8 +320,8 @@ fn shape_rows(form: &mut Form, shape: &mut Shape) {
             if !typed.trim().is_empty() {
                 *line = typed;
             }
-            form.number(Parameter::ShapeHeight, height_m);
-            form.number(Parameter::TextDepth, depth_m);
+            form.number(&schema::shape::CAPITALS_M, height_m);
+            form.number(&schema::shape::DEPTH_M, depth_m);
         }
         Shape::Lathe {
             profile_m,
@@ -324,7 +329,7 @@ fn shape_rows(form: &mut Form, shape: &mut Shape) {
             smooth,
         } => {
             let mut facets = u64::from(*segments);
-            form.whole(Parameter::LatheSegments, &mut facets);
+            form.whole(&schema::shape::SEGMENTS, &mut facets);
             *segments = u32::try_from(facets).unwrap_or(u32::MAX);
             form.toggle(
                 "Smooth",

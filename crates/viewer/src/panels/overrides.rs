@@ -1,8 +1,8 @@
 //! The materials of a model's file, whose factors a scene may change.
 
 use egui::{CollapsingHeader, Ui};
-use hairline_editor::ranges::Parameter;
 use hairline_scene::description::{Object, Override};
+use hairline_scene::schema;
 use hairline_scene::{Base, Material};
 
 use super::form::Form;
@@ -72,9 +72,9 @@ fn rows(ui: &mut Ui, work: &mut Workspace, index: usize, name: &str, made: &Mate
     let mut metallic = own.metallic.unwrap_or(made_metallic);
     let mut color = own.base_color.unwrap_or(made_color);
     let before = (roughness, metallic, color);
-    form.number(Parameter::Roughness, &mut roughness);
-    form.number(Parameter::Metallic, &mut metallic);
-    form.color(Parameter::BaseColor, &mut color);
+    form.number(&schema::overrides::ROUGHNESS, &mut roughness);
+    form.number(&schema::overrides::METALLIC, &mut metallic);
+    form.color(&schema::overrides::BASE_COLOR, &mut color);
     if roughness != before.0 {
         own.roughness = Some(roughness);
     }

@@ -2,7 +2,7 @@
 
 use egui::{Button, Ui};
 use hairline_editor::actions::studio;
-use hairline_editor::ranges::Parameter;
+use hairline_scene::schema;
 
 use super::form::Form;
 use crate::workspace::Workspace;
@@ -18,8 +18,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
         "A hidden studio gives no light",
         &mut studio.hidden,
     );
-    form.number(Parameter::StudioIntensity, &mut studio.intensity);
-    form.number(Parameter::StudioRotation, &mut studio.rotation_deg);
+    form.number(&schema::studio::INTENSITY, &mut studio.intensity);
+    form.number(&schema::studio::ROTATION_DEG, &mut studio.rotation_deg);
     if let Some(change) = form.change() {
         work.drag(&change.label, change.key, |d| {
             d.studio = studio;
@@ -54,8 +54,8 @@ pub(super) fn show_ground(ui: &mut Ui, work: &mut Workspace) {
     if !is_hidden || ground.is_some() {
         let ground = ground.get_or_insert_default();
         ground.hidden = is_hidden;
-        form.color(Parameter::BaseColor, &mut ground.color);
-        form.number(Parameter::Roughness, &mut ground.roughness);
+        form.color(&schema::ground::COLOR, &mut ground.color);
+        form.number(&schema::ground::ROUGHNESS, &mut ground.roughness);
         let mut is_under_all = ground.height_m.is_none();
         form.toggle(
             "Under all",
@@ -65,7 +65,7 @@ pub(super) fn show_ground(ui: &mut Ui, work: &mut Workspace) {
         match is_under_all {
             true => ground.height_m = None,
             false => form.number(
-                Parameter::GroundHeight,
+                &schema::ground::HEIGHT_M,
                 ground
                     .height_m
                     .get_or_insert_with(|| work.lowest_m().unwrap_or(0.0)),

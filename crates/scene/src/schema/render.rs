@@ -1,0 +1,31 @@
+//! The keys of `[render]`.
+
+use super::key::{Form, Initial, Key, linear};
+use super::section::Section;
+
+/// `[render]`
+pub static RENDER: Section = Section::one(
+    "render",
+    "Settings",
+    "how the picture is sampled and shown.",
+    &[&SIZE_PX, &FILTER_STD_PX, &TONE_MAP],
+);
+
+pub static SIZE_PX: Key = Key::new("size_px", Form::Wholes(2))
+    .unit("pixels")
+    .is(Initial::Numbers(&[1280.0, 720.0]))
+    .within(1.0, 16_384.0)
+    .means("Width and height.")
+    .control("Size", linear(64.0, 4096.0), "Width and height of the picture. Larger pictures resolve single scratches; smaller ones blend them into sheen.");
+
+pub static FILTER_STD_PX: Key = Key::new("filter_std_px", Form::Number)
+    .unit("pixels")
+    .number(0.5)
+    .within(0.1, 10.0)
+    .means("Standard deviation of the pixel's Gaussian filter: larger is softer.")
+    .control("Filter", linear(0.3, 2.0), "How softly pixels blend into one another. Small: crisp scratches that may look jagged. Large: smooth lines, less sparkle.");
+
+pub static TONE_MAP: Key = Key::new("tone_map", Form::Name(&["neutral", "agx", "aces", "none"]))
+    .text("neutral")
+    .range_words("see below")
+    .means("The curve from radiance to the display.");
