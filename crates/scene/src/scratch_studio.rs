@@ -39,8 +39,8 @@ pub(crate) const DARK_GROUND: Ground = Ground {
 };
 
 impl Description {
-    /// Replaces the scene's lights, studio and environment by lights that show its scratches. `scene` is what it was built to. Scratched objects
-    /// count, or all where there are none.
+    /// Replaces the scene's lights, studio and environment by lights that show its scratches, and darkens its ground plane. `scene` is what it was
+    /// built to. Scratched objects count, or all where there are none.
     pub fn light_for_scratches(&mut self, scene: &Scene) {
         let is_scratched = |name: &str| self.scratches.iter().any(|layer| layer.object == name);
         let any = (scene.objects.iter()).any(|object| is_scratched(&object.name));
@@ -59,6 +59,11 @@ impl Description {
         self.lights = subject.lights(&self.camera, self.render.size_px);
         self.studio = Studio::NONE;
         self.environment = Some(Environment::dark_room());
+        if let Some(ground) = &mut self.ground {
+            // As bright as lamps for metals are, a grey one would be white.
+            let dark = DARK_GROUND.color;
+            ground.color = std::array::from_fn(|c| ground.color[c].min(dark[c]));
+        }
     }
 }
 
@@ -135,7 +140,7 @@ impl Subject<'_> {
             .collect()
     }
 
-    /// Mean albedo of the visible bodies without the reflection of their surfaces.
+    /// Mean albedo of the visible bodies: what they look like beside the mirror images of the lamps.
     fn mean_albedo(&self, seen: &[SeenPoint]) -> f64 {
         let materials = self.materials.iter();
         let albedos: Vec<f64> = materials.map(|it| self.albedo(it)).collect();
@@ -145,13 +150,16 @@ impl Subject<'_> {
 
     fn albedo(&self, material: &Material) -> f64 {
         let mean = |rgb: [f64; 3]| rgb.iter().sum::<f64>() / 3.0;
+        let rough = beside_highlight(material.roughness);
         let color = match material.base {
-            Base::Mirror | Base::Metal(_) | Base::ColoredMetal { .. } => 0.0,
+            Base::Mirror => 0.0,
+            Base::Metal(metal) => rough * mean(metal.reflectance_rgb(1.0)),
+            Base::ColoredMetal { base_color, .. } => rough * mean(base_color),
             Base::Dielectric { base_color, .. } => mean(base_color),
             Base::MetallicRoughness {
                 base_color,
                 metallic,
-            } => (1.0 - metallic) * mean(base_color),
+            } => (1.0 - metallic + metallic * rough) * mean(base_color),
         };
         let of_texture = material.base_color_texture.map_or(1.0, |texture| {
             // Linear values from the displayed ones.
@@ -162,6 +170,14 @@ impl Subject<'_> {
         });
         color * of_texture
     }
+}
+
+/// The albedo of a white diffuse body that is as bright as a white metal beside its highlight, twice as far off as fans of scratches reach: pi times the BRDF of
+/// GGX there (docs/model.md, section 3), without masking.
+fn beside_highlight(roughness: f64) -> f64 {
+    let alpha2 = roughness.powi(4).max(1e-12);
+    let cos2 = (2.0 * FAN_DEG).to_radians().cos().powi(2);
+    0.25 * alpha2 / (cos2 * (alpha2 - 1.0) + 1.0).powi(2)
 }
 
 /// Search for the places of lamps.
