@@ -239,7 +239,7 @@ impl Viewer {
             self.take_file(&ctx, &path);
         }
         self.frame_what_was_added();
-        while let Some(outcome) = self.files.chosen() {
+        while let Some(outcome) = self.files.chosen(ctx.input(|input| input.focused)) {
             self.take_choice(&ctx, outcome);
         }
         self.hear_of_files(&ctx);

@@ -105,6 +105,8 @@ pub(crate) enum Choice {
 
 /// Faster than any hand: the dialog did not open.
 const NO_HAND: Duration = Duration::from_millis(250);
+/// A dialog that has not taken the keyboard by then is not there.
+const NO_DIALOG: Duration = Duration::from_secs(3);
 
 pub(crate) struct Files {
     waiting: Option<Waiting>,
@@ -124,6 +126,8 @@ pub(crate) struct Files {
 struct Waiting {
     purpose: Purpose,
     since: Instant,
+    /// The window has lost the keyboard since: a dialog takes it.
+    lost_focus: bool,
     answer: Receiver<Option<PathBuf>>,
 }
 
@@ -192,8 +196,10 @@ impl Files {
         self.waiting = Some(Waiting {
             purpose,
             since: Instant::now(),
+            lost_focus: false,
             answer,
         });
+        wake.request_repaint_after(NO_DIALOG);
         // Without a dialog the sender goes here, and the window asks itself.
         if self.native {
             #[cfg(not(target_arch = "wasm32"))]
@@ -222,8 +228,9 @@ impl Files {
         }
     }
 
-    /// Result of a dialog or a look into a file, once each.
-    pub fn chosen(&mut self) -> Option<Choice> {
+    /// Result of a dialog or a look into a file, once each. Where the system has no dialogs, the window asks from then on: how long a system takes to
+    /// say so depends on its load.
+    pub fn chosen(&mut self, is_focused: bool) -> Option<Choice> {
         for i in 0..self.probes.len() {
             match self.probes[i].try_recv() {
                 Err(TryRecvError::Empty) => {}
@@ -237,14 +244,19 @@ impl Files {
                 }
             }
         }
-        let waiting = self.waiting.as_ref()?;
-        let purpose = waiting.purpose;
+        let waiting = self.waiting.as_mut()?;
+        waiting.lost_focus |= !is_focused;
+        let (purpose, elapsed) = (waiting.purpose, waiting.since.elapsed());
         let choice = match waiting.answer.try_recv() {
+            Err(TryRecvError::Empty) if elapsed > NO_DIALOG && !waiting.lost_focus => {
+                Choice::NoDialogs(purpose)
+            }
             Err(TryRecvError::Empty) => return None,
             Ok(Some(path)) => Choice::Path(purpose, path),
-            Ok(None) if waiting.since.elapsed() > NO_HAND => Choice::Nothing,
+            Ok(None) if elapsed > NO_HAND && waiting.lost_focus => Choice::Nothing,
             Ok(None) | Err(TryRecvError::Disconnected) => Choice::NoDialogs(purpose),
         };
+        self.native &= !matches!(choice, Choice::NoDialogs(_));
         self.waiting = None;
         Some(choice)
     }

@@ -15,7 +15,7 @@ impl Viewer {
     pub(super) fn ask_path(&mut self, ctx: &egui::Context, purpose: Purpose) {
         self.files.ask(purpose, &self.work.document, ctx.clone());
         // Without a dialog of the system the line appears at once, for the keys typed next.
-        if let Some(choice) = self.files.chosen() {
+        if let Some(choice) = self.files.chosen(ctx.input(|input| input.focused)) {
             self.take_choice(ctx, choice);
         }
         ctx.request_repaint();
