@@ -165,9 +165,8 @@ impl Recorder {
 
 /// Adds a stroke to the scene.
 ///
-/// Paint goes to the selected layer if that is drawn, else to the first drawn layer on the selected object that is shown, else to a new one; the
-/// layer is shown then. An
-/// eraser works on the selected layer, or on all that are shown of a selected object.
+/// Paint goes to the selected layer if that is drawn; of a selected object to its first drawn layer that is shown; else to a new layer. The layer is
+/// shown then. An eraser works on the selected layer, or on all that are shown of a selected object.
 ///
 /// # Errors
 /// [`ActionError::Missing`], where neither a layer nor an object is selected.
@@ -193,9 +192,9 @@ pub fn apply_stroke(
         (Brush::Paint { .. }, _) => {
             let own = match selection {
                 Selection::Layer(i) => Some(i).filter(is_drawn),
-                _ => None,
+                _ => shown.into_iter().find(is_drawn),
             };
-            let place = match own.or_else(|| shown.into_iter().find(is_drawn)) {
+            let place = match own {
                 Some(i) => Selection::Layer(i),
                 None => {
                     let object = description.objects[object].name.clone();

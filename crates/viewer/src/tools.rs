@@ -1,6 +1,7 @@
 //! Tools of the left mouse button in the picture.
 
 use hairline_editor::brush::BrushSettings;
+use hairline_scene::description::Camera;
 
 /// A tool.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,8 +49,8 @@ pub(crate) struct Toolbox {
     pub tool: Tool,
     /// Settings of the brush by hand; none until then.
     pub brush: Option<BrushSettings>,
-    /// Settings that fit the object that it was over last.
-    pub fitted: Option<BrushSettings>,
+    /// Settings that fit the object that it was over last, with its number and the camera that saw it.
+    pub fitted: Option<(usize, Camera, BrushSettings)>,
 }
 
 impl Default for Toolbox {

@@ -162,15 +162,15 @@ fn paint_finds_its_layer() {
     assert_eq!(description.scratches[1].object, "a");
     assert_eq!(description.scratches[1].strokes.len(), 1);
     assert!(description.scratches[0].strokes.is_empty());
-    // The next stroke goes to the new layer, whether that, its neighbour or its object is selected.
-    for selection in [
-        Selection::Layer(1),
-        Selection::Layer(0),
-        Selection::Object(0),
-    ] {
+    // The next stroke goes to the new layer, whether that or its object is selected. A pattern that is selected takes no paint again.
+    for selection in [Selection::Layer(1), Selection::Object(0)] {
         assert_eq!(paint(&mut description, selection), Ok(Selection::Layer(1)));
     }
-    assert_eq!(description.scratches[1].strokes.len(), 4);
+    assert_eq!(description.scratches[1].strokes.len(), 3);
+    let mut again = description.clone();
+    let place = paint(&mut again, Selection::Layer(0)).unwrap();
+    assert_eq!(again.scratches.len(), description.scratches.len() + 1);
+    assert!(matches!(place, Selection::Layer(i) if again.scratches[i].strokes.len() == 1));
     // But not where it is hidden, unless it is selected itself: then it is shown, as what is drawn is to be seen.
     description.scratches[1].hidden = true;
     assert_eq!(

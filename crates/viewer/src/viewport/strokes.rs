@@ -261,10 +261,14 @@ fn begin(work: &mut Workspace, world: World, pos: Pos2) -> Option<Going> {
     Some(going)
 }
 
-/// Settings of the brush; before anyone has set it, as large as fits the object and the view.
+/// Settings of the brush; before anyone has set it, as large as fits the object and the view: of one size wherever it is on the object.
 fn settings(work: &mut Workspace, hit: &Picked) -> BrushSettings {
-    let fitted = work.fitting_brush(Some(hit.object), hit.point_m);
-    work.toolbox.fitted = Some(fitted);
+    let camera = work.camera();
+    let fitted = work.toolbox.fitted.as_ref();
+    if fitted.is_none_or(|(object, seen_by, _)| (*object, seen_by) != (hit.object, &camera)) {
+        let brush = work.fitting_brush(Some(hit.object), hit.point_m);
+        work.toolbox.fitted = Some((hit.object, camera, brush));
+    }
     work.brush()
 }
 

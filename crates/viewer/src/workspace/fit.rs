@@ -26,7 +26,7 @@ impl Workspace {
         };
         self.toolbox
             .brush
-            .or(self.toolbox.fitted)
+            .or(self.toolbox.fitted.as_ref().map(|(.., brush)| *brush))
             .unwrap_or_else(fitted)
     }
 
