@@ -151,6 +151,7 @@ impl Export {
             window_px,
             has_lens: has_lens(description),
             is_view_free: work.free_view.is_free(),
+            is_snapshot: work.snapshots.cover(),
         };
         let answer = form.show(ctx, &scene);
         match answer {

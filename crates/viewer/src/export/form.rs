@@ -46,6 +46,8 @@ pub(super) struct Shown {
     pub has_lens: bool,
     /// Whether the window looks from elsewhere than the scene's camera.
     pub is_view_free: bool,
+    /// Whether the window shows a snapshot in the place of the scene.
+    pub is_snapshot: bool,
 }
 
 /// Button that was pressed.
@@ -157,6 +159,13 @@ impl Form {
                 answer = self.path_row(ui);
             });
             self.remarks(ui);
+            if scene.is_snapshot {
+                ui.colored_label(
+                    ui.visuals().error_fg_color,
+                    "The window shows a snapshot; the file will show the scene as it is now. \
+                     \"Restore\" below its picture brings its look back.",
+                );
+            }
             ui.add_space(8.0);
             answer.or(match self.question.clone() {
                 Some(question) => self.replace_buttons(ui, &question),
@@ -298,7 +307,7 @@ impl Form {
         let first = self.motion().path(&self.path(), 0);
         let ending = first.extension().unwrap_or_default().to_string_lossy();
         let format = match ending.to_lowercase().as_str() {
-            "png" => "PNG: as the window shows it.",
+            "png" => "PNG: with the look of the window.",
             "apng" if self.is_turntable => {
                 "APNG: one file that browsers play, 25 pictures in a second, as the window shows them."
             }

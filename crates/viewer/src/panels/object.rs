@@ -80,6 +80,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             });
         }
     }
+    ui.menu_button("Make it of…", |ui| make_of(ui, work, index))
+        .response
+        .on_hover_text("The metals and the other presets of materials");
     overrides::section(ui, work, index);
     ui.add_space(8.0);
     ui.strong("Scratches");
@@ -88,10 +91,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             work.document.select(Selection::Layer(i));
         }
     }
-    ui.horizontal(|ui| {
-        ui.menu_button("Add scratches…", |ui| add_layer(ui, work, index));
-        ui.menu_button("Make it of…", |ui| make_of(ui, work, index));
-    });
+    ui.menu_button("Add scratches…", |ui| add_layer(ui, work, index));
     ui.add_space(8.0);
     ui.strong("Gratings");
     for i in objects::gratings(&description, index) {
