@@ -81,6 +81,9 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
                 samples,
                 wanted,
             } = rendered;
+            if let Some(nothing) = nothing_seen(&image) {
+                tell(format_args!("note: {nothing}"));
+            }
             if samples == wanted {
                 return write(&output, &image, &notes);
             }
@@ -105,6 +108,19 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
             )
         }
     }
+}
+
+/// Why a picture shows nothing, where it does.
+fn nothing_seen(image: &Image) -> Option<&'static str> {
+    if image.depth_m.iter().all(|depth_m| *depth_m == 0.0) {
+        return Some(
+            "no object is in the picture: `position_m` and `target_m` of the camera decide where it looks",
+        );
+    }
+    let is_black = |rgb: &[f32; 3]| rgb.iter().all(|c| *c <= 0.0);
+    (image.base.iter().all(is_black) && image.scratches.iter().all(is_black)).then_some(
+        "the picture is black: no light comes to what the camera sees; it may stand inside of an object",
+    )
 }
 
 /// Destination of pictures.

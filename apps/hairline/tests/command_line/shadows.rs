@@ -49,6 +49,30 @@ fn what_has_no_shadows_refuses_them() {
 }
 
 #[test]
+fn a_picture_of_nothing_says_so() {
+    let away = SCREENED.replace("target_m = [0.0, 0.0, 0.0]", "target_m = [0.0, -0.6, 0.6]");
+    let dark = SCREENED.replace("radiance = 50.0", "radiance = 0.0");
+    for (scene, note) in [
+        (away, "no object is in the picture"),
+        (dark, "the picture is black"),
+    ] {
+        let folder = folder_with("nothing.toml", &scene);
+        let arguments = "render nothing.toml -o out.exr --backend cpu";
+        let text = stderr_of(&hairline(folder.path(), arguments).code(0));
+        assert!(text.contains(note), "{text}");
+    }
+    let folder = folder_with("screened.toml", SCREENED);
+    let text = stderr_of(
+        &hairline(
+            folder.path(),
+            "render screened.toml -o out.exr --backend cpu",
+        )
+        .code(0),
+    );
+    assert!(!text.contains("note:"), "{text}");
+}
+
+#[test]
 fn bounces_ask_for_shadows() {
     let folder = folder_with("screened.toml", SCREENED);
     let arguments = "render screened.toml -o out.exr --shadows off --bounces 1";
