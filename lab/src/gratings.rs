@@ -113,6 +113,7 @@ impl Gratings {
             text.push('\n');
             println!("at independent places, {pitch_um} um");
         }
+        text += &crate::fine_gratings::measured();
         text += IN_PICTURES;
         let document = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/accuracy/gratings.md");
         write_atomically(&document, text.as_bytes())?;

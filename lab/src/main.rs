@@ -1,8 +1,10 @@
 //! Measurements, fits and models that are made now and then. `cargo lab COMMAND`; each command is one file.
 
 mod accuracy;
+mod fine_gratings;
 mod fit_lobes;
 mod fuzz;
+
 mod gratings;
 mod make_models;
 mod models;

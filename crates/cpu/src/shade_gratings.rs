@@ -100,7 +100,7 @@ impl ShadedGratings {
                 if let Some(environment) = environment {
                     add(Some(around), row, light.environment(point, environment));
                 }
-                add(None, row, light.all_around());
+                add(None, row, light.taken_by_row());
             };
             add_around(&own, &own_light);
             for row in grating.all_ways(seen, normal).map(row) {

@@ -29,7 +29,6 @@ pub mod autosave;
 pub mod bookmarks;
 pub mod brush;
 pub mod document;
-pub mod folders;
 pub mod grating_presets;
 mod history;
 pub mod maps;

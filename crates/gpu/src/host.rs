@@ -110,7 +110,12 @@ pub(crate) fn gratings(
         own.flat_map(|it| materials.iter().map(move |material| (it, *material)))
             .filter_map(|(it, material)| {
                 let table = tables.grating_table(it, material)?;
-                Some(grating(it, [material, table], array, origin_m))
+                let mark = match tables.tables[table].by_incidence {
+                    true => TABLE_BY_INCIDENCE,
+                    false => 0,
+                };
+                let numbers = [material as u32, table as u32 | mark];
+                Some(grating(it, numbers, array, origin_m))
             })
             .collect()
     };
@@ -122,10 +127,13 @@ const GROOVES_MASK_BY_SIDES: u32 = 1;
 const GROOVES_BY_U: u32 = 2;
 const GROOVES_BY_V: u32 = 4;
 
+/// Twin: incidence_table.wgsl.
+const TABLE_BY_INCIDENCE: u32 = 1 << 31;
+
 /// Twin of the kinds: gratings.wgsl.
 fn grating(
     grating: &hairline_scene::Grating,
-    [material, table]: [usize; 2],
+    [material, table]: [u32; 2],
     array: &TextureArray,
     origin_m: DVec3,
 ) -> Grating {
@@ -185,8 +193,8 @@ fn grating(
         radii_m: grating.radii_m.map(|radius| radius.min(1e9) as f32),
         coverage: grating.coverage as f32,
         angle_std_rad: grating.angle_std_rad as f32,
-        material: material as u32,
-        table: table as u32,
+        material,
+        table,
         seed: grating.seed,
         pitch_um: grating.row.pitch_um as f32,
         width_um: grating.row.width_um as f32,

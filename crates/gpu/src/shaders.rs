@@ -57,6 +57,8 @@ modules! {
     SCRATCH = "physics/scratch" needs [GAUSSIAN];
     /// The spectrum of a scratch.
     SCRATCH_TABLE = "physics/scratch_table" needs [];
+    /// The light of a fine grating by the direction to the viewer.
+    INCIDENCE_TABLE = "physics/incidence_table" needs [SCRATCH_TABLE];
     /// Luminance.
     LUMINANCE = "physics/luminance" needs [];
     /// Random numbers that are even over rounds.
@@ -112,7 +114,7 @@ modules! {
     /// The method of 2018: the pixel's footprint.
     PUBLISHED_FOOTPRINT = "published/published_footprint" needs [GAUSSIAN];
     /// Light that one scratch sends to the viewer: the module for other engines.
-    SCRATCH_LIGHT = "physics/scratch_light" needs [FOUR_EDGES, BAND_ENVIRONMENT, SCRATCH_TABLE, MASK, ENVIRONMENT];
+    SCRATCH_LIGHT = "physics/scratch_light" needs [FOUR_EDGES, BAND_ENVIRONMENT, INCIDENCE_TABLE, MASK, ENVIRONMENT];
     /// Light that the grooves of a grating send.
     GRATING = "physics/grating" needs [SCRATCH_LIGHT];
     /// Search for scratches under a footprint, for other engines.

@@ -23,6 +23,9 @@ pub(crate) struct Contents {
     pub gratings: bool,
     /// Gratings whose grooves could be seen one by one.
     pub single_grooves: bool,
+    /// Gratings with tables by incidence, and with tables by depth.
+    pub fine_gratings: bool,
+    pub coarse_gratings: bool,
     /// Single grooves that come nearer to one another along their way.
     pub branching_grooves: bool,
     /// Gratings with pictures, or along texture coordinates.
@@ -58,10 +61,16 @@ impl Contents {
             let mut all = scene.objects.iter().flat_map(|o| &o.gratings);
             all.any(is)
         };
+        let has_fine = |is_fine| {
+            let mut spectra = tables.grating_spectra.iter();
+            spectra.any(|of| of.fine.is_some() == is_fine)
+        };
         Self {
             scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
             gratings: gratings && scene.objects.iter().any(|o| !o.gratings.is_empty()),
             single_grooves,
+            fine_gratings: gratings && has_fine(true),
+            coarse_gratings: gratings && has_fine(false),
             branching_grooves: single_grooves && any(branches),
             groove_maps: gratings && any(has_maps),
             groove_spots: gratings && any(has_spots),
@@ -147,6 +156,8 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         scratches: true,
         gratings: true,
         single_grooves: true,
+        fine_gratings: true,
+        coarse_gratings: true,
         branching_grooves: true,
         groove_maps: true,
         groove_spots: true,
@@ -225,6 +236,8 @@ impl ShadeVariant {
             ("HAS_SCRATCHES", has.scratches.into()),
             ("HAS_GRATINGS", has.gratings.into()),
             ("HAS_SINGLE_GROOVES", has.single_grooves.into()),
+            ("HAS_FINE_GRATINGS", has.fine_gratings.into()),
+            ("HAS_COARSE_GRATINGS", has.coarse_gratings.into()),
             ("HAS_BRANCHING_GROOVES", has.branching_grooves.into()),
             ("HAS_GROOVE_MAPS", has.groove_maps.into()),
             ("HAS_GROOVE_SPOTS", has.groove_spots.into()),

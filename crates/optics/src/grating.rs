@@ -5,6 +5,7 @@
 //! that grooves send each for itself. Both depend on q alone, for a given row: [`Grating::table`] holds their integral, so that the chords
 //! that a light cuts out of a scratch's band serve a row as they are.
 
+mod incidence;
 mod single;
 mod table;
 
@@ -14,6 +15,7 @@ use std::f64::consts::PI;
 use crate::diffraction::sinc;
 use crate::spectrum::WAVELENGTH_MIN_NM;
 
+pub use incidence::{INCIDENCES, IncidenceRow, RigorousGrating};
 pub use single::GroovesAt;
 pub use table::{GRATING_DEPTH_NM, GRATING_WIDTH_UM};
 
@@ -45,8 +47,13 @@ impl Grating {
     /// an oblique path is shorter: half the sum of the cosines.
     pub fn mean_phase_step(&self, depth_share: f64, wavelength_nm: f64) -> Complex64 {
         let phase = 4.0 * PI * self.depth_nm * depth_share / wavelength_nm;
-        let std = phase * self.depth_spread;
-        1.0 - Complex64::from_polar((-0.5 * std * std).exp(), -phase)
+        1.0 - Complex64::from_polar(self.kept_by_spread(depth_share, wavelength_nm), -phase)
+    }
+
+    /// Magnitude of the mean over the grooves of the phase factor of a floor: 1 where all are as deep.
+    fn kept_by_spread(&self, depth_share: f64, wavelength_nm: f64) -> f64 {
+        let std = 4.0 * PI * self.depth_nm * depth_share / wavelength_nm * self.depth_spread;
+        (-0.5 * std * std).exp()
     }
 
     /// E |D|^2, which is twice the real part of E D.
@@ -65,7 +72,7 @@ impl Grating {
     }
 
     /// J: the share of an order that the displacements of the grooves leave. It belongs to the order as a whole, and not to places within it.
-    fn order_kept(&self, order: i32) -> f64 {
+    pub(crate) fn order_kept(&self, order: i32) -> f64 {
         let displaced = 2.0 * PI * self.jitter_um * f64::from(order) / self.pitch_um;
         (-displaced * displaced).exp()
     }
@@ -87,23 +94,40 @@ impl Grating {
     /// (42), integrated over xi_t: the light that the row sends to q, order 0 aside, for each unit of q and of the surface that it covers.
     /// `band_std` is (5) of the wavelength.
     pub fn density(&self, q: f64, depth_share: f64, wavelength_nm: f64, band_std: f64) -> f64 {
+        let kept = self.orders_about(q, wavelength_nm, band_std);
+        let peaks: f64 = kept
+            .map(|(order, peak)| self.order_kept(order) * peak)
+            .sum();
+        let together = self.envelope(1e3 / wavelength_nm * q)[0] * peaks;
+        let of_mean = self.mean_phase_step(depth_share, wavelength_nm).norm_sqr();
+        of_mean * together + self.rest_density(q, depth_share, wavelength_nm)
+    }
+
+    /// Orders but 0 whose peaks reach q, each with its density there.
+    fn orders_about(
+        &self,
+        q: f64,
+        wavelength_nm: f64,
+        band_std: f64,
+    ) -> impl Iterator<Item = (i32, f64)> {
+        let spacing = self.order_q(1, wavelength_nm);
+        let (nearest, reach) = ((q / spacing).round(), (6.0 * band_std / spacing).ceil());
+        let orders = (nearest - reach) as i32..=(nearest + reach) as i32;
+        orders.filter(|order| *order != 0).map(move |order| {
+            let off = (q - f64::from(order) * spacing) / band_std;
+            let peak = (-0.5 * off * off).exp() / ((2.0 * PI).sqrt() * band_std);
+            (order, peak)
+        })
+    }
+
+    /// The light that grooves send each for itself, as [`Self::density`].
+    fn rest_density(&self, q: f64, depth_share: f64, wavelength_nm: f64) -> f64 {
         let per_um = 1e3 / wavelength_nm;
         let slit = sinc(PI * self.width_um * per_um * q);
         let displaced = 2.0 * PI * self.jitter_um * per_um * q;
         let alone = self.fill() * self.width_um * per_um * slit * slit;
-        let spacing = self.order_q(1, wavelength_nm);
-        let (nearest, reach) = ((q / spacing).round(), (6.0 * band_std / spacing).ceil());
-        let peaks: f64 = ((nearest - reach) as i32..=(nearest + reach) as i32)
-            .filter(|order| *order != 0)
-            .map(|order| {
-                let off = (q - self.order_q(order, wavelength_nm)) / band_std;
-                self.order_kept(order) * (-0.5 * off * off).exp()
-            })
-            .sum();
-        let together = self.envelope(per_um * q)[0] * peaks / ((2.0 * PI).sqrt() * band_std);
         let step = self.mean_phase_step(depth_share, wavelength_nm);
-        let of_mean = step.norm_sqr();
-        of_mean * (together - alone * (-displaced * displaced).exp()) + 2.0 * step.re * alone
+        (2.0 * step.re - step.norm_sqr() * (-displaced * displaced).exp()) * alone
     }
 
     /// The share of the light that goes to an order. That of order 0 leaves in the mirror's direction.

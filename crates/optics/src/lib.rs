@@ -40,6 +40,7 @@ pub mod mask;
 pub mod metal;
 pub mod picture;
 pub mod published;
+pub mod rigorous;
 pub mod scratch;
 pub mod spectrum;
 pub mod sptd;

@@ -45,7 +45,7 @@ impl Metal {
     ];
 
     /// n and k at a wavelength, linear between the tabulated ones (every 10 nm from 380 to 780 nm, constant beyond).
-    pub(crate) fn n_k(self, wavelength_nm: f64) -> (f64, f64) {
+    pub fn n_k(self, wavelength_nm: f64) -> (f64, f64) {
         let rows = &*ROWS;
         let position = ((wavelength_nm - 380.0) / 10.0).clamp(0.0, (rows.len() - 1) as f64);
         let i = (position as usize).min(rows.len() - 2);

@@ -8,6 +8,7 @@
 //! R/F0 carries the correlation of the metal's colour with the scratch's; the caller multiplies by Fresnel in RGB.
 
 use crate::{diffraction, scratch, spectrum};
+use rayon::prelude::*;
 
 /// Columns, over u.
 pub const COLUMNS: usize = 1024;
@@ -28,6 +29,8 @@ pub struct ScratchTable {
     pub texels: Vec<[u32; 4]>,
     /// T(infinity, d) - T(-infinity, d) of each row: twice the last column, side by side.
     totals: Vec<[f32; 4]>,
+    /// Whether rows are of incidences in the place of depths: those of a [rigorous grating](crate::grating::IncidenceRow).
+    pub by_incidence: bool,
 }
 
 /// Bits of each slope, in two's complement; the rest of a word is the exponent that they share.
@@ -60,7 +63,7 @@ fn unpack_slopes(word: u32) -> [f64; 3] {
 impl ScratchTable {
     /// The table of a material. `reflectance` is spectral at normal incidence; the channels are divided by its colour, so
     /// that T(infinity) - T(-infinity) is the share of a reflected white that a scratch scatters.
-    pub fn new(reflectance: impl Fn(f64) -> f64) -> Self {
+    pub fn new(reflectance: impl Fn(f64) -> f64 + Sync) -> Self {
         let samples = spectrum::samples();
         let f0 = spectrum::rgb_from_reflectance(&reflectance);
         // Both factors of T are tables over wavelength; T is their product.
@@ -95,16 +98,17 @@ impl ScratchTable {
     }
 
     /// `fill` adds to zeros the columns of a row: T in each channel, and its derivatives by the column index.
-    pub(crate) fn from_rows(fill: impl Fn(usize, &mut [[f64; 6]])) -> Self {
+    pub(crate) fn from_rows(fill: impl Fn(usize, &mut [[f64; 6]]) + Sync) -> Self {
         let mut texels = vec![[0u32; 4]; ROWS * COLUMNS];
-        for (row, texels) in texels.chunks_exact_mut(COLUMNS).enumerate() {
+        let rows = texels.par_chunks_exact_mut(COLUMNS).enumerate();
+        rows.for_each(|(row, texels)| {
             let mut sums = vec![[0f64; 6]; COLUMNS];
             fill(row, &mut sums);
             for (texel, &[r, g, b, slopes @ ..]) in texels.iter_mut().zip(&sums) {
                 let [r, g, b] = [r, g, b].map(|t| (t as f32).to_bits());
                 *texel = [r, g, b, pack_slopes(slopes)];
             }
-        }
+        });
         Self::from_texels(texels)
     }
 
@@ -114,7 +118,11 @@ impl ScratchTable {
         let totals = last
             .map(|&[r, g, b, _]| [twice(r), twice(g), twice(b), 0.0])
             .collect();
-        Self { texels, totals }
+        Self {
+            texels,
+            totals,
+            by_incidence: false,
+        }
     }
 
     /// T_c(u, d): by value and slope of the nearest column, linear in depth. Odd in u.
@@ -126,6 +134,12 @@ impl ScratchTable {
     #[inline]
     pub fn at_depth(&self, depth_nm: f64) -> TableRow<'_> {
         let (row, share) = row_at(depth_nm);
+        self.between_rows(row, share)
+    }
+
+    /// T between a row and a share of the next one.
+    #[inline]
+    pub(crate) fn between_rows(&self, row: usize, share: f64) -> TableRow<'_> {
         let (near, far) = self.texels[row * COLUMNS..][..2 * COLUMNS].split_at(COLUMNS);
         TableRow { near, far, share }
     }

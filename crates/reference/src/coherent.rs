@@ -3,6 +3,7 @@
 //! Directions are drawn by a mixture: the base's peak, each groove's band, and whatever else is lit, so that no direction that
 //! the field sends light to is left out, and the estimate divides by the mixture's density.
 
+use super::gratings::RowView;
 use super::grooves::GrooveView;
 use super::interval::{CutCauchy, CutNormal};
 use super::separable::direction_from_cosines;
@@ -11,6 +12,7 @@ use glam::{DVec2, DVec3};
 use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::band::BandFrame;
 use hairline_optics::coherent::{GrooveField, base_amplitude, groove_overlap};
+use hairline_optics::grating::RigorousGrating;
 use hairline_optics::scratch::band_std;
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -26,6 +28,70 @@ pub(super) struct Field<'a> {
     fresnel: &'a SpectralFresnel<'a>,
     /// 1 - <r>: the part of the base's peak that grooves take from its amplitude, at each wavelength.
     taken: Spectrum<Complex64>,
+    /// The fine grating that the grooves are those of.
+    rigorous: Option<RigorousField<'a>>,
+}
+
+/// Factors that give the field of rectangular grooves, which keeps all phases, the energy of rigorous orders. Directions between two orders have
+/// those of the nearer one. Scratches that lie on such a grating take part in them.
+struct RigorousField<'a> {
+    of: RigorousGrating<'a>,
+    frame: BandFrame,
+    /// `wo` in the frame of the grooves.
+    wo: DVec3,
+    /// Of order 0, for each wavelength.
+    mirror: Spectrum<Complex64>,
+}
+
+/// Largest factor on the energy of an order. Rectangular grooves send none to some orders, in which walls send a little.
+const MOST_FACTOR: f64 = 100.0;
+
+impl<'a> RigorousField<'a> {
+    /// Puts the rigorous part of the base's peak into `taken`.
+    fn new(
+        row: &RowView<'a>,
+        wavelengths: &Wavelengths,
+        taken: &mut Spectrum<Complex64>,
+    ) -> Option<Self> {
+        let of = row.rigorous?;
+        let viewer = [row.wo.y, row.wo.x];
+        let mut mirror = [Complex64::ONE; WAVELENGTHS];
+        for (j, mirror) in mirror.iter_mut().enumerate() {
+            let kept = of
+                .energy(0, wavelengths.nm[j], viewer, row.wo.z)
+                .max(0.0)
+                .sqrt();
+            let before = taken[j];
+            taken[j] = 1.0 - Complex64::from_polar(kept, (1.0 - before).arg());
+            if before.norm_sqr() > 1e-12 {
+                *mirror = taken[j] / before;
+            }
+        }
+        Some(Self {
+            of,
+            frame: row.frame,
+            wo: row.wo,
+            mirror,
+        })
+    }
+
+    fn factor(&self, wi: DVec3, j: usize, nm: f64) -> Complex64 {
+        let wi = self.frame.band_from_surface(wi);
+        let row = &self.of.row;
+        let order = ((wi.y + self.wo.y) / row.order_q(1, nm)).round() as i32;
+        if order == 0 {
+            return self.mirror[j];
+        }
+        let depth_share = 0.5 * (wi.z + self.wo.z);
+        let rigorous = (self.of).energy(order, nm, [self.wo.y, self.wo.x], depth_share);
+        // Efficiencies are over the reflectance at the viewer's angle; the field's weight has both.
+        let [to, from] = [self.wo.z, wi.z].map(|cos| self.of.medium.reflectance(cos, nm));
+        let scalar = row.order_energy(order, depth_share, nm) * (from / to).sqrt();
+        (rigorous.max(0.0) / scalar.max(1e-9))
+            .min(MOST_FACTOR)
+            .sqrt()
+            .into()
+    }
 }
 
 /// The BRDF times the light's cosine, per d xi, by layer. With r what the base's amplitude keeps and S' = S - (1 - r) B, which
@@ -41,11 +107,14 @@ impl<'a> Field<'a> {
     pub(crate) fn new(
         point: &'a SurfacePoint<'a>,
         grooves: &'a [GrooveView],
+        row: Option<&RowView<'a>>,
         smooth: bool,
         wavelengths: &'a Wavelengths,
         fresnel: &'a SpectralFresnel<'a>,
     ) -> Self {
+        let mut taken = taken_amplitude(point, grooves, wavelengths);
         Self {
+            rigorous: row.and_then(|row| RigorousField::new(row, wavelengths, &mut taken)),
             point,
             grooves,
             field: GrooveField::new(
@@ -55,7 +124,7 @@ impl<'a> Field<'a> {
             smooth,
             wavelengths,
             fresnel,
-            taken: taken_amplitude(point, grooves, wavelengths),
+            taken,
         }
     }
 
@@ -84,6 +153,11 @@ impl<'a> Field<'a> {
         let mut amplitudes = [Complex64::ZERO; WAVELENGTHS];
         let nm = &self.wavelengths.nm;
         self.field.amplitudes(xi, wi.z + wo.z, nm, &mut amplitudes);
+        if let Some(rigorous) = &self.rigorous {
+            for (j, amplitude) in amplitudes.iter_mut().enumerate() {
+                *amplitude *= rigorous.factor(wi, j, nm[j]);
+            }
+        }
         let sigma_um = self.point.coherence_um;
         let per_area = 1.0 / (PI * sigma_um * sigma_um);
         for j in 0..WAVELENGTHS {

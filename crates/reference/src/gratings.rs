@@ -7,7 +7,9 @@ use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::band::{BandFrame, BandLine};
 use hairline_optics::band_environment::row_cells;
 use hairline_optics::coherent::GroovePiece;
-use hairline_optics::grating::{GRATING_DEPTH_NM, GRATING_WIDTH_UM, Grating as Row, GroovesAt};
+use hairline_optics::grating::{
+    GRATING_DEPTH_NM, GRATING_WIDTH_UM, Grating as Row, GroovesAt, IncidenceRow, RigorousGrating,
+};
 use hairline_optics::scratch::oblique_depth_nm;
 use hairline_scene::{GrooveGround, Scene, ScratchTables};
 use spec_math::cephes64::ndtri;
@@ -17,8 +19,10 @@ const END_SIGMA: f64 = 6.0;
 
 /// A row of grooves from a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct RowView {
+pub(super) struct RowView<'a> {
     pub row: Row,
+    /// Its efficiencies, where they are rigorous.
+    pub rigorous: Option<RigorousGrating<'a>>,
     pub frame: BandFrame,
     /// `wo` in the frame of its grooves.
     pub wo: DVec3,
@@ -32,12 +36,12 @@ pub(super) struct RowView {
     pub density: f64,
 }
 
-impl RowView {
+impl<'a> RowView<'a> {
     /// Draws one of the gratings at a point of an object, or none.
     pub(super) fn drawn(
         scene: &Scene,
         object: usize,
-        tables: &ScratchTables,
+        tables: &'a ScratchTables,
         point: &SurfacePoint,
         random: Random,
     ) -> Option<Self> {
@@ -70,11 +74,13 @@ impl RowView {
                 true => grating.grooves_at(&ground, position_m, normal, place.tangent),
                 false => None,
             };
+            let table = tables.grating_table(grating, point.material)?;
             return Some(Self {
                 row: grating.row,
+                rigorous: tables.rigorous(table),
                 frame,
                 wo: frame.band_from_surface(point.wo),
-                table: tables.grating_table(grating, point.material)?,
+                table,
                 phase,
                 single,
                 seed: grating.seed,
@@ -138,6 +144,10 @@ impl RowView {
     /// in the closed form.
     pub(super) fn taken(&self, tables: &ScratchTables) -> DVec3 {
         let table = &tables.tables[self.table];
+        if table.by_incidence {
+            let [across, along] = [self.wo.y, self.wo.x];
+            return self.density * DVec3::from(IncidenceRow::new(table, [across, along]).taken());
+        }
         let cells = row_cells(BandLine::new(self.wo, 0.0));
         let sent = cells.iter().map(|cell| {
             let depth_nm = oblique_depth_nm(GRATING_DEPTH_NM, cell.direction.z, self.wo.z);

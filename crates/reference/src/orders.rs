@@ -22,9 +22,10 @@ pub(super) struct Orders {
 }
 
 impl Orders {
-    /// Makes the mixture; none if the interval is empty.
+    /// Makes the mixture; none if the interval is empty. `weight` is that of an order.
     pub(super) fn new(
         row: &Row,
+        weight: impl Fn(i32) -> f64,
         nm: &Spectrum<f64>,
         band_std: &Spectrum<f64>,
         low: f64,
@@ -38,7 +39,7 @@ impl Orders {
             let first = ((low - reach) / row.order_q(1, *nm)).ceil() as i32;
             let last = ((high + reach) / row.order_q(1, *nm)).floor() as i32;
             for order in first..=last {
-                let weight = row.order_weight(order);
+                let weight = weight(order);
                 if order == 0 || weight < LEAST_WEIGHT {
                     continue;
                 }
@@ -102,7 +103,8 @@ mod tests {
         let Wavelengths { nm, .. } = Wavelengths::new(0.4);
         let std = [0.01; 8];
         for (low, high) in [(-1.2, 1.4), (0.3, 0.36), (1.9, 1.95)] {
-            let orders = Orders::new(&row, &nm, &std, low, high).unwrap();
+            let orders =
+                Orders::new(&row, |order| row.order_weight(order), &nm, &std, low, high).unwrap();
             let (count, bins) = (200_000, 20);
             let mut found = [0.0; 20];
             for i in 0..count {

@@ -54,10 +54,10 @@ struct Vertex<'a> {
 /// Response of the scratches, by the model.
 enum Response<'a> {
     Separable {
-        lobes: Vec<Lobe>,
+        lobes: Vec<Lobe<'a>>,
         kept: f64,
         /// Lobe of a grating under the scratches, and the share of its light that the scratches leave.
-        row: Option<Box<(Lobe, DVec3)>>,
+        row: Option<Box<(Lobe<'a>, DVec3)>>,
     },
     Full(Box<Field<'a>>),
 }
@@ -149,10 +149,10 @@ impl Integrator<'_> {
                 let roughness = point.coat.map_or(point.roughness, |coat| coat.roughness);
                 let brushed = point.coat.is_none() && point.facets.is_some();
                 let smooth = ggx_alpha(roughness) <= GGX_MIN_ALPHA && !brushed;
-                if let Some(row) = row {
+                if let Some(row) = &row {
                     views.extend(row.grooves(random, point.coherence_um, reach_sigma));
                 }
-                let field = Field::new(&point, &views, smooth, wavelengths, &fresnel);
+                let field = Field::new(&point, &views, row.as_ref(), smooth, wavelengths, &fresnel);
                 let taken = field.taken();
                 let lobe = if smooth {
                     DVec3::ZERO
@@ -537,7 +537,7 @@ fn lobes(
     wavelengths: &Wavelengths,
     weights: &Spectrum<DVec3>,
     coherence_um: f64,
-) -> Vec<Lobe> {
+) -> Vec<Lobe<'static>> {
     views
         .iter()
         .filter(|view| view.share.segment > 0.0)

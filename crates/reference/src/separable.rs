@@ -9,15 +9,18 @@ use glam::DVec3;
 use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::band::BandFrame;
 use hairline_optics::diffraction::sinc;
-use hairline_optics::grating::Grating as Row;
+use hairline_optics::grating::{Grating as Row, RigorousGrating};
 use hairline_optics::scratch::{band_std, phase_step_energy};
 use std::f64::consts::PI;
 
 /// Half width of the distribution over u = W q that directions across a groove are drawn by: about that of sinc^2 at green.
 const DRAWN_HALF_WIDTH_UM: f64 = 0.2;
 
+/// Weight by which rigorous orders are drawn at least, of all light.
+const LEAST_RIGOROUS: f64 = 0.01;
+
 /// The response of a groove, or of all grooves of a grating, made ready for many directions.
-pub(super) struct Lobe {
+pub(super) struct Lobe<'a> {
     pub frame: BandFrame,
     /// `wo` in its frame.
     wo: DVec3,
@@ -28,16 +31,16 @@ pub(super) struct Lobe {
     nm: Spectrum<f64>,
     band_std: Spectrum<f64>,
     drawn_std: f64,
-    of: LobeSource,
+    of: LobeSource<'a>,
 }
 
 /// Source of a lobe.
-enum LobeSource {
+enum LobeSource<'a> {
     Groove { width_um: f64, depth_nm: f64 },
-    Row(Row),
+    Row(Row, Option<RigorousGrating<'a>>),
 }
 
-impl Lobe {
+impl<'a> Lobe<'a> {
     /// `weight` holds the material's reflectance; `coherence_um` is sigma.
     pub(crate) fn new(
         groove: &GrooveView,
@@ -57,19 +60,19 @@ impl Lobe {
 
     /// The response of a grating.
     pub(crate) fn of_row(
-        view: &RowView,
+        view: &RowView<'a>,
         wavelengths: &Wavelengths,
         weight: &Spectrum<DVec3>,
         coherence_um: f64,
     ) -> Self {
-        let of = LobeSource::Row(view.row);
+        let of = LobeSource::Row(view.row, view.rigorous);
         let place = (view.frame, view.wo, view.density);
         Self::of(place, of, wavelengths, weight, coherence_um)
     }
 
     fn of(
         (frame, wo, share): (BandFrame, DVec3, f64),
-        of: LobeSource,
+        of: LobeSource<'a>,
         wavelengths: &Wavelengths,
         weight: &Spectrum<DVec3>,
         coherence_um: f64,
@@ -99,7 +102,13 @@ impl Lobe {
                         let energy = phase_step_energy(depth_nm * depth_share, nm);
                         energy * width_um / (nm * 1e-3) * slit * slit
                     }
-                    LobeSource::Row(row) => row.density(to.q, depth_share, nm, self.band_std[j]),
+                    LobeSource::Row(row, None) => {
+                        row.density(to.q, depth_share, nm, self.band_std[j])
+                    }
+                    LobeSource::Row(_, Some(rigorous)) => {
+                        let viewer = [self.wo.y, self.wo.x];
+                        rigorous.density(to.q, viewer, depth_share, nm, self.band_std[j])
+                    }
                 };
                 self.strength[j] * (across * normal(to.xi_t, self.band_std[j]))
             })
@@ -118,8 +127,22 @@ impl Lobe {
             LobeSource::Groove { width_um, .. } => {
                 Across::Slit(CutCauchy::new(DRAWN_HALF_WIDTH_UM / width_um, low, high)?)
             }
-            LobeSource::Row(row) => {
-                Across::Orders(Orders::new(row, &self.nm, &self.band_std, low, high)?)
+            LobeSource::Row(row, rigorous) => {
+                // Orders that a rectangle does not send may have light.
+                let least = if rigorous.is_some() {
+                    LEAST_RIGOROUS
+                } else {
+                    0.0
+                };
+                let weight = |order| row.order_weight(order).max(least);
+                Across::Orders(Orders::new(
+                    row,
+                    weight,
+                    &self.nm,
+                    &self.band_std,
+                    low,
+                    high,
+                )?)
             }
         };
         Some(LobeDirections {

@@ -9,7 +9,7 @@ use hairline_optics::grating::Grating as Row;
 use crate::Environment;
 use crate::description::references::find;
 use crate::description::{
-    self, Around, Description, GroovePattern, MaterialKind, MetalColor, UvAxis,
+    self, Around, Description, GratingTheory, GroovePattern, MaterialKind, MetalColor, UvAxis,
 };
 use crate::environment::{self, BuiltInMap};
 use crate::error::Error;
@@ -223,6 +223,7 @@ impl description::Grating {
                 lie: PictureLie::new(self.tile_m, world_from_object),
             }),
             seed: (self.seed ^ (self.seed >> 32)) as u32,
+            is_rigorous: self.theory == GratingTheory::Rigorous,
         }
     }
 }

@@ -39,7 +39,7 @@ use values::{Named, is_default, serialize_named, serialize_scale};
 
 pub use check::STROKE_POINTS;
 pub use files::FileUse;
-pub use gratings::{Grating, GroovePattern, UvAxis};
+pub use gratings::{Grating, GratingTheory, GroovePattern, UvAxis};
 pub use light_kind::LightKind;
 pub use lights::{Cone, Light};
 pub use overrides::Override;

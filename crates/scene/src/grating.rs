@@ -31,6 +31,8 @@ pub struct Grating {
     pub mask: Option<GroovePicture>,
     /// Seed of the displacements of single grooves from their places.
     pub seed: u32,
+    /// Whether orders have rigorous efficiencies, where grooves are [fine](crate::FINE_PITCH_UM) and the material has an index.
+    pub is_rigorous: bool,
 }
 
 /// A picture on the surface of a grating.
@@ -396,6 +398,7 @@ mod tests {
             radii_m,
             mask: None,
             seed: 1,
+            is_rigorous: true,
         }
     }
 

@@ -29,6 +29,8 @@ pub mod environment;
 mod error;
 pub mod estimate;
 mod file_camera;
+mod fine_gratings;
+pub mod folders;
 mod grating;
 mod grey_map;
 pub mod inputs;
@@ -68,6 +70,7 @@ pub use camera::CameraFrame;
 pub use description::Description;
 pub use environment::Environment;
 pub use error::Error;
+pub use fine_gratings::FINE_PITCH_UM;
 pub use grating::{
     Bearing, Grating, GrooveField, GrooveGround, GroovePicture, GroovePlace, UvField,
 };

@@ -1,11 +1,13 @@
 //! Optical properties of a scene's materials: coefficients and tables that every renderer reads alike.
 
+use crate::fine_gratings::{efficiencies, fine_grooves};
 use crate::grating::Grating;
 use crate::scene::{Base, COAT_IOR, Material, Scene};
 use hairline_optics::fresnel::FresnelCurve;
-use hairline_optics::grating::Grating as Row;
+use hairline_optics::grating::{Grating as Row, RigorousGrating};
 use hairline_optics::metal::Metal;
 use hairline_optics::published::spectrum::PublishedSpectrum;
+use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
 use hairline_optics::table::ScratchTable;
 use std::sync::{Arc, OnceLock};
 
@@ -74,8 +76,10 @@ pub struct ScratchTables {
     pub materials: Vec<MaterialOptics>,
     /// Spectrum of each table of a grating. Tables of materials come before them.
     pub grating_spectra: Vec<GratingSpectrum>,
-    /// Coherence of each material, see [`GratingSpectrum`].
-    coherences_um: Vec<f64>,
+    /// Efficiencies of each of those that are rigorous.
+    efficiencies: Vec<Option<Arc<Efficiencies>>>,
+    /// The scene's materials.
+    of: Vec<Material>,
 }
 
 /// Everything that the table of a grating depends on.
@@ -87,11 +91,31 @@ pub struct GratingSpectrum {
     pub metal: Option<Metal>,
     /// Standard deviation of the coherence window on the surface.
     pub coherence_um: f64,
+    /// What its rigorous efficiencies are those of; none where they are scalar.
+    pub fine: Option<FineGrooves>,
+}
+
+impl GratingSpectrum {
+    /// The grooves with their efficiencies.
+    fn rigorous<'a>(&self, efficiencies: &'a Efficiencies) -> Option<RigorousGrating<'a>> {
+        let medium = self.fine?.medium;
+        Some(RigorousGrating {
+            row: self.row,
+            efficiencies,
+            medium,
+            is_colored: matches!(medium, Medium::Metal(_)) && self.metal.is_none(),
+        })
+    }
 }
 
 impl ScratchTables {
     /// Tables and coefficients for all materials of a scene.
     pub fn new(scene: &Scene) -> Self {
+        Self::unless(scene, &|| false).expect("nothing cancels it")
+    }
+
+    /// As [`Self::new`]; none where `cancelled` says so, which is asked from any thread.
+    pub fn unless(scene: &Scene, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         // Colours given in RGB have no spectrum: their scratches use white's table and take the colour at the end.
         let mut metals: Vec<Option<Metal>> = Vec::new();
         let mut reflectors: Vec<Reflector> = Vec::new();
@@ -125,12 +149,11 @@ impl ScratchTables {
         let mut tables: Vec<Arc<ScratchTable>> =
             metals.iter().map(|metal| scratch_table(*metal)).collect();
         let materials: Vec<MaterialOptics> = materials;
-        let own = scene.materials.iter();
-        let coherences_um: Vec<f64> = own.map(|material| material.coherence_um).collect();
         let mut all = Self {
             tables: Vec::new(),
             grating_spectra: Vec::new(),
-            coherences_um,
+            efficiencies: Vec::new(),
+            of: scene.materials.clone(),
             metals,
             curves: reflectors.iter().map(|r| r.curve()).collect(),
             reflectors,
@@ -146,20 +169,27 @@ impl ScratchTables {
                 }
             }
         }
-        tables.extend(all.grating_spectra.iter().map(|of| {
-            let table = of
-                .row
-                .table(of.coherence_um, |nm| reflectance(of.metal, nm));
-            Arc::new(table)
-        }));
-        Self { tables, ..all }
+        for of in &all.grating_spectra {
+            let efficiencies = match &of.fine {
+                Some(fine) => Some(efficiencies(fine, cancelled)?),
+                None => None,
+            };
+            let table = match efficiencies.as_ref().and_then(|it| of.rigorous(it)) {
+                Some(rigorous) => rigorous.table(of.coherence_um),
+                None => (of.row).table(of.coherence_um, |nm| reflectance(of.metal, nm)),
+            };
+            tables.push(Arc::new(table));
+            all.efficiencies.push(efficiencies);
+        }
+        Some(Self { tables, ..all })
     }
 
     fn spectrum(&self, grating: &Grating, material: usize) -> GratingSpectrum {
         GratingSpectrum {
             row: grating.row,
             metal: self.metals[self.materials[material].table as usize],
-            coherence_um: self.coherences_um[material],
+            coherence_um: self.of[material].coherence_um,
+            fine: fine_grooves(grating, &self.of[material]),
         }
     }
 
@@ -169,6 +199,12 @@ impl ScratchTables {
         let spectrum = self.spectrum(grating, material);
         let at = self.grating_spectra.iter().position(|of| *of == spectrum)?;
         Some(self.metals.len() + at)
+    }
+
+    /// The grating of a table of one, with its efficiencies; none where they are scalar.
+    pub fn rigorous(&self, table: usize) -> Option<RigorousGrating<'_>> {
+        let at = table - self.metals.len();
+        self.grating_spectra[at].rigorous(self.efficiencies[at].as_ref()?)
     }
 
     /// Spectra of `count` wavelengths that the method of 2018 uses in the place of each table.

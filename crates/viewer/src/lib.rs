@@ -61,5 +61,5 @@ pub use window::open;
 
 /// The user's folder for autosaves and the list of recent files; none where the system has none.
 pub fn state_dir() -> Option<std::path::PathBuf> {
-    hairline_editor::folders::config_dir()
+    hairline_scene::folders::config_dir()
 }

@@ -5,6 +5,7 @@ use super::scenes::{View, plate, sphere};
 use glam::DVec3;
 use hairline_image::{Image, Layer};
 use hairline_optics::grating::Grating as Row;
+use hairline_optics::metal::Metal;
 use hairline_reference::{Model, Settings};
 use hairline_scene::{Base, Bearing, Grating, GrooveField, Scene};
 
@@ -34,6 +35,7 @@ fn grated(row: Row, angle_std_rad: f64, light_rad: f64) -> Scene {
         radii_m: [0.0, f64::INFINITY],
         mask: None,
         seed: 1,
+        is_rigorous: true,
     }];
     scene.lights = vec![sphere(VIEW, 0.0, -0.55 / row.pitch_um, light_rad)];
     scene
@@ -279,4 +281,32 @@ fn rows_of_grooves_with_all_phases() {
     wrong.objects[0].gratings[0].row.jitter_um = 1.0;
     let (off, _) = compared("as single scratches", &closed(&wrong), &reference);
     assert!(off > 0.3, "{off}");
+}
+
+/// Fine gratings in metals: both models have the rigorous orders of the closed form, and scalar ones are told apart.
+#[test]
+fn fine_gratings_in_metals() {
+    let metal = |row, light_rad, is_rigorous| {
+        let mut scene = grated(row, 0.0, light_rad);
+        scene.materials[0].base = Base::Metal(Metal::Aluminium);
+        scene.objects[0].gratings[0].is_rigorous = is_rigorous;
+        scene
+    };
+    for (row, light_rad, settings, batches, limit) in [
+        (row(0.74, 0.32, 0.0, 0.0), 0.05, LINEAR, 20, 0.03),
+        (row(1.6, 0.6, 0.05, 0.1), 0.1, LINEAR, 20, 0.03),
+        (row(0.74, 0.32, 0.0, 0.0), 0.05, FULL, 12, 0.05),
+        (row(1.6, 0.6, 0.0, 0.0), 0.05, FULL, 12, 0.05),
+    ] {
+        let scene = metal(row, light_rad, true);
+        let reference = sampled(&scene, settings, batches);
+        let name = format!("{row:?} in aluminium, {:?}", settings.model);
+        let (off, error) = compared(&name, &closed(&scene), &reference);
+        assert!(off < limit + 2.0 * error && error < 0.03, "{name}: {off}");
+        if row.pitch_um == 0.74 {
+            let scalar = metal(row, light_rad, false);
+            let (off, _) = compared("scalar", &closed(&scalar), &reference);
+            assert!(off > 0.15, "{off}");
+        }
+    }
 }

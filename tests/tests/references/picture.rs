@@ -132,6 +132,7 @@ fn a_soft_box_on_a_grating() {
                 radii_m: [0.0, f64::INFINITY],
                 mask: None,
                 seed: 1,
+                is_rigorous: true,
             }];
             scene
         });

@@ -99,6 +99,7 @@ pub(super) fn with_rows(mut scene: Scene) -> Scene {
         radii_m: [0.0, f64::INFINITY],
         mask: None,
         seed: 1,
+        is_rigorous: true,
     };
     let around = Grating {
         row: row(8.0),

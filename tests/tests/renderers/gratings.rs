@@ -65,6 +65,36 @@ fn a_white_furnace_stays_white() {
     }
 }
 
+/// A fine grating in a metal absorbs what its efficiencies say, and no light is made: a ball under even light is no brighter than without grooves.
+#[test]
+fn a_fine_grating_in_a_furnace_absorbs_more_than_its_metal() {
+    let ball = |grating: &str| {
+        let file = SceneFile::seen_from([0.0, -0.2, 0.1])
+            .size_px([40, 30])
+            .metal("m", "silver")
+            .object("ball", "m", BALL)
+            .part(grating);
+        let mut scene = file.part("[studio]\nhidden = true").scene();
+        scene.environment = furnace();
+        one_sample(&scene)
+    };
+    let bare = ball("");
+    let fine = ball(
+        "[[grating]]\nobject = \"ball\"\npattern = \"circular\"\npitch_um = 0.74\nwidth_um = 0.32\ndepth_nm = 105.0",
+    );
+    let (mut least, mut most, mut sum, mut covered) = (f32::MAX, 0.0_f32, 0.0, 0);
+    for i in 0..fine.depth_m.len() {
+        if fine.depth_m[i] > 0.0 && fine.scratches[i][1] > 0.01 {
+            let kept = (fine.base[i][1] + fine.scratches[i][1]) / bare.base[i][1];
+            (least, most) = (least.min(kept), most.max(kept));
+            (sum, covered) = (sum + kept, covered + 1);
+        }
+    }
+    let mean = sum / covered as f32;
+    println!("silver of 0.74 um keeps {least} to {most} of green, in the mean {mean}");
+    assert!(covered > 100 && least > 0.5 && most < 1.02 && (0.8..0.99).contains(&mean));
+}
+
 /// The mean wavelength of a first order, computed from its angles in the picture, is the one that the eye's response gives.
 #[test]
 fn orders_lie_where_the_grating_equation_says() {
@@ -234,6 +264,11 @@ fn gpu_and_cpu_show_the_same_gratings() {
     let mut wrong = scene.clone();
     wrong.objects[0].gratings[1].row.pitch_um *= 1.01;
     let seen = compare("wrong", &scene, &gpu, &on_the_cpu(&wrong, 1)).unwrap_err();
+    assert!(seen.contains("scratches"), "{seen}");
+    // So are orders of the other theory.
+    let mut scalar = scene.clone();
+    scalar.objects[0].gratings[1].is_rigorous = false;
+    let seen = compare("scalar", &scene, &gpu, &on_the_cpu(&scalar, 1)).unwrap_err();
     assert!(seen.contains("scratches"), "{seen}");
 }
 

@@ -6,7 +6,11 @@ use hairline_gpu::call::{Table, Texels};
 use hairline_gpu::shaders;
 use hairline_optics::band::{BandFrame, BandLine, BandMotion, band_moves, band_stds};
 use hairline_optics::band_environment::row_cells;
-use hairline_optics::grating::{GRATING_DEPTH_NM, GRATING_WIDTH_UM, Grating as Row};
+use hairline_optics::grating::{
+    GRATING_DEPTH_NM, GRATING_WIDTH_UM, Grating as Row, IncidenceRow, RigorousGrating,
+};
+use hairline_optics::metal::Metal;
+use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
 use hairline_optics::scratch::oblique_depth_nm;
 use hairline_optics::table::{COLUMNS, ROWS, ScratchTable};
 use hairline_scene::{Bearing, Grating, GrooveField, GrooveGround, Mesh};
@@ -124,6 +128,7 @@ fn grooves_under_pixels() {
                 radii_m: [1e-3, 0.1],
                 mask: None,
                 seed: 1,
+                is_rigorous: true,
             };
             let axes_m = [v(&x[10..]), v(&x[13..])];
             let seen = grating.seen_from_pixel(&NOWHERE, v(&x[7..]), v(&x[4..]), axes_m);
@@ -238,6 +243,7 @@ fn single(x: &[f64; 16]) -> Grating {
         radii_m: [0.0, f64::INFINITY],
         mask: None,
         seed: x[15] as u32,
+        is_rigorous: true,
     }
 }
 
@@ -348,6 +354,72 @@ fn light_from_all_around() {
         tolerance: Tolerance {
             absolute: 1e-3,
             relative: 1e-3,
+        },
+    }
+    .check(&rows, 0);
+}
+
+/// Rigorous light of a viewer's direction: value, slope, and what is missing in the mirror's direction.
+#[test]
+fn fine_gratings_by_incidence() {
+    let medium = Medium::Metal(Metal::Aluminium);
+    let row = Row {
+        pitch_um: 0.5,
+        width_um: 0.2,
+        ..ROW
+    };
+    let grooves = FineGrooves {
+        pitch_um: row.pitch_um,
+        width_um: row.width_um,
+        depth_nm: row.depth_nm,
+        above: 1.0,
+        medium,
+    };
+    let efficiencies = Efficiencies::new(&grooves, &|| false).unwrap();
+    let rigorous = RigorousGrating {
+        row,
+        efficiencies: &efficiencies,
+        medium,
+        is_colored: false,
+    };
+    let table = rigorous.table(20.0);
+    let mut random = Sequence(8);
+    // Straight from above, along and across the grooves to the horizon, and anywhere.
+    let mut rows: Vec<[f32; 4]> = vec![
+        [0.0, 0.0, 1.0, 0.5],
+        [1.0, 0.0, 0.0, 0.5],
+        [0.0, 1.0, 0.0, -0.5],
+    ];
+    rows.extend((0..4000).map(|_| {
+        let [x, y, z] = random.direction(0.0);
+        [x, y, z, random.between(-2.2, 2.2)]
+    }));
+    let tables = [Table {
+        size: [COLUMNS as u32, ROWS as u32],
+        layers: Some(1),
+        texels: Texels::Integers(&table.texels),
+    }];
+    let at = |x: f64, y: f64, q: f64| {
+        let row = IncidenceRow::new(&table, [y, x]);
+        let [t, taken] = [row.at(GRATING_WIDTH_UM * q), row.taken()];
+        [t[0], t[1], t[2], taken[0], taken[1], taken[2]]
+    };
+    // The directions matter.
+    assert!((at(0.0, 0.4, 0.9)[1] - at(0.0, -0.4, 0.9)[1]).abs() > 0.01);
+    Twin {
+        name: "incidence_table",
+        modules: &[&shaders::GRATING],
+        snippet: "let point = LitPoint(vec3f(x[0], x[1], x[2]), 0.3, vec2f(0.0), vec2f(0.0), vec2f(0.0), vec2f(0.0), 20.0, TABLE_BY_INCIDENCE);
+            let seen = row_seen(vec2f(1.0, 0.0), 1.0, vec2f(0.0), 0.0);
+            let t = scratch_below(table_0, point, seen, x[3], 0.0);
+            let taken = row_taken(table_0, point, seen);
+            y[0] = t.x; y[1] = t.y; y[2] = t.z; y[3] = taken.x; y[4] = taken.y; y[5] = taken.z;",
+        tables: &tables,
+        expected: &|[x, y, _, q]| at(x, y, q),
+        // The built-in arc sine is off by up to 5e-4.
+        tolerance: Tolerance {
+            absolute: 2e-3,
+            relative: 2e-3,
         },
     }
     .check(&rows, 0);

@@ -13,6 +13,7 @@ use hairline_optics::band::{
     band_is_whole, band_lines, chord_cos, sphere_band_extent, sphere_chord,
 };
 use hairline_optics::band_environment::{EnvironmentCell, environment_cells, row_cells};
+use hairline_optics::grating::IncidenceRow;
 use hairline_optics::scratch::oblique_depth_nm;
 use hairline_optics::table::{ScratchTable, TableRow};
 use hairline_scene::{Environment, Profile};
@@ -20,6 +21,23 @@ use hairline_scene::{Environment, Profile};
 /// Energy that a scratch takes from the reflection in the mirror's direction, where both cosines are the viewer's. Twin: `scratch_energy`.
 pub(super) fn scratch_energy(profile: Profile, table: &ScratchTable, cos_o: f64) -> [f64; 3] {
     table.scratch_table_total(oblique_depth_nm(profile.depth_nm.into(), cos_o, cos_o))
+}
+
+/// T over u at one depth, or for one direction to the viewer.
+#[derive(Clone)]
+pub(super) enum GrooveRow<'a> {
+    Depth(TableRow<'a>),
+    Incidence(IncidenceRow<'a>),
+}
+
+impl GrooveRow<'_> {
+    #[inline]
+    pub fn at(&self, u_um: f64) -> [f64; 3] {
+        match self {
+            Self::Depth(row) => row.at(u_um),
+            Self::Incidence(row) => row.at(u_um),
+        }
+    }
 }
 
 /// Amount that is added to the estimate by which a pair is drawn, so that no light far above its estimate makes a bright dot.
@@ -109,9 +127,28 @@ impl<'a> ScratchLight<'a> {
     }
 
     /// T over u for light with a cosine to the normal.
-    pub(super) fn row(&self, cos_i: f64) -> TableRow<'a> {
+    pub(super) fn row(&self, cos_i: f64) -> GrooveRow<'a> {
+        match self.table.by_incidence {
+            true => GrooveRow::Incidence(self.incidence_row()),
+            false => GrooveRow::Depth(self.depth_row(cos_i)),
+        }
+    }
+
+    fn depth_row(&self, cos_i: f64) -> TableRow<'a> {
         let depth_nm = oblique_depth_nm(self.profile.depth_nm.into(), cos_i, self.wo.z);
         self.table.at_depth(depth_nm)
+    }
+
+    fn incidence_row(&self) -> IncidenceRow<'a> {
+        IncidenceRow::new(self.table, [self.wo.y, self.wo.x])
+    }
+
+    /// Energy that the grooves of a grating take from the reflection in the mirror's direction.
+    pub fn taken_by_row(&self) -> DVec3 {
+        match self.table.by_incidence {
+            true => self.incidence_row().taken().into(),
+            false => self.all_around(),
+        }
     }
 
     /// Radiance of one light off the scratch, without Fresnel's factor; none if the light does not reach the scratch. `place` is the scratch's
@@ -199,9 +236,10 @@ impl<'a> ScratchLight<'a> {
     ) -> impl Fn(f64) -> [f64; 3] + Clone + 'a {
         let width_um = self.width_um();
         let row = self.row(chord_cos(line, low, high, self.weighed_um()));
-        let parted = self
-            .row
-            .and_then(|_| PartedChord::new(line, (low, high), width_um, |cos_i| self.row(cos_i)));
+        let is_parted = self.row.is_some() && !self.table.by_incidence;
+        let parted = is_parted
+            .then(|| PartedChord::new(line, (low, high), width_um, |cos_i| self.depth_row(cos_i)));
+        let parted = parted.flatten();
         move |q| match &parted {
             Some(parted) => parted.at(q),
             None => row.at(width_um * q),

@@ -90,7 +90,7 @@ fn shade_gratings(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
                 }
             }
             if !PICKS && range.adds == 0u {
-                taken += share * row_all_around(scratch_tables, pair.point, pair.seen);
+                taken += share * row_taken(scratch_tables, pair.point, pair.seen);
             }
         }
     }

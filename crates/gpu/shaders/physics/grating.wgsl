@@ -24,7 +24,15 @@ fn row_environment(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScr
     return sum;
 }
 
-// Light of radiance 1 from all around: the energy that the base loses.
+// The energy that the base loses: that of light of radiance 1 from all around; of a fine grating what its table says.
+fn row_taken(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch) -> vec3f {
+    if is_by_incidence(point, seen) {
+        return incidence_table_taken(tables, point.table & ~TABLE_BY_INCIDENCE, band_from_surface(seen.tangent, point.wo));
+    }
+    return row_all_around(tables, point, seen);
+}
+
+// Light of radiance 1 from all around.
 fn row_all_around(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch) -> vec3f {
     let line = band_line_at(band_from_surface(seen.tangent, point.wo), 0.0);
     var sum = vec3f(0.0);

@@ -3,6 +3,9 @@
 
 override HAS_SCRATCHES: bool = true;
 override HAS_GRATINGS: bool = true;
+// Gratings with tables by incidence, and with tables by depth.
+override HAS_FINE_GRATINGS: bool = true;
+override HAS_COARSE_GRATINGS: bool = true;
 // Gratings whose grooves could be seen one by one.
 override HAS_SINGLE_GROOVES: bool = true;
 // Whether some grooves come nearer to one another along their way.

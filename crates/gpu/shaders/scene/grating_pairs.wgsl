@@ -88,6 +88,17 @@ fn grating_pair_across(pair: Pair, grating: Grating, place: GroovePlace, light_i
     return across;
 }
 
+// The layer of a table with its mark, which is known where a pass is compiled for a scene whose gratings are all of a kind.
+fn grating_table(grating: Grating) -> u32 {
+    if !HAS_FINE_GRATINGS {
+        return grating.table & ~TABLE_BY_INCIDENCE;
+    }
+    if !HAS_COARSE_GRATINGS {
+        return grating.table | TABLE_BY_INCIDENCE;
+    }
+    return grating.table;
+}
+
 // grating_pair() where the place is known.
 fn grating_pair_at(pixel: PixelPoint, triangle: u32, grating: Grating, place: GroovePlace, covered: f32) -> Pair {
     let axis_y = cross(pixel.normal, pixel.axis_x);
@@ -102,5 +113,5 @@ fn grating_pair_at(pixel: PixelPoint, triangle: u32, grating: Grating, place: Gr
         share *= groove_density(grating, course, arm_m, pixel.normal, place.tangent, steps_m[0], steps_m[1], pixel.coherence_um);
     }
     let seen = row_seen(tangent, share, place.turns_rad, place.angle_std_rad);
-    return Pair(pair_point(pixel, grating.table), seen, pixel.position_m, mat3x3f(pixel.axis_x, axis_y, pixel.normal));
+    return Pair(pair_point(pixel, grating_table(grating)), seen, pixel.position_m, mat3x3f(pixel.axis_x, axis_y, pixel.normal));
 }

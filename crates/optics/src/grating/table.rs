@@ -31,17 +31,17 @@ const FINEST_COLUMNS: f64 = 0.5;
 const LEAST_WEIGHT: f64 = 1e-8;
 
 /// A value and its derivative by q.
-type Rise = [f64; 2];
+pub(super) type Rise = [f64; 2];
 
 /// One number for each column up to [`Q_MAX`].
-struct Columns {
-    q: Vec<f64>,
+pub(super) struct Columns {
+    pub(super) q: Vec<f64>,
     /// dq for one column, there.
-    step: Vec<f64>,
+    pub(super) step: Vec<f64>,
 }
 
 impl Columns {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         let q: Vec<f64> = (0..COLUMNS - 1)
             .map(|column| column_u_um(column as f64) / GRATING_WIDTH_UM)
             .take_while(|q| *q < Q_MAX)
@@ -67,7 +67,11 @@ impl Grating {
     /// band of a scratch, across it too.
     ///
     /// A look-up at `u_um` = [`GRATING_WIDTH_UM`] q and at the depth to which [`GRATING_DEPTH_NM`] shrinks on the oblique path gives T.
-    pub fn table(&self, coherence_um: f64, reflectance: impl Fn(f64) -> f64) -> ScratchTable {
+    pub fn table(
+        &self,
+        coherence_um: f64,
+        reflectance: impl Fn(f64) -> f64 + Sync,
+    ) -> ScratchTable {
         let samples = spectrum::samples();
         let f0 = spectrum::rgb_from_reflectance(&reflectance);
         let columns = Columns::new();
@@ -119,20 +123,47 @@ impl Grating {
         let mut sums = vec![vec![[0.0; 2]; count]; nodes.len()];
         // Weight of the orders that have risen fully before each column, for each node.
         let mut whole = vec![vec![0.0; count + 1]; nodes.len()];
-        let last = (Q_MAX * self.pitch_um / (WAVELENGTH_MIN_NM * 1e-3)).ceil() as i32;
-        for order in 1..=last {
+        self.for_edges(columns, nodes, coherence_um, |order, nm, edge, nodes| {
             let kept = self.order_kept(order);
             let envelope = self.envelope(f64::from(order) / self.pitch_um);
             let [weight, rise_per_turn] = envelope.map(|value| kept * value);
             if weight + rise_per_turn.abs() < LEAST_WEIGHT {
-                continue;
+                return;
             }
+            for (node, share) in nodes {
+                // Derivative over q.
+                let rise = share * rise_per_turn / (nm * 1e-3);
+                let envelope = [share * weight, rise];
+                edge.add(columns, envelope, &mut sums[node], &mut whole[node]);
+            }
+        });
+        for (sums, whole) in sums.iter_mut().zip(whole) {
+            let mut risen = 0.0;
+            for (sum, more) in sums.iter_mut().zip(whole) {
+                risen += more;
+                sum[0] += risen;
+            }
+        }
+        sums
+    }
+
+    /// Visits the edges at which orders from 1 on begin to send a wavelength: the order, the wavelength, the edge, and the shares that it has of the
+    /// nodes beside it. Edges are as near to one another as their sum needs to be smooth.
+    pub(super) fn for_edges(
+        &self,
+        columns: &Columns,
+        nodes: &[f64],
+        coherence_um: f64,
+        mut each: impl FnMut(i32, f64, Edge, [(usize, f64); 2]),
+    ) {
+        let last = (Q_MAX * self.pitch_um / (WAVELENGTH_MIN_NM * 1e-3)).ceil() as i32;
+        for order in 1..=last {
             for (low, &low_nm) in nodes.iter().enumerate().take(nodes.len() - 1) {
                 let q_low = self.order_q(order, low_nm);
                 if q_low > Q_MAX + 0.1 {
                     break;
                 }
-                let at = columns.from(q_low).min(count - 1);
+                let at = columns.from(q_low).min(columns.q.len() - 1);
                 // No finer than columns can tell.
                 let finest = FINEST_COLUMNS * columns.step[at];
                 let width = band_std(coherence_um, low_nm).max(finest);
@@ -145,28 +176,20 @@ impl Grating {
                         q: self.order_q(order, nm),
                         std: band_std(coherence_um, nm).max(finest),
                     };
-                    for (node, share) in [(low, 1.0 - f), (low + 1, f)] {
-                        let share = share / parts as f64;
-                        // Derivative over q.
-                        let rise = share * rise_per_turn / (nm * 1e-3);
-                        let envelope = [share * weight, rise];
-                        edge.add(columns, envelope, &mut sums[node], &mut whole[node]);
-                    }
+                    let share = |f: f64| f / parts as f64;
+                    each(
+                        order,
+                        nm,
+                        edge,
+                        [(low, share(1.0 - f)), (low + 1, share(f))],
+                    );
                 }
             }
         }
-        for (sums, whole) in sums.iter_mut().zip(whole) {
-            let mut risen = 0.0;
-            for (sum, more) in sums.iter_mut().zip(whole) {
-                risen += more;
-                sum[0] += risen;
-            }
-        }
-        sums
     }
 
     /// Integral over q of the light of single grooves, over E |D|^2, and of the part that is sent together instead, over |E D|^2.
-    fn rest(&self, columns: &Columns, wavelength_nm: f64) -> [Vec<Rise>; 2] {
+    pub(super) fn rest(&self, columns: &Columns, wavelength_nm: f64) -> [Vec<Rise>; 2] {
         let wavelength_um = wavelength_nm * 1e-3;
         let (width, k) = (self.width_um, 2.0 * PI / wavelength_um);
         let scale = self.fill() * width / wavelength_um;
@@ -205,7 +228,7 @@ impl Grating {
 }
 
 /// The q at which an order begins to send a wavelength.
-struct Edge {
+pub(super) struct Edge {
     q: f64,
     std: f64,
 }
@@ -213,7 +236,13 @@ struct Edge {
 impl Edge {
     /// Adds an order and its opposite: the sum is odd in q. Each is a peak times the envelope, which is given by its value and its slope at the peak's
     /// middle.
-    fn add(&self, columns: &Columns, envelope: [f64; 2], sums: &mut [Rise], whole: &mut [f64]) {
+    pub(super) fn add(
+        &self,
+        columns: &Columns,
+        envelope: [f64; 2],
+        sums: &mut [Rise],
+        whole: &mut [f64],
+    ) {
         let [weight, rise] = envelope;
         let reach = EDGE_STD * self.std;
         let (first, end) = (columns.from(self.q - reach), columns.from(self.q + reach));

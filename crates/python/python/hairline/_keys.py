@@ -238,7 +238,7 @@ class Grating(Table):
     """``[[grating]]``: grooves side by side, finer than a pixel, that cover an object."""
 
     _section = "grating"
-    _absent = {"hidden": False, "depth_nm": 120.0, "jitter_um": 0.0, "seed": 1, "coverage": 1.0}
+    _absent = {"hidden": False, "depth_nm": 120.0, "jitter_um": 0.0, "theory": "rigorous", "seed": 1, "coverage": 1.0}
 
     pattern: str
     """``"parallel"``, ``"circular"``, ``"radial"``, ``"spun"``, ``"swirl"``, ``"uv"``."""
@@ -256,6 +256,8 @@ class Grating(Table):
     """Depth: how much light goes into orders, and which colours. Normal; the spread is a share of the mean. Unit: nm. Default: 120. Range: mean 0 to 2000, spread 0 to 1."""
     jitter_um: float = _default()
     """Standard deviation of how far a groove is off its place. A tenth of the pitch leaves the first order two thirds of its light; a quarter turns rows into so many single scratches. Unit: µm. Default: 0. Range: 0 to the pitch."""
+    theory: str = _default()
+    """How bright the orders of a pitch below 4 µm are. ``"rigorous"`` solves the whole field in the grooves, of both polarisations, by the refractive index of the metal (of aluminium where a colour stands for one) or of the plastic. That takes about ten seconds for a grating, once: the result is kept in the user's folder for caches. ``"scalar"`` is the simpler theory that wider grooves have, to compare with. Mirrors and what lies in a clear coat are scalar always. Default: ``"rigorous"``. Range: ``"rigorous"``, ``"scalar"``."""
     seed: int = _default()
     """Which groove is off its place by how much, where grooves are seen one by one. Default: 1. Range: whole, below 2^63."""
     coverage: float = _default()

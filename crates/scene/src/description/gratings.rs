@@ -36,6 +36,9 @@ pub struct Grating {
     pub depth_nm: Distribution,
     /// Standard deviation of how far a groove is off its place. At most the pitch. Default: 0.
     pub jitter_um: f64,
+    /// How bright the orders of a pitch below 4 um are. Default: `"rigorous"`.
+    #[serde(serialize_with = "serialize_named", skip_serializing_if = "is_default")]
+    pub theory: GratingTheory,
     /// Seed of the displacements of single grooves from their places. Default: 1.
     pub seed: u64,
     /// The share of the surface that the grooves cover. In [0, 1]. Default: 1.
@@ -99,6 +102,21 @@ pub enum GroovePattern {
         /// Default: 0.
         jitter_deg: f64,
     },
+}
+
+/// Theory of the brightness of orders.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GratingTheory {
+    /// `"rigorous"`: the whole field of both polarisations in the grooves, by the material's refractive index.
+    #[default]
+    Rigorous,
+    /// `"scalar"`: floors that shift the phase of one wave, as of wide grooves.
+    Scalar,
+}
+
+impl Named for GratingTheory {
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("rigorous", Self::Rigorous), ("scalar", Self::Scalar)];
 }
 
 /// A texture coordinate.
@@ -181,6 +199,7 @@ impl Grating {
             width_um: DEFAULT_FILL * pitch_um,
             depth_nm: grating::DEPTH_NM.initial(),
             jitter_um: grating::JITTER_UM.initial(),
+            theory: GratingTheory::default(),
             seed: grating::SEED.initial(),
             coverage: grating::COVERAGE.initial(),
             mask: None,
@@ -275,6 +294,7 @@ impl Read for Grating {
             width_um: table.or(grating::WIDTH_UM.name, default.width_um)?,
             depth_nm: table.value(&grating::DEPTH_NM)?,
             jitter_um: table.value(&grating::JITTER_UM)?,
+            theory: table.value(&grating::THEORY)?,
             seed: table.value(&grating::SEED)?,
             coverage: table.value(&grating::COVERAGE)?,
             mask: table.value(&grating::MASK)?,
@@ -312,7 +332,7 @@ mod tests {
         assert_eq!(described.gratings, [disc]);
         let all = "object = \"o\"\nname = \"n\"\nhidden = true\npattern = \"spun\"\naxis = [0, 1, 0]\n\
             center_m = [0, 0, 0.1]\njitter_deg = 2.0\ncurvature_per_m = 10.0\npitch_um = 3.0\nwidth_um = 1.0\n\
-            depth_nm = { mean = 200.0, spread = 0.2 }\njitter_um = 0.1\nseed = 9\ncoverage = 0.5\nradius_m = [0.01, 0.05]\n";
+            depth_nm = { mean = 200.0, spread = 0.2 }\njitter_um = 0.1\ntheory = \"scalar\"\nseed = 9\ncoverage = 0.5\nradius_m = [0.01, 0.05]\n";
         let described = Description::from_toml(&text(all), "test".as_ref()).unwrap();
         let saved = described.to_toml().unwrap();
         let loaded = Description::from_toml(&saved, "test".as_ref()).unwrap();
@@ -376,6 +396,10 @@ mod tests {
             (
                 format!("{DISC}along = \"w\"").replace("circular", "uv"),
                 "test:8: grating[0].along: found the text \"w\"; must be one of `u` and `v`",
+            ),
+            (
+                format!("{DISC}theory = \"vector\""),
+                "test:8: grating[0].theory: found the text \"vector\"; must be one of `rigorous` and `scalar`",
             ),
             (
                 DISC.replace("circular", "random"),

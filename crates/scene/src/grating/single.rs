@@ -201,6 +201,7 @@ mod tests {
             radii_m: [0.0, f64::INFINITY],
             mask: None,
             seed: 1,
+            is_rigorous: true,
         }
     }
 

@@ -5,7 +5,7 @@ use super::scratches::{AXIS, CENTER_M as AXIS_CENTER_M, DIRECTION};
 use super::section::{Choice, Section};
 
 /// `[[grating]]`
-pub static GRATING: Section = Section::many("grating", "Grating", "grooves side by side, finer than a pixel, that cover an object.", &[&OBJECT, &NAME, &HIDDEN, &PITCH_UM, &WIDTH_UM, &DEPTH_NM, &JITTER_UM, &SEED, &COVERAGE, &MASK, &TILE_M, &RADIUS_M]).kinds("pattern", &[
+pub static GRATING: Section = Section::many("grating", "Grating", "grooves side by side, finer than a pixel, that cover an object.", &[&OBJECT, &NAME, &HIDDEN, &PITCH_UM, &WIDTH_UM, &DEPTH_NM, &JITTER_UM, &THEORY, &SEED, &COVERAGE, &MASK, &TILE_M, &RADIUS_M]).kinds("pattern", &[
     Choice::new("parallel", "All along one direction.", &[&DIRECTION, &JITTER_DEG, &CENTER_M]),
     Choice::new("circular", "Around an axis.", &[&AXIS, &AXIS_CENTER_M, &JITTER_DEG]),
     Choice::new("radial", "Away from an axis.", &[&AXIS, &AXIS_CENTER_M, &JITTER_DEG]),
@@ -57,6 +57,10 @@ pub static JITTER_UM: Key = Key::new("jitter_um", Form::Number)
     .range_words("0 to the pitch")
     .means("Standard deviation of how far a groove is off its place. A tenth of the pitch leaves the first order two thirds of its light; a quarter turns rows into so many single scratches.")
     .control("Displacement", linear(0.0, 5.0), "How far grooves are off their places. A tenth of the pitch keeps two thirds of the first rainbow; at a quarter all grooves shine for themselves.");
+
+pub static THEORY: Key = Key::new("theory", Form::Name(&["rigorous", "scalar"]))
+    .text("rigorous")
+    .means("How bright the orders of a pitch below 4 µm are. `\"rigorous\"` solves the whole field in the grooves, of both polarisations, by the refractive index of the metal (of aluminium where a colour stands for one) or of the plastic. That takes about ten seconds for a grating, once: the result is kept in the user's folder for caches. `\"scalar\"` is the simpler theory that wider grooves have, to compare with. Mirrors and what lies in a clear coat are scalar always.");
 
 pub static JITTER_DEG: Key = Key::new("jitter_deg", Form::Number)
     .unit("°")

@@ -191,7 +191,10 @@ impl Workshop {
         let index_done = Instant::now();
         let tables = match last {
             Some(last) if has_same_optics(&last.scene, &scene) => Arc::clone(&last.tables),
-            _ => Arc::new(ScratchTables::new(&scene)),
+            _ => match ScratchTables::unless(&scene, cancelled) {
+                Some(tables) => Arc::new(tables),
+                None => return Ok(None),
+            },
         };
         self.sketches = None;
         self.last = Some(Kept {

@@ -3,7 +3,8 @@
 use egui::Ui;
 use hairline_editor::Selection;
 use hairline_editor::actions::pictures::PictureOf;
-use hairline_scene::schema;
+use hairline_scene::description::GratingTheory;
+use hairline_scene::{FINE_PITCH_UM, schema};
 
 use super::form::{Form, NAME};
 use super::groove_pattern;
@@ -55,6 +56,17 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     form.number(&schema::grating::DEPTH_NM, &mut grating.depth_nm.mean);
     form.second(&schema::grating::DEPTH_NM, &mut grating.depth_nm.spread);
     form.number(&schema::grating::JITTER_UM, &mut grating.jitter_um);
+    if grating.pitch_um < FINE_PITCH_UM {
+        form.choice(
+            "Theory",
+            "How bright the orders are. Rigorous: by the whole field in the grooves, which takes some seconds once. Scalar: as of wider grooves",
+            [
+                (GratingTheory::Rigorous, "rigorous".to_owned()),
+                (GratingTheory::Scalar, "scalar".to_owned()),
+            ],
+            &mut grating.theory,
+        );
+    }
     form.seed(&mut grating.seed);
     grating.jitter_um = grating.jitter_um.min(grating.pitch_um);
     groove_pattern::rows(&mut form, &mut grating.pattern, index);

@@ -7,6 +7,11 @@ pub fn config_dir() -> Option<PathBuf> {
     strategy::config_dir()
 }
 
+/// Folder for what can be computed again; none as above.
+pub fn cache_dir() -> Option<PathBuf> {
+    strategy::cache_dir()
+}
+
 #[cfg(not(target_arch = "wasm32"))]
 mod strategy {
     use std::path::PathBuf;
@@ -16,6 +21,10 @@ mod strategy {
 
     pub(crate) fn config_dir() -> Option<PathBuf> {
         choose_native_strategy(name()).ok().map(|s| s.config_dir())
+    }
+
+    pub(crate) fn cache_dir() -> Option<PathBuf> {
+        choose_native_strategy(name()).ok().map(|s| s.cache_dir())
     }
 
     fn name() -> AppStrategyArgs {
@@ -32,6 +41,10 @@ mod strategy {
     use std::path::PathBuf;
 
     pub(crate) fn config_dir() -> Option<PathBuf> {
+        None
+    }
+
+    pub(crate) fn cache_dir() -> Option<PathBuf> {
         None
     }
 }

@@ -1,0 +1,11 @@
+//! Rigorous efficiencies of fine gratings: where grooves are no wider than a few wavelengths, polarisation, side walls and the waves that
+//! run along a metal part the light among the orders (docs/model.md, section 12).
+
+mod coupled_waves;
+mod efficiencies;
+
+pub use coupled_waves::{CoupledWaves, Layer, Reflected, Relief};
+pub use efficiencies::{Efficiencies, FineGrooves, Medium};
+
+#[cfg(test)]
+mod tests;
