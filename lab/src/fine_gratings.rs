@@ -70,6 +70,7 @@ pub(crate) fn measured() -> String {
                     efficiencies: &found,
                     medium,
                     is_colored: false,
+                    cover: None,
                 }
                 .table(COHERENCE_UM);
                 let both = start.elapsed().as_secs_f64();
@@ -137,7 +138,7 @@ impl Seen {
         let cos_of = |across: f64| (1.0 - along * along - across * across).max(0.0).sqrt();
         let cos_o = cos_of(across);
         let flat = luminance(spectrum::rgb_from_reflectance(|nm| {
-            medium.reflectance(cos_o, nm)
+            medium.reflectance(1.0, cos_o, nm)
         }));
         let most = (2.0 * row.pitch_um / 0.38) as i32;
         let kept = 20 + (10.0 * row.pitch_um) as i32;
@@ -168,7 +169,7 @@ impl Seen {
                     let at = of?.order + order + kept;
                     let [s, p] = *of?.efficiencies.get(at as usize)?;
                     let scalar = row.order_energy(order, 0.5 * (cos_i + cos_o), nm);
-                    let scalar = scalar * medium.reflectance(cos_o, nm);
+                    let scalar = scalar * medium.reflectance(1.0, cos_o, nm);
                     (cos_i > 0.0).then_some((q, weight * 0.5 * (s + p), weight * scalar))
                 });
             orders.collect::<Vec<_>>()

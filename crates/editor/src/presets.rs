@@ -278,6 +278,7 @@ impl MaterialPreset {
                 _ => None,
             },
             anisotropy: None,
+            cover: None,
         }
     }
 }

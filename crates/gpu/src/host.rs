@@ -127,7 +127,7 @@ const GROOVES_MASK_BY_SIDES: u32 = 1;
 const GROOVES_BY_U: u32 = 2;
 const GROOVES_BY_V: u32 = 4;
 
-/// Twin: incidence_table.wgsl.
+/// Twin: grating_pairs.wgsl.
 const TABLE_BY_INCIDENCE: u32 = 1 << 31;
 
 /// Twin of the kinds: gratings.wgsl.

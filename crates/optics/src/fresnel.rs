@@ -42,6 +42,15 @@ pub(crate) fn conductor(cos_theta: f64, n: f64, k: f64) -> f64 {
     (0.5 * (r_s + r_p)).clamp(0.0, 1.0)
 }
 
+/// Cosine in a medium of the refractive index `ior` of light that comes from air.
+pub(crate) fn inner_cos(cos_theta: f64, ior: f64) -> f64 {
+    let c = cos_theta.clamp(0.0, 1.0);
+    (1.0 - (1.0 - c * c) / (ior * ior))
+        .max(0.0)
+        .sqrt()
+        .max(1e-9)
+}
+
 /// Unpolarised Fresnel reflectance of a dielectric; `eta` is the index behind the surface over the index before it.
 /// Returns 1 under total internal reflection.
 pub fn dielectric(cos_theta: f64, eta: f64) -> f64 {

@@ -39,6 +39,8 @@ struct RigorousField<'a> {
     frame: BandFrame,
     /// `wo` in the frame of the grooves.
     wo: DVec3,
+    /// The part of the light that no outer face of a plate sends.
+    by_grooves: f64,
     /// Of order 0, for each wavelength.
     mirror: Spectrum<Complex64>,
 }
@@ -55,12 +57,12 @@ impl<'a> RigorousField<'a> {
     ) -> Option<Self> {
         let of = row.rigorous?;
         let viewer = [row.wo.y, row.wo.x];
+        // One channel stands for all: plates have little colour.
+        let by_grooves = of.by_grooves(row.wo.z)[1];
         let mut mirror = [Complex64::ONE; WAVELENGTHS];
         for (j, mirror) in mirror.iter_mut().enumerate() {
-            let kept = of
-                .energy(0, wavelengths.nm[j], viewer, row.wo.z)
-                .max(0.0)
-                .sqrt();
+            let sent = of.energy(0, wavelengths.nm[j], viewer, row.wo.z);
+            let kept = (1.0 - by_grooves * (1.0 - sent)).max(0.0).sqrt();
             let before = taken[j];
             taken[j] = 1.0 - Complex64::from_polar(kept, (1.0 - before).arg());
             if before.norm_sqr() > 1e-12 {
@@ -71,6 +73,7 @@ impl<'a> RigorousField<'a> {
             of,
             frame: row.frame,
             wo: row.wo,
+            by_grooves,
             mirror,
         })
     }
@@ -84,8 +87,10 @@ impl<'a> RigorousField<'a> {
         }
         let depth_share = 0.5 * (wi.z + self.wo.z);
         let rigorous = (self.of).energy(order, nm, [self.wo.y, self.wo.x], depth_share);
+        let rigorous = self.by_grooves * self.of.passed(wi.z, self.wo.z)[1] * rigorous;
         // Efficiencies are over the reflectance at the viewer's angle; the field's weight has both.
-        let [to, from] = [self.wo.z, wi.z].map(|cos| self.of.medium.reflectance(cos, nm));
+        let above = self.of.cover.map_or(1.0, |cover| cover.ior);
+        let [to, from] = [self.wo.z, wi.z].map(|cos| self.of.medium.reflectance(above, cos, nm));
         let scalar = row.order_energy(order, depth_share, nm) * (from / to).sqrt();
         (rigorous.max(0.0) / scalar.max(1e-9))
             .min(MOST_FACTOR)

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use hairline_cpu::surface::SurfacePoint;
+use hairline_optics::cover::Cover;
 use hairline_optics::facets::Facets;
 use hairline_optics::fresnel::{dielectric, schlick_weight};
 use hairline_optics::ggx::{ggx_alpha, ggx_mean};
@@ -104,6 +105,7 @@ impl Reflectance {
     pub(crate) fn at(reflector: Reflector, roughness: &[f64]) -> Self {
         let metal = match reflector {
             Reflector::Metal(metal) => curve(metal),
+            Reflector::Covered(metal, cover) => covered_curve(metal, cover),
             _ => Vec::new(),
         };
         let mut reflectance = Self {
@@ -145,7 +147,7 @@ impl Reflectance {
                 let t = schlick_weight(cos_theta);
                 FacetParts { t, s: 1.0 - t }
             }
-            Reflector::Metal(_) => FacetParts { t: 1.0, s: 0.0 },
+            Reflector::Metal(_) | Reflector::Covered(..) => FacetParts { t: 1.0, s: 0.0 },
         }
     }
 
@@ -195,6 +197,17 @@ impl Reflectance {
         };
         low.lookup(cos_o).lerp(high.lookup(cos_o), share)
     }
+}
+
+/// Light that facets scatter once more meets the plate once more.
+fn covered_curve(metal: Metal, cover: Cover) -> Vec<[DVec3; 2]> {
+    let straight = DVec3::from(cover.reflectance_rgb(metal, 1.0));
+    let node = |i: usize| {
+        let root = i as f64 / (METAL_NODES - 1) as f64;
+        let once = DVec3::from(cover.reflectance_rgb(metal, root * root));
+        [once, once * straight]
+    };
+    (0..METAL_NODES).map(node).collect()
 }
 
 fn curve(metal: Metal) -> Vec<[DVec3; 2]> {

@@ -67,7 +67,11 @@ impl<'a> Lobe<'a> {
     ) -> Self {
         let of = LobeSource::Row(view.row, view.rigorous);
         let place = (view.frame, view.wo, view.density);
-        Self::of(place, of, wavelengths, weight, coherence_um)
+        let by_grooves = view
+            .rigorous
+            .map_or([1.0; 3], |it| it.by_grooves(view.wo.z));
+        let weight = weight.map(|weight| weight * DVec3::from(by_grooves));
+        Self::of(place, of, wavelengths, &weight, coherence_um)
     }
 
     fn of(
@@ -93,7 +97,11 @@ impl<'a> Lobe<'a> {
     pub(crate) fn eval(&self, to: &LobeDirection) -> DVec3 {
         // The path into the groove and out is longer the steeper both are.
         let depth_share = 0.5 * (to.wi.z + self.wo.z);
-        (0..self.strength.len())
+        let passed = match &self.of {
+            LobeSource::Row(_, Some(rigorous)) => rigorous.passed(to.wi.z, self.wo.z).into(),
+            _ => DVec3::ONE,
+        };
+        let sum: DVec3 = (0..self.strength.len())
             .map(|j| {
                 let nm = self.nm[j];
                 let across = match &self.of {
@@ -112,7 +120,8 @@ impl<'a> Lobe<'a> {
                 };
                 self.strength[j] * (across * normal(to.xi_t, self.band_std[j]))
             })
-            .sum()
+            .sum();
+        passed * sum
     }
 
     /// Distribution of directions whose components along and across the groove lie in intervals. None if the band does not

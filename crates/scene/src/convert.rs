@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use glam::{DMat4, DVec3};
+use hairline_optics::cover::Cover;
 use hairline_optics::grating::Grating as Row;
 
 use crate::Environment;
@@ -53,7 +54,21 @@ pub(crate) fn material(material: &description::Material) -> Material {
     Material {
         name: material.name.clone(),
         base: match material.kind {
-            MaterialKind::Metal(MetalColor::Measured(metal)) => Base::Metal(metal),
+            MaterialKind::Metal(MetalColor::Measured(metal)) => match material.cover {
+                Some(description::Cover {
+                    ior,
+                    thickness_mm,
+                    color,
+                }) => Base::Covered {
+                    metal,
+                    cover: Cover {
+                        ior,
+                        thickness_mm,
+                        color,
+                    },
+                },
+                None => Base::Metal(metal),
+            },
             MaterialKind::Metal(MetalColor::Color(base_color)) => Base::ColoredMetal { base_color },
             MaterialKind::Dielectric { ior, base_color } => Base::Dielectric { ior, base_color },
             MaterialKind::MetallicRoughness {

@@ -213,6 +213,30 @@ pub struct Material {
     /// `anisotropy` and `anisotropy_direction_deg`: highlights that are drawn out one way, as on brushed metal. Default: none.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub anisotropy: Option<Anisotropy>,
+    /// A clear plate over a measured metal, as discs have it over their tracks. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cover: Option<Cover>,
+}
+
+/// `cover` of a `[[material]]`: a clear plate with parallel faces.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Cover {
+    /// Refractive index, from 1 to 4. Default: 1.58, polycarbonate.
+    pub ior: f64,
+    /// How thick it is, from 0 to 100. Default: 1.2, as of compact discs.
+    pub thickness_mm: f64,
+    /// The light that a millimetre lets through, linear Rec.709, in [0, 1]. Default: all.
+    pub color: [f64; 3],
+}
+
+impl Default for Cover {
+    fn default() -> Self {
+        Self {
+            ior: schema::cover::IOR.initial(),
+            thickness_mm: schema::cover::THICKNESS_MM.initial(),
+            color: schema::cover::COLOR.initial(),
+        }
+    }
 }
 
 /// `kind` of a `[[material]]`

@@ -5,6 +5,7 @@ use crate::folders::cache_dir;
 use crate::grating::Grating;
 use crate::scene::{Base, Material};
 use hairline_image::output::write_atomically;
+use hairline_optics::cover::Cover;
 use hairline_optics::metal::Metal;
 use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
 use std::fs;
@@ -26,7 +27,7 @@ pub(crate) fn fine_grooves(grating: &Grating, material: &Material) -> Option<Fin
     let medium = match material.base {
         _ if material.coat.is_some() => None,
         Base::Mirror => None,
-        Base::Metal(metal) => Some(Medium::Metal(metal)),
+        Base::Metal(metal) | Base::Covered { metal, .. } => Some(Medium::Metal(metal)),
         Base::ColoredMetal { .. } => Some(Medium::Metal(Metal::Aluminium)),
         Base::Dielectric { ior, .. } => Some(Medium::Dielectric(ior)),
         Base::MetallicRoughness { metallic, .. } if metallic >= 0.5 => {
@@ -42,9 +43,17 @@ pub(crate) fn fine_grooves(grating: &Grating, material: &Material) -> Option<Fin
         pitch_um: row.pitch_um,
         width_um: row.width_um,
         depth_nm: row.depth_nm,
-        above: 1.0,
+        above: cover(material).map_or(1.0, |cover| cover.ior),
         medium: medium?,
     })
+}
+
+/// The plate over a material.
+pub(crate) fn cover(material: &Material) -> Option<Cover> {
+    match material.base {
+        Base::Covered { cover, .. } => Some(cover),
+        _ => None,
+    }
 }
 
 /// The efficiencies of grooves; none where `cancelled` says so, which is asked from any thread.

@@ -1,8 +1,9 @@
 //! Optical properties of a scene's materials: coefficients and tables that every renderer reads alike.
 
-use crate::fine_gratings::{efficiencies, fine_grooves};
+use crate::fine_gratings::{cover, efficiencies, fine_grooves};
 use crate::grating::Grating;
 use crate::scene::{Base, COAT_IOR, Material, Scene};
+use hairline_optics::cover::Cover;
 use hairline_optics::fresnel::FresnelCurve;
 use hairline_optics::grating::{Grating as Row, RigorousGrating};
 use hairline_optics::metal::Metal;
@@ -36,6 +37,8 @@ pub enum Reflector {
     Schlick,
     /// A metal's measured refractive index.
     Metal(Metal),
+    /// A metal's measured refractive index, under a clear plate.
+    Covered(Metal, Cover),
     /// A dielectric's refractive index.
     Dielectric(f64),
 }
@@ -45,6 +48,7 @@ impl Reflector {
     pub fn new(material: &Material) -> Self {
         match material.base {
             Base::Metal(metal) => Self::Metal(metal),
+            Base::Covered { metal, cover } => Self::Covered(metal, cover),
             Base::Dielectric { ior, .. } => Self::Dielectric(ior),
             _ => Self::Schlick,
         }
@@ -57,6 +61,9 @@ impl Reflector {
         match self {
             Self::Schlick => FresnelCurve::schlick().clone(),
             Self::Metal(metal) => metal.fresnel_curve(),
+            Self::Covered(metal, cover) => {
+                FresnelCurve::new(|cos_theta| cover.reflectance_rgb(metal, cos_theta))
+            }
             Self::Dielectric(ior) => FresnelCurve::dielectric(ior),
         }
     }
@@ -93,6 +100,8 @@ pub struct GratingSpectrum {
     pub coherence_um: f64,
     /// What its rigorous efficiencies are those of; none where they are scalar.
     pub fine: Option<FineGrooves>,
+    /// A plate over the grooves.
+    pub cover: Option<Cover>,
 }
 
 impl GratingSpectrum {
@@ -104,6 +113,7 @@ impl GratingSpectrum {
             efficiencies,
             medium,
             is_colored: matches!(medium, Medium::Metal(_)) && self.metal.is_none(),
+            cover: self.cover,
         })
     }
 }
@@ -124,7 +134,9 @@ impl ScratchTables {
             .iter()
             .map(|material| {
                 let metal = match material.base {
-                    Base::Metal(metal) if material.coat.is_none() => Some(metal),
+                    Base::Metal(metal) | Base::Covered { metal, .. } if material.coat.is_none() => {
+                        Some(metal)
+                    }
                     _ => None,
                 };
                 let table = metals.iter().position(|m| *m == metal).unwrap_or_else(|| {
@@ -185,11 +197,19 @@ impl ScratchTables {
     }
 
     fn spectrum(&self, grating: &Grating, material: usize) -> GratingSpectrum {
+        let material_of = &self.of[material];
+        let (cover, fine) = (cover(material_of), fine_grooves(grating, material_of));
+        let mut row = grating.row;
+        if let (Some(cover), None) = (cover, fine) {
+            // The scalar step of a floor in the plate.
+            row.depth_nm *= cover.ior;
+        }
         GratingSpectrum {
-            row: grating.row,
+            row,
             metal: self.metals[self.materials[material].table as usize],
             coherence_um: self.of[material].coherence_um,
-            fine: fine_grooves(grating, &self.of[material]),
+            fine,
+            cover,
         }
     }
 
@@ -243,6 +263,7 @@ fn material_optics(material: &Material, table: u32, curve: u32) -> MaterialOptic
     match material.base {
         Base::Mirror => metal([1.0; 3]),
         Base::Metal(m) => metal(m.reflectance_rgb(1.0)),
+        Base::Covered { metal: m, cover } => metal(cover.reflectance_rgb(m, 1.0)),
         Base::ColoredMetal { base_color } => metal(base_color),
         Base::Dielectric { ior, base_color } => MaterialOptics {
             metallic: 0.0,

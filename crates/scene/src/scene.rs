@@ -6,6 +6,7 @@
 
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 use hairline_image::Batches;
+use hairline_optics::cover::Cover;
 use hairline_optics::metal::Metal;
 use serde::Serialize;
 use std::ops::Range;
@@ -287,6 +288,13 @@ pub enum Base {
     Mirror,
     /// A metal by its measured n and k.
     Metal(Metal),
+    /// A metal by its measured n and k under a clear plate.
+    Covered {
+        /// The metal.
+        metal: Metal,
+        /// The plate.
+        cover: Cover,
+    },
     /// A metal by its reflectance at normal incidence, linear Rec.709.
     ColoredMetal {
         /// Reflectance at normal incidence.

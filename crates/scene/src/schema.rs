@@ -4,6 +4,7 @@
 #![allow(missing_docs)]
 
 pub mod camera;
+pub mod cover;
 pub mod environment;
 pub mod grating;
 pub mod ground;
@@ -24,13 +25,14 @@ pub use key::{Bounds, Control, Form, Initial, Key, LARGEST_M, SMALLEST_M, Slider
 pub use section::{Choice, Section};
 
 /// All tables of the scene file, and the tables in them.
-pub static SECTIONS: [&Section; 14] = [
+pub static SECTIONS: [&Section; 15] = [
     &camera::CAMERA,
     &render::RENDER,
     &environment::ENVIRONMENT,
     &studio::STUDIO,
     &ground::GROUND,
     &material::MATERIAL,
+    &cover::COVER,
     &object::OBJECT,
     &shape::SHAPE,
     &overrides::OVERRIDES,

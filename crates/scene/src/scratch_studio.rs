@@ -154,6 +154,7 @@ impl Subject<'_> {
         let color = match material.base {
             Base::Mirror => 0.0,
             Base::Metal(metal) => rough * mean(metal.reflectance_rgb(1.0)),
+            Base::Covered { metal, cover } => rough * mean(cover.reflectance_rgb(metal, 1.0)),
             Base::ColoredMetal { base_color, .. } => rough * mean(base_color),
             Base::Dielectric { base_color, .. } => mean(base_color),
             Base::MetallicRoughness {

@@ -219,6 +219,7 @@ impl PhotoSet {
             roughness: ground.roughness,
             coherence_um: description::DEFAULT_COHERENCE_UM,
             coat: None,
+            cover: None,
             anisotropy: None,
         };
         (object, material)

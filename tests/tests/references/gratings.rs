@@ -4,6 +4,7 @@ use super::pictures::{self, LINEAR, closed, mean, sampled};
 use super::scenes::{View, plate, sphere};
 use glam::DVec3;
 use hairline_image::{Image, Layer};
+use hairline_optics::cover::Cover;
 use hairline_optics::grating::Grating as Row;
 use hairline_optics::metal::Metal;
 use hairline_reference::{Model, Settings};
@@ -281,6 +282,28 @@ fn rows_of_grooves_with_all_phases() {
     wrong.objects[0].gratings[0].row.jitter_um = 1.0;
     let (off, _) = compared("as single scratches", &closed(&wrong), &reference);
     assert!(off > 0.3, "{off}");
+}
+
+/// A disc's track under its polycarbonate.
+#[test]
+fn a_fine_grating_under_a_cover() {
+    let cover = |ior| Cover {
+        ior,
+        thickness_mm: 1.2,
+        color: [0.95, 0.9, 0.8],
+    };
+    let covered = |cover| {
+        let mut scene = grated(row(1.6, 0.6, 0.03, 0.05), 0.0, 0.1);
+        let metal = Metal::Aluminium;
+        scene.materials[0].base = Base::Covered { metal, cover };
+        scene
+    };
+    let scene = covered(cover(1.58));
+    let reference = sampled(&scene, LINEAR, 20);
+    let (off, error) = compared("under a cover", &closed(&scene), &reference);
+    assert!(off < 0.04 + 2.0 * error && error < 0.03, "{off}");
+    let (off, _) = compared("under another", &closed(&covered(cover(1.3))), &reference);
+    assert!(off > 0.1, "{off}");
 }
 
 /// Fine gratings in metals: both models have the rigorous orders of the closed form, and scalar ones are told apart.

@@ -286,7 +286,7 @@ fn bands_of_rows() {
         name: "scratch_band of a row",
         modules: &[&shaders::GRATING],
         snippet: "let point = LitPoint(vec3f(x[0], x[1], x[2]), 0.3, vec2f(x[6], x[7]), vec2f(x[8], x[9]), vec2f(0.01, 0.0), vec2f(0.0, 0.02), 20.0, 0u);
-            let seen = row_seen(vec2f(0.6, 0.8), 0.5, vec2f(x[10], x[11]), x[12]);
+            let seen = row_seen(vec2f(0.6, 0.8), 0.5, vec2f(x[10], x[11]), x[12], false);
             let band = scratch_band(point, seen, vec3f(x[3], x[4], x[5]), 0.4);
             y[0] = band.shift; y[1] = band.stds.x; y[2] = band.stds.y; y[3] = band.stds.z; y[4] = band.stds.w;",
         tables: &[],
@@ -332,7 +332,7 @@ fn light_from_all_around() {
         modules: &[&shaders::GRATING],
         snippet: "let wo = vec3f(x[0], x[1], x[2]);
             let point = LitPoint(wo, 0.3, vec2f(0.0), vec2f(0.0), vec2f(0.0), vec2f(0.0), 20.0, 0u);
-            let seen = row_seen(vec2f(cos(x[3]), sin(x[3])), 1.0, vec2f(0.0), 0.0);
+            let seen = row_seen(vec2f(cos(x[3]), sin(x[3])), 1.0, vec2f(0.0), 0.0, false);
             let sum = row_all_around(table_0, point, seen);
             y[0] = sum.x; y[1] = sum.y; y[2] = sum.z;",
         tables: &tables,
@@ -381,6 +381,7 @@ fn fine_gratings_by_incidence() {
         efficiencies: &efficiencies,
         medium,
         is_colored: false,
+        cover: None,
     };
     let table = rigorous.table(20.0);
     let mut random = Sequence(8);
@@ -409,8 +410,8 @@ fn fine_gratings_by_incidence() {
     Twin {
         name: "incidence_table",
         modules: &[&shaders::GRATING],
-        snippet: "let point = LitPoint(vec3f(x[0], x[1], x[2]), 0.3, vec2f(0.0), vec2f(0.0), vec2f(0.0), vec2f(0.0), 20.0, TABLE_BY_INCIDENCE);
-            let seen = row_seen(vec2f(1.0, 0.0), 1.0, vec2f(0.0), 0.0);
+        snippet: "let point = LitPoint(vec3f(x[0], x[1], x[2]), 0.3, vec2f(0.0), vec2f(0.0), vec2f(0.0), vec2f(0.0), 20.0, 0u);
+            let seen = row_seen(vec2f(1.0, 0.0), 1.0, vec2f(0.0), 0.0, true);
             let t = scratch_below(table_0, point, seen, x[3], 0.0);
             let taken = row_taken(table_0, point, seen);
             y[0] = t.x; y[1] = t.y; y[2] = t.z; y[3] = taken.x; y[4] = taken.y; y[5] = taken.z;",

@@ -170,7 +170,7 @@ fn light_of_rows_in_the_shader() {
             let towards = vec3f(x[3], x[4], x[5]);
             let point = LitPoint(wo, 0.3, vec2f(100.0, 0.0), vec2f(0.0, 1e3), vec2f(0.0), vec2f(0.01), 20.0, u32(x[8]));
             let tangent = vec2f(cos(x[12]), sin(x[12]));
-            let seen = row_seen(tangent, 0.5, vec2f(x[9], x[10]), x[11]);
+            let seen = row_seen(tangent, 0.5, vec2f(x[9], x[10]), x[11], false);
             let sphere = scratch_sphere(table_0, point, seen, towards, x[6]);
             let right = vec3f(tangent, 0.0) * x[6];
             let up = cross(towards, right);

@@ -5,10 +5,10 @@
 const GRATING_WIDTH_UM: f32 = 2.0;
 const GRATING_DEPTH_NM: f32 = SCRATCH_TABLE_DEPTH_MAX_NM;
 
-// Grooves that lie everywhere under a pixel and cover a share of it.
-fn row_seen(tangent: vec2f, share: f32, turns_rad: vec2f, angle_std_rad: f32) -> SeenScratch {
+// Grooves that lie everywhere under a pixel and cover a share of it; fine ones have a table by incidence.
+fn row_seen(tangent: vec2f, share: f32, turns_rad: vec2f, angle_std_rad: f32, by_incidence: bool) -> SeenScratch {
     let profile = Profile(GRATING_WIDTH_UM, GRATING_DEPTH_NM);
-    return SeenScratch(ScratchShare(share, 0.0), tangent, 0.0, vec2f(0.0), 1.0, profile, true, turns_rad, angle_std_rad, -1.0);
+    return SeenScratch(ScratchShare(share, 0.0), tangent, 0.0, vec2f(0.0), 1.0, profile, true, by_incidence, turns_rad, angle_std_rad, -1.0);
 }
 
 // Light of an environment, as scratch_environment().
@@ -26,8 +26,8 @@ fn row_environment(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScr
 
 // The energy that the base loses: that of light of radiance 1 from all around; of a fine grating what its table says.
 fn row_taken(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch) -> vec3f {
-    if is_by_incidence(point, seen) {
-        return incidence_table_taken(tables, point.table & ~TABLE_BY_INCIDENCE, band_from_surface(seen.tangent, point.wo));
+    if seen.by_incidence {
+        return incidence_table_taken(tables, point.table, band_from_surface(seen.tangent, point.wo));
     }
     return row_all_around(tables, point, seen);
 }

@@ -2,9 +2,6 @@
 // A layer of the scratch tables holds it. Its rows are of components of that direction across the grooves, for each of some angles along them; its
 // last column has half of what is missing in the mirror's direction.
 
-// Mark of such a layer among those of materials and gratings.
-const TABLE_BY_INCIDENCE: u32 = 0x80000000u;
-
 const INCIDENCES_ACROSS: f32 = 64.0;
 const INCIDENCES_ALONG: f32 = 8.0;
 

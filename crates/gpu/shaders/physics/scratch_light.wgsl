@@ -27,6 +27,7 @@ struct SeenScratch {
     variance_sq_um: f32,          // of footprint and coherence window across it
     profile: Profile,
     is_row: bool,               // whether it stands for grooves of a grating, whose light lies about its orders, wherever they are
+    by_incidence: bool,         // and whether these are fine: their table is one by the direction to the viewer
     turns_rad: vec2f,           // by which angle grooves of a grating turn over footprint_x_um and footprint_y_um, to the left; 0 for a scratch
     angle_std_rad: f32,         // and standard deviation of their angles at any place
     node: f32,                  // where the one line of the band lies that stands for a scratch, see by_one_line(); negative for all lines
@@ -47,7 +48,7 @@ fn scratch_seen(point: LitPoint, start_um: vec2f, end_um: vec2f, profile: Profil
         let footprint = Footprint(dot(across, across), dot(along, along), dot(across, along));
         share = scratch_share(profile.width_um, offset, dot(t, start_um), dot(t, end_um), blur_um, footprint, point.coherence_um);
     }
-    return SeenScratch(share, t, offset, across, variance, profile, false, vec2f(0.0), 0.0, -1.0);
+    return SeenScratch(share, t, offset, across, variance, profile, false, false, vec2f(0.0), 0.0, -1.0);
 }
 
 // Width of the scratch for chord_cos().
@@ -79,11 +80,6 @@ fn scratch_band(point: LitPoint, seen: SeenScratch, axis: vec3f, light_m: f32) -
     return band;
 }
 
-// Whether it stands for the grooves of a fine grating.
-fn is_by_incidence(point: LitPoint, seen: SeenScratch) -> bool {
-    return seen.is_row && (point.table & TABLE_BY_INCIDENCE) != 0u;
-}
-
 // The light between two q, for light whose directions have the cosine cos_i to the normal.
 fn scratch_chord(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, high: f32, low: f32, cos_i: f32) -> vec3f {
     return scratch_below(tables, point, seen, high, cos_i) - scratch_below(tables, point, seen, low, cos_i);
@@ -102,10 +98,9 @@ const ROW_PART: f32 = 0.05;
 const ROW_PARTS_MOST: f32 = 48.0;
 
 // `range` is from the least to the greatest q of the light.
-fn chord_depths(point: LitPoint, seen: SeenScratch, line: BandLine, range: vec2f) -> ChordDepths {
+fn chord_depths(seen: SeenScratch, line: BandLine, range: vec2f) -> ChordDepths {
     let length = range.y - range.x;
-    let is_parted = seen.is_row && !is_by_incidence(point, seen);
-    let count = select(1.0, clamp(ceil(length / ROW_PART), 1.0, ROW_PARTS_MOST), is_parted);
+    let count = select(1.0, clamp(ceil(length / ROW_PART), 1.0, ROW_PARTS_MOST), seen.is_row);
     return ChordDepths(range.x, length / count, u32(count), chord_cos(line, range.x, range.y, weighed_um(seen)));
 }
 
@@ -117,7 +112,7 @@ fn chord_part(depths: ChordDepths, q: f32) -> u32 {
 // The light between two q of a chord.
 fn parted_chord(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, line: BandLine, depths: ChordDepths, high: f32, low: f32) -> vec3f {
     // Known where a pass is compiled.
-    if !seen.is_row {
+    if !seen.is_row || seen.by_incidence {
         return scratch_chord(tables, point, seen, high, low, depths.cos_i);
     }
     let from_q = min(low, high);
@@ -137,16 +132,16 @@ fn parted_chord(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratc
 
 // The light below a q, up to a constant.
 fn scratch_below(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, q: f32, cos_i: f32) -> vec3f {
-    if is_by_incidence(point, seen) {
-        return incidence_table(tables, point.table & ~TABLE_BY_INCIDENCE, seen.profile.width_um * q, band_from_surface(seen.tangent, point.wo));
+    if seen.by_incidence {
+        return incidence_table(tables, point.table, seen.profile.width_um * q, band_from_surface(seen.tangent, point.wo));
     }
     return scratch_table(tables, point.table, seen.profile.width_um * q, oblique_depth_nm(seen.profile.depth_nm, cos_i, point.wo.z));
 }
 
 // Derivative of that at q, up to a factor.
 fn scratch_slope(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, q: f32, cos_i: f32) -> vec3f {
-    if is_by_incidence(point, seen) {
-        return incidence_table_slope(tables, point.table & ~TABLE_BY_INCIDENCE, seen.profile.width_um * q, band_from_surface(seen.tangent, point.wo));
+    if seen.by_incidence {
+        return incidence_table_slope(tables, point.table, seen.profile.width_um * q, band_from_surface(seen.tangent, point.wo));
     }
     return scratch_table_slope(tables, point.table, seen.profile.width_um * q, oblique_depth_nm(seen.profile.depth_nm, cos_i, point.wo.z));
 }
@@ -187,7 +182,7 @@ fn scratch_sphere(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScra
         let line = band_line_at(wo, weight_and_xi.w);
         let chord = sphere_chord(line, cap);
         let range = chord_range(chord, line);
-        let depths = chord_depths(point, seen, line, range);
+        let depths = chord_depths(seen, line, range);
         var integral = parted_chord(tables, point, seen, line, depths, chord.enter, chord.leave);
         // The whole arc once more where the light holds the direction straight down.
         if chord.wraps > 0.0 {
@@ -237,7 +232,7 @@ fn scratch_quad(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratc
         let weight_and_xi = band_line(lines, l);
         let line = band_line_at(wo, weight_and_xi.w);
         var roots = four_edges_roots(outline, line, away);
-        let depths = chord_depths(point, seen, line, roots.range);
+        let depths = chord_depths(seen, line, roots.range);
         var integral = vec3f(0.0);
         // Equal numbers of roots enter and leave the outline. The whole arc counts once more where the light holds the direction straight down.
         for (var i = 0u; i < roots.count + u32(roots.wraps); i += 1u) {

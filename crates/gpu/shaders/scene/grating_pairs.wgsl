@@ -3,6 +3,9 @@
 // Gratings of each object one after the other, each once for each material that it lies on.
 @group(3) @binding(2) var<storage, read> gratings: array<Grating>;
 
+// Mark of a table by incidence.
+const TABLE_BY_INCIDENCE: u32 = 0x80000000u;
+
 // Movements of the point by one standard deviation of the pixel's filter to the right and down.
 fn grating_steps_m(pixel: PixelPoint) -> mat2x3f {
     let axes = mat2x3f(pixel.axis_x, cross(pixel.normal, pixel.axis_x));
@@ -88,15 +91,9 @@ fn grating_pair_across(pair: Pair, grating: Grating, place: GroovePlace, light_i
     return across;
 }
 
-// The layer of a table with its mark, which is known where a pass is compiled for a scene whose gratings are all of a kind.
-fn grating_table(grating: Grating) -> u32 {
-    if !HAS_FINE_GRATINGS {
-        return grating.table & ~TABLE_BY_INCIDENCE;
-    }
-    if !HAS_COARSE_GRATINGS {
-        return grating.table | TABLE_BY_INCIDENCE;
-    }
-    return grating.table;
+// Whether the table of a grating is one by incidence, which is known where a pass is compiled for a scene whose gratings are all of a kind.
+fn grating_is_fine(grating: Grating) -> bool {
+    return HAS_FINE_GRATINGS && (!HAS_COARSE_GRATINGS || (grating.table & TABLE_BY_INCIDENCE) != 0u);
 }
 
 // grating_pair() where the place is known.
@@ -112,6 +109,6 @@ fn grating_pair_at(pixel: PixelPoint, triangle: u32, grating: Grating, place: Gr
         let course = grating_course(pixel, triangle, grating);
         share *= groove_density(grating, course, arm_m, pixel.normal, place.tangent, steps_m[0], steps_m[1], pixel.coherence_um);
     }
-    let seen = row_seen(tangent, share, place.turns_rad, place.angle_std_rad);
-    return Pair(pair_point(pixel, grating_table(grating)), seen, pixel.position_m, mat3x3f(pixel.axis_x, axis_y, pixel.normal));
+    let seen = row_seen(tangent, share, place.turns_rad, place.angle_std_rad, grating_is_fine(grating));
+    return Pair(pair_point(pixel, grating.table & ~TABLE_BY_INCIDENCE), seen, pixel.position_m, mat3x3f(pixel.axis_x, axis_y, pixel.normal));
 }

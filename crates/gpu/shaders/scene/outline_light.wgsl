@@ -81,7 +81,7 @@ fn scratch_outline(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScr
         let weight_and_xi = band_line(lines, l);
         let line = band_line_at(wo, weight_and_xi.w);
         let range = outline_range(view, line, away);
-        let depths = chord_depths(point, seen, line, range.q);
+        let depths = chord_depths(seen, line, range.q);
         var integral = vec3f(0.0);
         var a = outline_direction(view, view.vertex_count - 1u);
         for (var i = 0u; i < view.vertex_count; i += 1u) {

@@ -4,6 +4,7 @@
 
 use super::Grating;
 use super::table::{Columns, Rise};
+use crate::cover::Cover;
 use crate::rigorous::{Efficiencies, Medium};
 use crate::spectrum;
 use crate::table::{COLUMNS, ROWS, ScratchTable, TableRow};
@@ -26,6 +27,8 @@ pub struct RigorousGrating<'a> {
     pub medium: Medium,
     /// Whether the grooves are in a material of another colour, which its shading brings.
     pub is_colored: bool,
+    /// A plate over the grooves, of the index that the efficiencies have above them.
+    pub cover: Option<Cover>,
 }
 
 /// The components of a direction to a viewer across and along the grooves, at an incidence of the table or between some.
@@ -117,15 +120,17 @@ impl RigorousGrating<'_> {
         // The material's own spectrum.
         let own_at = |nm: f64| match self.is_colored {
             true => 1.0,
-            false => self.medium.reflectance(cos_o, nm),
+            false => self.flat(cos_o, nm),
         };
         let own_nm: Vec<f64> = samples.iter().map(|s| own_at(s.wavelength_nm)).collect();
+        let by_grooves = self.by_grooves(cos_o);
+        // What all of it weighs, without what the outer face of a cover adds.
         let own: [f64; 3] = std::array::from_fn(|c| {
             let weighed = samples
                 .iter()
                 .zip(&own_nm)
                 .map(|(s, own)| s.weight[c] * own);
-            weighed.sum()
+            weighed.sum::<f64>() / by_grooves[c]
         });
         let mut whole = vec![[0.0; 3]; count + 1];
         for sent in sent {
@@ -136,7 +141,9 @@ impl RigorousGrating<'_> {
             }
             let energy = self.energy(sent.order, sent.nm, [across, along], 0.5 * (cos_i + cos_o));
             let energy = energy * own_at(sent.nm);
-            let weight: [f64; 3] = std::array::from_fn(|c| sent.weight[c] * energy / own[c]);
+            let passed = self.passed(cos_i, cos_o);
+            let weight: [f64; 3] =
+                std::array::from_fn(|c| sent.weight[c] * energy * passed[c] / own[c]);
             for (at, rise) in sent.rises.iter().enumerate() {
                 let sum = &mut sums[sent.first + at];
                 for c in 0..3 {
@@ -194,15 +201,45 @@ impl RigorousGrating<'_> {
             };
             (0..samples.len()).map(of).sum::<f64>() / own[c]
         });
-        (0..3).for_each(|c| sums[COLUMNS - 1][c] = 0.5 * (1.0 - kept[c]).max(0.0));
+        (0..3).for_each(|c| sums[COLUMNS - 1][c] = 0.5 * (by_grooves[c] - kept[c]).max(0.0));
+    }
+
+    fn above(&self) -> f64 {
+        self.cover.map_or(1.0, |cover| cover.ior)
+    }
+
+    fn flat(&self, cos_o: f64, nm: f64) -> f64 {
+        self.medium.reflectance(self.above(), cos_o, nm)
+    }
+
+    /// The part of the light in the mirror's direction of a flat surface that its outer face does not send.
+    pub fn by_grooves(&self, cos_o: f64) -> [f64; 3] {
+        match (self.cover, self.medium) {
+            (Some(cover), Medium::Metal(metal)) => {
+                let outer = cover.outer(cos_o);
+                cover
+                    .reflectance_rgb(metal, cos_o)
+                    .map(|all| 1.0 - outer / all)
+            }
+            _ => [1.0; 3],
+        }
+    }
+
+    /// What a cover lets through of light that comes in at one angle, over that of light that comes in at the viewer's.
+    pub fn passed(&self, cos_i: f64, cos_o: f64) -> [f64; 3] {
+        self.cover.map_or([1.0; 3], |cover| {
+            let (to, from) = (cover.passed(cos_o), cover.passed(cos_i));
+            std::array::from_fn(|c| if to[c] > 0.0 { from[c] / to[c] } else { 0.0 })
+        })
     }
 
     /// The light that an order sends to a viewer, over that of a flat surface of the same material. Spread depths weaken the orders as in (43).
     pub fn energy(&self, order: i32, nm: f64, [across, along]: [f64; 2], depth_share: f64) -> f64 {
         let cos_o = (1.0 - across * across - along * along).max(0.0).sqrt();
-        let flat = self.medium.reflectance(cos_o, nm);
+        let flat = self.flat(cos_o, nm);
         let sent = self.efficiencies.efficiency(order, nm, -across, along) / flat;
-        let spread = self.row.kept_by_spread(depth_share, nm);
+        // Waves are shorter in a cover.
+        let spread = self.row.kept_by_spread(self.above() * depth_share, nm);
         let fill = self.row.fill();
         let lost = 1.0 - spread;
         if order == 0 {
@@ -212,7 +249,7 @@ impl RigorousGrating<'_> {
         spread * self.row.order_kept(order) * sent + lost * lost * self.row.order_weight(order)
     }
 
-    /// As [`Grating::density`], to a viewer.
+    /// As [`Grating::density`], to a viewer; what a cover takes of it is left out.
     pub fn density(
         &self,
         q: f64,
@@ -237,7 +274,7 @@ impl RigorousGrating<'_> {
         let left = 1.0 - along * along;
         let cos_of = |across: f64| (left - across * across).max(0.0).sqrt();
         let cos_o = cos_of(across);
-        let flat = self.medium.reflectance(cos_o, nm);
+        let flat = self.flat(cos_o, nm);
         let most = (2.0 / self.row.order_q(1, nm)) as i32;
         let (mut rigorous, mut scalar) = (0.0, 0.0);
         for order in (-most..=most).filter(|order| *order != 0) {
@@ -333,6 +370,7 @@ mod tests {
             efficiencies: &efficiencies,
             medium,
             is_colored: false,
+            cover: None,
         };
         let table = rigorous.table(20.0);
         let green = |of: [f64; 3]| of[1];
@@ -348,13 +386,13 @@ mod tests {
             assert!((back[0] - at[0]).abs() + (back[1] - at[1]).abs() < 1e-9);
             let cos_of = |across: f64| (1.0 - along * along - across * across).max(0.0).sqrt();
             let cos_o = cos_of(across);
-            let f0 = spectrum::rgb_from_reflectance(|nm| medium.reflectance(cos_o, nm));
+            let f0 = spectrum::rgb_from_reflectance(|nm| medium.reflectance(1.0, cos_o, nm));
             let of_order = |order: i32| {
                 green(spectrum::rgb_from_reflectance(|nm| {
                     let cos_i = cos_of(row.order_q(order, nm) - across);
                     let is_sent = order == 0 || cos_i > 0.0;
                     let energy = rigorous.energy(order, nm, viewer, 0.5 * (cos_i + cos_o));
-                    f64::from(u8::from(is_sent)) * energy * medium.reflectance(cos_o, nm)
+                    f64::from(u8::from(is_sent)) * energy * medium.reflectance(1.0, cos_o, nm)
                 })) / f0[1]
             };
             let seen = IncidenceRow::new(&table, viewer);

@@ -20,10 +20,10 @@ pub enum Medium {
 }
 
 impl Medium {
-    /// Unpolarised reflectance of a flat surface, in air.
-    pub fn reflectance(self, cos_theta: f64, wavelength_nm: f64) -> f64 {
-        let index = self.index(wavelength_nm);
-        fresnel::conductor(cos_theta, index.re, index.im)
+    /// Unpolarised reflectance of a flat surface under a medium of the index `above`, by the cosine in air.
+    pub fn reflectance(self, above: f64, cos_theta: f64, wavelength_nm: f64) -> f64 {
+        let index = self.index(wavelength_nm) / above;
+        fresnel::conductor(fresnel::inner_cos(cos_theta, above), index.re, index.im)
     }
 
     pub(crate) fn index(self, wavelength_nm: f64) -> c64 {

@@ -140,6 +140,8 @@ class Material(Table):
     """A metal by its measured refractive index. Default: this or ``base_color``. Range: ``"iron"``, ``"steel"`` (stainless), ``"aluminium"``, ``"copper"``, ``"gold"``, ``"silver"``, ``"brass"``, ``"chromium"``, ``"titanium"``, ``"nickel"``."""
     base_color: Optional[Vector] = _default()
     """A metal by its reflectance when seen head-on. Unit: linear RGB. Default: this or ``metal``. Range: 0 to 1 each."""
+    cover: Optional[Mapping[str, Any]] = _default()
+    """A clear plate with parallel faces over the metal: the polycarbonate of discs, the glass of a dial. Its outer face reflects with the metal's roughness. Gratings lie under it: waves are shorter there, and orders have other brightnesses in the same directions. Scratches lie in the metal. Default: none. Range: see cover; with ``metal``, without ``clearcoat``."""
     ior: Optional[float] = _default()
     """Refractive index of the clear coat. 1.5 is glass and most plastics and lacquers. Default: 1.5. Range: 1 to 4."""
     metallic: Optional[float] = _default()

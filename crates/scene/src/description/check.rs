@@ -108,6 +108,12 @@ fn check_material(it: &Material, key: &str) -> Check {
         material::CLEARCOAT.check(key, &coat.weight)?;
         material::CLEARCOAT_ROUGHNESS.check(key, &coat.roughness)?;
     }
+    if let Some(cover) = it.cover {
+        let key = format!("{key}.cover");
+        schema::cover::IOR.check(&key, &cover.ior)?;
+        schema::cover::THICKNESS_MM.check(&key, &cover.thickness_mm)?;
+        schema::cover::COLOR.check(&key, &cover.color)?;
+    }
     if let Some(anisotropy) = it.anisotropy {
         material::ANISOTROPY.check(key, &anisotropy.strength)?;
         material::ANISOTROPY_DIRECTION_DEG.check(key, &anisotropy.direction_deg)?;

@@ -5,13 +5,13 @@ use toml::de::{DeTable, DeValue};
 use super::lens;
 use super::table::{Read, Table, Value, number, wrong_type};
 use super::{
-    Amount, Around, Brush, Brushed, Camera, Description, Distribution, Environment, Laid, Layer,
-    LayerPlaces, Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render,
+    Amount, Around, Brush, Brushed, Camera, Cover, Description, Distribution, Environment, Laid,
+    Layer, LayerPlaces, Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render,
     Scratches, Stroke, Studio, Surface,
 };
 use crate::error::Error;
 use crate::scene::{Anisotropy, Coat, Specular};
-use crate::schema::{camera, environment, material, object, render, scratches, stroke};
+use crate::schema::{camera, cover, environment, material, object, render, scratches, stroke};
 
 /// Reads a whole scene file.
 pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
@@ -132,6 +132,17 @@ impl Read for Environment {
     }
 }
 
+impl Read for Cover {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        let table = Table::of(&cover::COVER, value, key)?;
+        Ok(Self {
+            ior: table.value(&cover::IOR)?,
+            thickness_mm: table.value(&cover::THICKNESS_MM)?,
+            color: table.value(&cover::COLOR)?,
+        })
+    }
+}
+
 impl Read for Material {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         let (kind, table) = Table::of_kind(&material::MATERIAL, value, key)?;
@@ -182,8 +193,24 @@ impl Read for Material {
             }
             None => None,
         };
+        let cover: Option<Cover> = table.value(&material::COVER)?;
+        if let (Some(_), MaterialKind::Metal(MetalColor::Color(_))) = (cover, &kind) {
+            return Err(Error::new(
+                table.way("cover"),
+                "found a plate over a metal that a colour stands for",
+                "belongs to `metal`, whose refractive index is known",
+            ));
+        }
+        if cover.is_some() && coat.is_some() {
+            return Err(Error::new(
+                table.way("cover"),
+                "found a `clearcoat` beside it",
+                "leave one of them out",
+            ));
+        }
         Ok(Self {
             coat,
+            cover,
             anisotropy,
             name: table.value(&material::NAME)?,
             kind,

@@ -35,7 +35,7 @@ pub static MATERIAL: Section = Section::many(
 .kinds(
     "kind",
     &[
-        Choice::new("metal", "A bare metal.", &[&METAL, &METAL_COLOR]),
+        Choice::new("metal", "A bare metal.", &[&METAL, &METAL_COLOR, &COVER]),
         Choice::new(
             "dielectric",
             "A clear coat over a diffuse body.",
@@ -108,6 +108,11 @@ pub static METAL_COLOR: Key = Key::new("base_color", Form::Color)
     .within(0.0, 1.0)
     .means("A metal by its reflectance when seen head-on.")
     .control("Colour", linear(0.0, 1.0), "On metals it tints the mirror image and the scratches in it; on coated surfaces it is the body under the coat, which scratches leave as it is. Dark bodies let scratches show.");
+
+pub static COVER: Key = Key::new("cover", Form::Table)
+    .none()
+    .range_words("see [cover](#cover); with `metal`, without `clearcoat`")
+    .means("A clear plate with parallel faces over the metal: the polycarbonate of discs, the glass of a dial. Its outer face reflects with the metal's roughness. Gratings lie under it: waves are shorter there, and orders have other brightnesses in the same directions. Scratches lie in the metal.");
 
 pub static IOR: Key = Key::new("ior", Form::Number)
     .number(1.5)

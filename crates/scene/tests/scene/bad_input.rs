@@ -224,6 +224,18 @@ fn sizes_that_are_negative_or_not_finite() {
             "plate.toml:14: material[1].clearcoat: found 1.5; must be from 0 to 1",
         ),
         (
+            "[[material]]\nname = \"a\"\nkind = \"metal\"\nmetal = \"gold\"\ncover = { ior = 0.9 }",
+            "plate.toml:15: material[1].cover.ior: found 0.9; must be from 1 to 4",
+        ),
+        (
+            "[[material]]\nname = \"a\"\nkind = \"metal\"\nbase_color = [1, 1, 1]\ncover = {}",
+            "plate.toml:15: material[1].cover: found a plate over a metal that a colour stands for; belongs to `metal`, whose refractive index is known",
+        ),
+        (
+            "[[material]]\nname = \"a\"\nkind = \"metal\"\nmetal = \"gold\"\nclearcoat = 1\ncover = {}",
+            "plate.toml:16: material[1].cover: found a `clearcoat` beside it; leave one of them out",
+        ),
+        (
             "[[material]]\nname = \"a\"\nkind = \"mirror\"\nclearcoat_roughness = 0.1",
             "plate.toml:14: material[1].clearcoat_roughness: found no `clearcoat` beside it; add one, such as `clearcoat = 1`",
         ),

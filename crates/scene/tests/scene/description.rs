@@ -221,6 +221,11 @@ fn everything() -> Description {
                     strength: 0.6,
                     direction_deg: 30.0,
                 }),
+                cover: (i == 0).then_some(Cover {
+                    ior: 1.49,
+                    thickness_mm: 0.1 + 0.2,
+                    color: [0.9, 0.8, 0.7],
+                }),
             })
             .collect(),
         objects: surfaces

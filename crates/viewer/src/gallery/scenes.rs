@@ -194,6 +194,7 @@ fn clay() -> Material {
         roughness: 0.6,
         coherence_um: 20.0,
         coat: None,
+        cover: None,
         anisotropy: None,
     }
 }

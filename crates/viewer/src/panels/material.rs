@@ -4,7 +4,7 @@ use egui::Ui;
 use hairline_editor::actions::materials;
 use hairline_editor::presets::MaterialPreset;
 use hairline_optics::metal::Metal;
-use hairline_scene::description::{MaterialKind, MetalColor};
+use hairline_scene::description::{Cover, MaterialKind, MetalColor};
 use hairline_scene::schema;
 use hairline_scene::{Anisotropy, Coat, Specular};
 
@@ -77,6 +77,23 @@ fn coat_rows(form: &mut Form, coat: &mut Option<Coat>) {
                 roughness: 0.03,
             });
         }
+        None => {}
+    }
+}
+
+/// Rows for a measured metal under a clear plate, or bare.
+fn cover_rows(form: &mut Form, cover: &mut Option<Cover>) {
+    let mut is_covered = cover.is_some();
+    let tooltip = "Whether a clear plate lies over the metal and its gratings, as the polycarbonate of a disc";
+    form.toggle("Covered", tooltip, &mut is_covered);
+    match cover {
+        Some(_) if !is_covered => *cover = None,
+        Some(cover) => {
+            form.number(&schema::cover::IOR, &mut cover.ior);
+            form.number(&schema::cover::THICKNESS_MM, &mut cover.thickness_mm);
+            form.color(&schema::cover::COLOR, &mut cover.color);
+        }
+        None if is_covered => *cover = Some(Cover::default()),
         None => {}
     }
 }
@@ -154,6 +171,12 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     form.number(&schema::material::ROUGHNESS, &mut material.roughness);
     anisotropy_rows(&mut form, &mut material.anisotropy);
     coat_rows(&mut form, &mut material.coat);
+    match material.kind {
+        MaterialKind::Metal(MetalColor::Measured(_)) if material.coat.is_none() => {
+            cover_rows(&mut form, &mut material.cover);
+        }
+        _ => material.cover = None,
+    }
     form.number(&schema::material::COHERENCE_UM, &mut material.coherence_um);
     if let Some(change) = form.change() {
         if name != material.name {
