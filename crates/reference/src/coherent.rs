@@ -41,7 +41,7 @@ struct RigorousField<'a> {
     wo: DVec3,
     /// The part of the light that no outer face of a plate sends.
     by_grooves: f64,
-    /// Of order 0, for each wavelength.
+    /// Factor of order 0, for each wavelength.
     mirror: Spectrum<Complex64>,
 }
 

@@ -98,7 +98,7 @@ pub struct GratingSpectrum {
     pub metal: Option<Metal>,
     /// Standard deviation of the coherence window on the surface.
     pub coherence_um: f64,
-    /// What its rigorous efficiencies are those of; none where they are scalar.
+    /// Grooves of its rigorous efficiencies; none where they are scalar.
     pub fine: Option<FineGrooves>,
     /// A plate over the grooves.
     pub cover: Option<Cover>,

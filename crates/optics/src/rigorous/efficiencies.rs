@@ -10,7 +10,7 @@ use crate::metal::Metal;
 use faer::c64;
 use rayon::prelude::*;
 
-/// What grooves are in.
+/// Material of grooves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Medium {
     /// A metal of measured index.
@@ -71,7 +71,7 @@ pub(super) struct Column {
     per_order: i32,
     /// The highest order that may leave.
     most: i32,
-    /// By cosine, by incidence from 0 on, by order from the lowest on; NaN where light comes from below the horizon.
+    /// Ordered by cosine, by incidence from 0 on, by order from the lowest on; NaN where light comes from below the horizon.
     pub(super) values: Vec<f32>,
 }
 
