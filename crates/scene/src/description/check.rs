@@ -1,13 +1,13 @@
 //! Checks of the ranges of numbers, whoever wrote them.
 
-use super::ranges::{Check, check_seed};
+use super::ranges::{Check, check_radii, check_seed};
 use super::{
     Amount, Around, Brush, Camera, Description, Distribution, Grating, Laid, Layer, LayerPlaces,
     Light, Material, MaterialKind, MetalColor, Object, Override, Pattern, Render, Scratches,
     Stroke, Surface,
 };
 use crate::error::Error;
-use crate::schema::{self, Key, environment, material, object, place, scratches, stroke};
+use crate::schema::{self, environment, material, object, place, scratches, stroke};
 use crate::text::shown;
 use std::collections::HashSet;
 
@@ -208,19 +208,6 @@ fn check_place(it: &LayerPlaces, key: &str) -> Check {
         return alone("center_m", "belongs to `radius_m`");
     }
     place::CENTER_M.check(key, &it.center_m)
-}
-
-/// The least and the greatest distance from a middle.
-pub(super) fn check_radii(radii: &Key, key: &str, radius_m: Option<[f64; 2]>) -> Check {
-    radii.check(key, &radius_m)?;
-    match radius_m {
-        Some([least, most]) if least >= most => Err(Error::new(
-            format!("{key}.{}", radii.name),
-            format!("found {least} and {most}"),
-            "the second must be the greater one",
-        )),
-        _ => Ok(()),
-    }
 }
 
 /// Points of one stroke.

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use toml::de::DeValue;
 
-use super::check::check_radii;
-use super::ranges::{Check, check_seed, within};
+use super::ranges::{Check, check_radii, check_seed, within};
 use super::read::around;
 use super::scratches::{Around, Distribution};
 use super::table::{Read, Table, Value};

@@ -160,3 +160,16 @@ pub(super) fn check_seed(seed: u64, key: &str) -> Check {
     }
     Ok(())
 }
+
+/// The least and the greatest distance from a middle.
+pub(super) fn check_radii(radii: &Key, key: &str, radius_m: Option<[f64; 2]>) -> Check {
+    radii.check(key, &radius_m)?;
+    match radius_m {
+        Some([least, most]) if least >= most => Err(Error::new(
+            format!("{key}.{}", radii.name),
+            format!("found {least} and {most}"),
+            "the second must be the greater one",
+        )),
+        _ => Ok(()),
+    }
+}

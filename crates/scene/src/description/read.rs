@@ -3,7 +3,7 @@
 use toml::de::{DeTable, DeValue};
 
 use super::lens;
-use super::table::{Read, Table, Value, number, wrong_type};
+use super::table::{Held, Read, Table, Value, number, wrong_type};
 use super::{
     Amount, Around, Brush, Brushed, Camera, Cover, Description, Distribution, Environment, Laid,
     Layer, LayerPlaces, Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render,
@@ -11,7 +11,9 @@ use super::{
 };
 use crate::error::Error;
 use crate::scene::{Anisotropy, Coat, Specular};
-use crate::schema::{camera, cover, environment, material, object, render, scratches, stroke};
+use crate::schema::{
+    Initial, camera, cover, environment, material, object, render, scratches, stroke,
+};
 
 /// Reads a whole scene file.
 pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
@@ -402,5 +404,16 @@ impl Read for Distribution {
                 )),
             },
         }
+    }
+}
+
+impl Held for Distribution {
+    fn initial(initial: Initial) -> Option<Self> {
+        let (mean, spread) = match initial {
+            Initial::Number(mean) => (mean, 0.0),
+            Initial::Sizes(mean, spread) => (mean, spread),
+            _ => return None,
+        };
+        Some(Self { mean, spread })
     }
 }

@@ -6,7 +6,6 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::hint;
-use super::scratches::Distribution;
 use super::values::Named;
 use crate::error::Error;
 use crate::schema::{Choice, Initial, Key, Section};
@@ -261,17 +260,6 @@ impl<const N: usize> Held for [f64; N] {
 impl<const N: usize> Held for [u32; N] {
     fn initial(initial: Initial) -> Option<Self> {
         <[f64; N]>::initial(initial).map(|numbers| numbers.map(|number| number as u32))
-    }
-}
-
-impl Held for Distribution {
-    fn initial(initial: Initial) -> Option<Self> {
-        let (mean, spread) = match initial {
-            Initial::Number(mean) => (mean, 0.0),
-            Initial::Sizes(mean, spread) => (mean, spread),
-            _ => return None,
-        };
-        Some(Self { mean, spread })
     }
 }
 
