@@ -80,18 +80,6 @@ fn unit(unit: Unit) -> &'static str {
     }
 }
 
-/// `WidthSpread` as `width_spread`.
-fn snake(name: &str) -> String {
-    let mut snake = String::new();
-    for letter in name.chars() {
-        if letter.is_uppercase() && !snake.is_empty() {
-            snake.push('_');
-        }
-        snake.extend(letter.to_lowercase());
-    }
-    snake
-}
-
 /// What there is to begin with.
 #[derive(Clone, Copy)]
 enum Preset {

@@ -133,7 +133,7 @@ pub struct Control {
     pub slider: Slider,
     /// Values that may be typed.
     pub bounds: Bounds,
-    /// Unit, as [`Key::unit`].
+    /// Unit, as that of a key.
     pub unit: &'static str,
     /// Effect on the look.
     pub tooltip: &'static str,
