@@ -45,7 +45,7 @@ fn high_contrast() -> Visuals {
     visuals.hyperlink_color = Color32::from_rgb(150, 210, 255);
     visuals.error_fg_color = Color32::from_rgb(255, 170, 150);
     // Dark enough for white, in which texts beside and over a marked part are.
-    visuals.selection.bg_fill = Color32::from_rgb(0, 84, 190);
+    visuals.selection.bg_fill = Color32::from_rgb(0, 80, 180);
     visuals.selection.stroke = Stroke::new(2.0, Color32::WHITE);
     visuals.disabled_alpha = 0.75;
     let widgets = &mut visuals.widgets;
