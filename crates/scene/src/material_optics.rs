@@ -242,8 +242,12 @@ fn scratch_table(metal: Option<Metal>) -> Arc<ScratchTable> {
     static MADE: [OnceLock<Arc<ScratchTable>>; Metal::ALL.len() + 1] =
         [const { OnceLock::new() }; Metal::ALL.len() + 1];
     let at = metal.map_or(Metal::ALL.len(), |metal| metal as usize);
-    let make = || Arc::new(ScratchTable::new(|nm| reflectance(metal, nm)));
-    Arc::clone(MADE[at].get_or_init(make))
+    // Not within `get_or_init`: a thread that waits for the parts of a table may take up another scene, which would wait for the table for ever.
+    if let Some(made) = MADE[at].get() {
+        return Arc::clone(made);
+    }
+    let made = Arc::new(ScratchTable::new(|nm| reflectance(metal, nm)));
+    Arc::clone(MADE[at].get_or_init(|| made))
 }
 
 /// Reflectance at normal incidence.
