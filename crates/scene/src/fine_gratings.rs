@@ -39,7 +39,9 @@ pub(crate) fn fine_grooves(grating: &Grating, material: &Material) -> Option<Fin
         }
     };
     let row = grating.row;
-    (grating.is_rigorous && row.pitch_um < FINE_PITCH_UM).then_some(FineGrooves {
+    // The solver has no code that all browsers run.
+    let is_known = !cfg!(target_arch = "wasm32");
+    (is_known && grating.is_rigorous && row.pitch_um < FINE_PITCH_UM).then_some(FineGrooves {
         pitch_um: row.pitch_um,
         width_um: row.width_um,
         depth_nm: row.depth_nm,

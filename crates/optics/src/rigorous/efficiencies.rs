@@ -4,10 +4,11 @@
 //! Along the grooves a perfect conductor knows no incidence of its own: it sends light as at the wavelength and the angle that are left across them,
 //! both divided by the cosine to that plane. A table follows that rule from one sampled cosine to the next, and holds what a metal does otherwise.
 
+#[cfg(not(target_arch = "wasm32"))]
 use super::coupled_waves::{CoupledWaves, Relief};
 use crate::fresnel;
 use crate::metal::Metal;
-use faer::c64;
+use num_complex::Complex64;
 use rayon::prelude::*;
 
 /// Material of grooves.
@@ -26,13 +27,13 @@ impl Medium {
         fresnel::conductor(fresnel::inner_cos(cos_theta, above), index.re, index.im)
     }
 
-    pub(crate) fn index(self, wavelength_nm: f64) -> c64 {
+    pub(crate) fn index(self, wavelength_nm: f64) -> Complex64 {
         match self {
             Self::Metal(metal) => {
                 let (n, k) = metal.n_k(wavelength_nm);
-                c64::new(n, k)
+                Complex64::new(n, k)
             }
-            Self::Dielectric(ior) => c64::from(ior),
+            Self::Dielectric(ior) => Complex64::from(ior),
         }
     }
 }
@@ -62,6 +63,7 @@ const NM_COUNT: usize = 69;
 /// Largest distance of sampled incidences, in components across the grooves.
 const INCIDENCE_STEP: f64 = 0.03;
 /// A component across the grooves is this much off where two orders are each other's mirror images, in wavelengths over the pitch.
+#[cfg(not(target_arch = "wasm32"))]
 const OFF_MIRROR: f64 = 1e-6;
 
 /// Efficiencies at one wavelength.
@@ -106,6 +108,12 @@ impl Column {
         column
     }
 
+    #[cfg(target_arch = "wasm32")]
+    fn fill(&mut self, _: &FineGrooves, _: f64) {
+        unreachable!("gratings of pages keep scalar orders")
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
     fn fill(&mut self, grooves: &FineGrooves, wavelength_nm: f64) {
         let incidences = self.incidences(grooves.pitch_um, wavelength_nm);
         let orders = self.orders();
@@ -178,6 +186,7 @@ impl Column {
 }
 
 /// Orders of the coupled waves to each side, for errors of the efficiencies of about 1 %.
+#[cfg(not(target_arch = "wasm32"))]
 pub(super) fn kept_orders(grooves: &FineGrooves) -> i32 {
     (12.0 + 9.0 * grooves.pitch_um * grooves.above) as i32
 }
