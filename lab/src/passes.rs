@@ -172,20 +172,14 @@ impl Passes {
     }
 }
 
-/// Reads a scene file, or a model in the light that `hairline render` gives it.
+/// Reads a scene file, or a model in the scene that `hairline render` shows it in.
 fn load(path: &Path) -> Result<Scene> {
-    let is_model = path
-        .extension()
-        .is_some_and(|ending| ending == "glb" || ending == "gltf");
-    if !is_model {
+    if !Description::is_model(path) {
         return Ok(Scene::load(path)?);
     }
-    let mut description = Description::for_model(path)?;
+    let description = Description::for_model(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut builder = SceneBuilder::new();
-    let plain = builder.build(&Loader::default(), &description, folder)?;
-    description.light_for_scratches(&plain);
-    Ok(builder.build(&Loader::default(), &description, folder)?)
+    Ok(SceneBuilder::new().build(&Loader::default(), &description, folder)?)
 }
 
 fn print_table(title: &str, all: &[Figures], times: impl Fn(&Figures) -> &Times) {
