@@ -22,7 +22,7 @@ mod scratches;
 mod shapes;
 mod studio;
 mod table;
-mod values;
+pub(crate) mod values;
 
 use std::path::{Path, PathBuf};
 

@@ -137,7 +137,7 @@ class Material(Table):
     coherence_um: float = _default()
     """Over what distance light interferes: standard deviation of the Gaussian coherence window. Nothing finer is seen, however small the pixels. Leave it alone but for macro views and studies. Unit: µm. Default: 20. Range: 1 to 1000."""
     metal: Optional[str] = _default()
-    """A metal by its measured refractive index. Default: this or ``base_color``. Range: ``"iron"``, ``"steel"`` (stainless), ``"aluminium"``, ``"copper"``, ``"gold"``, ``"silver"``, ``"brass"``, ``"chromium"``, ``"titanium"``, ``"nickel"``."""
+    """A metal by its measured refractive index; ``"steel"`` is stainless. Default: this or ``base_color``. Range: ``"iron"``, ``"steel"``, ``"aluminium"``, ``"copper"``, ``"gold"``, ``"silver"``, ``"brass"``, ``"chromium"``, ``"titanium"``, ``"nickel"``."""
     base_color: Optional[Vector] = _default()
     """A metal by its reflectance when seen head-on. Unit: linear RGB. Default: this or ``metal``. Range: 0 to 1 each."""
     cover: Optional[Mapping[str, Any]] = _default()

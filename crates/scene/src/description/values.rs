@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 use crate::environment::BuiltInMap;
 
 /// Values that a scene file calls by name.
-pub(super) trait Named: Copy + PartialEq + 'static {
+pub(crate) trait Named: Copy + PartialEq + 'static {
     /// Each with its name.
     const NAMES: &'static [(&'static str, Self)];
 }
@@ -34,6 +34,18 @@ impl Named for Metal {
         ("titanium", Metal::Titanium),
         ("nickel", Metal::Nickel),
     ];
+}
+
+/// The names of a [`Named`], for the schema.
+pub(crate) const fn names<T, const N: usize>(named: &[(&'static str, T)]) -> [&'static str; N] {
+    assert!(named.len() == N, "as many as there are");
+    let mut names = [""; N];
+    let mut i = 0;
+    while i < N {
+        names[i] = named[i].0;
+        i += 1;
+    }
+    names
 }
 
 /// Names of the metals in scene files.

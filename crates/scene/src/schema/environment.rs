@@ -2,6 +2,10 @@
 
 use super::key::{Form, Key, linear, log};
 use super::section::Section;
+use crate::description::values::{Named, names};
+use crate::environment::BuiltInMap;
+
+const NAMES: &[&str] = &names::<BuiltInMap, { BuiltInMap::NAMES.len() }>(BuiltInMap::NAMES);
 
 /// `[environment]`
 pub static ENVIRONMENT: Section = Section::one(
@@ -16,7 +20,7 @@ pub static FILE: Key = Key::new("file", Form::File)
     .range_words("`.hdr` or `.exr`, twice as wide as high, at most 16384 px wide")
     .means("An equirectangular map. Maps wider than 8192 px are halved. What is small, round and bright in it, as the sun is, lights as a lamp of its own would, colours on scratches included. Larger lamps, windows and soft boxes with sharp outlines do so for scratches; `hairline info` lists both.");
 
-pub static BUILTIN: Key = Key::new("builtin", Form::Name(&["studio", "window", "overcast"]))
+pub static BUILTIN: Key = Key::new("builtin", Form::Name(NAMES))
     .words("this or `file`")
     .means("A map in the box, without a file: soft boxes in a dark room, a room with a tall window, an even grey sky.");
 

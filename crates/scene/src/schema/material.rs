@@ -1,21 +1,13 @@
 //! The keys of `[[material]]`.
 
+use hairline_optics::metal::Metal;
+
 use super::key::{Form, Initial, Key, linear, log};
 use super::section::{Choice, Section};
+use crate::description::values::{Named, names};
 
 /// Metals whose refractive index was measured.
-const METALS: &[&str] = &[
-    "iron",
-    "steel",
-    "aluminium",
-    "copper",
-    "gold",
-    "silver",
-    "brass",
-    "chromium",
-    "titanium",
-    "nickel",
-];
+const METALS: &[&str] = &names::<Metal, { Metal::NAMES.len() }>(Metal::NAMES);
 
 /// `[[material]]`
 pub static MATERIAL: Section = Section::many(
@@ -99,8 +91,7 @@ pub static COHERENCE_UM: Key = Key::new("coherence_um", Form::Number)
 
 pub static METAL: Key = Key::new("metal", Form::Name(METALS))
     .words("this or `base_color`")
-    .range_words("`\"iron\"`, `\"steel\"` (stainless), `\"aluminium\"`, `\"copper\"`, `\"gold\"`, `\"silver\"`, `\"brass\"`, `\"chromium\"`, `\"titanium\"`, `\"nickel\"`")
-    .means("A metal by its measured refractive index.");
+    .means("A metal by its measured refractive index; `\"steel\"` is stainless.");
 
 pub static METAL_COLOR: Key = Key::new("base_color", Form::Color)
     .unit("linear RGB")

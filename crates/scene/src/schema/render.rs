@@ -1,7 +1,12 @@
 //! The keys of `[render]`.
 
+use hairline_image::ToneMap;
+
 use super::key::{Form, Initial, Key, linear};
 use super::section::Section;
+use crate::description::values::{Named, names};
+
+const NAMES: &[&str] = &names::<ToneMap, { ToneMap::NAMES.len() }>(ToneMap::NAMES);
 
 /// `[render]`
 pub static RENDER: Section = Section::one(
@@ -25,7 +30,7 @@ pub static FILTER_STD_PX: Key = Key::new("filter_std_px", Form::Number)
     .means("Standard deviation of the pixel's Gaussian filter: larger is softer.")
     .control("Filter", linear(0.3, 2.0), "How softly pixels blend into one another. Small: crisp scratches that may look jagged. Large: smooth lines, less sparkle.");
 
-pub static TONE_MAP: Key = Key::new("tone_map", Form::Name(&["neutral", "agx", "aces", "none"]))
+pub static TONE_MAP: Key = Key::new("tone_map", Form::Name(NAMES))
     .text("neutral")
     .range_words("see below")
     .means("The curve from radiance to the display.");
