@@ -118,6 +118,21 @@ mod tests {
         }
     }
 
+    /// An end that was clipped is in another unit than what may be typed.
+    #[test]
+    fn sliders_that_know_no_size_end_where_the_schema_says() {
+        let keys = SECTIONS.iter().flat_map(|section| section.all_keys());
+        for key in keys {
+            for control in [&key.control, &key.second].into_iter().flatten() {
+                let slider = control.slider;
+                if slider.power_of_size == 0 {
+                    let range = of(key, Some(control), 0.3);
+                    assert_eq!(range.slider, slider.from..=slider.to, "{}", key.name);
+                }
+            }
+        }
+    }
+
     #[test]
     fn tooltips_are_sentences_and_labels_begin_with_a_capital() {
         for (name, Range { label, tooltip, .. }) in all(0.3) {

@@ -26,7 +26,7 @@ pub static THICKNESS_MM: Key = Key::new("thickness_mm", Form::Number)
     )
     .control(
         "Cover's thickness",
-        linear(0.0, 5.0),
+        linear(0.0, 0.005),
         "How far light goes through the colour of the plate.",
     );
 

@@ -7,7 +7,7 @@ use egui::{Button, Id, Ui};
 use hairline_editor::navigate::{self, Viewpoint};
 use hairline_image::ToneMap;
 use hairline_scene::description::{Camera, Description};
-use hairline_scene::schema::{self, Key};
+use hairline_scene::schema;
 
 use super::form::Form;
 use crate::command::Command;
@@ -85,33 +85,16 @@ fn show_file_cameras(ui: &mut Ui, work: &mut Workspace) {
 
 /// The field of view in the words of photographers.
 fn focal_length(form: &mut Form, camera: &mut Camera, size_px: [u32; 2]) {
-    in_metres(
-        form,
+    form.in_metres(
         &schema::camera::FOCAL_LENGTH_MM,
         camera.focal_length_mm(size_px),
         |mm| {
             camera.set_focal_length_mm(mm, size_px);
         },
     );
-    in_metres(
-        form,
-        &schema::camera::SENSOR_WIDTH_MM,
-        camera.sensor_mm(),
-        |mm| {
-            camera.set_sensor_width_mm(mm, size_px);
-        },
-    );
-}
-
-/// A control of a length that scene files have in millimetres. What is not touched keeps all of its digits.
-fn in_metres(form: &mut Form, key: &Key, before_mm: f64, set_mm: impl FnOnce(f64)) {
-    let before_m = 1e-3 * before_mm;
-    let mut after_m = before_m;
-    form.number(key, &mut after_m);
-    if after_m != before_m {
-        // Not 18.000000000000004, in a file that people read.
-        set_mm((1e12 * after_m).round() / 1e9);
-    }
+    form.in_metres(&schema::camera::SENSOR_WIDTH_MM, camera.sensor_mm(), |mm| {
+        camera.set_sensor_width_mm(mm, size_px);
+    });
 }
 
 /// A lens in place of a pinhole. `closed` is the one that was taken off last.
@@ -148,7 +131,7 @@ fn lens(
             camera.set_f_stop(f_stop, size_px);
         }
     }
-    in_metres(form, &schema::camera::APERTURE_MM, aperture_mm, |mm| {
+    form.in_metres(&schema::camera::APERTURE_MM, aperture_mm, |mm| {
         camera.aperture_mm = Some(mm);
     });
     let focus_before_m = focus_m;

@@ -109,6 +109,17 @@ impl<'a> Form<'a> {
         self.ranged(&range(key, self.diagonal_m), value);
     }
 
+    /// A length that scene files have in millimetres. What is not touched keeps all of its digits.
+    pub fn in_metres(&mut self, key: &Key, before_mm: f64, set_mm: impl FnOnce(f64)) {
+        let before_m = 1e-3 * before_mm;
+        let mut after_m = before_m;
+        self.number(key, &mut after_m);
+        if after_m != before_m {
+            // Not 18.000000000000004, in a file that people read.
+            set_mm((1e12 * after_m).round() / 1e9);
+        }
+    }
+
     /// A whole number.
     pub fn whole(&mut self, key: &Key, value: &mut u64) {
         let mut number = *value as f64;

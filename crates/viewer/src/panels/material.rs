@@ -90,7 +90,9 @@ fn cover_rows(form: &mut Form, cover: &mut Option<Cover>) {
         Some(_) if !is_covered => *cover = None,
         Some(cover) => {
             form.number(&schema::cover::IOR, &mut cover.ior);
-            form.number(&schema::cover::THICKNESS_MM, &mut cover.thickness_mm);
+            form.in_metres(&schema::cover::THICKNESS_MM, cover.thickness_mm, |mm| {
+                cover.thickness_mm = mm;
+            });
             form.color(&schema::cover::COLOR, &mut cover.color);
         }
         None if is_covered => *cover = Some(Cover::default()),
