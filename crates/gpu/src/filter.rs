@@ -4,8 +4,8 @@
 //! samples may come.
 
 use hairline_image::filter::{
-    LEAST_ALIKE, LEAST_AROUND, MIRROR_STEP_PX, NOISE_STD, NORMAL_POWER, OFF_PLANE, OUTLIER_STD,
-    OUTLINE_PX, PASSES, ROUGH_NORMALS, ROUGH_STEP_PX, VARIANCE_PX,
+    LEAST_ALIKE, LEAST_AROUND, MIRROR_STEP_PX, NORMAL_POWER, OFF_PLANE, OUTLIER_STD, OUTLINE_PX,
+    PASSES, ROUGH_NORMALS, ROUGH_STEP_PX, VARIANCE_PX, noise_std,
 };
 use wgpu::{
     BindGroupLayoutEntry, BindingResource, BufferUsages, ShaderStages, TextureFormat, TextureUsages,
@@ -110,7 +110,7 @@ impl FilterPasses {
                 size_px,
                 rounds: founds[0].rounds,
                 layer,
-                noise_std: NOISE_STD,
+                noise_std: noise_std(founds[0].rounds),
                 off_plane: OFF_PLANE,
                 normal_power: NORMAL_POWER,
                 rough_normals: ROUGH_NORMALS,

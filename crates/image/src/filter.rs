@@ -15,8 +15,10 @@ use crate::{Image, Noise};
 pub const PASSES: u32 = 5;
 /// Weights of three taps, a quarter and a half: the B-spline.
 const TAPS: [(i32, f32); 3] = [(-1, 0.25), (0, 0.5), (1, 0.25)];
-/// Differences of so many standard deviations count for little. Chosen by measured error.
-pub const NOISE_STD: f32 = 1.5;
+/// Differences of so many standard deviations of the noise count for little after one round. Chosen by measured error.
+const NOISE_STD: f32 = 1.5;
+/// The number of rounds that halves them: what many rounds still differ by is mostly the picture. Chosen by measured error.
+const SHARPENING_ROUNDS: f32 = 64.0;
 /// Largest distance of a surface from the plane of a pixel, as a share of depth, at which both are averaged.
 pub const OFF_PLANE: f32 = 0.01;
 /// The power of the cosine between normals of mirrors.
@@ -38,6 +40,12 @@ pub const OUTLIER_STD: f32 = 12.0;
 pub const LEAST_AROUND: f32 = 2.0;
 /// Pixels that are less alike do not count.
 pub const LEAST_ALIKE: f32 = 1e-3;
+
+/// Differences that count for little after a number of rounds, in standard deviations of the noise.
+#[must_use]
+pub fn noise_std(rounds: u32) -> f32 {
+    NOISE_STD / (1.0 + rounds as f32 / SHARPENING_ROUNDS)
+}
 
 /// Replaces base and scratches of a picture by the light that rays found, filtered. Nothing changes without rays.
 pub fn filter_found(image: &mut Image) {
@@ -292,7 +300,7 @@ fn filter_layer(guides: &Guides, found: &Found, layer: Layer) -> Vec<Signals> {
     for pass in 0..PASSES {
         std::mem::swap(&mut signals, &mut filtered);
         over_pixels(guides, &mut filtered, |i, [x, y]| {
-            filter_pixel(guides, layer, &signals, 1 << pass, i, [x, y])
+            filter_pixel(guides, layer, &signals, (rounds, 1 << pass), i, [x, y])
         });
     }
     filtered
@@ -303,7 +311,7 @@ fn filter_pixel(
     guides: &Guides,
     layer: Layer,
     signals: &[Signals],
-    step: i32,
+    (rounds, step): (u32, i32),
     i: usize,
     [x, y]: [i32; 2],
 ) -> Signals {
@@ -314,7 +322,7 @@ fn filter_pixel(
         return *own;
     }
     let normal_power = layer.normal_power(guide);
-    let mut sums = [Sum::default(), Sum::default()];
+    let mut sums = [Sum::new(rounds), Sum::new(rounds)];
     for (dy, wy) in TAPS {
         for (dx, wx) in TAPS {
             let off = [dx * step, dy * step];
@@ -341,20 +349,29 @@ fn filter_pixel(
 }
 
 /// A weighted mean of a signal over pixels.
-#[derive(Default)]
 struct Sum {
+    noise_std: f32,
     values: [f32; 3],
     variance: f32,
     weights: f32,
 }
 
 impl Sum {
+    fn new(rounds: u32) -> Self {
+        Self {
+            noise_std: noise_std(rounds),
+            values: [0.0; 3],
+            variance: 0.0,
+            weights: 0.0,
+        }
+    }
+
     fn add(&mut self, own: &[f32; 4], other: &[f32; 4], weight: f32) {
         if other[3] < 0.0 || own[3] < 0.0 {
             return;
         }
         let difference = luminance([own[0] - other[0], own[1] - other[1], own[2] - other[2]]);
-        let noise = (own[3] + other[3]) * (2.0 * NOISE_STD * NOISE_STD);
+        let noise = (own[3] + other[3]) * (2.0 * self.noise_std * self.noise_std);
         let weight = if difference == 0.0 {
             weight
         } else {
@@ -459,7 +476,7 @@ impl Around {
         // One round gives no variance.
         let noise = if rounds > 1 { variance.sqrt() } else { value };
         let likely = self.mean() + OUTLIER_STD * self.spread().sqrt();
-        let most = likely.max(value - NOISE_STD * noise);
+        let most = likely.max(value - noise_std(rounds) * noise);
         if value <= most {
             return own;
         }
