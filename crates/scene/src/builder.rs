@@ -21,7 +21,7 @@ use crate::light_picture::LightPicture;
 use crate::loader::{Loader, Stage};
 use crate::scene::{Mesh, Object, Scene};
 use crate::studio::PhotoSet;
-use crate::texture::texture_bytes;
+use hairline_model::texture::texture_bytes;
 use kept::{BuildCache, KeptPicture, KeptSurface, MapKey, Stamp, SurfaceKey};
 use textures::NewTextures;
 

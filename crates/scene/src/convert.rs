@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::grating::{Bearing, Grating, GrooveField, GroovePicture, UvField};
 use crate::picture_lie::PictureLie;
 use crate::scene::{Base, Camera, GLTF_DIELECTRIC_F0, Material, RenderSettings, Scene, Specular};
-use crate::surface::world_from_object;
+use hairline_model::surface::world_from_object;
 
 /// Converts the parts of a scene that take no time: camera, settings, materials, lights.
 pub(crate) fn without_surfaces(description: &Description) -> Scene {

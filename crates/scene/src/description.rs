@@ -28,6 +28,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use hairline_image::ToneMap;
+use hairline_model::mesh_file::Placing;
 use hairline_optics::metal::Metal;
 use serde::Serialize;
 
@@ -330,9 +331,23 @@ pub enum Up {
     Z,
 }
 
+impl Object {
+    /// Placing of the file that the object's triangles come from, by its keys.
+    pub(crate) fn placing(&self, world_up: glam::DVec3) -> Placing {
+        Placing {
+            up: self.up.axis(),
+            world_up,
+            fit_m: self.fit_m,
+            time_s: self.time_s,
+            animation: self.animation.clone(),
+            stands_alone: self.fit_m.is_some(),
+        }
+    }
+}
+
 impl Up {
     /// The axis in the file's frame.
-    pub(crate) fn axis(self) -> glam::DVec3 {
+    fn axis(self) -> glam::DVec3 {
         match self {
             Self::Y => glam::DVec3::Y,
             Self::Z => glam::DVec3::Z,
@@ -350,8 +365,7 @@ pub enum Surface {
     Mesh(PathBuf),
 }
 
-/// Default of sigma for materials without one, such as those of glTF files.
-pub(crate) const DEFAULT_COHERENCE_UM: f64 = 20.0;
+pub(crate) use hairline_model::material::DEFAULT_COHERENCE_UM;
 
 impl Named for Up {
     const NAMES: &'static [(&'static str, Self)] = &[("y", Up::Y), ("z", Up::Z)];

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::key_line::line_of_key;
-use crate::text::{printable, said};
+use hairline_model::text::{printable, said};
 
 /// An error of a scene: the key, what was found there, and what would be right.
 ///

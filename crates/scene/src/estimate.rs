@@ -8,8 +8,8 @@ use hairline_memory::{costs, in_words};
 use crate::description::{Description, Map, Object, Shape, Surface};
 use crate::environment;
 use crate::error::Error;
-use crate::mesh_file;
-use crate::texture::texture_bytes;
+use hairline_model::mesh_file;
+use hairline_model::texture::texture_bytes;
 
 /// An item of the scene that takes memory.
 #[derive(Clone, Debug, PartialEq)]

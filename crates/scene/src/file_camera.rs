@@ -7,9 +7,9 @@ use glam::DVec3;
 
 use crate::description::{Camera, Description, Surface};
 use crate::error::Error;
-use crate::mesh_file::{self, FileCamera, Placing};
 use crate::schema::SMALLEST_M;
 use crate::upright::vertical_axis;
+use hairline_model::mesh_file::{self, FileCamera};
 
 impl Description {
     /// Returns the description with the camera of a file in place of its own, if `of_file` names one.
@@ -56,7 +56,7 @@ impl Description {
             let Surface::Mesh(file) = &object.surface else {
                 continue;
             };
-            let placing = Placing::of(object, world_up);
+            let placing = object.placing(world_up);
             let path = base_dir.join(file);
             let found = mesh_file::camera(&path, &object.world_from_object(), &placing, wanted);
             let flaw = match found.and_then(|seen| camera(&seen, &self.camera, world_up)) {

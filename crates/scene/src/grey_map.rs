@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::DVec2;
 
-use crate::texture;
+use hairline_model::texture;
 
 /// A picture of shares from 0 to 1, which is repeated beyond its borders.
 #[derive(Clone, Debug)]

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::description::{Description, FileUse};
-use crate::mesh_file;
-use crate::text::shown;
+use hairline_model::mesh_file;
+use hairline_model::text::shown;
 
 /// A file that a scene is made from.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use crate::description::{self, LightKind, Shape};
 use crate::scene::{self, Base, GLTF_DIELECTRIC_F0, Material, Mesh, Specular};
 use crate::shape;
-use crate::surface::{Surface, Vertex};
 use glam::{DMat4, DQuat, DVec2, DVec3};
+use hairline_model::surface::{Surface, Vertex};
 
 /// Facets around spheres and tubes: half a picture high they stay within 0.3 pixels of their outline.
 const FACETS: u32 = 96;

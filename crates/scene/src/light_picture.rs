@@ -7,7 +7,7 @@ use hairline_image::Picture;
 
 use crate::environment;
 use crate::scene::Texture;
-use crate::texture;
+use hairline_model::texture;
 
 /// A picture and the factor on its values. Those of .hdr and .exr are in eight bits, relative to the brightest.
 #[derive(Clone, Debug)]

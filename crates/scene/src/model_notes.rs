@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::description::{Description, Object, Surface};
-use crate::mesh_file::{self, LeftOut, UsedContents};
-use crate::text::shown;
+use hairline_model::mesh_file::{self, LeftOut, UsedContents};
+use hairline_model::text::shown;
 
 impl Description {
     /// Lists, file by file and each once, the contents of the models that are not in the picture. Files are looked for in
@@ -15,7 +15,7 @@ impl Description {
             let Surface::Mesh(file) = &object.surface else {
                 continue;
             };
-            let wanted = UsedContents::of(object, self.lights_of.as_deref());
+            let wanted = object.used_contents(self.lights_of.as_deref());
             match models.iter_mut().find(|(known, _)| *known == file) {
                 Some((_, known)) => {
                     known.own_materials |= wanted.own_materials;
@@ -40,13 +40,13 @@ impl Description {
     }
 }
 
-impl UsedContents {
-    /// `lights_of` as in [`Description::lights_of`].
-    pub(crate) fn of(object: &Object, lights_of: Option<&Path>) -> Self {
-        Self {
-            lights: matches!(&object.surface, Surface::Mesh(file) if Some(&**file) == lights_of),
-            own_materials: object.material.is_none(),
-            animation: object.time_s.is_some(),
+impl Object {
+    /// Parts of its file that are in the picture; `lights_of` as in [`Description::lights_of`].
+    pub(crate) fn used_contents(&self, lights_of: Option<&Path>) -> UsedContents {
+        UsedContents {
+            lights: matches!(&self.surface, Surface::Mesh(file) if Some(&**file) == lights_of),
+            own_materials: self.material.is_none(),
+            animation: self.time_s.is_some(),
         }
     }
 }

@@ -10,13 +10,14 @@ use crate::description::{
 };
 use crate::environment::BuiltInMap;
 use crate::error::Error;
+use crate::probe;
 use crate::probe::ProbedMesh;
 use crate::scene::Mesh;
 use crate::scratch_studio::{DARK_GROUND, Subject};
 use crate::studio::PhotoSet;
-use crate::text::shown;
 use crate::wear::Wear;
-use crate::{mesh_file, probe};
+use hairline_model::mesh_file;
+use hairline_model::text::shown;
 
 mod lights;
 

@@ -8,9 +8,9 @@ use hairline_memory::budget_bytes;
 use crate::description::Description;
 use crate::environment;
 use crate::error::Error;
-use crate::mesh_file::{self, FileContents, Placing};
 use crate::reading;
 use crate::scene::{Base, Material, Mesh, Texture};
+use hairline_model::mesh_file::{self, FileContents, Placing};
 
 /// Contents of a mesh file.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,7 +11,7 @@ pub(crate) mod text;
 use glam::DVec2;
 
 use crate::description::Shape;
-use crate::surface::Surface;
+use hairline_model::surface::Surface;
 use profile::{Profile, ROUNDING_FACETS, add_flat_disk, flat_vertex};
 
 /// Facets around a disk or a sphere.

@@ -11,7 +11,7 @@ use crate::description::{self, GroovePattern};
 use crate::error::Error;
 use crate::grey_map;
 use crate::scene::{Scene, Texture};
-use crate::texture::{self, Channels, Texels, texture_bytes};
+use hairline_model::texture::{self, Channels, Texels, texture_bytes};
 
 impl Work<'_> {
     /// Converts the gratings of all objects that are not hidden.

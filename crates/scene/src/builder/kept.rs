@@ -13,11 +13,11 @@ use crate::environment::BuiltInMap;
 use crate::error::Error;
 use crate::grey_map::GreyMap;
 use crate::loader::Loader;
-use crate::mesh_file::{self, FileContents, Placing, UsedContents};
 use crate::scene::{Material, Mesh, NodeTriangles, Scratch, Segment, Texture};
 use crate::scratches::{self, Ground, Laid};
-use crate::text::shown;
 use crate::{Environment, model_notes, shape};
+use hairline_model::mesh_file::{self, FileContents, Placing, UsedContents};
+use hairline_model::text::shown;
 
 /// Results of the last build.
 #[derive(Clone, Default)]
@@ -102,13 +102,13 @@ impl SurfaceKey {
         let (file, placing) = match &object.surface {
             Surface::Shape(_) => (None, Placing::NONE),
             Surface::Mesh(file) => {
-                let placing = Placing::of(object, world_up);
+                let placing = object.placing(world_up);
                 (Some(Stamp::of(&base_dir.join(file))), placing)
             }
         };
         Self {
             surface: object.surface.clone(),
-            wanted: UsedContents::of(object, lights_of),
+            wanted: object.used_contents(lights_of),
             world_from_object: object.world_from_object(),
             file,
             placing,

@@ -11,7 +11,7 @@ use crate::description::{Override, Scratches};
 use crate::error::Error;
 use crate::scene::{Material, Mesh, NodeTriangles};
 use crate::scratches::{Ground, Laid};
-use crate::text::shown;
+use hairline_model::text::shown;
 
 /// The keys `material` and `node` of a `[[scratches]]`.
 #[derive(Clone, Debug, Default, PartialEq)]

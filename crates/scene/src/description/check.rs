@@ -8,7 +8,7 @@ use super::{
 };
 use crate::error::Error;
 use crate::schema::{self, environment, material, object, place, scratches, stroke};
-use crate::text::shown;
+use hairline_model::text::shown;
 use std::collections::HashSet;
 
 impl Description {

@@ -10,7 +10,7 @@ use super::{Description, Material, MaterialKind};
 use crate::error::Error;
 use crate::key_line::{line_of, line_of_key};
 use crate::reading::check_text;
-use crate::text::printable;
+use hairline_model::text::printable;
 
 impl Description {
     /// Reads a scene file's text. `name` is what errors call the file.

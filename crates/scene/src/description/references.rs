@@ -3,7 +3,7 @@
 use super::Description;
 use super::hint::nearest;
 use crate::error::Error;
-use crate::text::shown;
+use hairline_model::text::shown;
 
 impl Description {
     /// Refuses names of materials and objects that the scene does not have.

@@ -9,7 +9,7 @@ use super::hint;
 use super::values::Named;
 use crate::error::Error;
 use crate::schema::{Choice, Initial, Key, Section};
-use crate::text::shown;
+use hairline_model::text::shown;
 
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
 

@@ -7,8 +7,8 @@ use hairline_image::{Picture, Primaries, ToRec709, exr_file, held, in_gamut};
 use image::codecs::hdr::HdrDecoder;
 use image::{ImageDecoder, ImageError};
 
-use crate::reading::check_regular;
-use crate::text::shown;
+use hairline_model::reading::check_regular;
+use hairline_model::text::shown;
 
 /// An environment map that cannot be used. The message names the file and the reason.
 #[derive(Debug, thiserror::Error)]

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use super::{GrooveCourse, GroovePicture, UvField};
 use crate::picture_lie::{PictureLie, three_sides};
 use crate::scene::{Mesh, Texture};
-use crate::texture_lookup::texture_footprint;
+use hairline_model::texture_lookup::texture_footprint;
 
 /// A triangle of an object.
 #[derive(Clone, Copy, Debug)]

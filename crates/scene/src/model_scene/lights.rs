@@ -4,9 +4,9 @@ use glam::DVec3;
 use std::f64::consts::PI;
 
 use crate::description::{Cone, Light, LightKind};
-use crate::mesh_file::{Punctual, PunctualKind};
 use crate::schema::light::{CONE_DEG, SUN_DEG};
 use crate::schema::{LARGEST_M, SMALLEST_M};
+use hairline_model::mesh_file::{Punctual, PunctualKind};
 
 /// Radius of a lamp over the extent of its model, small enough for scratches to show clear colours.
 const LAMP_RADIUS: f64 = 0.01;

@@ -3,8 +3,8 @@
 
 use std::ops::RangeInclusive;
 
-/// Largest coordinate, metres: beyond it single precision leaves less than a coherence width between neighbouring coordinates.
-pub const LARGEST_M: f64 = 1e3;
+pub use hairline_model::mesh::LARGEST_M;
+
 /// Smaller things than this, metres, are lost between the coordinates of single precision, and below the model's scale.
 pub const SMALLEST_M: f64 = 1e-5;
 

@@ -14,9 +14,9 @@ use super::walk::{Course, MeshPoint, Walker};
 use crate::arrays::ScratchArrays;
 use crate::error::Error;
 use crate::loader::Loader;
-use crate::reading::{self, FileKind};
 use crate::scene::{Object, Profile, Scratch, Segment};
-use crate::text::shown;
+use hairline_model::reading::{self, FileKind};
+use hairline_model::text::shown;
 
 const ENDS: [&str; 6] = ["x0_m", "y0_m", "z0_m", "x1_m", "y1_m", "z1_m"];
 const COUNT: usize = ENDS.len() + LISTED_SIZES.len();

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3, Vec2};
 
-use crate::surface::{Surface, Vertex};
+use hairline_model::surface::{Surface, Vertex};
 
 /// Facets of a quarter of a rounded edge, which is small beside its shape.
 pub(super) const ROUNDING_FACETS: u32 = 16;

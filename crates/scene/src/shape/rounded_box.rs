@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec2};
 
 use super::profile::ROUNDING_FACETS;
-use crate::surface::{Surface, Vertex};
+use hairline_model::surface::{Surface, Vertex};
 
 /// Each side's directions of u and of up in its texture; their cross product is its outward normal.
 const SIDES: [[DVec3; 2]; 6] = [

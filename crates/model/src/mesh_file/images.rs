@@ -8,8 +8,8 @@ use gltf::texture::{MagFilter, WrappingMode};
 use super::flaw::Flaw;
 use super::source::{Buffers, resource};
 use super::spec_gloss::SpecGloss;
-use crate::scene::{Sampling, Texture, Wrap};
 use crate::texture::{self, Channels, Texels, texture_bytes};
+use crate::texture::{Sampling, Texture, Wrap};
 
 pub(super) struct Images<'a> {
     pub base_dir: &'a Path,

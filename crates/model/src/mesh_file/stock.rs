@@ -4,15 +4,20 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 
-use crate::scene::{Material, NodeTriangles, Texture};
+use crate::material::Material;
+use crate::mesh::NodeTriangles;
+use crate::texture::Texture;
 
 /// Largest share of the free memory that one file may take.
 pub(super) const FILE_SHARE: f64 = 1.0 / 4.0;
 
 /// Destination of a file's parts and its own materials.
-pub(crate) struct FileContents<'a> {
+pub struct FileContents<'a> {
+    /// Triangles of each node.
     pub parts: &'a mut Vec<NodeTriangles>,
+    /// Materials, to which those of the file are added.
     pub materials: &'a mut Vec<Material>,
+    /// Textures, to which those of the file are added.
     pub textures: &'a mut Vec<Texture>,
     /// The files that it refers to and that were read.
     pub files: &'a mut Vec<PathBuf>,

@@ -9,11 +9,14 @@ use crate::text::shown;
 
 /// Position and directions of a file's camera, in a frame of its own or in the world's.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct FileCamera {
+pub struct FileCamera {
+    /// The pinhole, metres.
     pub position: DVec3,
-    /// Unit vectors.
+    /// Unit vector, along the view.
     pub forward: DVec3,
+    /// Unit vector, up in the picture.
     pub up: DVec3,
+    /// Vertical field of view.
     pub fov_y_rad: f64,
 }
 

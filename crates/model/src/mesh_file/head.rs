@@ -23,15 +23,17 @@ const TEXT_BYTES: f64 = 8.0;
 
 /// Numbers of triangles and vertices that a file places, and the memory for reading it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct FileCounts {
+pub struct FileCounts {
+    /// Triangles of all places.
     pub triangles: f64,
+    /// Vertices of all places.
     pub vertices: f64,
     /// Memory of the file's text and buffers.
     pub bytes: f64,
 }
 
 /// Counts the triangles and vertices that a glTF file places; `None` where it cannot be read.
-pub(crate) fn counts(path: &Path) -> Option<FileCounts> {
+pub fn counts(path: &Path) -> Option<FileCounts> {
     let (root, text_bytes) = head(path)?;
     let mut counts = FileCounts {
         bytes: text_bytes * TEXT_BYTES,
@@ -88,7 +90,7 @@ impl FileCounts {
 }
 
 /// The files that a glTF file names, each with its use; none where it cannot be read.
-pub(crate) fn names(path: &Path) -> Vec<(String, PathBuf)> {
+pub fn names(path: &Path) -> Vec<(String, PathBuf)> {
     let Some((root, _)) = head(path) else {
         return Vec::new();
     };
@@ -107,7 +109,7 @@ pub(crate) fn names(path: &Path) -> Vec<(String, PathBuf)> {
 }
 
 /// Names of the perspective cameras of a file: their own, else their nodes', else their numbers.
-pub(crate) fn camera_names(path: &Path) -> Vec<String> {
+pub fn camera_names(path: &Path) -> Vec<String> {
     let Some((root, _)) = head(path) else {
         return Vec::new();
     };
@@ -122,7 +124,7 @@ pub(crate) fn camera_names(path: &Path) -> Vec<String> {
 }
 
 /// Lists the contents of a glTF file that the picture does not have; empty where it cannot be read.
-pub(crate) fn left_out(path: &Path, wanted: UsedContents) -> Vec<LeftOut> {
+pub fn left_out(path: &Path, wanted: UsedContents) -> Vec<LeftOut> {
     let root = text(path).and_then(|text| from_slice(&text).ok());
     root.map_or_else(Vec::new, |root| left_out::of(&root, wanted))
 }

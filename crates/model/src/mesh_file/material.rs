@@ -14,8 +14,9 @@ use super::images::Images;
 use super::spec_gloss::{self, SpecGloss};
 use super::specular;
 use super::uv::{self, UvMapping, UvMappings};
-use crate::description::DEFAULT_COHERENCE_UM;
-use crate::scene::{Base, GLTF_DIELECTRIC_F0, Material, Mesh, Specular};
+use crate::material::DEFAULT_COHERENCE_UM;
+use crate::material::{Base, GLTF_DIELECTRIC_F0, Material, Specular};
+use crate::mesh::Mesh;
 use crate::texture::Channels;
 
 /// Mapping of the primitives' materials to the scene's.

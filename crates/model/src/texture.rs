@@ -10,14 +10,64 @@ use rayon::prelude::*;
 use crate::jpeg_end;
 use crate::ktx2;
 use crate::reading::{self, FileKind};
-use crate::scene::{Sampling, Texture, Wrap};
 use crate::text::shown;
 
 const LARGEST_PX: u32 = 16_384;
 
+/// An image with its mip chain; level 0 is `size_px`, each further level is half, rounded down, at least 1.
+#[derive(Clone, Debug)]
+pub struct Texture {
+    /// Width and height of level 0.
+    pub size_px: [u32; 2],
+    /// Texels of each level, row by row from the top, 8 bits a channel, as stored in the file (sRGB data stays encoded).
+    pub levels: Vec<Vec<[u8; 4]>>,
+    /// Whether colour channels are sRGB encoded.
+    pub srgb: bool,
+    /// Sampling of the texture.
+    pub sampling: Sampling,
+}
+
+/// Sampling of a texture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Sampling {
+    /// Continuation beyond its left and right borders, and beyond the upper and lower ones.
+    pub wrap: [Wrap; 2],
+    /// Whether its texels, seen large, are rectangles of one value each.
+    pub is_sharp: bool,
+    /// Whether the texture uses [`Mesh::other_uvs`](crate::mesh::Mesh::other_uvs) in place of
+    /// [`Mesh::uvs`](crate::mesh::Mesh::uvs).
+    pub by_other_uvs: bool,
+}
+
+/// Continuation of a texture beyond a border.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Wrap {
+    /// The texture repeats.
+    #[default]
+    Repeat,
+    /// The texture's mirror image.
+    Mirror,
+    /// The texels at the border.
+    Clamp,
+}
+
+impl Wrap {
+    /// Index of the texel, of `count` in a row, at a place of the endless row.
+    pub fn texel(self, at: i64, count: i64) -> i64 {
+        match self {
+            Self::Repeat => at.rem_euclid(count),
+            Self::Clamp => at.clamp(0, count - 1),
+            Self::Mirror => {
+                let at = at.rem_euclid(2 * count);
+                at.min(2 * count - 1 - at)
+            }
+        }
+    }
+}
+
 /// Meaning of an image's channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Channels {
+pub enum Channels {
     /// Colours, sRGB encoded.
     Color,
     /// Numbers.
@@ -29,27 +79,37 @@ pub(crate) enum Channels {
 
 /// Reason why an image is no texture.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum Unusable {
+pub enum Unusable {
+    /// Its decoder refuses it.
     #[error("{0}")]
     Broken(#[from] image::ImageError),
+    /// It is a .ktx2 file that is broken or not supported.
     #[error("{0}")]
     Ktx(#[from] ktx2::Broken),
+    /// Pixels are missing at its end.
     #[error("it is cut off: its picture ends before the last pixel")]
     CutOff,
+    /// It cannot be read.
     #[error(transparent)]
     Unreadable(#[from] std::io::Error),
+    /// It does not fit into memory.
     #[error("{}x{} pixels would take about {} of memory, and {} are free", .size_px[0], .size_px[1],
         in_words(texture_bytes(*.size_px)), in_words(.free_bytes.max(0.0)))]
-    TooLarge { size_px: [u32; 2], free_bytes: f64 },
+    TooLarge {
+        /// Width and height.
+        size_px: [u32; 2],
+        /// Memory that is free for it.
+        free_bytes: f64,
+    },
 }
 
 /// Memory of a texture.
-pub(crate) fn texture_bytes([width, height]: [u32; 2]) -> f64 {
+pub fn texture_bytes([width, height]: [u32; 2]) -> f64 {
     f64::from(width) * f64::from(height) * costs::TEXEL
 }
 
 /// Whether a texture of that size may be made where so much of the memory is free.
-pub(crate) fn check_memory(size_px: [u32; 2], free_bytes: f64) -> Result<(), Unusable> {
+pub fn check_memory(size_px: [u32; 2], free_bytes: f64) -> Result<(), Unusable> {
     if texture_bytes(size_px) > free_bytes {
         return Err(Unusable::TooLarge {
             size_px,
@@ -66,7 +126,7 @@ const SHARE: f64 = 0.25;
 ///
 /// # Errors
 /// What was found in the place of a picture.
-pub(crate) fn read(path: &Path, free_bytes: f64) -> Result<Texels, String> {
+pub fn read(path: &Path, free_bytes: f64) -> Result<Texels, String> {
     let named = |why: String| format!("{}: {why}", shown(&path.to_string_lossy()));
     let bytes = reading::read(path, FileKind::File, SHARE).map_err(|why| named(why.to_string()))?;
     let decoded = decode_turned(&bytes, free_bytes, true);
@@ -75,7 +135,7 @@ pub(crate) fn read(path: &Path, free_bytes: f64) -> Result<Texels, String> {
 
 /// The texels of a PNG, JPEG, WebP or KTX2 file, row by row from the top, and its size. As a texture it may take `free_bytes`. Of glTF files, whose
 /// coordinates are of the pixels as they are stored.
-pub(crate) fn decode(bytes: &[u8], free_bytes: f64) -> Result<Texels, Unusable> {
+pub fn decode(bytes: &[u8], free_bytes: f64) -> Result<Texels, Unusable> {
     decode_turned(bytes, free_bytes, false)
 }
 
@@ -110,13 +170,15 @@ fn decode_turned(bytes: &[u8], free_bytes: f64, upright: bool) -> Result<Texels,
 }
 
 /// An image as it is stored.
-pub(crate) struct Texels {
+pub struct Texels {
+    /// Width and height.
     pub size_px: [u32; 2],
+    /// Row by row from the top, 8 bits a channel.
     pub texels: Vec<[u8; 4]>,
 }
 
 /// An image with its mip chain; or with the first level alone.
-pub(crate) fn of(image: Texels, channels: Channels, with_mips: bool) -> Texture {
+pub fn of(image: Texels, channels: Channels, with_mips: bool) -> Texture {
     let Texels {
         size_px,
         mut texels,
@@ -137,7 +199,7 @@ pub(crate) fn of(image: Texels, channels: Channels, with_mips: bool) -> Texture 
 
 impl Texture {
     /// Some thousand texels of the first level, spread over it: enough for a mean.
-    pub(crate) fn some_texels(&self) -> impl Iterator<Item = &[u8; 4]> + Clone {
+    pub fn some_texels(&self) -> impl Iterator<Item = &[u8; 4]> + Clone {
         let texels = &self.levels[0];
         texels.iter().step_by(1 + texels.len() / 4096)
     }
@@ -151,7 +213,7 @@ impl Texture {
 }
 
 /// A texture from its texels, row by row from the top.
-pub(crate) fn with_mips(size_px: [u32; 2], texels: Vec<[u8; 4]>, channels: Channels) -> Texture {
+pub fn with_mips(size_px: [u32; 2], texels: Vec<[u8; 4]>, channels: Channels) -> Texture {
     let srgb = channels == Channels::Color;
     let normals = channels == Channels::Normals;
     let to_linear: Vec<f32> = (0..=255u8)
@@ -242,7 +304,7 @@ fn covered(i: u32, n: u32, half: u32) -> Vec<(u32, f32)> {
 }
 
 /// IEC 61966-2-1.
-pub(crate) fn srgb_to_linear(code: f32) -> f32 {
+pub fn srgb_to_linear(code: f32) -> f32 {
     match code <= 0.04045 {
         true => code / 12.92,
         false => ((code + 0.055) / 1.055).powf(2.4),
@@ -250,12 +312,12 @@ pub(crate) fn srgb_to_linear(code: f32) -> f32 {
 }
 
 /// The code of a linear value.
-pub(crate) fn srgb_code(linear: f32) -> u8 {
+pub fn srgb_code(linear: f32) -> u8 {
     (linear_to_srgb(linear.clamp(0.0, 1.0)) * 255.0).round() as u8
 }
 
 /// IEC 61966-2-1.
-pub(crate) fn linear_to_srgb(linear: f32) -> f32 {
+pub fn linear_to_srgb(linear: f32) -> f32 {
     match linear <= 0.003_130_8 {
         true => linear * 12.92,
         false => 1.055 * linear.powf(1.0 / 2.4) - 0.055,

@@ -44,30 +44,30 @@ use std::path::Path;
 use glam::DMat4;
 use gltf::Gltf;
 
+use crate::mesh::{Mesh, NodeTriangles};
 use crate::reading::{self, FileKind};
-use crate::scene::{Mesh, NodeTriangles};
 use crate::text::shown;
-pub(crate) use cameras::FileCamera;
-pub(crate) use flaw::Flaw;
+pub use cameras::FileCamera;
+pub use flaw::Flaw;
 use flaw::RIGHT;
-pub(crate) use head::{camera_names, counts, left_out, names};
+pub use head::{camera_names, counts, left_out, names};
 use images::Images;
 pub use left_out::LeftOut;
-pub(crate) use left_out::UsedContents;
-pub(crate) use lights::{Punctual, PunctualKind};
+pub use left_out::UsedContents;
+pub use lights::{Punctual, PunctualKind};
 use material::Materials;
-pub(crate) use placing::Placing;
+pub use placing::Placing;
 use root::OptionalElements;
 use shapes::Shapes;
 use source::Buffers;
 use stock::FILE_SHARE;
-pub(crate) use stock::FileContents;
+pub use stock::FileContents;
 
 /// Instances of meshes that one file may place; each is baked.
 const MOST_TRIANGLES: usize = 1 << 28;
 
 /// Reads a file's triangles into world space. Without `material`, an index into the stock, the file's own are added there.
-pub(crate) fn read(
+pub fn read(
     path: &Path,
     material: Option<u32>,
     world_from_object: &DMat4,
@@ -184,7 +184,7 @@ pub(crate) fn read(
 }
 
 /// A camera of a file, in world space.
-pub(crate) fn camera(
+pub fn camera(
     path: &Path,
     world_from_object: &DMat4,
     placing: &Placing,
@@ -204,7 +204,7 @@ pub(crate) fn camera(
 }
 
 /// The lights of a file, in its own frame.
-pub(crate) fn lights(path: &Path) -> Result<Vec<Punctual>, Flaw> {
+pub fn lights(path: &Path) -> Result<Vec<Punctual>, Flaw> {
     lights::of(&parse(&file(path)?, OptionalElements::default())?.document)
 }
 

@@ -13,9 +13,12 @@ const OUTER_RAD: f64 = std::f64::consts::FRAC_PI_4;
 
 /// A light without a size.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Punctual {
+pub struct Punctual {
+    /// Name of the light or its node.
     pub name: Option<String>,
+    /// Directions that it shines in.
     pub kind: PunctualKind,
+    /// Place of the light, metres.
     pub position: DVec3,
     /// Unit vector, away from the light.
     pub direction: DVec3,
@@ -25,14 +28,19 @@ pub(crate) struct Punctual {
     pub intensity: f64,
 }
 
+/// Directions that a light without a size shines in.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum PunctualKind {
+pub enum PunctualKind {
+    /// All of them.
     Point,
-    /// Half angles.
+    /// A cone about the light's direction.
     Spot {
+        /// Half the angle of the cone of full light.
         inner_rad: f64,
+        /// Half the angle of the cone of any light.
         outer_rad: f64,
     },
+    /// One, from far away.
     Directional,
 }
 

@@ -4,7 +4,7 @@
 use gltf::json::Value;
 use gltf::material::Material;
 
-use crate::scene::{GLTF_DIELECTRIC_F0, Specular};
+use crate::material::{GLTF_DIELECTRIC_F0, Specular};
 
 pub(super) const NAME: &str = "KHR_materials_specular";
 /// Names of the textures, in the order of [`crate::scene::Material::specular_textures`].

@@ -39,7 +39,7 @@ const PROPERTY: u8 = 2;
 
 /// Parts of a file that are used.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct UsedContents {
+pub struct UsedContents {
     /// Whether its own materials are used; if not, their contents do not count.
     pub own_materials: bool,
     /// Whether an animation of the file is shown, at a time.

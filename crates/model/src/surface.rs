@@ -2,11 +2,12 @@
 
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
 
-use crate::scene::Mesh;
+use crate::mesh::Mesh;
 
 /// A vertex before it is moved to world space and rounded.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Vertex {
+pub struct Vertex {
+    /// Metres, in the frame of the surface.
     pub position_m: DVec3,
     /// Unit.
     pub normal: DVec3,
@@ -14,6 +15,7 @@ pub(crate) struct Vertex {
     pub tangent: DVec3,
     /// The bitangent is `normal x tangent` times this, as in glTF.
     pub handedness: f64,
+    /// See [`Mesh::uvs`].
     pub uv: Vec2,
     /// See [`Mesh::other_uvs`].
     pub other_uv: Vec2,
@@ -37,7 +39,8 @@ impl Default for Vertex {
 
 /// Triangles of one material in a frame of their own.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Surface {
+pub struct Surface {
+    /// Vertices that triangles refer to.
     pub vertices: Vec<Vertex>,
     /// Counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
@@ -50,7 +53,7 @@ const LEAST_HEIGHT_SHARE: f64 = 1e-6;
 
 impl Surface {
     /// Appends the surface, moved by `world_from_local`, to `mesh`, without its degenerate triangles.
-    pub(crate) fn bake(&self, world_from_local: &DMat4, material: u32, mesh: &mut Mesh) {
+    pub fn bake(&self, world_from_local: &DMat4, material: u32, mesh: &mut Mesh) {
         let linear = DMat3::from_mat4(*world_from_local);
         // A mirror image turns both the winding and, by the determinant's sign, the normals.
         let mirror = if linear.determinant() < 0.0 {
@@ -99,7 +102,7 @@ impl Surface {
 
     /// Winds each triangle as the normals of its vertices say, and returns how many were wound the other way. Exports of mirrored parts
     /// have such; shadows start on the side that a triangle shows, so both must agree on it.
-    pub(crate) fn turn_to_normals(&mut self) -> usize {
+    pub fn turn_to_normals(&mut self) -> usize {
         let mut turned = 0;
         for triangle in &mut self.triangles {
             let [a, b, c] = triangle.map(|v| self.vertices[v as usize]);
@@ -114,7 +117,7 @@ impl Surface {
 
     /// Gives every triangle vertices of its own, with the triangle's normal, as glTF 2.0 requires where a file has no normals (section
     /// 3.7.2.1).
-    pub(crate) fn make_flat_normals(&mut self) {
+    pub fn make_flat_normals(&mut self) {
         let mut vertices = Vec::with_capacity(self.triangles.len() * 3);
         for triangle in &mut self.triangles {
             let corners = triangle.map(|v| self.vertices[v as usize]);
@@ -129,7 +132,7 @@ impl Surface {
 }
 
 /// Cofactor matrix, the map of normals under a linear map; unlike the inverse it exists for flattened objects too.
-pub(crate) fn cofactor(linear: &DMat3) -> DMat3 {
+pub fn cofactor(linear: &DMat3) -> DMat3 {
     DMat3::from_cols(
         linear.y_axis.cross(linear.z_axis),
         linear.z_axis.cross(linear.x_axis),
@@ -161,7 +164,7 @@ fn is_degenerate(positions_m: [Vec3; 3]) -> bool {
 }
 
 /// Scale first, then turn about the fixed axes x, y, z in that order, then move. Bit for bit the same on every platform.
-pub(crate) fn world_from_object(
+pub fn world_from_object(
     translation_m: [f64; 3],
     rotation_deg: [f64; 3],
     scale: [f64; 3],
@@ -186,80 +189,9 @@ pub(crate) fn world_from_object(
     DMat4::from_translation(translation_m.into()) * DMat4::from_mat3(linear)
 }
 
-impl Mesh {
-    /// A triangle's corners in double precision, metres.
-    pub(crate) fn corners_m(&self, triangle: usize) -> [DVec3; 3] {
-        self.triangles[triangle].map(|v| self.positions_m[v as usize].as_dvec3())
-    }
-
-    /// The vertices that stand farthest out, one for each of some directions: a frame around them is one around the mesh, to a few
-    /// hundredths of its size.
-    pub fn extreme_points_m(&self) -> Vec<Vec3> {
-        const DIRECTIONS: usize = 128;
-        // Spread evenly over the sphere, by the golden angle.
-        let direction = |i: usize| {
-            let z = 1.0 - (2 * i + 1) as f32 / DIRECTIONS as f32;
-            let (sine, cosine) = (2.399_963_2 * i as f32).sin_cos();
-            let r = (1.0 - z * z).sqrt();
-            Vec3::new(r * cosine, r * sine, z)
-        };
-        let directions: [Vec3; DIRECTIONS] = std::array::from_fn(direction);
-        let mut farthest = [(f32::NEG_INFINITY, Vec3::ZERO); DIRECTIONS];
-        let mut is_used = vec![false; self.positions_m.len()];
-        for v in self.triangles.iter().flatten() {
-            is_used[*v as usize] = true;
-        }
-        let used = self.positions_m.iter().zip(is_used);
-        for (point, _) in used.filter(|(_, is_used)| *is_used) {
-            for (direction, (distance, best)) in directions.iter().zip(&mut farthest) {
-                let reach = direction.dot(*point);
-                if reach > *distance {
-                    (*distance, *best) = (reach, *point);
-                }
-            }
-        }
-        let found = farthest.iter().filter(|(distance, _)| distance.is_finite());
-        found.map(|(_, point)| *point).collect()
-    }
-
-    /// The least box around the vertices that triangles use, as its two extreme corners, metres.
-    pub fn bounds_m(&self) -> (Vec3, Vec3) {
-        let used = self.triangles.iter().flatten();
-        used.map(|&v| self.positions_m[v as usize])
-            .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(least, most), p| {
-                (least.min(p), most.max(p))
-            })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::description::Shape;
-    use crate::shape;
-
-    fn geometric_normal(mesh: &Mesh, triangle: usize) -> DVec3 {
-        let [a, b, c] = mesh.corners_m(triangle);
-        (b - a).cross(c - a).normalize()
-    }
-
-    #[test]
-    fn mirrored_objects_keep_their_outside() {
-        let sphere = shape::surface(&Shape::Sphere { radius_m: 0.1 });
-        for scale in [[1.0; 3], [-1.0, 1.0, 1.0], [-1.0; 3], [1.0, -2.0, 0.5]] {
-            let transform = world_from_object([0.0; 3], [10.0, 20.0, 30.0], scale);
-            let mut mesh = Mesh::default();
-            sphere.bake(&transform, 0, &mut mesh);
-            for (i, triangle) in mesh.triangles.iter().enumerate() {
-                let outward = mesh.corners_m(i).iter().sum::<DVec3>();
-                let normal = geometric_normal(&mesh, i);
-                assert!(normal.dot(outward) > 0.0, "{scale:?}");
-                let shading = mesh.normals[triangle[0] as usize].as_dvec3();
-                // 15 degrees: flattened by 4, a facet of 1.4 degrees turns up to 5.6 from its vertices' normals.
-                assert!(normal.dot(shading) > 0.96, "{scale:?}");
-            }
-        }
-    }
 
     #[test]
     fn rotations_turn_about_x_then_y_then_z() {
@@ -298,20 +230,5 @@ mod tests {
         surface.bake(&DMat4::IDENTITY, 7, &mut mesh);
         assert_eq!(mesh.triangles, [[0, 1, 2]]);
         assert_eq!(mesh.triangle_materials, [7]);
-    }
-
-    #[test]
-    fn flat_normals_are_those_of_the_triangles() {
-        let mut sphere = shape::surface(&Shape::Sphere { radius_m: 1.0 });
-        sphere.make_flat_normals();
-        let mut mesh = Mesh::default();
-        sphere.bake(&DMat4::IDENTITY, 0, &mut mesh);
-        for (i, triangle) in mesh.triangles.iter().enumerate() {
-            for &v in triangle {
-                let normal = mesh.normals[v as usize].as_dvec3();
-                // The coordinates are rounded to 6e-8, the triangles down to 3e-4 high.
-                assert!(normal.distance(geometric_normal(&mesh, i)) < 1e-3);
-            }
-        }
     }
 }

@@ -3,7 +3,7 @@
 use gltf::json::Value;
 use gltf::material::Material;
 
-use crate::scene::Coat;
+use crate::material::Coat;
 
 pub(super) const NAME: &str = "KHR_materials_clearcoat";
 /// Names of the textures, in the order of [`crate::scene::Material::coat_textures`].

@@ -2,7 +2,9 @@
 
 use gltf::material::AlphaMode;
 
-use crate::scene::{AlphaRule, Cutout, Material, Mesh, Texture};
+use crate::material::{AlphaRule, Cutout, Material};
+use crate::mesh::Mesh;
+use crate::texture::Texture;
 
 /// An alpha that equals the cutoff is there (glTF 2.0, section 3.9.4), and a code over 255 is no single: far less than a step between codes.
 const ROUNDING: f64 = 1e-6;
@@ -56,7 +58,8 @@ pub(super) fn forget_whole(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Base, GLTF_DIELECTRIC_F0, Sampling, Specular};
+    use crate::material::{Base, GLTF_DIELECTRIC_F0, Specular};
+    use crate::texture::Sampling;
     use glam::Vec4;
 
     #[test]

@@ -23,7 +23,7 @@ pub fn shown(text: &str) -> String {
 }
 
 /// Text of an input for a message: escaped, and short enough to be read.
-pub(crate) fn said(text: &str) -> String {
+pub fn said(text: &str) -> String {
     shortened(text, LONGEST_HALF)
 }
 

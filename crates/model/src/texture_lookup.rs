@@ -3,7 +3,9 @@
 use glam::{DVec2, DVec3, DVec4, Vec2};
 use hairline_image::tone_map::linear_from_srgb;
 
-use crate::scene::{Cutout, Material, Mesh, Texture};
+use crate::material::{Cutout, Material};
+use crate::mesh::Mesh;
+use crate::texture::Texture;
 
 /// The standard deviation of a texel's width.
 const TEXEL_STD: f64 = 0.288_675_134_594_812_9;
@@ -90,7 +92,7 @@ pub fn texture_footprint(uv_area: f64, corners_m: &[DVec3; 3], axes_m: [DVec3; 2
 
 impl Mesh {
     /// Whether any triangle spans an area of a texture.
-    pub(crate) fn has_uvs(&self) -> bool {
+    pub fn has_uvs(&self) -> bool {
         self.triangles.iter().any(|corners| {
             let [a, b, c] = corners.map(|corner| self.uvs.get(corner as usize).copied());
             let spans = |a: Vec2, b: Vec2, c: Vec2| (b - a).perp_dot(c - a) != 0.0;
@@ -150,7 +152,7 @@ fn decode(texel: [u8; 4], srgb: bool) -> DVec4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Sampling, Wrap};
+    use crate::texture::{Sampling, Wrap};
 
     fn row(wrap: Wrap, is_sharp: bool) -> Texture {
         Texture {

@@ -3,7 +3,7 @@
 use gltf::json::Value;
 use gltf::material::Material;
 
-use crate::scene::Anisotropy;
+use crate::material::Anisotropy;
 
 pub(super) const NAME: &str = "KHR_materials_anisotropy";
 pub(super) const TEXTURE: &str = "anisotropyTexture";

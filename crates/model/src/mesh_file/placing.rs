@@ -5,14 +5,13 @@ use glam::{DMat3, DMat4, DVec3};
 use super::flaw::Flaw;
 use super::pose::Moment;
 use super::shapes::Shapes;
-use crate::description::{Object, Up};
-use crate::schema::LARGEST_M;
+use crate::mesh::LARGEST_M;
 
 /// The keys `up`, `fit_m`, `time_s` and `animation` of an object.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Placing {
+pub struct Placing {
     /// The axis of the file that points up.
-    pub up: Up,
+    pub up: DVec3,
     /// The world's axis that points up.
     pub world_up: DVec3,
     /// The largest extent that the object is to have.
@@ -38,26 +37,14 @@ pub(super) struct FileTransform {
 
 impl Placing {
     /// Placing of a file that is used unchanged.
-    pub(crate) const NONE: Self = Self {
-        up: Up::Z,
+    pub const NONE: Self = Self {
+        up: DVec3::Z,
         world_up: DVec3::Z,
         fit_m: None,
         time_s: None,
         animation: None,
         stands_alone: true,
     };
-
-    /// Placing by an object's keys.
-    pub(crate) fn of(object: &Object, world_up: DVec3) -> Self {
-        Self {
-            up: object.up,
-            world_up,
-            fit_m: object.fit_m,
-            time_s: object.time_s,
-            animation: object.animation.clone(),
-            stands_alone: object.fit_m.is_some(),
-        }
-    }
 
     /// Time of the file's animation, unless the model is at rest.
     pub(super) fn moment(&self) -> Option<Moment<'_>> {
@@ -72,7 +59,7 @@ impl Placing {
         shapes: &Shapes,
         world_from_object: &DMat4,
     ) -> Result<FileTransform, Flaw> {
-        let turn = DMat4::from_mat3(quarter_turn(self.up.axis(), self.world_up));
+        let turn = DMat4::from_mat3(quarter_turn(self.up, self.world_up));
         let is_near = || {
             let world_from_file = *world_from_object * turn;
             !shapes.may_reach(&world_from_file, LARGEST_M)

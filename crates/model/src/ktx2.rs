@@ -19,7 +19,7 @@ pub(crate) fn is_ktx(bytes: &[u8]) -> bool {
 /// Reason why an image is not read.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
-pub(crate) struct Broken(String);
+pub struct Broken(String);
 
 /// The size of the first level; at most `largest_px` a side.
 pub(crate) fn size_px(bytes: &[u8], largest_px: u32) -> Result<[u32; 2], Broken> {
@@ -135,8 +135,8 @@ mod tests {
         ($($name:literal)*) => {
             [$((
                 $name,
-                include_bytes!(concat!("../tests/scene/images/", $name, ".ktx2")).as_slice(),
-                include_bytes!(concat!("../tests/scene/images/", $name, ".png")).as_slice(),
+                include_bytes!(concat!("../../scene/tests/scene/images/", $name, ".ktx2")).as_slice(),
+                include_bytes!(concat!("../../scene/tests/scene/images/", $name, ".png")).as_slice(),
             )),*]
         };
     }

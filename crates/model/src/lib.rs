@@ -1,0 +1,15 @@
+//! Turns a glTF file into triangles, materials and textures, and tells what of it is left out. Nothing here knows of scratches: `hairline-scene` lays
+//! them on what a file gives.
+
+#![warn(unreachable_pub)]
+
+mod jpeg_end;
+mod ktx2;
+pub mod material;
+pub mod mesh;
+pub mod mesh_file;
+pub mod reading;
+pub mod surface;
+pub mod text;
+pub mod texture;
+pub mod texture_lookup;
