@@ -37,7 +37,7 @@ const COHERENCE_UM: f64 = 20.0;
 const LEAST: f64 = 0.01;
 
 /// One grating in one metal from one direction: of the places of orders, rigorous light over all, and scalar light and ours over it.
-struct Seen {
+struct MeasuredOrders {
     orders: Vec<(i32, f64, f64, f64)>,
 }
 
@@ -88,7 +88,7 @@ pub(crate) fn measured() -> String {
                         (at(high) - at(low)).abs()
                     }
                 });
-                let seen = Seen::new(&row, metal, [across, along], ours);
+                let seen = MeasuredOrders::new(&row, metal, [across, along], ours);
                 let cells = seen.orders.iter().filter(|of| of.1 > LEAST);
                 let [mut scalar, mut own] = [[f64::MAX, 0.0_f64]; 2];
                 let mut first = String::new();
@@ -126,7 +126,7 @@ fn luminance([r, g, b]: [f64; 3]) -> f64 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
-impl Seen {
+impl MeasuredOrders {
     /// `ours` is the light between two q; without it, it is the scalar one.
     fn new(
         row: &Grating,

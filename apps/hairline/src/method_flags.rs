@@ -14,8 +14,8 @@ use hairline_work::failure::Failure;
 #[command(next_help_heading = "Method")]
 pub struct MethodFlags {
     /// The whole method.
-    #[arg(long, value_enum, default_value_t = Whole::Default)]
-    pub method: Whole,
+    #[arg(long, value_enum, default_value_t = MethodName::Default)]
+    pub method: MethodName,
     /// Energy that the base loses to scratches. [default: energy; density for the published method]
     #[arg(long, value_enum)]
     pub mask: Option<Mask>,
@@ -32,7 +32,7 @@ pub struct MethodFlags {
 
 /// `--method`
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Whole {
+pub enum MethodName {
     /// Hairline's own.
     #[default]
     Default,
@@ -76,8 +76,8 @@ impl MethodFlags {
     /// Where they contradict one another.
     pub fn method(&self) -> Result<Method, Failure> {
         let mut method = match self.method {
-            Whole::Default => Method::default(),
-            Whole::Published => Method::PUBLISHED,
+            MethodName::Default => Method::default(),
+            MethodName::Published => Method::PUBLISHED,
         };
         if let Some(mask) = self.mask {
             method.mask = mask.into();
@@ -111,8 +111,8 @@ impl MethodFlags {
     /// Shortest set of flags for `method`.
     fn of(method: &Method) -> Self {
         let (whole, base) = match method.published {
-            None => (Whole::Default, Method::default()),
-            Some(_) => (Whole::Published, Method::PUBLISHED),
+            None => (MethodName::Default, Method::default()),
+            Some(_) => (MethodName::Published, Method::PUBLISHED),
         };
         let published = method.published.unwrap_or_default();
         let usual = PublishedMethod::default();
@@ -141,7 +141,7 @@ impl MethodFlags {
     /// All flags, as they are written.
     fn given(&self) -> Vec<String> {
         let mut flags = Vec::new();
-        if self.method != Whole::Default {
+        if self.method != MethodName::Default {
             flags.push(written("method", self.method));
         }
         flags.extend(self.mask.map(|v| written("mask", v)));

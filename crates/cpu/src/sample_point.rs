@@ -18,7 +18,7 @@ pub(crate) struct SamplePoint<'a> {
     pub is_smooth: bool,
     /// Rays to each light.
     pub rounds: Rounds,
-    pub seen: Seen<'a>,
+    pub seen: SampleView<'a>,
     pub scratches: Shared,
     /// Surface for the sample's scratches, where they are seen through another filter.
     pub wide: Option<Wide<'a>>,
@@ -46,7 +46,7 @@ impl<'a> SamplePoint<'a> {
         camera: &'p CameraFrame,
         views: &'p LightViews<'a>,
     ) -> Option<ShadowPoint<'p, 'a>> {
-        let Seen::Surface { hit, point, .. } = &self.seen else {
+        let SampleView::Surface { hit, point, .. } = &self.seen else {
             return None;
         };
         Some(ShadowPoint {
@@ -109,7 +109,7 @@ impl<'a> SamplePoint<'a> {
     clippy::large_enum_variant,
     reason = "there are few at a time, and most are surfaces"
 )]
-pub(crate) enum Seen<'a> {
+pub(crate) enum SampleView<'a> {
     /// No surface: radiance of the environment.
     Background(DVec3),
     Surface {

@@ -23,7 +23,7 @@ use hairline_index::IndexedSegment;
 use hairline_optics::band::OutlineRoots;
 use hairline_optics::mask::ScratchSums;
 use hairline_optics::vectors::with_widest;
-use lanes::{GROUPS, Group, LANES, Line, Seen};
+use lanes::{GROUPS, Group, LANES, Line, SegmentView};
 use light_bounds::LightBounds;
 use scratch_light::scratch_energy;
 
@@ -154,7 +154,7 @@ impl Shading<'_, '_> {
         &mut self,
         segment: &IndexedSegment,
         first: usize,
-        seen: &Seen,
+        seen: &SegmentView,
         weight: f64,
         node: Option<f64>,
     ) {

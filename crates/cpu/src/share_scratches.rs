@@ -1,7 +1,7 @@
 //! Sharing of scratches among the samples of a pixel on an edge. Twin: share_scratches.wgsl.
 
 use crate::prepared::Prepared;
-use crate::sample_point::{SamplePoint, Seen, Shared, Wide};
+use crate::sample_point::{SamplePoint, SampleView, Shared, Wide};
 use glam::DVec2;
 
 /// Least cosine between two normals of samples that count as one surface.
@@ -24,8 +24,8 @@ pub(crate) fn share_scratches(
     let mut leaders: Vec<usize> = Vec::new();
     for i in order {
         let is_scratched = match &batch[i].seen {
-            Seen::Surface { hit, .. } => prepared.is_scratched(hit),
-            Seen::Background(_) => false,
+            SampleView::Surface { hit, .. } => prepared.is_scratched(hit),
+            SampleView::Background(_) => false,
         };
         if !is_scratched {
             continue;
@@ -43,7 +43,7 @@ pub(crate) fn share_scratches(
     }
     for leader in leaders {
         let point = &mut batch[leader];
-        if let (Shared::Among(2..), Seen::Surface { point: at, .. }) =
+        if let (Shared::Among(2..), SampleView::Surface { point: at, .. }) =
             (point.scratches, &point.seen)
         {
             point.wide = Some(Wide {
@@ -55,11 +55,11 @@ pub(crate) fn share_scratches(
 }
 
 /// Whether both samples see one surface, as far as scratches depend on it.
-fn is_like(one: &Seen, other: &Seen) -> bool {
+fn is_like(one: &SampleView, other: &SampleView) -> bool {
     match (one, other) {
         (
-            Seen::Surface { hit, point, .. },
-            Seen::Surface {
+            SampleView::Surface { hit, point, .. },
+            SampleView::Surface {
                 hit: other_hit,
                 point: other,
                 ..

@@ -8,7 +8,7 @@ use crate::options::RenderOptions;
 use crate::prepared::Prepared;
 use crate::published::Published;
 use crate::resolve::{Pixel, PointLight, Sample, kept};
-use crate::sample_point::{SamplePoint, Seen, Shared};
+use crate::sample_point::{SamplePoint, SampleView, Shared};
 use crate::shade_base::{Base, transformed_sphere};
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{BATCH, Picks, ScratchPoint, ScratchShader};
@@ -223,7 +223,7 @@ impl<'a> Tile<'a> {
         let prepared = self.picture.prepared;
         let is_tiled = matches!(self.picture.by, PictureMethod::Tiles(_));
         for (point, views) in self.batch.iter().zip(&mut self.views) {
-            if let Seen::Surface { point: at, hit, .. } = &point.seen {
+            if let SampleView::Surface { point: at, hit, .. } = &point.seen {
                 views.look_from(at);
                 if is_tiled && (prepared.is_scratched(hit) || prepared.has_gratings(hit)) {
                     views.ready_for_scratches(point.scratched(at));
@@ -245,7 +245,7 @@ impl<'a> Tile<'a> {
                 .zip(&self.views)
                 .enumerate()
                 .filter_map(|(index, (point, views))| match &point.seen {
-                    Seen::Surface { point: at, hit, .. }
+                    SampleView::Surface { point: at, hit, .. }
                         if prepared.is_scratched(hit)
                             && matches!(point.scratches, Shared::Among(_)) =>
                     {
@@ -283,8 +283,8 @@ impl<'a> Tile<'a> {
                 Shared::With(leader) => self.sums[leader],
             };
             let sample = match &point.seen {
-                Seen::Background(radiance) => Sample::background(*radiance),
-                Seen::Surface {
+                SampleView::Background(radiance) => Sample::background(*radiance),
+                SampleView::Surface {
                     hit,
                     point: at,
                     depth_m,
@@ -426,12 +426,12 @@ impl<'a> Picture<'a> {
     }
 
     /// The surface under one of `samples` samples of a pixel.
-    pub(crate) fn surface(&self, at_px: DVec2, samples: u32, hit: Option<Hit>) -> Seen<'_> {
+    pub(crate) fn surface(&self, at_px: DVec2, samples: u32, hit: Option<Hit>) -> SampleView<'_> {
         let Prepared { scene, tables, .. } = self.prepared;
         let ray = self.camera.camera_ray(at_px);
         let direction = ray.normalize();
         let Some(hit) = hit else {
-            return Seen::Background(match &scene.environment {
+            return SampleView::Background(match &scene.environment {
                 Some(environment) if environment.visible() => environment.radiance(direction),
                 _ => DVec3::ZERO,
             });
@@ -444,7 +444,7 @@ impl<'a> Picture<'a> {
         };
         let position_m = self.camera.position_m + ray * depth_m;
         let point = surface_point(scene, tables, position_m, -direction, footprint, &hit);
-        Seen::Surface {
+        SampleView::Surface {
             hit,
             point,
             depth_m,

@@ -22,7 +22,7 @@ use crate::shadow_room::ShadowRoom;
 use crate::shadows::Shadows;
 use crate::strip::{BounceRoom, StripRoom};
 use crate::transfer::Transfer;
-use crate::variant::{Seen, ShadeVariant, Way};
+use crate::variant::{RayOrigin, ShadeVariant, Way};
 
 /// Passes for rays to other objects, in addition to the passes of shadows.
 pub(crate) struct Bounces {
@@ -84,7 +84,7 @@ impl Bounces {
         let shadows = shadows.of_hits(orders);
         let scratches = tree.map(|tree| BounceScratches::new(orders, tree));
         let has_gratings = orders.variant().has.gratings;
-        let trace = [Seen::ByCamera, Seen::ByRays].map(|seen| {
+        let trace = [RayOrigin::ByCamera, RayOrigin::ByRays].map(|seen| {
             let module = (&shaders::BOUNCE_TRACE, "bounce_trace");
             ComputePass::order(orders, "bounce trace", module, &[seen.constant()])
         });
@@ -203,8 +203,9 @@ impl<'a> Bounce<'a> {
 
 impl BounceScratches {
     fn new(orders: &mut Orders, tree: wgpu::TextureView) -> Self {
-        let pick = [Seen::ByCamera, Seen::ByRays].map(|seen| picks_by_energy(orders, seen));
-        let shade = ShadeScratchesPass::new(orders, Seen::ByRays);
+        let pick =
+            [RayOrigin::ByCamera, RayOrigin::ByRays].map(|seen| picks_by_energy(orders, seen));
+        let shade = ShadeScratchesPass::new(orders, RayOrigin::ByRays);
         let module = (&shaders::SHADOW_PICKS, "shadow_picks");
         let begin = ComputePass::order(orders, "bounce picks", module, &[("BY_ENERGY", 1.0)]);
         let module = &shaders::BOUNCE_SCRATCH_RAYS;

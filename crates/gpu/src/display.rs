@@ -120,13 +120,13 @@ impl DisplayPass {
 }
 
 /// A target to be read back.
-pub(crate) struct Shown {
+pub(crate) struct ReadbackTarget {
     pub size_px: [u32; 2],
     pub texture: wgpu::Texture,
     pub view: wgpu::TextureView,
 }
 
-impl Shown {
+impl ReadbackTarget {
     pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
     pub(crate) async fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, Error> {

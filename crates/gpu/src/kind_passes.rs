@@ -2,17 +2,17 @@
 
 use crate::compute_pass::{ComputePass, Recording};
 use crate::light_ranges::RANGE_STRIDE;
-use crate::lights::Kind;
+use crate::lights::LightKind;
 use crate::pipelines::Orders;
 use crate::resources::Resources;
 use crate::shaders::Module;
 use crate::variant::Constant;
 
 /// One pass for each kind of light that the scene has; spheres where it has none, for the mask.
-pub(crate) struct KindPasses(Vec<(Kind, ComputePass)>);
+pub(crate) struct KindPasses(Vec<(LightKind, ComputePass)>);
 
 /// A pass over no light, as the shader calls it. Twin: pair_light.wgsl.
-pub(crate) const LIGHTS_NONE: u32 = Kind::ALL.len() as u32;
+pub(crate) const LIGHTS_NONE: u32 = LightKind::ALL.len() as u32;
 
 impl KindPasses {
     /// Makes the passes with `more` constants besides that of the kind.
@@ -23,7 +23,7 @@ impl KindPasses {
         more: &[Constant],
     ) -> Self {
         let has = orders.variant().has;
-        let pass = |kind: Kind| (kind, over_lights(orders, name, module, kind as u32, more));
+        let pass = |kind: LightKind| (kind, over_lights(orders, name, module, kind as u32, more));
         Self(has.lights.over_scratches().map(pass).collect())
     }
 

@@ -7,7 +7,7 @@ use wgpu::BufferUsages;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::LightRange;
-use crate::lights::{self, Kind};
+use crate::lights::{self, LightKind};
 
 /// Lights of one dispatch, for which the pass has room. Twin: shade_scratches.wgsl.
 const LIGHTS_AT_ONCE: u32 = 7;
@@ -17,7 +17,7 @@ pub(crate) const RANGE_STRIDE: u64 = 256;
 /// The dispatches that a scene's lights need, in the order of the passes.
 pub(crate) struct LightRanges {
     /// The pass of each dispatch.
-    pub of: Vec<Kind>,
+    pub of: Vec<LightKind>,
     pub buffer: wgpu::Buffer,
 }
 

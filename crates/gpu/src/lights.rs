@@ -22,7 +22,7 @@ const LIGHT_PICTURE: u32 = 2;
 
 /// Kinds of lights that light scratches in a pass of their own. Twin: SCRATCH_LIGHTS of shade_scratches.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Kind {
+pub(crate) enum LightKind {
     Spheres,
     /// Polygons of at most four vertices.
     Quads,
@@ -34,7 +34,7 @@ pub(crate) enum Kind {
     Environment,
 }
 
-impl Kind {
+impl LightKind {
     pub(crate) const ALL: [Self; 6] = [
         Self::Spheres,
         Self::Quads,
@@ -74,10 +74,10 @@ impl Kind {
 
 /// The kinds that a scene has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub(crate) struct Kinds([bool; Kind::ALL.len()]);
+pub(crate) struct Kinds([bool; LightKind::ALL.len()]);
 
 impl Kinds {
-    pub(crate) const ALL: Self = Self([true; Kind::ALL.len()]);
+    pub(crate) const ALL: Self = Self([true; LightKind::ALL.len()]);
 
     /// Kinds that shine on scratches.
     pub(crate) fn of(scene: &Scene) -> Self {
@@ -92,56 +92,59 @@ impl Kinds {
     fn of_lights<'l>(scene: &Scene, lights: impl Iterator<Item = &'l Light>) -> Self {
         let mut kinds = Self::default();
         for light in lights {
-            kinds.0[Kind::of(light) as usize] = true;
+            kinds.0[LightKind::of(light) as usize] = true;
         }
-        kinds.0[Kind::Environment as usize] = scene.environment.is_some();
+        kinds.0[LightKind::Environment as usize] = scene.environment.is_some();
         kinds
     }
 
-    pub(crate) fn has(self, kind: Kind) -> bool {
+    pub(crate) fn has(self, kind: LightKind) -> bool {
         self.0[kind as usize]
     }
 
     /// Kinds with a pass over scratches: spheres where there are none, for the mask.
-    pub(crate) fn over_scratches(self) -> impl Iterator<Item = Kind> {
+    pub(crate) fn over_scratches(self) -> impl Iterator<Item = LightKind> {
         let none = self == Self::default();
-        let wanted = move |kind: &Kind| self.has(*kind) || none && *kind == Kind::Spheres;
-        Kind::ALL.into_iter().filter(wanted)
+        let wanted = move |kind: &LightKind| self.has(*kind) || none && *kind == LightKind::Spheres;
+        LightKind::ALL.into_iter().filter(wanted)
     }
 
     /// Kinds of rays to sources. Each kind has passes of its own.
-    pub(crate) fn of_rays(self) -> impl Iterator<Item = Kind> {
-        let folded = move |kind: &Kind| *kind != Kind::Quads || !self.has(Kind::Outlines);
-        let there = Kind::ALL.into_iter().filter(move |kind| self.has(*kind));
-        there.filter(folded).map(Kind::of_rays)
+    pub(crate) fn of_rays(self) -> impl Iterator<Item = LightKind> {
+        let folded =
+            move |kind: &LightKind| *kind != LightKind::Quads || !self.has(LightKind::Outlines);
+        let there = LightKind::ALL
+            .into_iter()
+            .filter(move |kind| self.has(*kind));
+        there.filter(folded).map(LightKind::of_rays)
     }
 
     /// Constants of shaders for the kinds of lights that shine on scratches, and those that shine on the base. Twin:
     /// contents.wgsl.
     pub(crate) fn constants(self, on_base: Self) -> [(&'static str, f64); 9] {
         [
-            ("HAS_SPHERES", self.has(Kind::Spheres).into()),
+            ("HAS_SPHERES", self.has(LightKind::Spheres).into()),
             ("HAS_POLYGONS", self.has_polygons().into()),
-            ("HAS_TUBES", self.has(Kind::Tubes).into()),
-            ("ONLY_TUBES", self.has_only(Kind::Tubes).into()),
-            ("ONLY_PICTURES", self.has_only(Kind::Pictures).into()),
-            ("HAS_PICTURES", self.has(Kind::Pictures).into()),
-            ("HAS_ENVIRONMENT", self.has(Kind::Environment).into()),
-            ("BASE_HAS_SPHERES", on_base.has(Kind::Spheres).into()),
+            ("HAS_TUBES", self.has(LightKind::Tubes).into()),
+            ("ONLY_TUBES", self.has_only(LightKind::Tubes).into()),
+            ("ONLY_PICTURES", self.has_only(LightKind::Pictures).into()),
+            ("HAS_PICTURES", self.has(LightKind::Pictures).into()),
+            ("HAS_ENVIRONMENT", self.has(LightKind::Environment).into()),
+            ("BASE_HAS_SPHERES", on_base.has(LightKind::Spheres).into()),
             ("BASE_HAS_POLYGONS", on_base.has_polygons().into()),
         ]
     }
 
     /// Whether all lights with corners are of that kind.
-    fn has_only(self, kind: Kind) -> bool {
+    fn has_only(self, kind: LightKind) -> bool {
         self.has(kind)
-            && Kind::CORNERED
+            && LightKind::CORNERED
                 .into_iter()
                 .all(|it| it == kind || !self.has(it))
     }
 
     fn has_polygons(self) -> bool {
-        Kind::CORNERED.into_iter().any(|kind| self.has(kind))
+        LightKind::CORNERED.into_iter().any(|kind| self.has(kind))
     }
 }
 
@@ -150,28 +153,28 @@ pub(crate) fn sorted(scene: &Scene) -> Vec<&Light> {
     let mut lights: Vec<_> = scene.scratch_lights().collect();
     let (on_base, on_scratches) = lights.split_at_mut(scene.all_lights().count());
     for lights in [on_base, on_scratches] {
-        lights.sort_by_key(|light| Kind::of(light));
+        lights.sort_by_key(|light| LightKind::of(light));
     }
     lights
 }
 
 /// The kind of each light that shines on the base, in the order of [`sorted`].
-pub(crate) fn kinds_on_base(scene: &Scene) -> Vec<Kind> {
+pub(crate) fn kinds_on_base(scene: &Scene) -> Vec<LightKind> {
     let on_base = scene.all_lights().count();
     let lights = sorted(scene).into_iter().take(on_base);
-    lights.map(Kind::of).collect()
+    lights.map(LightKind::of).collect()
 }
 
 /// Ranges among the sorted lights of each kind that the scene has; the environment has none.
-pub(crate) fn ranges(scene: &Scene) -> Vec<(Kind, Range<u32>)> {
+pub(crate) fn ranges(scene: &Scene) -> Vec<(LightKind, Range<u32>)> {
     let lights = sorted(scene);
     let on_base = scene.all_lights().count();
     let mut ranges = Vec::new();
     for kind in Kinds::of(scene).over_scratches() {
         let own = [0..on_base, on_base..lights.len()].map(|of| {
             let (first, lights) = (of.start, &lights[of]);
-            let start = lights.partition_point(|light| Kind::of(light) < kind);
-            let end = lights.partition_point(|light| Kind::of(light) <= kind);
+            let start = lights.partition_point(|light| LightKind::of(light) < kind);
+            let end = lights.partition_point(|light| LightKind::of(light) <= kind);
             (first + start) as u32..(first + end) as u32
         });
         let mut own: Vec<_> = own.into_iter().filter(|of| !of.is_empty()).collect();

@@ -14,11 +14,11 @@ pub(crate) struct OwnBinding {
     pub number: u32,
     /// Name of the variable in the shader.
     pub name: &'static str,
-    kind: Kind,
+    kind: BindingKind,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
+enum BindingKind {
     Storage { is_read_only: bool },
     Uniform,
     Integers,
@@ -40,13 +40,13 @@ impl OwnBinding {
             .strip_prefix("@group(3) @binding(")?
             .split_once(") var")?;
         let (kind, rest) = match variable.strip_prefix('<') {
-            None => (Kind::Integers, variable),
+            None => (BindingKind::Integers, variable),
             Some(space) => {
                 let (space, rest) = space.split_once('>')?;
                 let is_read_only = space == "storage, read";
                 let kind = match space {
-                    "uniform" => Kind::Uniform,
-                    _ => Kind::Storage { is_read_only },
+                    "uniform" => BindingKind::Uniform,
+                    _ => BindingKind::Storage { is_read_only },
                 };
                 (kind, rest)
             }
@@ -64,10 +64,10 @@ impl OwnBinding {
 
     pub(crate) fn ty(&self) -> BindingType {
         match self.kind {
-            Kind::Storage { is_read_only } => storage(is_read_only),
-            Kind::Uniform if self.is_dynamic() => dynamic_uniform(),
-            Kind::Uniform => uniform(),
-            Kind::Integers => integers(),
+            BindingKind::Storage { is_read_only } => storage(is_read_only),
+            BindingKind::Uniform if self.is_dynamic() => dynamic_uniform(),
+            BindingKind::Uniform => uniform(),
+            BindingKind::Integers => integers(),
         }
     }
 }
@@ -106,11 +106,11 @@ mod tests {
             for (own, (_, it)) in own.iter().zip(expected) {
                 use naga::{AddressSpace, StorageAccess};
                 let kind = match it.space {
-                    AddressSpace::Uniform => Kind::Uniform,
-                    AddressSpace::Storage { access } => Kind::Storage {
+                    AddressSpace::Uniform => BindingKind::Uniform,
+                    AddressSpace::Storage { access } => BindingKind::Storage {
                         is_read_only: access == StorageAccess::LOAD,
                     },
-                    _ => Kind::Integers,
+                    _ => BindingKind::Integers,
                 };
                 assert_eq!(own.kind, kind, "{} of {}", own.name, module.name);
             }

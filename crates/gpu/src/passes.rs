@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::kind_passes::KindPasses;
 use crate::pipelines::Orders;
 use crate::shade_scratches::ShadeScratchesPass;
-use crate::variant::{Seen, ShadeVariant};
+use crate::variant::{RayOrigin, ShadeVariant};
 use crate::{shade_gratings, shaders};
 
 /// Passes that are compiled for a method and a scene's contents.
@@ -76,7 +76,7 @@ impl ScenePasses {
                     Box::new(ScratchPasses {
                         bin: BinPasses::new(&mut orders),
                         share: orders.pass("share scratches", module, "share_scratches"),
-                        shade: ShadeScratchesPass::new(&mut orders, Seen::ByCamera),
+                        shade: ShadeScratchesPass::new(&mut orders, RayOrigin::ByCamera),
                     })
                 }),
                 gratings: (variant.has.gratings)

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::lights;
 use crate::rows::ROW_TEXELS;
 use crate::source::Source;
-use crate::transfer::{Place, Transfer};
+use crate::transfer::{TexturePosition, Transfer};
 
 /// Columns beyond the wavelengths. Twin: published_lights.wgsl.
 const LIGHT_TRIANGLE_COLUMNS: usize = 64;
@@ -90,7 +90,7 @@ async fn wavelengths(
     transfer.write_texture(
         what,
         &texture,
-        Place::default(),
+        TexturePosition::default(),
         size,
         bytemuck::cast_slice(&texels),
     );
@@ -153,7 +153,7 @@ async fn triangle_lists(
     transfer.write_texture(
         what,
         &texture,
-        Place::default(),
+        TexturePosition::default(),
         size,
         bytemuck::cast_slice(&words),
     );

@@ -13,7 +13,7 @@ use hairline_scene::{Scene, ScratchTables};
 use crate::bindings::Layouts;
 use crate::canvas::Canvas;
 use crate::device::Gpu;
-use crate::display::{DisplayPass, Shown};
+use crate::display::{DisplayPass, ReadbackTarget};
 use crate::error::Error;
 use crate::film::Film;
 use crate::filter::FilterPasses;
@@ -65,7 +65,7 @@ pub struct Renderer {
     layouts: Layouts,
     strips: StripShader,
     displays: HashMap<wgpu::TextureFormat, DisplayPass>,
-    shown: Option<Shown>,
+    shown: Option<ReadbackTarget>,
     /// Compiled when first needed.
     filter: Option<FilterPasses>,
     /// Arrays and film of [`Renderer::render`].
@@ -358,9 +358,9 @@ impl Renderer {
     ) -> Result<Vec<u8>, Error> {
         let shown = match self.shown.take() {
             Some(shown) if shown.size_px == canvas.size_px() => shown,
-            _ => Shown::new(&self.gpu, canvas.size_px()).await?,
+            _ => ReadbackTarget::new(&self.gpu, canvas.size_px()).await?,
         };
-        self.show(canvas, display, &shown.view, Shown::FORMAT)
+        self.show(canvas, display, &shown.view, ReadbackTarget::FORMAT)
             .await?;
         let pixels = self.gpu.read_texture(&shown.texture).await?;
         self.shown = Some(shown);

@@ -4,7 +4,7 @@ use wgpu::TextureFormat;
 
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::transfer::{Place, Transfer};
+use crate::transfer::{TexturePosition, Transfer};
 
 /// Texels to a row. Twin: texels.wgsl.
 pub(crate) const ROW_TEXELS: u32 = 1 << 12;
@@ -40,13 +40,13 @@ pub(crate) async fn upload<T: bytemuck::Pod>(
     let (whole, rest) = bytes.split_at(whole_rows * row_bytes);
     if whole_rows > 0 {
         let size = [ROW_TEXELS, whole_rows as u32];
-        transfer.write_texture(what, &texture, Place::default(), size, whole);
+        transfer.write_texture(what, &texture, TexturePosition::default(), size, whole);
     }
     if !rest.is_empty() {
         let row = whole_rows as u32;
-        let place = Place {
+        let place = TexturePosition {
             row,
-            ..Place::default()
+            ..TexturePosition::default()
         };
         let size = [(rest.len() / TEXEL_BYTES) as u32, 1];
         transfer.write_texture(what, &texture, place, size, rest);

@@ -9,7 +9,7 @@ use crate::pipelines::Orders;
 use crate::scan::ScanPasses;
 use crate::shaders;
 use crate::strip::StripRoom;
-use crate::variant::{Constant, Seen};
+use crate::variant::{Constant, RayOrigin};
 
 /// The pass, and the pass that it needs before.
 pub(crate) struct ShadeScratchesPass {
@@ -22,7 +22,7 @@ const CHUNKS_WORKGROUP: u32 = 64;
 const MODULE: (&shaders::Module, &str) = (&shaders::SHADE_SCRATCHES, "shade_scratches");
 
 impl ShadeScratchesPass {
-    pub(crate) fn new(orders: &mut Orders, seen: Seen) -> Self {
+    pub(crate) fn new(orders: &mut Orders, seen: RayOrigin) -> Self {
         let module = (&shaders::GROUP_CHUNKS, "group_chunks");
         let constants = [seen.constant()];
         Self {
@@ -59,7 +59,7 @@ pub(crate) fn kinds(orders: &mut Orders, name: &'static str, more: &[Constant]) 
 }
 
 /// A pass that picks scratches by the energy that they take of the base.
-pub(crate) fn picks_by_energy(orders: &mut Orders, seen: Seen) -> ComputePass {
+pub(crate) fn picks_by_energy(orders: &mut Orders, seen: RayOrigin) -> ComputePass {
     let constants = [("PICKS", 1.0), seen.constant()];
     over_lights(orders, "bounce picks", MODULE, LIGHTS_NONE, &constants)
 }

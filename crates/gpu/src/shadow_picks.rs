@@ -5,12 +5,12 @@
 
 use crate::compute_pass::{ComputePass, Recording, in_a_row};
 use crate::kind_passes::KindPasses;
-use crate::lights::Kind;
+use crate::lights::LightKind;
 use crate::pipelines::Orders;
 use crate::resources::Resources;
 use crate::shadow_room::ShadowRoom;
 use crate::strip::GROUP;
-use crate::variant::{Seen, Way};
+use crate::variant::{RayOrigin, Way};
 use crate::{shade_gratings, shade_scratches, shaders};
 
 /// Passes that pick scratches or gratings, and draw rays by way of them.
@@ -34,7 +34,7 @@ pub(crate) struct Scratched {
 
 impl PickPasses {
     /// Makes the passes for scratches of samples that are seen by the camera or by rays.
-    pub(crate) fn of_scratches(orders: &mut Orders, seen: Seen) -> Self {
+    pub(crate) fn of_scratches(orders: &mut Orders, seen: RayOrigin) -> Self {
         let constants = [("PICKS", 1.0), seen.constant()];
         let pick = shade_scratches::kinds(orders, "shadow picks", &constants);
         Self::new(orders, "shadow_picks", pick, Way::Scratches)
@@ -50,7 +50,7 @@ impl PickPasses {
         let mut kinds: Vec<_> = orders.variant().has.lights.of_rays().collect();
         if kinds.is_empty() {
             // Then there is no pick, which one pass must tell.
-            kinds.push(Kind::Spheres);
+            kinds.push(LightKind::Spheres);
         }
         let rays = kinds.into_iter().map(|kind| {
             let module = (&shaders::SHADOW_PICKED_RAYS, "shadow_picked_rays");

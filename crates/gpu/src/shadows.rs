@@ -10,19 +10,19 @@ use crate::bindings::Layouts;
 use crate::compute_pass::{ComputePass, Recording, in_a_row};
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::lights::Kind;
+use crate::lights::LightKind;
 use crate::pipelines::Orders;
 use crate::resources::Resources;
 use crate::scene_data::SceneData;
 use crate::shaders;
 use crate::shadow_picks::PickPasses;
 use crate::triangle_tree::TriangleTree;
-use crate::variant::{Seen, ShadeVariant};
+use crate::variant::{RayOrigin, ShadeVariant};
 
 /// Passes for rays to the lights of a scene.
 pub(crate) struct Shadows {
     /// Passes for each kind of source of the base: none has the code of the others.
-    base: Vec<(Kind, ComputePass)>,
+    base: Vec<(LightKind, ComputePass)>,
     trace: ComputePass,
     /// Converts what rays found to the light of the samples, once all rounds are done.
     pub found: ComputePass,
@@ -55,17 +55,17 @@ impl Shadows {
         let far = positions.map(|p| (p.as_dvec3() - origin_m).length());
         let extent_m = far.fold(0.0, f64::max) as f32;
         let mut orders = Orders::new(gpu, layouts, variant);
-        let shadows = Self::over(&mut orders, tree, extent_m, Seen::ByCamera);
+        let shadows = Self::over(&mut orders, tree, extent_m, RayOrigin::ByCamera);
         orders.compile().await?;
         Ok(shadows)
     }
 
     /// Makes the passes for hits.
     pub(crate) fn of_hits(&self, orders: &mut Orders) -> Self {
-        Self::over(orders, self.tree.clone(), self.extent_m, Seen::ByRays)
+        Self::over(orders, self.tree.clone(), self.extent_m, RayOrigin::ByRays)
     }
 
-    fn over(orders: &mut Orders, tree: TriangleTree, extent_m: f32, seen: Seen) -> Self {
+    fn over(orders: &mut Orders, tree: TriangleTree, extent_m: f32, seen: RayOrigin) -> Self {
         let has = orders.variant().has;
         let mut by_picks = Vec::new();
         if has.scratches {
@@ -96,7 +96,7 @@ impl Shadows {
     /// Draws a ray of each sample to a source of the base, which is of some kind, and follows it.
     pub(crate) fn record_base_round(
         &self,
-        kind: Kind,
+        kind: LightKind,
         recording: &mut Recording,
         resources: &Resources,
         groups: u32,

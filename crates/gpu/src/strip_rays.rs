@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::film::Film;
 use crate::frame::{Rounds, View};
 use crate::layout::ShadowRound;
-use crate::lights::{self, Kind};
+use crate::lights::{self, LightKind};
 use crate::passes::Shade;
 use crate::resources::Resources;
 use crate::shadow_picks::Scratched;
@@ -41,7 +41,7 @@ impl StripShader {
         let light_count = view.uploaded.data.light_count;
         let environment = view.scene.environment.iter().map(|_| light_count);
         let kinds = (0..).zip(lights::kinds_on_base(view.scene));
-        let around = environment.map(|source| (source, Kind::Environment));
+        let around = environment.map(|source| (source, LightKind::Environment));
         let sources: Vec<_> = kinds.chain(around).collect();
         let mut next = ShadowRound {
             rounds: rounds.now.count,

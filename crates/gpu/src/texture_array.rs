@@ -4,7 +4,7 @@ use hairline_scene::{Sampling, Scene, Texture, Wrap};
 use wgpu::{TextureFormat, TextureViewDimension};
 
 use crate::error::Error;
-use crate::transfer::{Place, Transfer};
+use crate::transfer::{TexturePosition, Transfer};
 
 /// All textures of the materials in one array: a layer each, every texture in its own size in the upper left corner, so
 /// that no texel is resampled.
@@ -88,7 +88,7 @@ impl TextureArray {
             let first = self.first_levels[layer as usize];
             for level in first..texture.levels.len() as u32 {
                 let texels = bytemuck::cast_slice(&texture.levels[level as usize]);
-                let place = Place {
+                let place = TexturePosition {
                     level: level - first,
                     layer,
                     row: 0,

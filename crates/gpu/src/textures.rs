@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::published::Published;
 use crate::source::Source;
 use crate::texture_array::{TextureArray, array_view};
-use crate::transfer::{Place, Transfer};
+use crate::transfer::{TexturePosition, Transfer};
 
 /// Bind group of the tables and textures, and the data that they were made from.
 pub(crate) struct SceneTextures {
@@ -149,9 +149,9 @@ async fn scratch_tables(
         .texture(what, size, layers, 1, TextureFormat::Rgba32Uint)
         .await?;
     for (layer, table) in (0..).zip(&tables.tables) {
-        let place = Place {
+        let place = TexturePosition {
             layer,
-            ..Place::default()
+            ..TexturePosition::default()
         };
         let texels = bytemuck::cast_slice(&table.texels);
         transfer.write_texture(what, &texture, place, size, texels);
@@ -183,7 +183,7 @@ async fn fresnel_curves(
         .flat_map(|curve| [curve.nodes(), curve.albedo_table().texels()].concat())
         .collect();
     let texels = bytemuck::cast_slice(&texels);
-    transfer.write_texture(what, &texture, Place::default(), size, texels);
+    transfer.write_texture(what, &texture, TexturePosition::default(), size, texels);
     Ok(texture.create_view(&Default::default()))
 }
 
@@ -198,7 +198,7 @@ async fn lobe(
         .texture(what, size, 1, 1, TextureFormat::Rgba32Float)
         .await?;
     let texels = bytemuck::cast_slice(texels);
-    transfer.write_texture(what, &texture, Place::default(), size, texels);
+    transfer.write_texture(what, &texture, TexturePosition::default(), size, texels);
     Ok(texture.create_view(&Default::default()))
 }
 
@@ -216,15 +216,21 @@ async fn environment_maps(
     let texture = transfer
         .texture(what, background.size_px, 1, 1, format)
         .await?;
-    write_radiance(transfer, what, &texture, Place::default(), background);
+    write_radiance(
+        transfer,
+        what,
+        &texture,
+        TexturePosition::default(),
+        background,
+    );
     let background = texture.create_view(&Default::default());
 
     let texture = environment_levels(transfer, "prefiltered environment", levels).await?;
     // Below the first level, which has no other beside it. Twin: environment_mean_by_cosine() in environment.wgsl.
     if let Some(environment) = environment {
-        let place = Place {
+        let place = TexturePosition {
             row: levels[0].size_px[1],
-            ..Place::default()
+            ..TexturePosition::default()
         };
         let map = environment.irradiance_map();
         write_radiance(transfer, "irradiance", &texture, place, map);
@@ -260,10 +266,10 @@ async fn environment_levels(
     for (i, map) in levels.iter().enumerate() {
         let level = LEVEL_HALVINGS[i];
         let is_second = i > 0 && LEVEL_HALVINGS[i - 1] == level;
-        let place = Place {
+        let place = TexturePosition {
             level: level as u32,
             row: if is_second { map.size_px[1] } else { 0 },
-            ..Place::default()
+            ..TexturePosition::default()
         };
         write_radiance(transfer, what, &texture, place, map);
     }
@@ -275,7 +281,7 @@ fn write_radiance(
     transfer: &mut Transfer<'_>,
     what: &'static str,
     texture: &wgpu::Texture,
-    place: Place,
+    place: TexturePosition,
     map: &Picture,
 ) {
     let half: Vec<[f16; 4]> = map

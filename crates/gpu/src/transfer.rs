@@ -20,9 +20,9 @@ pub(crate) struct Transfer<'a> {
     written: Vec<Written>,
 }
 
-/// Place in a texture.
+/// Position in a texture.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Place {
+pub(crate) struct TexturePosition {
     pub level: u32,
     pub layer: u32,
     pub row: u32,
@@ -89,7 +89,7 @@ impl<'a> Transfer<'a> {
         &mut self,
         what: &'static str,
         texture: &wgpu::Texture,
-        place: Place,
+        place: TexturePosition,
         [width, height]: [u32; 2],
         texels: &[u8],
     ) {

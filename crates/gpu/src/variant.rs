@@ -5,7 +5,7 @@ use hairline_optics::mask::Mask;
 use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_scene::{Bearing, Grating, GrooveField, Material, Object, Scene, ScratchTables};
 
-use crate::lights::{self, Kind, Kinds};
+use crate::lights::{self, Kinds, LightKind};
 
 /// Method and contents for which a pipeline is specialised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -124,13 +124,13 @@ pub(crate) type Constant = (&'static str, f64);
 
 /// Origin of the rays that see the samples of a pass. Twin: at_hits.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Seen {
+pub(crate) enum RayOrigin {
     ByCamera,
     /// Rays from other samples.
     ByRays,
 }
 
-impl Seen {
+impl RayOrigin {
     /// Constant for passes whose shader needs it.
     pub(crate) fn constant(self) -> Constant {
         ("AT_HITS", f64::from(u8::from(self == Self::ByRays)))
@@ -194,7 +194,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         for (scene, has) in [("everything", everything), ("nothing", Contents::default())] {
             let constants = ShadeVariant { method, has }.constants(text);
             let kinds = if text.contains("override SCRATCH_LIGHTS:") {
-                0..Kind::ALL.len() + 1
+                0..LightKind::ALL.len() + 1
             } else {
                 0..1
             };

@@ -15,14 +15,14 @@ pub trait Source: BufRead + Seek {}
 
 impl<T: BufRead + Seek> Source for T {}
 
-struct Held {
+struct HeldFile {
     bytes: Arc<[u8]>,
     edition: u64,
 }
 
 #[derive(Default)]
 struct Files {
-    held: BTreeMap<PathBuf, Held>,
+    held: BTreeMap<PathBuf, HeldFile>,
     written: Vec<PathBuf>,
     editions: u64,
 }
@@ -40,7 +40,7 @@ fn files() -> MutexGuard<'static, Files> {
 pub fn hold(path: &Path, bytes: Vec<u8>) {
     let mut files = files();
     files.editions += 1;
-    let held = Held {
+    let held = HeldFile {
         bytes: bytes.into(),
         edition: files.editions,
     };

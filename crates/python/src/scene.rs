@@ -23,7 +23,7 @@ use crate::errors;
 use crate::image::Image;
 use crate::names::named;
 use crate::values::Stock;
-use crate::watched::{self, Told};
+use crate::watched::{self, WorkProgress};
 
 /// File name in errors for text that was made of a table, and nobody has seen.
 const NO_FILE: &str = "\u{0}";
@@ -368,7 +368,7 @@ impl Built {
         earlier: Option<hairline_image::Image>,
         rows: Option<Range<u32>>,
         limits: &Limits,
-        told: &Told,
+        told: &WorkProgress,
     ) -> Result<(hairline_image::Image, bool), Failure> {
         told.begin("sorting scratches");
         let parts = self

@@ -15,28 +15,28 @@ const EVERY: Duration = Duration::from_millis(50);
 
 /// Progress of work, kept until Python's thread reads it.
 #[derive(Default)]
-pub(crate) struct Told {
+pub(crate) struct WorkProgress {
     cancelled: AtomicBool,
     share_bits: AtomicU64,
-    rest: Mutex<Rest>,
+    rest: Mutex<ProgressText>,
     is_done: Mutex<bool>,
     done: Condvar,
 }
 
 #[derive(Default)]
-struct Rest {
+struct ProgressText {
     what: &'static str,
     /// Each with the method of the host that it is for.
     lines: Vec<(&'static str, String)>,
 }
 
-impl Told {
+impl WorkProgress {
     /// Whether the work is to end.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)
     }
 
-    fn with_rest<T>(&self, act: impl FnOnce(&mut Rest) -> T) -> T {
+    fn with_rest<T>(&self, act: impl FnOnce(&mut ProgressText) -> T) -> T {
         let mut rest = self
             .rest
             .lock()
@@ -80,7 +80,7 @@ impl Told {
     }
 }
 
-impl Listener for Told {
+impl Listener for WorkProgress {
     fn tell(&self, line: &str) {
         self.add("tell", line);
     }
@@ -127,15 +127,15 @@ pub(crate) fn refuse_forks(py: Python<'_>) -> PyResult<()> {
 /// work and is raised.
 pub(crate) fn run<T: Send>(
     host: &Bound<'_, PyAny>,
-    work: impl FnOnce(&Told) -> T + Send,
+    work: impl FnOnce(&WorkProgress) -> T + Send,
 ) -> PyResult<Ended<T>> {
     let py = host.py();
     refuse_forks(py)?;
-    let told = Told::default();
+    let told = WorkProgress::default();
     std::thread::scope(|scope| {
         let worker = scope.spawn(|| {
             // Also where it panics.
-            struct Finish<'a>(&'a Told);
+            struct Finish<'a>(&'a WorkProgress);
             impl Drop for Finish<'_> {
                 fn drop(&mut self) {
                     self.0.finish();

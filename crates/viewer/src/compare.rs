@@ -15,7 +15,7 @@ use std::time::Duration;
 use crate::jobs::Job;
 pub use figures::{Figures, LayerFigures};
 use side::{Side, SideTexture};
-use work::{Kept, Report, Shown, Wanted};
+use work::{Comparison, ComparisonRequest, ReferenceTree, Report};
 
 /// Seconds for which a view must stand still before it is sampled.
 const STILL_S: f64 = 0.3;
@@ -29,11 +29,11 @@ pub(crate) struct Compare {
     /// Position of the divider from 0, left, to 1.
     divider: f32,
     /// Comparison that was wanted in the last pass, and the time since which it is wanted.
-    wanted: Option<(Wanted, f64)>,
+    wanted: Option<(ComparisonRequest, f64)>,
     sampling: Option<Sampling>,
     /// Jobs that were told to stop, and have not ended yet.
     ending: Vec<Job>,
-    kept: Arc<Mutex<Kept>>,
+    kept: Arc<Mutex<ReferenceTree>>,
     refused: Option<String>,
     texture: SideTexture,
 }
@@ -91,7 +91,7 @@ impl Compare {
     }
 
     /// Starts sampling the wanted comparison once it has not changed for a while. `now` is in seconds.
-    fn follow(&mut self, ctx: &egui::Context, wanted: Wanted, now: f64) {
+    fn follow(&mut self, ctx: &egui::Context, wanted: ComparisonRequest, now: f64) {
         let since = match &self.wanted {
             Some((last, since)) if last.is_same(&wanted) => *since,
             _ => {
@@ -112,7 +112,7 @@ impl Compare {
         self.wanted = Some((wanted, since));
     }
 
-    fn start(&mut self, ctx: &egui::Context, wanted: &Wanted) {
+    fn start(&mut self, ctx: &egui::Context, wanted: &ComparisonRequest) {
         let wake = ctx.clone();
         let report = Report::new(Arc::new(move || wake.request_repaint()));
         let (wanted, told) = (wanted.clone(), report.clone());
@@ -126,7 +126,7 @@ impl Compare {
         }
     }
 
-    fn shown(&self) -> Option<Arc<Shown>> {
+    fn shown(&self) -> Option<Arc<Comparison>> {
         self.sampling.as_ref()?.report.newest()
     }
 

@@ -21,7 +21,7 @@ use crate::jobs::Job;
 use crate::notices::Notices;
 use crate::viewport::camera;
 use crate::workspace::Workspace;
-use form::{Answer, Form, Shown};
+use form::{Answer, ExportContext, Form};
 use work::{End, Report, Wish};
 
 /// Form of an export, and the exports in progress.
@@ -146,7 +146,7 @@ impl Export {
             .engine
             .latest()
             .map_or(scene_px, |frame| fitting(scene_px, frame.view.size_px));
-        let scene = Shown {
+        let scene = ExportContext {
             scene_px,
             window_px,
             has_lens: has_lens(description),

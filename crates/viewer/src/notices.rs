@@ -7,13 +7,13 @@ use egui::{Align2, RichText};
 
 /// Kind of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum NoticeKind {
     Error,
     Note,
 }
 
 struct Notice {
-    kind: Kind,
+    kind: NoticeKind,
     text: String,
     /// Time in seconds at which the notice was first shown, or last shown while a scene was being built.
     since: Option<f64>,
@@ -49,11 +49,11 @@ impl Notices {
         if !self.list.iter().any(is_known) {
             eprintln!("error: {}", printable(&text));
         }
-        self.push(Kind::Error, topic, text);
+        self.push(NoticeKind::Error, topic, text);
     }
 
     pub fn note(&mut self, topic: &'static str, text: impl Into<String>) {
-        self.push(Kind::Note, topic, text.into());
+        self.push(NoticeKind::Note, topic, text.into());
     }
 
     /// Removes the error of a topic once it is right again.
@@ -67,7 +67,7 @@ impl Notices {
             .retain(|notice| matches!(notice.topic, "device" | "autosave"));
     }
 
-    fn push(&mut self, kind: Kind, topic: &'static str, text: String) {
+    fn push(&mut self, kind: NoticeKind, topic: &'static str, text: String) {
         self.clear(topic);
         self.list.push(Notice {
             kind,
@@ -97,7 +97,7 @@ impl Notices {
             }
         }
         self.list.retain(|notice| {
-            notice.kind == Kind::Error
+            notice.kind == NoticeKind::Error
                 || notice
                     .since
                     .is_none_or(|since| now - since < notice.seconds())
@@ -105,7 +105,7 @@ impl Notices {
         if self.list.is_empty() {
             return;
         }
-        let notes = self.list.iter().filter(|it| it.kind == Kind::Note);
+        let notes = self.list.iter().filter(|it| it.kind == NoticeKind::Note);
         if let Some(seconds) = notes.map(Notice::seconds).reduce(f64::min) {
             ctx.request_repaint_after(std::time::Duration::from_secs_f64(seconds));
         }
@@ -125,10 +125,12 @@ impl Notices {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
                         ui.horizontal(|ui| {
                             let color = match notice.kind {
-                                Kind::Error => crate::style::ERROR,
-                                Kind::Note => ui.visuals().text_color(),
+                                NoticeKind::Error => crate::style::ERROR,
+                                NoticeKind::Note => ui.visuals().text_color(),
                             };
-                            if notice.kind == Kind::Error && ui.small_button("Dismiss").clicked() {
+                            if notice.kind == NoticeKind::Error
+                                && ui.small_button("Dismiss").clicked()
+                            {
                                 dismissed = Some(i);
                             }
                             ui.add(

@@ -41,12 +41,12 @@ pub(crate) fn names(work: &Workspace, object: &str) -> Names {
 
 /// A part of an object: the material and the node that distinguish it from the other parts. Without both it is all of the object.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Part {
+pub(crate) struct ObjectPart {
     pub material: Option<String>,
     pub node: Option<String>,
 }
 
-impl Part {
+impl ObjectPart {
     /// Whether it is all of the object.
     pub fn is_whole(&self) -> bool {
         *self == Self::default()
@@ -54,9 +54,9 @@ impl Part {
 }
 
 /// The part of an object with a triangle; all of the object if there is one part alone.
-pub(crate) fn at(scene: &Scene, described: &Object, object: usize, triangle: usize) -> Part {
+pub(crate) fn at(scene: &Scene, described: &Object, object: usize, triangle: usize) -> ObjectPart {
     let Some(made) = scene.objects.get(object) else {
-        return Part::default();
+        return ObjectPart::default();
     };
     let numbers = &made.mesh.triangle_materials;
     let own = numbers.get(triangle).copied();
@@ -75,7 +75,7 @@ pub(crate) fn at(scene: &Scene, described: &Object, object: usize, triangle: usi
         .iter()
         .all(|it| part.is_some_and(|own| own.nodes == it.nodes));
     let node = part.filter(|_| !is_alone).and_then(|it| it.nodes.first());
-    Part {
+    ObjectPart {
         material,
         node: node.cloned(),
     }

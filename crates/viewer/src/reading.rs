@@ -1,6 +1,6 @@
 //! Reading the picture: its histogram, false colour, its layers, the pixel under the pointer, and the exposure of the window.
 //!
-//! What is computed from all pixels is computed where they are, by the painter: [`Wanted`] is part of the view that it is
+//! What is computed from all pixels is computed where they are, by the painter: [`ReadingRequest`] is part of the view that it is
 //! given, [`Findings`] come with the frame. None of it changes the scene.
 
 mod command;
@@ -19,7 +19,7 @@ pub(crate) use develop::develop;
 pub(crate) use probe::Probe;
 pub(crate) use show::show;
 
-pub use develop::{Findings, Wanted};
+pub use develop::{Findings, ReadingRequest};
 pub use histogram::Histogram;
 pub use layer_view::Shows;
 pub use probe::Reading;
@@ -36,8 +36,8 @@ pub(crate) struct ReadingState {
 
 impl ReadingState {
     /// Reading for the painter; `frame_px` is the size of the scene's picture in the window.
-    pub fn wanted(&self, frame_px: [u32; 2]) -> Wanted {
-        Wanted {
+    pub fn wanted(&self, frame_px: [u32; 2]) -> ReadingRequest {
+        ReadingRequest {
             shows: self.shows,
             histogram_px: self.has_histogram.then_some(frame_px),
         }

@@ -116,7 +116,7 @@ impl Group {
 
     /// Position of a segment of an object under the footprints; none if no point sees it.
     #[inline(always)]
-    pub fn see(&self, segment: &IndexedSegment, object: u32) -> Option<Seen> {
+    pub fn see(&self, segment: &IndexedSegment, object: u32) -> Option<SegmentView> {
         let (s, e) = (segment.start_m.as_dvec3(), segment.end_m.as_dvec3());
         let n = segment.normal.as_dvec3();
         let (x, y, z) = (&self.axis_x_um, &self.axis_y_um, &self.normal);
@@ -155,7 +155,7 @@ impl Group {
             return None;
         }
         let blur_um = f64::from(segment.blur_um);
-        let mut seen = Seen::default();
+        let mut seen = SegmentView::default();
         let mut count = 0;
         for i in 0..LANES {
             let per_length2 = 1.0 / length2[i];
@@ -200,7 +200,7 @@ impl Group {
 
 /// A segment under the footprints of a group.
 #[derive(Default)]
-pub(super) struct Seen {
+pub(super) struct SegmentView {
     /// 1 for lanes that see the segment; the other values of the rest may be no numbers.
     sees: [u64; LANES],
     /// Tangent of the segment, in the surface's frame.
@@ -215,7 +215,7 @@ pub(super) struct Seen {
     high: Lanes,
 }
 
-impl Seen {
+impl SegmentView {
     pub fn tangent(&self, lane: usize) -> DVec2 {
         DVec2::new(self.tangent[0][lane], self.tangent[1][lane])
     }

@@ -4,7 +4,7 @@ use super::*;
 use crate::closed_form::RenderOptions;
 use crate::light_view::LightViews;
 use crate::project::{REACH_MARGIN, ROUNDING_PX, Rows};
-use crate::sample_point::Seen as SeenPoint;
+use crate::sample_point::SampleView;
 use crate::sampling::luminance;
 use crate::surface::SurfacePoint;
 use crate::visibility::center;
@@ -58,7 +58,7 @@ fn needed_margin(scene: &Scene, step: usize) -> Needed {
         .flat_map(|y| (0..width as usize).step_by(step).map(move |x| (x, y)));
     for (x, y) in pixels {
         let hit = picture.visibility.hit(x, y).copied();
-        let SeenPoint::Surface { hit, point, .. } = picture.surface(center(x, y), 1, hit) else {
+        let SampleView::Surface { hit, point, .. } = picture.surface(center(x, y), 1, hit) else {
             continue;
         };
         let views = LightViews::new(scene);
@@ -147,7 +147,7 @@ fn lanes_see_the_closed_forms_share() {
     let prepared = Prepared::new(&scene);
     let (picture, _) = prepared.picture(&RenderOptions::default(), 0..32, &|| false);
     let hit = picture.visibility.hit(24, 16).copied();
-    let SeenPoint::Surface { point, .. } = picture.surface(center(24, 16), 1, hit) else {
+    let SampleView::Surface { point, .. } = picture.surface(center(24, 16), 1, hit) else {
         panic!("the dish is in the middle");
     };
     let views = LightViews::new(&scene);
@@ -254,7 +254,7 @@ fn what_is_drawn_of_an_environment_comes_from_there() {
     let prepared = Prepared::new(&scene);
     let (picture, _) = prepared.picture(&RenderOptions::default(), 0..8, &|| false);
     let hit = picture.visibility.hit(4, 4).copied();
-    let SeenPoint::Surface { point, .. } = picture.surface(center(4, 4), 1, hit) else {
+    let SampleView::Surface { point, .. } = picture.surface(center(4, 4), 1, hit) else {
         panic!("the plane is in the middle");
     };
     let table = &prepared.tables.tables[point.table];
@@ -360,7 +360,7 @@ fn windows_and_the_rest_are_the_map() {
         let prepared = Prepared::new(&scene);
         let (picture, _) = prepared.picture(&RenderOptions::default(), 0..8, &|| false);
         let hit = picture.visibility.hit(4, 4).copied();
-        let SeenPoint::Surface { point, .. } = picture.surface(center(4, 4), 1, hit) else {
+        let SampleView::Surface { point, .. } = picture.surface(center(4, 4), 1, hit) else {
             panic!("the plane is in the middle");
         };
         let mut views = LightViews::new(&scene);

@@ -29,7 +29,7 @@ pub(super) fn grow<S: Straight>(
 }
 
 /// A tree in depth-first order.
-struct Part {
+struct Subtree {
     min_m: Vec3,
     max_m: Vec3,
     node_count: u32,
@@ -40,14 +40,14 @@ fn grow_part<S: Straight>(
     segments: &mut [S],
     first: u32,
     goes_on: &(dyn Fn(usize) -> bool + Sync),
-) -> Part {
+) -> Subtree {
     if segments.len() <= PART_SEGMENTS {
-        let part = Part::new(of_few(segments), first);
+        let part = Subtree::new(of_few(segments), first);
         goes_on(segments.len());
         return part;
     }
     if !goes_on(0) {
-        return Part::new(Vec::new(), first);
+        return Subtree::new(Vec::new(), first);
     }
     let place = |s: &S| {
         let [a, b] = s.ends_m();
@@ -67,10 +67,10 @@ fn grow_part<S: Straight>(
         || grow_part(left, first, goes_on),
         || grow_part(right, first + middle as u32, goes_on),
     );
-    Part::over(left, right)
+    Subtree::over(left, right)
 }
 
-impl Part {
+impl Subtree {
     fn new(nodes: Vec<ScratchNode>, first: u32) -> Self {
         let root = nodes.first();
         Self {

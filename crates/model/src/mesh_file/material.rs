@@ -24,10 +24,10 @@ pub(super) enum Materials<'a> {
     /// One material of the scene for all primitives.
     One(u32),
     /// The file's own, added to the scene as they are met.
-    Own(Own<'a>),
+    Own(FileMaterials<'a>),
 }
 
-pub(super) struct Own<'a> {
+pub(super) struct FileMaterials<'a> {
     document: &'a Document,
     images: Images<'a>,
     materials: &'a mut Vec<Material>,
@@ -41,7 +41,7 @@ impl<'a> Materials<'a> {
         images: Images<'a>,
         materials: &'a mut Vec<Material>,
     ) -> Self {
-        Self::Own(Own {
+        Self::Own(FileMaterials {
             document,
             images,
             materials,
@@ -65,7 +65,7 @@ impl<'a> Materials<'a> {
     }
 }
 
-impl Own<'_> {
+impl FileMaterials<'_> {
     fn index(&mut self, material: &gltf::Material) -> Result<u32, Flaw> {
         if let Some(&index) = self.indices.get(&material.index()) {
             return Ok(index);

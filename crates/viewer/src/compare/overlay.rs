@@ -15,7 +15,7 @@ use super::Compare;
 use super::divider;
 use super::figures::LayerFigures;
 use super::side::Side;
-use super::work::{Compared, Shown, Wanted};
+use super::work::{Compared, Comparison, ComparisonRequest};
 
 const WIDTH: f32 = 316.0;
 
@@ -31,7 +31,7 @@ impl Compare {
         };
         let camera = work.camera();
         let description = work.document.description();
-        let wanted = Wanted {
+        let wanted = ComparisonRequest {
             built,
             camera: viewport::camera(&camera),
             shown_px: area.frame_px(),
@@ -110,7 +110,7 @@ impl Compare {
             .inner
     }
 
-    fn about(&self, ui: &mut Ui, shown: &Shown) {
+    fn about(&self, ui: &mut Ui, shown: &Comparison) {
         let [width, height] = shown.reference.size_px;
         let text = format!("{:.0} samples a pixel, {width} × {height}", shown.samples);
         ui.label(text).on_hover_text(

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::{Color32, ColorImage, Rect, TextureHandle, TextureOptions, Ui, pos2};
 use hairline_image::{Display, png};
 
-use super::work::Shown;
+use super::work::Comparison;
 
 /// The picture right of the divider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,7 +36,14 @@ impl SideTexture {
         self.held = None;
     }
 
-    pub fn paint(&mut self, ui: &Ui, rect: Rect, shown: &Shown, side: Side, display: &Display) {
+    pub fn paint(
+        &mut self,
+        ui: &Ui,
+        rect: Rect,
+        shown: &Comparison,
+        side: Side,
+        display: &Display,
+    ) {
         let key = (
             shown.number,
             side,

@@ -18,7 +18,7 @@ use crate::jobs::Stop;
 
 /// Request for a comparison.
 #[derive(Clone)]
-pub(super) struct Wanted {
+pub(super) struct ComparisonRequest {
     pub built: Arc<Built>,
     pub camera: Camera,
     /// Size of the picture in the window: the comparison is no larger, and has its shape.
@@ -29,7 +29,7 @@ pub(super) struct Wanted {
     pub full_size: bool,
 }
 
-impl Wanted {
+impl ComparisonRequest {
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.built, &other.built)
             && self.camera == other.camera
@@ -83,9 +83,9 @@ pub(super) fn refusal(built: &Built) -> Option<String> {
 
 /// The reference's tree, for as long as the scratches stay.
 #[derive(Default)]
-pub(super) struct Kept(Option<(Weak<ScratchIndex>, Arc<SegmentTree<Groove>>)>);
+pub(super) struct ReferenceTree(Option<(Weak<ScratchIndex>, Arc<SegmentTree<Groove>>)>);
 
-impl Kept {
+impl ReferenceTree {
     fn of(&self, built: &Built) -> Option<Arc<SegmentTree<Groove>>> {
         let (scratches, grooves) = self.0.as_ref()?;
         let is_same = scratches.ptr_eq(&Arc::downgrade(&built.scratches));
@@ -94,7 +94,7 @@ impl Kept {
 }
 
 /// A reference and the picture beside it, as far as they have come.
-pub(super) struct Shown {
+pub(super) struct Comparison {
     /// Counts up.
     pub number: u64,
     pub reference: Picture,
@@ -116,7 +116,7 @@ pub(super) struct Compared {
 /// Report of the thread to the window.
 #[derive(Clone)]
 pub(super) struct Report {
-    newest: Arc<Mutex<Option<Arc<Shown>>>>,
+    newest: Arc<Mutex<Option<Arc<Comparison>>>>,
     wake: Wake,
 }
 
@@ -128,11 +128,11 @@ impl Report {
         }
     }
 
-    pub fn newest(&self) -> Option<Arc<Shown>> {
+    pub fn newest(&self) -> Option<Arc<Comparison>> {
         lock(&self.newest).clone()
     }
 
-    fn put(&self, shown: Shown) {
+    fn put(&self, shown: Comparison) {
         *lock(&self.newest) = Some(Arc::new(shown));
         (self.wake)();
     }
@@ -164,7 +164,12 @@ const PICTURE_SAMPLES: u32 = 16;
 const BAND_PX: u32 = 1 << 12;
 
 /// Adds samples until there are enough or `stop` is set, which is checked within each batch.
-pub(super) fn run(wanted: &Wanted, stop: &Stop, report: &Report, kept: &Mutex<Kept>) {
+pub(super) fn run(
+    wanted: &ComparisonRequest,
+    stop: &Stop,
+    report: &Report,
+    kept: &Mutex<ReferenceTree>,
+) {
     let built = &wanted.built;
     let earlier = lock(kept).of(built);
     let grooves = earlier.unwrap_or_else(|| Arc::new(groove_index::build(&built.scene)));
@@ -177,7 +182,7 @@ pub(super) fn run(wanted: &Wanted, stop: &Stop, report: &Report, kept: &Mutex<Ke
         return;
     };
     let seconds_per_px = start.elapsed().as_secs_f64() / coarse.pixel_count() as f64;
-    report.put(Shown {
+    report.put(Comparison {
         number: 1,
         reference: coarse.beauty(),
         samples: f64::from(BATCH_SAMPLES),
@@ -192,7 +197,7 @@ pub(super) fn run(wanted: &Wanted, stop: &Stop, report: &Report, kept: &Mutex<Ke
 }
 
 fn refine(
-    wanted: &Wanted,
+    wanted: &ComparisonRequest,
     scene: &Scene,
     parts: &SceneIndex,
     coarse: &Image,
@@ -262,7 +267,7 @@ struct Sampled {
 
 impl Sampled {
     /// Comparison as the window shows it. Pixels without samples have the colours of `coarse`, and no error.
-    fn shown(&self, number: u64, coarse: &Image) -> Shown {
+    fn shown(&self, number: u64, coarse: &Image) -> Comparison {
         let size_px = self.reference.size_px;
         let noise = self.reference.noise.as_ref();
         let is_sampled: Vec<bool> = noise.map_or_else(Vec::new, |noise| {
@@ -282,7 +287,7 @@ impl Sampled {
             errors.pixels[i] = UNKNOWN;
         }
         let figures = Figures::of(&self.picture, &self.reference, &is_sampled);
-        Shown {
+        Comparison {
             number,
             reference,
             samples: figures.samples,

@@ -72,12 +72,12 @@ impl Built {
 #[derive(Default)]
 pub(super) struct Workshop {
     scenes: SceneBuilder,
-    last: Option<Kept>,
+    last: Option<LastBuild>,
     /// Builder of sketches, until a whole scene is built.
     sketches: Option<SceneBuilder>,
 }
 
-struct Kept {
+struct LastBuild {
     description: Arc<Description>,
     scene: Scene,
     triangles: Arc<TriangleIndex>,
@@ -197,7 +197,7 @@ impl Workshop {
             },
         };
         self.sketches = None;
-        self.last = Some(Kept {
+        self.last = Some(LastBuild {
             description: Arc::clone(&description),
             scene: scene.clone(),
             triangles: Arc::clone(&triangles),

@@ -12,9 +12,9 @@ use super::Backend;
 use super::adding::Adding;
 use super::bands::{BandSize, Bands, IN_TURN, options, prepared};
 use super::drafts::Drafts;
-use super::easel::{Easel, Shown};
+use super::easel::{Easel, EaselPicture};
 use super::frame::Picture;
-use super::pace::{self, Kind};
+use super::pace::{self, Coarseness};
 use super::partial::Backdrop;
 use super::pool::Crew;
 use super::remembered::Remembered;
@@ -100,7 +100,7 @@ impl Easel for CpuEasel {
         order: &Order,
         step: &Step,
         interrupted: &(dyn Fn() -> bool + Sync),
-        show: &mut dyn FnMut(Shown),
+        show: &mut dyn FnMut(EaselPicture),
     ) -> Result<bool, hairline_gpu::Error> {
         let begun = self
             .begun
@@ -156,7 +156,7 @@ impl Easel for CpuEasel {
                     Backdrop::new(&last.image, step.size_px, &order.view.display)
                 });
                 let picture = backdrop.under(&bands.image, bands.next_row);
-                show(Shown {
+                show(EaselPicture {
                     picture,
                     size_px: step.size_px,
                     samples: step.samples,
@@ -172,7 +172,7 @@ impl Easel for CpuEasel {
             if let Some(last) = waiting
                 && shown_last.elapsed() > REFRESH
             {
-                show(Shown {
+                show(EaselPicture {
                     done: bands.done(),
                     ..last.shown(order)
                 });
@@ -206,7 +206,10 @@ impl Easel for CpuEasel {
         Ok(true)
     }
 
-    async fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, hairline_gpu::Error> {
+    async fn show_again(
+        &mut self,
+        order: &Order,
+    ) -> Result<Option<EaselPicture>, hairline_gpu::Error> {
         let last = self.last.as_ref();
         Ok(last.map(|last| last.shown(order)))
     }
@@ -219,7 +222,7 @@ impl Easel for CpuEasel {
         Backend::Cpu
     }
 
-    fn kind(&self) -> &'static Kind {
+    fn kind(&self) -> &'static Coarseness {
         &pace::THINNED
     }
 }
@@ -252,7 +255,7 @@ impl CpuEasel {
 }
 
 impl Last {
-    fn shown(&self, order: &Order) -> Shown {
+    fn shown(&self, order: &Order) -> EaselPicture {
         let (view, step) = (&order.view, &self.step);
         let mut shown = self.shown.borrow_mut();
         let (_, picture, findings) = match shown.take() {
@@ -267,7 +270,7 @@ impl Last {
             }
         };
         *shown = Some((*view, picture.clone(), findings.clone()));
-        Shown {
+        EaselPicture {
             picture,
             size_px: step.size_px,
             samples: self.samples,

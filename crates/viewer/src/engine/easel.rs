@@ -5,7 +5,7 @@ use hairline_scene::Transport;
 
 use super::Backend;
 use super::frame::Picture;
-use super::pace::Kind;
+use super::pace::Coarseness;
 use super::request::Order;
 use super::steps::Step;
 
@@ -20,20 +20,23 @@ pub(super) trait Easel {
         order: &Order,
         step: &Step,
         interrupted: &(dyn Fn() -> bool + Sync),
-        show: &mut dyn FnMut(Shown),
+        show: &mut dyn FnMut(EaselPicture),
     ) -> Result<bool, hairline_gpu::Error>;
     /// The last picture by another exposure or tone curve.
-    async fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, hairline_gpu::Error>;
+    async fn show_again(
+        &mut self,
+        order: &Order,
+    ) -> Result<Option<EaselPicture>, hairline_gpu::Error>;
     /// Samples of a pixel, where edges are as smooth as they get.
     fn best_samples(&self) -> u32;
     /// Renderer behind it.
     fn backend(&self) -> Backend;
     /// Ways in which it can save time.
-    fn kind(&self) -> &'static Kind;
+    fn kind(&self) -> &'static Coarseness;
 }
 
 /// A picture of an easel, ready to be shown.
-pub(super) struct Shown {
+pub(super) struct EaselPicture {
     pub picture: Picture,
     pub size_px: [u32; 2],
     pub samples: u32,

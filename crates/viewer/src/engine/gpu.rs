@@ -12,9 +12,9 @@ use hairline_scene::{DEFAULT_SAMPLES, Transport};
 use web_time::Instant;
 
 use super::adding::Adding;
-use super::easel::{Easel, Shown};
+use super::easel::{Easel, EaselPicture};
 use super::frame::Picture;
-use super::pace::{self, Kind};
+use super::pace::{self, Coarseness};
 use super::request::Order;
 use super::steps::Step;
 use super::{Backend, Built};
@@ -68,7 +68,7 @@ impl GpuEasel {
         hairline_gpu::headless::open(&hairline_gpu::AdapterRequest::default())
     }
 
-    async fn shown(&mut self, order: &Order, samples: u32) -> Result<Option<Shown>, Error> {
+    async fn shown(&mut self, order: &Order, samples: u32) -> Result<Option<EaselPicture>, Error> {
         let (Some(canvas), Some(step)) = (&self.canvas, self.step) else {
             return Ok(None);
         };
@@ -105,7 +105,7 @@ impl GpuEasel {
             Picture::Pixels(Arc::new(image))
         };
         let passes = self.pass_times().await?;
-        Ok(Some(Shown {
+        Ok(Some(EaselPicture {
             picture,
             size_px,
             samples,
@@ -164,7 +164,7 @@ impl Easel for GpuEasel {
         order: &Order,
         step: &Step,
         interrupted: &(dyn Fn() -> bool + Sync),
-        show: &mut dyn FnMut(Shown),
+        show: &mut dyn FnMut(EaselPicture),
     ) -> Result<bool, Error> {
         let gpu = self.renderer.gpu().clone();
         let is_software = gpu.adapter.kind == AdapterKind::Software;
@@ -241,7 +241,7 @@ impl Easel for GpuEasel {
         Ok(true)
     }
 
-    async fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, Error> {
+    async fn show_again(&mut self, order: &Order) -> Result<Option<EaselPicture>, Error> {
         let samples = match &self.mean {
             Some((_, samples)) => *samples,
             None => self.step.map_or(1, |step| step.samples),
@@ -257,7 +257,7 @@ impl Easel for GpuEasel {
         Backend::Gpu(self.renderer.gpu().clone())
     }
 
-    fn kind(&self) -> &'static Kind {
+    fn kind(&self) -> &'static Coarseness {
         &pace::WHOLE
     }
 }

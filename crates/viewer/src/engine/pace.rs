@@ -16,7 +16,7 @@ const fn level(scale: f64, thin: u32) -> Level {
 }
 
 /// Levels of a renderer that draws all scratches: small steps, so that a change is not noticed, and few, so that it is rare.
-pub(super) const WHOLE: Kind = Kind {
+pub(super) const WHOLE: Coarseness = Coarseness {
     levels: &[
         level(1.0, 1),
         level(0.75, 1),
@@ -33,7 +33,7 @@ pub(super) const WHOLE: Kind = Kind {
 
 /// Levels of a renderer that can draw a few scratches in place of all: the time of a coarse picture depends on its scratches
 /// more than on its pixels.
-pub(super) const THINNED: Kind = Kind {
+pub(super) const THINNED: Coarseness = Coarseness {
     levels: &[
         level(1.0, 1),
         level(0.75, 1),
@@ -55,7 +55,7 @@ pub(super) const THINNED: Kind = Kind {
 
 /// Levels of coarseness of a renderer.
 #[derive(Debug, PartialEq)]
-pub(super) struct Kind {
+pub(super) struct Coarseness {
     /// Levels from the finest to the coarsest.
     levels: &'static [Level],
     /// Longest time of a picture in motion.
@@ -66,7 +66,7 @@ pub(super) struct Kind {
     segment_px: f64,
 }
 
-impl Kind {
+impl Coarseness {
     /// Whether scratches are left out.
     pub fn thins(&self) -> bool {
         self.levels.iter().any(|level| level.thin > 1)
@@ -79,13 +79,13 @@ const SLACK: f64 = 0.7;
 /// Choice of the level by the cost of a pixel in the last pictures.
 #[derive(Debug)]
 pub(super) struct Pace {
-    kind: &'static Kind,
+    kind: &'static Coarseness,
     seconds_per_px: Option<f64>,
     at: usize,
 }
 
 impl Pace {
-    pub fn new(kind: &'static Kind) -> Self {
+    pub fn new(kind: &'static Coarseness) -> Self {
         Self {
             kind,
             seconds_per_px: None,
@@ -158,7 +158,7 @@ mod tests {
 
     const FULL_PX: [u32; 2] = [1280, 720];
 
-    fn after(kind: &'static Kind, pictures: usize, seconds_per_px: f64) -> ([u32; 2], u32) {
+    fn after(kind: &'static Coarseness, pictures: usize, seconds_per_px: f64) -> ([u32; 2], u32) {
         let segments = 100_000;
         let mut pace = Pace::new(kind);
         let (mut size_px, mut thin) = pace.moving(FULL_PX, segments, false);

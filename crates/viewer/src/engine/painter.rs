@@ -13,7 +13,7 @@ use super::cpu::CpuEasel;
 use super::easel::Easel;
 #[cfg(not(target_arch = "wasm32"))]
 use super::gpu::GpuEasel;
-use super::pace::Kind;
+use super::pace::Coarseness;
 use super::request::{Order, Shared};
 use super::steps::Step;
 use super::studio::{Studio, Turn};
@@ -100,7 +100,7 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    pub fn new(shared: &Shared, kind: &'static Kind) -> Self {
+    pub fn new(shared: &Shared, kind: &'static Coarseness) -> Self {
         Self {
             studio: Studio::new(shared, kind),
             done: None,

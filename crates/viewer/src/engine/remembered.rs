@@ -13,7 +13,7 @@ use super::Built;
 use super::pace::scaled;
 use super::request::Order;
 use cells::Cells;
-use warp::{Place, Warp, is_same_depth};
+use warp::{SurfacePosition, Warp, is_same_depth};
 
 mod cells;
 mod warp;
@@ -31,7 +31,7 @@ pub(super) struct Remembered {
     triangles: Weak<TriangleIndex>,
     scratches: Weak<ScratchIndex>,
     camera: CameraFrame,
-    places: Vec<Place>,
+    places: Vec<SurfacePosition>,
     pixels: Vec<Pixel>,
     /// Whether `shown` includes shadows and reflections.
     has_rays: bool,
@@ -75,7 +75,7 @@ impl Remembered {
         let count = 0..shown.pixel_count();
         let places = count.clone().into_par_iter().map(|i| {
             let at_px = DVec2::new((i % width) as f64, (i / width) as f64) + 0.5;
-            Place::new(&camera, at_px, shown.depth_m[i])
+            SurfacePosition::new(&camera, at_px, shown.depth_m[i])
         });
         let pixels = count.into_par_iter().map(|i| Pixel {
             base: layer(open.base[i], shown.base[i]),

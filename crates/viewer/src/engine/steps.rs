@@ -4,7 +4,7 @@ use hairline_image::Batch;
 use hairline_scene::{Scene, Transport};
 
 use super::View;
-use super::pace::{Kind, scaled};
+use super::pace::{Coarseness, scaled};
 use super::request::Order;
 
 /// Filter of a thinned picture, between the small one of the full picture, 1, and that of the coarse one, 0: chosen by eye.
@@ -72,7 +72,7 @@ impl Step {
 /// The finer pictures after a coarse one: the last with `best_samples`, or with shadows that have added up. What was left out of the coarse one
 /// comes in when all pixels and all scratches are there: a batch of samples takes many times as long.
 pub(super) fn steps(
-    kind: &Kind,
+    kind: &Coarseness,
     best_samples: u32,
     full_px: [u32; 2],
     coarse: &Step,

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use web_time::Instant;
 
-use super::easel::{Easel, Shown};
+use super::easel::{Easel, EaselPicture};
 use super::frame::{Frame, Latency, Painted};
-use super::pace::{Kind, Pace};
+use super::pace::{Coarseness, Pace};
 use super::request::{Order, Shared};
 use super::steps::{Step, steps};
 
@@ -32,7 +32,7 @@ pub(super) struct Studio {
 }
 
 impl Studio {
-    pub fn new(shared: &Shared, kind: &'static Kind) -> Self {
+    pub fn new(shared: &Shared, kind: &'static Coarseness) -> Self {
         Self {
             pace: Pace::new(kind),
             number: shared.frame().map_or(0, |frame| frame.number),
@@ -112,8 +112,8 @@ impl Studio {
         let interrupted = || {
             shared.is_stopped() || until.is_some_and(|until| Instant::now() >= until) || gives_way()
         };
-        let mut last: Option<Shown> = None;
-        let mut show = |shown: Shown| {
+        let mut last: Option<EaselPicture> = None;
+        let mut show = |shown: EaselPicture| {
             if shown.done < 1.0 {
                 self.put(shared, order, shown, false, start.elapsed(), None);
             } else if let Some(earlier) = last.replace(shown) {
@@ -152,7 +152,7 @@ impl Studio {
         &mut self,
         shared: &Shared,
         order: &Order,
-        shown: Shown,
+        shown: EaselPicture,
         is_final: bool,
         time: Duration,
         latency: Option<Latency>,

@@ -18,7 +18,7 @@ pub struct View {
     /// Shadows and bounces of the view; the renderer may leave out a part of them.
     pub transport: Transport,
     /// Reading of the picture; a change of it does not paint anew.
-    pub reading: crate::reading::Wanted,
+    pub reading: crate::reading::ReadingRequest,
 }
 
 impl View {

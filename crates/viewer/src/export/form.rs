@@ -37,7 +37,7 @@ pub(super) struct Form {
 }
 
 /// Properties of the scene and the window that the form depends on.
-pub(super) struct Shown {
+pub(super) struct ExportContext {
     /// Size of the scene's picture.
     pub scene_px: [u32; 2],
     /// Size of the picture in the window.
@@ -106,7 +106,7 @@ impl Form {
     }
 
     /// Shows the form; returns the button that was pressed, if any.
-    pub fn show(&mut self, ctx: &egui::Context, scene: &Shown) -> Option<Answer> {
+    pub fn show(&mut self, ctx: &egui::Context, scene: &ExportContext) -> Option<Answer> {
         let modal = Modal::new(Id::unique("export")).show(ctx, |ui| {
             ui.set_width(500.0);
             ui.heading(if self.is_turntable {

@@ -8,14 +8,14 @@ use super::form::Form;
 
 /// Rows for the pattern of the grating with this index.
 pub(super) fn rows(form: &mut Form, pattern: &mut GroovePattern, index: usize) {
-    let mut kind = Kind::of(pattern);
+    let mut kind = PatternName::of(pattern);
     form.choice(
         "Pattern",
         "Which way the grooves run over the surface",
-        Kind::ALL.map(|kind| (kind, kind.name().to_owned())),
+        PatternName::ALL.map(|kind| (kind, kind.name().to_owned())),
         &mut kind,
     );
-    if kind != Kind::of(pattern) {
+    if kind != PatternName::of(pattern) {
         *pattern = kind.begin(pattern, form.diagonal_m);
     }
     match pattern {
@@ -68,7 +68,7 @@ fn axis(form: &mut Form, around: &mut Around) {
 
 /// A pattern by name.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum PatternName {
     Parallel,
     Circular,
     Radial,
@@ -77,7 +77,7 @@ enum Kind {
     Uv,
 }
 
-impl Kind {
+impl PatternName {
     const ALL: [Self; 6] = [
         Self::Parallel,
         Self::Circular,

@@ -15,7 +15,7 @@ use crate::workspace::Workspace;
 
 /// Kinds of materials, each with its defaults.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum MaterialKind {
     Measured,
     Colored,
     Dielectric,
@@ -23,15 +23,15 @@ enum Kind {
     Mirror,
 }
 
-const KINDS: [(Kind, &str); 5] = [
-    (Kind::Measured, "measured metal"),
-    (Kind::Colored, "coloured metal"),
-    (Kind::Dielectric, "clear coat over a body"),
-    (Kind::MetallicRoughness, "metallic-roughness"),
-    (Kind::Mirror, "mirror"),
+const KINDS: [(MaterialKind, &str); 5] = [
+    (MaterialKind::Measured, "measured metal"),
+    (MaterialKind::Colored, "coloured metal"),
+    (MaterialKind::Dielectric, "clear coat over a body"),
+    (MaterialKind::MetallicRoughness, "metallic-roughness"),
+    (MaterialKind::Mirror, "mirror"),
 ];
 
-impl Kind {
+impl MaterialKind {
     fn of(kind: &MaterialKind) -> Self {
         match kind {
             MaterialKind::Metal(MetalColor::Measured(_)) => Self::Measured,
@@ -132,14 +132,14 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let mut form = Form::new(ui, ("material", index), work.diagonal_m(None));
     let mut name = material.name.clone();
     form.text(NAME, "What objects call it", &mut name);
-    let mut kind = Kind::of(&material.kind);
+    let mut kind = MaterialKind::of(&material.kind);
     form.choice(
         "Kind",
         "What the surface is made of",
         KINDS.map(|(kind, name)| (kind, name.to_owned())),
         &mut kind,
     );
-    if kind != Kind::of(&material.kind) {
+    if kind != MaterialKind::of(&material.kind) {
         material.kind = kind.begin();
     }
     match &mut material.kind {

@@ -14,7 +14,7 @@ use super::material::material_cards;
 use super::overrides;
 use crate::command::Command;
 use crate::gallery::{SIDE, Thumb, card, cards};
-use crate::parts::Part;
+use crate::parts::ObjectPart;
 use crate::workspace::Workspace;
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
@@ -114,7 +114,11 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
 fn make_of(ui: &mut Ui, work: &mut Workspace, object: usize) {
     let stand_in = work.stand_in(Some(object));
     if let Some(preset) = material_cards(ui, work, stand_in) {
-        work.give(Thumb::Material(preset, stand_in), object, Part::default());
+        work.give(
+            Thumb::Material(preset, stand_in),
+            object,
+            ObjectPart::default(),
+        );
     }
 }
 
@@ -144,7 +148,7 @@ fn give_cards(
         .iter()
         .map(|(thumb, name, hint)| (*thumb, *thumb, *name, *hint));
     if let Some(preset) = cards(ui, &mut work.gallery, id, choices) {
-        work.give(preset, object, Part::default());
+        work.give(preset, object, ObjectPart::default());
     }
 }
 
@@ -194,7 +198,7 @@ fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
     }
     ui.add_space(6.0);
     if let Some(grade) = chosen.filter(|grade| is != Some(*grade)) {
-        work.give(Thumb::Wear(grade, stand_in), object, Part::default());
+        work.give(Thumb::Wear(grade, stand_in), object, ObjectPart::default());
     }
 }
 

@@ -12,7 +12,7 @@ use super::material::material_cards;
 use super::object::{add_grating, add_layer};
 use crate::command::Command;
 use crate::gallery::{Thumb, cards};
-use crate::parts::Part;
+use crate::parts::ObjectPart;
 use crate::workspace::Workspace;
 
 pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
@@ -196,7 +196,7 @@ fn line(ui: &mut Ui, work: &mut Workspace, selection: Selection, name: &str, is_
     if let Selection::Object(object) = selection {
         let hovering = response.dnd_hover_payload::<Thumb>().is_some();
         if let Some(preset) = response.dnd_release_payload::<Thumb>() {
-            work.give(*preset, object, Part::default());
+            work.give(*preset, object, ObjectPart::default());
         } else if hovering {
             let line = ui.visuals().selection.stroke;
             ui.painter()

@@ -8,14 +8,14 @@ use super::layer_view::{self, Shows};
 
 /// Choice of what is read from a render: a layer or a false colour, and findings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Wanted {
+pub struct ReadingRequest {
     /// Layer or false colour on the screen.
     pub shows: Shows,
     /// Width and height of the middle part, which is the scene's picture, for its histogram; none without a histogram.
     pub histogram_px: Option<[u32; 2]>,
 }
 
-impl Wanted {
+impl ReadingRequest {
     /// Whether the layers have to be in main memory.
     pub fn needs_layers(&self) -> bool {
         *self != Self::default()
@@ -42,7 +42,7 @@ pub(crate) fn develop(
     image: &Image,
     full_px: [u32; 2],
     display: &Display,
-    wanted: &Wanted,
+    wanted: &ReadingRequest,
 ) -> (ColorImage, Findings) {
     let size = image.size_px.map(|side| side as usize);
     let beauty = png::quantize(&image.shown(), display);

@@ -71,13 +71,13 @@ impl Reading {
 
 /// A pixel of a view of a scene.
 #[derive(Clone)]
-struct Spot {
+struct ProbedPixel {
     built: Arc<Built>,
     view: View,
     at_px: [u32; 2],
 }
 
-impl Spot {
+impl ProbedPixel {
     fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.built, &other.built)
             && self.view.has_same_pixels(&other.view)
@@ -92,7 +92,7 @@ pub(crate) struct Probe {
     /// Shares of the picture's width and height.
     kept: Option<[f32; 2]>,
     answer: Arc<Mutex<Option<Reading>>>,
-    asked: Option<Spot>,
+    asked: Option<ProbedPixel>,
     job: Option<Job>,
 }
 
@@ -148,7 +148,7 @@ impl Probe {
             let at = share * side as f32;
             (at.max(0.0) as u32).min(side.saturating_sub(1))
         };
-        let spot = Spot {
+        let spot = ProbedPixel {
             built: Arc::clone(built),
             view: *view,
             at_px: [
@@ -175,8 +175,8 @@ impl Probe {
     }
 }
 
-fn read(spot: &Spot) -> Option<Reading> {
-    let Spot { built, view, at_px } = spot;
+fn read(spot: &ProbedPixel) -> Option<Reading> {
+    let ProbedPixel { built, view, at_px } = spot;
     let mut scene = built.scene.clone();
     scene.camera = view.camera;
     scene.render.size_px = view.size_px;

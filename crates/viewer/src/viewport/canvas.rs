@@ -12,7 +12,7 @@ use super::Area;
 pub(crate) struct CanvasTexture {
     render_state: Option<RenderState>,
     number: Option<u64>,
-    held: Held,
+    held: CanvasSource,
     /// The picture is one of another view since then, seconds.
     stale_since: Option<f64>,
     is_stale: bool,
@@ -23,7 +23,7 @@ const STALE_S: f64 = 0.4;
 /// Tint of a picture that is out of date.
 const STALE: Color32 = Color32::from_gray(110);
 
-enum Held {
+enum CanvasSource {
     Nothing,
     Copied(TextureHandle),
     /// The renderer's own texture, by its id in egui.
@@ -35,7 +35,7 @@ impl CanvasTexture {
         Self {
             render_state,
             number: None,
-            held: Held::Nothing,
+            held: CanvasSource::Nothing,
             stale_since: None,
             is_stale: false,
         }
@@ -95,9 +95,9 @@ impl CanvasTexture {
             self.number = Some(frame.number);
         }
         match &self.held {
-            Held::Nothing => None,
-            Held::Copied(texture) => Some(texture.id()),
-            Held::Registered(id) => Some(*id),
+            CanvasSource::Nothing => None,
+            CanvasSource::Copied(texture) => Some(texture.id()),
+            CanvasSource::Registered(id) => Some(*id),
         }
     }
 
@@ -106,10 +106,10 @@ impl CanvasTexture {
             (Picture::Pixels(image), _) => {
                 let options = TextureOptions::LINEAR;
                 match &mut self.held {
-                    Held::Copied(texture) => texture.set(image.clone(), options),
+                    CanvasSource::Copied(texture) => texture.set(image.clone(), options),
                     _ => {
                         let texture = ctx.load_texture("picture", image.clone(), options);
-                        self.hold(Held::Copied(texture));
+                        self.hold(CanvasSource::Copied(texture));
                     }
                 }
             }
@@ -119,7 +119,7 @@ impl CanvasTexture {
                     view,
                     wgpu::FilterMode::Linear,
                 );
-                self.hold(Held::Registered(id));
+                self.hold(CanvasSource::Registered(id));
             }
             // Only a window with a device is given textures of it.
             (Picture::Texture(_), None) => {}
@@ -131,8 +131,8 @@ impl CanvasTexture {
         Self::new(self.render_state.clone())
     }
 
-    fn hold(&mut self, next: Held) {
-        if let (Held::Registered(id), Some(state)) =
+    fn hold(&mut self, next: CanvasSource) {
+        if let (CanvasSource::Registered(id), Some(state)) =
             (std::mem::replace(&mut self.held, next), &self.render_state)
         {
             state.renderer.write().free_texture(&id);
@@ -142,7 +142,7 @@ impl CanvasTexture {
 
 impl Drop for CanvasTexture {
     fn drop(&mut self) {
-        self.hold(Held::Nothing);
+        self.hold(CanvasSource::Nothing);
     }
 }
 

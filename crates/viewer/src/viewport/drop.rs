@@ -9,7 +9,7 @@ use super::lens::Lens;
 use super::{Area, Viewport, ink, pick};
 use crate::engine::Built;
 use crate::gallery::Thumb;
-use crate::parts::{self, Part};
+use crate::parts::{self, ObjectPart};
 use crate::workspace::Workspace;
 
 /// Colour of the box around what would be changed.
@@ -51,9 +51,9 @@ impl Viewport {
         let painter = ui.painter().with_clip_rect(area.rect);
         let lens = Lens::new(&work.camera(), area);
         let is_part = matches!(preset, Thumb::Material(..) | Thumb::Layer(..));
-        let of_part = Part {
+        let of_part = ObjectPart {
             material: part.material.filter(|_| is_part),
-            ..Part::default()
+            ..ObjectPart::default()
         };
         if let Some((low_m, high_m)) = bounds_m(&built, hit.object, &of_part) {
             show_box(&painter, &lens, low_m, high_m);
@@ -65,7 +65,7 @@ impl Viewport {
 }
 
 /// The box around a part, metres.
-fn bounds_m(built: &Built, object: usize, part: &Part) -> Option<(DVec3, DVec3)> {
+fn bounds_m(built: &Built, object: usize, part: &ObjectPart) -> Option<(DVec3, DVec3)> {
     let mesh: &Mesh = &built.scene.objects.get(object)?.mesh;
     let (low_m, high_m) = match &part.material {
         None => mesh.bounds_m(),

@@ -45,7 +45,7 @@ struct Going {
     /// Last position of the pointer.
     pos: Pos2,
     /// The stroke that the pointer draws, with its last point; none while the pointer is beside the object.
-    open: Option<(Recorder, Place)>,
+    open: Option<(Recorder, StrokePoint)>,
     /// Strokes that ended where the pointer left the object, and their ways.
     done: Vec<(description::Stroke, Vec<DVec3>)>,
 }
@@ -147,7 +147,7 @@ impl StrokeTool {
 
 /// A place on the screen, and the hit of a ray through it.
 #[derive(Clone, Copy)]
-struct Place {
+struct StrokePoint {
     pos: Pos2,
     hit: Picked,
 }
@@ -161,16 +161,22 @@ struct World<'a> {
 }
 
 impl World<'_> {
-    fn at(&self, pos: Pos2) -> Option<Place> {
+    fn at(&self, pos: Pos2) -> Option<StrokePoint> {
         let is_in_picture = self.area.rect.contains(pos);
         let hit = is_in_picture.then(|| pick::along(self.built, self.lens, pos))??;
-        Some(Place { pos, hit })
+        Some(StrokePoint { pos, hit })
     }
 
     /// Points on the surface from one place to a neighbouring one, `b` but not `a` among them; none if the surface goes
     /// behind itself between them. Where it is seen from the side they are found by halving: however steep it is, it comes
     /// together, and over a gap it does not.
-    fn bridge(&self, a: &Place, b: &Place, radius_m: f64, halvings: u32) -> Option<Vec<DVec3>> {
+    fn bridge(
+        &self,
+        a: &StrokePoint,
+        b: &StrokePoint,
+        radius_m: f64,
+        halvings: u32,
+    ) -> Option<Vec<DVec3>> {
         if a.hit.point_m.distance(b.hit.point_m) <= radius_m {
             return Some(vec![b.hit.point_m]);
         }
@@ -194,7 +200,7 @@ impl Going {
         self.pos = to;
     }
 
-    fn take(&mut self, world: World, place: Option<Place>) {
+    fn take(&mut self, world: World, place: Option<StrokePoint>) {
         let Some(place) = place.filter(|place| place.hit.object == self.object) else {
             self.lift();
             return;

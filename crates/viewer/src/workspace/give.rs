@@ -7,7 +7,7 @@ use hairline_scene::description::Scratches;
 
 use super::Workspace;
 use crate::gallery::{StandIn, Thumb};
-use crate::parts::Part;
+use crate::parts::ObjectPart;
 
 impl Workspace {
     /// The stand-in for an object, or for the selected one, in small pictures.
@@ -19,7 +19,7 @@ impl Workspace {
     }
 
     /// Gives a preset to a part of an object, as one step. Metals and layers lie on the part; other presets on all of the object.
-    pub fn give(&mut self, preset: Thumb, object: usize, part: Part) {
+    pub fn give(&mut self, preset: Thumb, object: usize, part: ObjectPart) {
         let diagonal_m = self.diagonal_m(Some(object));
         let Some(name) = self.document.description().objects.get(object) else {
             return;
@@ -53,7 +53,7 @@ impl Workspace {
     }
 
     /// Words for what [`Self::give`] would change, in a preview of a drop.
-    pub fn given_to(&self, preset: Thumb, object: usize, part: &Part) -> Option<String> {
+    pub fn given_to(&self, preset: Thumb, object: usize, part: &ObjectPart) -> Option<String> {
         let object = self.document.description().objects.get(object)?;
         let given = preset.given_name()?;
         let of_part = match preset {

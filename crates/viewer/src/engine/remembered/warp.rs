@@ -17,14 +17,14 @@ const FAR_M: f64 = 1e6;
 
 /// Position of a pixel's surface.
 #[derive(Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct SurfacePosition {
     /// Vector from the camera, metres.
     to_m: Vec3,
     /// Depth along the camera's axis, metres.
     depth_m: f32,
 }
 
-impl Place {
+impl SurfacePosition {
     /// Finds the position of a pixel's surface; depth 0 is the background.
     pub fn new(camera: &CameraFrame, at_px: DVec2, depth_m: f32) -> Self {
         let ray = camera.camera_ray(at_px);
@@ -60,7 +60,7 @@ const EMPTY: u64 = u64::MAX;
 
 impl Warp {
     /// Reprojects a picture, whose pixels have these places, from one camera to another. The nearest place wins.
-    pub fn new(places: &[Place], from: &CameraFrame, to: &CameraFrame) -> Self {
+    pub fn new(places: &[SurfacePosition], from: &CameraFrame, to: &CameraFrame) -> Self {
         let size = [to.size_px.x as usize, to.size_px.y as usize];
         let nearest: Vec<AtomicU64> = (0..size[0] * size[1])
             .map(|_| AtomicU64::new(EMPTY))

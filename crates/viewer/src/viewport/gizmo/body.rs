@@ -5,7 +5,7 @@ use hairline_editor::{Selection, place_light};
 use hairline_scene::Description;
 use hairline_scene::description::{Light, LightKind};
 
-use super::cone::Spot;
+use super::cone::LightCone;
 
 /// A light or an object, as far as handles are concerned.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,7 +25,7 @@ pub(super) struct Body {
     /// The polygon's, unit.
     pub normal: Option<DVec3>,
     /// Cone of a light that has one.
-    pub spot: Option<Spot>,
+    pub spot: Option<LightCone>,
 }
 
 impl Body {
@@ -68,7 +68,7 @@ impl Body {
             resizes: true,
             normal: place_light::facing(light),
             corners_m: light.kind.vertices_m().iter().map(|&v| v.into()).collect(),
-            spot: Spot::of(light),
+            spot: LightCone::of(light),
         }
     }
 }

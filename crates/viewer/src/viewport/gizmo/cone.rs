@@ -32,7 +32,7 @@ pub(super) enum Rim {
 
 /// A cone, with its apex in the light's middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Spot {
+pub(super) struct LightCone {
     apex_m: DVec3,
     axis: DVec3,
     /// Angle from the axis to the outer rim.
@@ -40,7 +40,7 @@ pub(super) struct Spot {
     softness: f64,
 }
 
-impl Spot {
+impl LightCone {
     /// Cone of a light; none without a cone.
     pub fn of(light: &Light) -> Option<Self> {
         let cone = light.cone.as_ref()?;

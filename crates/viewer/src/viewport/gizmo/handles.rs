@@ -7,7 +7,7 @@ use egui::{Pos2, Vec2};
 use glam::DVec3;
 
 use super::body::Body;
-use super::cone::{Rim, Spot};
+use super::cone::{LightCone, Rim};
 use crate::viewport::lens::Lens;
 
 /// Length of an arrow across the view, points.
@@ -128,7 +128,7 @@ pub(super) fn place(body: &Body, lens: &Lens) -> Option<Vec<Placed>> {
         }
     }
     for rim in [Rim::Outer, Rim::Inner] {
-        let rim_of = |spot: Spot| Some((spot.rim(lens, rim)?, spot.knob(lens, rim)?));
+        let rim_of = |spot: LightCone| Some((spot.rim(lens, rim)?, spot.knob(lens, rim)?));
         placed.extend(body.spot.and_then(rim_of).map(|(line, knob)| Placed {
             handle: Handle::Rim(rim),
             line,

@@ -7,7 +7,7 @@ use hairline_optics::band::{TUBE_CORNERS, TubeOutline, tube_outline};
 use hairline_scene::Description;
 use hairline_scene::description::{Light, LightKind};
 
-use super::cone::Spot;
+use super::cone::LightCone;
 use super::handles::distance_to_segment;
 use crate::viewport::ink;
 use crate::viewport::lens::Lens;
@@ -45,7 +45,7 @@ pub(in crate::viewport) fn show(
         for piece in outline(light, lens, description) {
             ink::segment(painter, piece, width, color);
         }
-        let cone = Spot::of(light).map(|spot| spot.outline(lens));
+        let cone = LightCone::of(light).map(|spot| spot.outline(lens));
         for piece in cone.into_iter().flatten() {
             ink::segment(painter, piece, 0.7 * width, color.gamma_multiply(0.7));
         }
