@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use png::{BitDepth, ColorType, Compression, Encoder, Filter, SrgbRenderingIntent, Writer};
 
 use crate::output::{check_writable, write_atomically};
-use crate::png::quantize;
-use crate::{Display, Error, Picture};
+use crate::png::quantize_image;
+use crate::{Display, Error, Image};
 
 /// Largest number of frames in a second: viewers take delays below 10 ms for a mistake, and show more frames slower than
 /// asked.
@@ -44,14 +44,27 @@ impl Animation {
         check_writable(path)
     }
 
-    /// Begins an animation of `frames` pictures, `fps` of them in a second (1 to [`FPS_MAX`]), that repeats without end.
+    /// Begins an animation of `frames` pictures, `fps` of them in a second (1 to [`FPS_MAX`]), that repeats without end. With `has_alpha` each of
+    /// them has [`Image::alpha`].
     ///
     /// # Errors
     /// As [`Animation::check`]; [`Error::CannotWrite`] for no frames or an empty picture.
-    pub fn begin(path: &Path, size_px: [u32; 2], frames: u32, fps: u16) -> Result<Self, Error> {
+    pub fn begin(
+        path: &Path,
+        size_px: [u32; 2],
+        frames: u32,
+        fps: u16,
+        has_alpha: bool,
+    ) -> Result<Self, Error> {
         Self::check(path)?;
         let bytes = Shared::default();
-        let writer = header(bytes.clone(), size_px, frames, fps.clamp(1, FPS_MAX));
+        let color = if has_alpha {
+            ColorType::Rgba
+        } else {
+            ColorType::Rgb
+        };
+        let fps = fps.clamp(1, FPS_MAX);
+        let writer = header(bytes.clone(), size_px, color, frames, fps);
         Ok(Self {
             path: path.to_owned(),
             size_px,
@@ -64,13 +77,17 @@ impl Animation {
     /// Adds the next frame.
     ///
     /// # Errors
-    /// [`Error::CannotWrite`] for one frame too many.
+    /// [`Error::CannotWrite`] for one frame too many, or one with alpha where the others have none.
     ///
     /// # Panics
     /// If the frame has another size.
-    pub fn add(&mut self, frame: &Picture, display: &Display) -> Result<(), Error> {
+    pub fn add(&mut self, frame: &Image, display: &Display) -> Result<(), Error> {
         assert_eq!(frame.size_px, self.size_px, "frames of different sizes");
-        let written = self.writer.write_image_data(&quantize(frame, display));
+        let codes = quantize_image(frame, display).map_err(|reason| Error::CannotWrite {
+            path: self.path.clone(),
+            reason,
+        })?;
+        let written = self.writer.write_image_data(&codes);
         written.map_err(|error| refused(&self.path, &error))?;
         self.left = self.left.saturating_sub(1);
         Ok(())
@@ -102,11 +119,12 @@ impl Animation {
 fn header(
     bytes: Shared,
     [width, height]: [u32; 2],
+    color: ColorType,
     frames: u32,
     fps: u16,
 ) -> Result<Writer<Shared>, png::EncodingError> {
     let mut encoder = Encoder::new(bytes, width, height);
-    encoder.set_color(ColorType::Rgb);
+    encoder.set_color(color);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::High);
     encoder.set_filter(Filter::Adaptive);
@@ -162,14 +180,14 @@ mod tests {
 
     const SIZE_PX: [u32; 2] = [7, 5];
 
-    fn grey(level: f32) -> Picture {
-        let mut picture = Picture::new(SIZE_PX);
-        picture.rgb.fill([level; 3]);
-        picture
+    fn grey(level: f32) -> Image {
+        let mut image = Image::new(SIZE_PX);
+        image.base.fill([level; 3]);
+        image
     }
 
     fn animation(path: &Path, frames: u32) -> Animation {
-        Animation::begin(path, SIZE_PX, frames, 25).unwrap_or_else(|error| panic!("{error}"))
+        Animation::begin(path, SIZE_PX, frames, 25, false).unwrap_or_else(|error| panic!("{error}"))
     }
 
     #[test]
@@ -195,7 +213,7 @@ mod tests {
                 .pixels()
                 .flat_map(|pixel| pixel.0[..3].to_vec())
                 .collect();
-            assert_eq!(codes, quantize(&grey(level), &display));
+            assert_eq!(codes, quantize_image(&grey(level), &display).unwrap());
         }
         // A program that supports no animations shows the first picture.
         let still = crate::png::read_picture(&path).unwrap();
@@ -215,6 +233,22 @@ mod tests {
         let mut writer = animation(&path, 1);
         writer.add(&grey(0.2), &Display::default()).unwrap();
         assert!(writer.add(&grey(0.2), &Display::default()).is_err());
+    }
+
+    #[test]
+    fn frames_with_alpha_go_together() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("clear.apng");
+        let mut clear = grey(0.2);
+        clear.alpha = Some(vec![0.4; 35]);
+        let mut writer = Animation::begin(&path, SIZE_PX, 2, 25, true).unwrap();
+        writer.add(&clear, &Display::default()).unwrap();
+        assert!(writer.add(&grey(0.2), &Display::default()).is_err());
+        assert!(
+            animation(&path, 1)
+                .add(&clear, &Display::default())
+                .is_err()
+        );
     }
 
     #[test]

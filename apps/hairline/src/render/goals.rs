@@ -20,6 +20,8 @@ pub struct Goals {
     pub animation: Option<PathBuf>,
     /// Frames in a second.
     pub fps: u16,
+    /// Whether the animation has alpha.
+    pub has_alpha: bool,
 }
 
 impl Goals {
@@ -62,12 +64,6 @@ impl Goals {
             )));
         }
         if let Some(path) = &animation {
-            if arguments.transparent {
-                let path = path.display();
-                return Err(Failure::Input(anyhow!(
-                    "{path}: --transparent is for pictures, and this is an animation; write numbered pictures, -o NAME.png"
-                )));
-            }
             Animation::check(path)?;
         }
         let pictures = pictures.map_or(Ok(Vec::new()), |path| {
@@ -80,6 +76,7 @@ impl Goals {
             pictures,
             animation,
             fps: flags.fps.unwrap_or(DEFAULT_FPS),
+            has_alpha: arguments.transparent,
         })
     }
 

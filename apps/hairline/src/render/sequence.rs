@@ -34,7 +34,10 @@ pub fn run(
         exposure_ev: scene.camera.exposure_ev,
         tone_map: scene.render.tone_map,
     };
-    let begin = |path| Animation::begin(path, scene.render.size_px, motion.frames, goals.fps);
+    let begin = |path| {
+        let size_px = scene.render.size_px;
+        Animation::begin(path, size_px, motion.frames, goals.fps, goals.has_alpha)
+    };
     let mut frames = Frames {
         motion,
         goals,
@@ -111,7 +114,7 @@ impl Frames<'_> {
             (self.write)(output, &image).map_err(kept)?;
         }
         if let Some(animation) = &mut self.animation {
-            animation.add(&image.shown(), &self.display)?;
+            animation.add(&image, &self.display)?;
         }
         // A reference may take minutes: not for a figure that nobody waits for any more.
         if let Some(steadiness) = &mut self.steadiness

@@ -201,7 +201,15 @@ pub(super) async fn run(wish: &Wish, built: &Built, stop: &Stop, report: &Report
 async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Result<bool, String> {
     let opened = Painter::open(wish, built).await;
     let mut painter = opened.map_err(|error| error.to_string())?;
-    let begin = || Animation::begin(&wish.path, wish.size_px, wish.frames(), FPS);
+    let begin = || {
+        Animation::begin(
+            &wish.path,
+            wish.size_px,
+            wish.frames(),
+            FPS,
+            wish.is_transparent,
+        )
+    };
     let animation = wish.is_animation().then(begin).transpose();
     let mut animation = animation.map_err(|error| error.to_string())?;
     for frame in 0..wish.frames() {
@@ -235,7 +243,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
             image.alpha = Some(hairline_cpu::alpha(&scene, &built.triangles, all, all));
         }
         let written = match (&mut animation, &output) {
-            (Some(animation), _) => animation.add(&image.shown(), &wish.display()),
+            (Some(animation), _) => animation.add(&image, &wish.display()),
             (None, Some(output)) => output.write_image(&image, &wish.display()),
             (None, None) => Ok(()),
         };
