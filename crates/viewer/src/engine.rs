@@ -17,7 +17,6 @@ mod builder;
 mod caught;
 mod cpu;
 mod drafts;
-mod easel;
 mod event;
 mod frame;
 mod gpu;
@@ -29,8 +28,9 @@ mod pool;
 mod remembered;
 mod request;
 mod sketch;
+mod step_painter;
+mod step_renderer;
 mod steps;
-mod studio;
 #[cfg(target_arch = "wasm32")]
 mod task;
 mod view;

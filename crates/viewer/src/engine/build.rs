@@ -70,7 +70,7 @@ impl Built {
 
 /// Builds scenes one after the other, and keeps the trees and tables of unchanged parts.
 #[derive(Default)]
-pub(super) struct Workshop {
+pub(super) struct ViewBuilder {
     scenes: SceneBuilder,
     last: Option<LastBuild>,
     /// Builder of sketches, until a whole scene is built.
@@ -85,7 +85,7 @@ struct LastBuild {
     tables: Arc<ScratchTables>,
 }
 
-impl Workshop {
+impl ViewBuilder {
     /// Whether a whole scene was ever built.
     pub fn has_built(&self) -> bool {
         self.last.is_some()

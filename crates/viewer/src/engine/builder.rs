@@ -1,6 +1,6 @@
 //! Building of scenes, in a thread of its own if there are threads.
 
-use super::build::Workshop;
+use super::build::ViewBuilder;
 #[cfg(not(target_arch = "wasm32"))]
 use super::caught::caught;
 use super::painter::STILL;
@@ -10,25 +10,25 @@ use super::{Backend, Event, pool};
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) fn run(shared: &Shared) {
     crate::priority::lower();
-    let mut workshop = Workshop::default();
+    let mut view_builder = ViewBuilder::default();
     while let Some(wanted) = shared.next_scene() {
         let built = caught(shared, "Building the scene", || {
-            build(shared, &mut workshop, wanted);
+            build(shared, &mut view_builder, wanted);
         });
         if built.is_none() {
-            workshop = Workshop::default();
+            view_builder = ViewBuilder::default();
             shared.drop_sketch();
         }
     }
 }
 
 /// Builds a scene, and hands it over or reports why there is none.
-pub(super) fn build(shared: &Shared, workshop: &mut Workshop, wanted: WantedScene) {
+pub(super) fn build(shared: &Shared, view_builder: &mut ViewBuilder, wanted: WantedScene) {
     let has_sketch = matches!(shared.backend(), Backend::Cpu)
-        && pool::Crew::Drafter.install(|| sketch(shared, workshop, &wanted));
+        && pool::Crew::Drafter.install(|| sketch(shared, view_builder, &wanted));
     // With a sketch on the screen, the whole of an outdated scene need not be built.
     let cancelled = || shared.is_stopped() || has_sketch && shared.wants_scene();
-    if has_sketch && workshop.has_built() {
+    if has_sketch && view_builder.has_built() {
         // A moment to see whether the hand goes on.
         shared.wait_for_scene(STILL);
     }
@@ -36,7 +36,7 @@ pub(super) fn build(shared: &Shared, workshop: &mut Workshop, wanted: WantedScen
         return;
     }
     let built = pool::Crew::Builder.install(|| {
-        workshop.build(
+        view_builder.build(
             &cancelled,
             wanted.revision,
             wanted.asked,
@@ -58,8 +58,8 @@ pub(super) fn build(shared: &Shared, workshop: &mut Workshop, wanted: WantedScen
 }
 
 /// Hands a sketch over, if one is of use.
-fn sketch(shared: &Shared, workshop: &mut Workshop, wanted: &WantedScene) -> bool {
-    let sketch = workshop.sketch(
+fn sketch(shared: &Shared, view_builder: &mut ViewBuilder, wanted: &WantedScene) -> bool {
+    let sketch = view_builder.sketch(
         wanted.revision,
         wanted.asked,
         &wanted.description,

@@ -12,13 +12,13 @@ use super::Backend;
 use super::adding::Adding;
 use super::bands::{BandSize, Bands, IN_TURN, options, prepared};
 use super::drafts::Drafts;
-use super::easel::{Easel, EaselPicture};
 use super::frame::Picture;
 use super::pace::{self, Coarseness};
 use super::partial::Backdrop;
 use super::pool::Crew;
 use super::remembered::Remembered;
 use super::request::Order;
+use super::step_renderer::{RenderedStep, StepRenderer};
 use super::steps::Step;
 use crate::reading::{Findings, Shows, develop};
 
@@ -26,7 +26,7 @@ use crate::reading::{Findings, Shows, develop};
 const REFRESH: Duration = Duration::from_millis(600);
 
 /// Keeps the last picture, so that another exposure costs next to nothing, and one that was interrupted, to go on with it.
-pub(super) struct CpuEasel {
+pub(super) struct CpuStepRenderer {
     scene: Option<std::sync::Weak<super::Built>>,
     last: Option<Last>,
     begun: Option<Begun>,
@@ -58,14 +58,14 @@ struct Begun {
     bands: Bands,
 }
 
-impl CpuEasel {
-    /// Easel of a thread that paints.
+impl CpuStepRenderer {
+    /// Renderer of a thread that paints.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn of_a_thread() -> Self {
         Self::new(super::bands::OF_A_THREAD)
     }
 
-    /// Easel for the interface's own thread, between its passes.
+    /// Renderer for the interface's own thread, between its passes.
     pub fn in_turn() -> Self {
         Self::new(IN_TURN)
     }
@@ -84,7 +84,7 @@ impl CpuEasel {
     }
 }
 
-impl Easel for CpuEasel {
+impl StepRenderer for CpuStepRenderer {
     async fn take(&mut self, order: &Order) -> Result<bool, hairline_gpu::Error> {
         let built = Arc::downgrade(&order.built);
         let is_new = !self.scene.as_ref().is_some_and(|last| last.ptr_eq(&built));
@@ -100,7 +100,7 @@ impl Easel for CpuEasel {
         order: &Order,
         step: &Step,
         interrupted: &(dyn Fn() -> bool + Sync),
-        show: &mut dyn FnMut(EaselPicture),
+        show: &mut dyn FnMut(RenderedStep),
     ) -> Result<bool, hairline_gpu::Error> {
         let begun = self
             .begun
@@ -156,7 +156,7 @@ impl Easel for CpuEasel {
                     Backdrop::new(&last.image, step.size_px, &order.view.display)
                 });
                 let picture = backdrop.under(&bands.image, bands.next_row);
-                show(EaselPicture {
+                show(RenderedStep {
                     picture,
                     size_px: step.size_px,
                     samples: step.samples,
@@ -172,7 +172,7 @@ impl Easel for CpuEasel {
             if let Some(last) = waiting
                 && shown_last.elapsed() > REFRESH
             {
-                show(EaselPicture {
+                show(RenderedStep {
                     done: bands.done(),
                     ..last.shown(order)
                 });
@@ -209,7 +209,7 @@ impl Easel for CpuEasel {
     async fn show_again(
         &mut self,
         order: &Order,
-    ) -> Result<Option<EaselPicture>, hairline_gpu::Error> {
+    ) -> Result<Option<RenderedStep>, hairline_gpu::Error> {
         let last = self.last.as_ref();
         Ok(last.map(|last| last.shown(order)))
     }
@@ -227,7 +227,7 @@ impl Easel for CpuEasel {
     }
 }
 
-impl CpuEasel {
+impl CpuStepRenderer {
     /// Completes a picture from the remembered one, if that suits it, and remembers a picture at full resolution.
     fn complete(&mut self, order: &Order, step: &Step, image: &Image) -> Option<Image> {
         let before = self.remembered.as_ref().filter(|it| it.is_of(order));
@@ -255,7 +255,7 @@ impl CpuEasel {
 }
 
 impl Last {
-    fn shown(&self, order: &Order) -> EaselPicture {
+    fn shown(&self, order: &Order) -> RenderedStep {
         let (view, step) = (&order.view, &self.step);
         let mut shown = self.shown.borrow_mut();
         let (_, picture, findings) = match shown.take() {
@@ -270,7 +270,7 @@ impl Last {
             }
         };
         *shown = Some((*view, picture.clone(), findings.clone()));
-        EaselPicture {
+        RenderedStep {
             picture,
             size_px: step.size_px,
             samples: self.samples,

@@ -12,10 +12,10 @@ use hairline_scene::{DEFAULT_SAMPLES, Transport};
 use web_time::Instant;
 
 use super::adding::Adding;
-use super::easel::{Easel, EaselPicture};
 use super::frame::Picture;
 use super::pace::{self, Coarseness};
 use super::request::Order;
+use super::step_renderer::{RenderedStep, StepRenderer};
 use super::steps::Step;
 use super::{Backend, Built};
 use crate::reading::{Findings, develop};
@@ -29,7 +29,7 @@ const FEWEST_SHOWN: u32 = 4;
 /// Interval between two pictures of one that becomes finer.
 const REFRESH: Duration = Duration::from_millis(100);
 
-pub(super) struct GpuEasel {
+pub(super) struct GpuStepRenderer {
     renderer: Renderer,
     /// Whether the window can show textures of this device.
     is_shared: bool,
@@ -45,7 +45,7 @@ pub(super) struct GpuEasel {
     mean: Option<(Image, u32)>,
 }
 
-impl GpuEasel {
+impl GpuStepRenderer {
     pub async fn open(gpu: Gpu, is_shared: bool) -> Result<Self, Error> {
         let mut renderer = Renderer::new(&gpu).await?;
         let is_timed = renderer.time_passes().await?;
@@ -68,7 +68,7 @@ impl GpuEasel {
         hairline_gpu::headless::open(&hairline_gpu::AdapterRequest::default())
     }
 
-    async fn shown(&mut self, order: &Order, samples: u32) -> Result<Option<EaselPicture>, Error> {
+    async fn shown(&mut self, order: &Order, samples: u32) -> Result<Option<RenderedStep>, Error> {
         let (Some(canvas), Some(step)) = (&self.canvas, self.step) else {
             return Ok(None);
         };
@@ -105,7 +105,7 @@ impl GpuEasel {
             Picture::Pixels(Arc::new(image))
         };
         let passes = self.pass_times().await?;
-        Ok(Some(EaselPicture {
+        Ok(Some(RenderedStep {
             picture,
             size_px,
             samples,
@@ -127,7 +127,7 @@ impl GpuEasel {
     }
 }
 
-impl Easel for GpuEasel {
+impl StepRenderer for GpuStepRenderer {
     async fn take(&mut self, order: &Order) -> Result<bool, Error> {
         let built = Arc::downgrade(&order.built);
         if let Some((last, _)) = &self.uploaded
@@ -164,7 +164,7 @@ impl Easel for GpuEasel {
         order: &Order,
         step: &Step,
         interrupted: &(dyn Fn() -> bool + Sync),
-        show: &mut dyn FnMut(EaselPicture),
+        show: &mut dyn FnMut(RenderedStep),
     ) -> Result<bool, Error> {
         let gpu = self.renderer.gpu().clone();
         let is_software = gpu.adapter.kind == AdapterKind::Software;
@@ -241,7 +241,7 @@ impl Easel for GpuEasel {
         Ok(true)
     }
 
-    async fn show_again(&mut self, order: &Order) -> Result<Option<EaselPicture>, Error> {
+    async fn show_again(&mut self, order: &Order) -> Result<Option<RenderedStep>, Error> {
         let samples = match &self.mean {
             Some((_, samples)) => *samples,
             None => self.step.map_or(1, |step| step.samples),

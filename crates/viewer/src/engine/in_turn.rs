@@ -8,9 +8,9 @@ use std::time::Duration;
 
 use web_time::Instant;
 
-use super::build::Workshop;
+use super::build::ViewBuilder;
 use super::builder;
-use super::cpu::CpuEasel;
+use super::cpu::CpuStepRenderer;
 use super::pace;
 use super::painter::{Progress, STILL};
 use super::request::{Order, Shared};
@@ -22,13 +22,13 @@ const SLICE: Duration = Duration::from_millis(20);
 
 /// Builder and painter, one after the other.
 pub(super) struct InTurn {
-    workshop: Workshop,
+    view_builder: ViewBuilder,
     painter: Painter,
     pause: Pause,
 }
 
 enum Painter {
-    Cpu(Box<(CpuEasel, Progress)>),
+    Cpu(Box<(CpuStepRenderer, Progress)>),
     #[cfg(target_arch = "wasm32")]
     Gpu(Task),
 }
@@ -36,14 +36,14 @@ enum Painter {
 impl Painter {
     fn cpu(shared: &Shared) -> Self {
         let progress = Progress::new(shared, &pace::THINNED);
-        Self::Cpu(Box::new((CpuEasel::in_turn(), progress)))
+        Self::Cpu(Box::new((CpuStepRenderer::in_turn(), progress)))
     }
 }
 
 impl InTurn {
     pub fn new(shared: &Arc<Shared>) -> Self {
         Self {
-            workshop: Workshop::default(),
+            view_builder: ViewBuilder::default(),
             #[cfg(not(target_arch = "wasm32"))]
             painter: Painter::cpu(shared),
             #[cfg(target_arch = "wasm32")]
@@ -59,7 +59,7 @@ impl InTurn {
     /// stands still for as long.
     pub fn slice(&mut self, shared: &Arc<Shared>) -> Option<Duration> {
         if let Some(wanted) = shared.take_scene() {
-            builder::build(shared, &mut self.workshop, wanted);
+            builder::build(shared, &mut self.view_builder, wanted);
             return Some(Duration::ZERO);
         }
         let order = shared.order()?;
@@ -73,7 +73,7 @@ impl InTurn {
         }
         match &mut self.painter {
             Painter::Cpu(painter) => {
-                let (easel, progress) = &mut **painter;
+                let (renderer, progress) = &mut **painter;
                 let pause = self.pause.before(progress, &order)?;
                 if !pause.is_zero() {
                     return Some(pause);
@@ -81,7 +81,7 @@ impl InTurn {
                 let until = Instant::now() + SLICE;
                 // The CPU renderer fails at nothing and waits for nothing: it is done at once.
                 {
-                    let painting = pin!(progress.go_on(shared, easel, order, Some(until)));
+                    let painting = pin!(progress.go_on(shared, renderer, order, Some(until)));
                     let _ = painting.poll(&mut Context::from_waker(Waker::noop()));
                 }
                 progress.has_more().then_some(Duration::ZERO)

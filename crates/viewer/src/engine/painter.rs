@@ -9,14 +9,14 @@ use web_time::Instant;
 #[cfg(not(target_arch = "wasm32"))]
 use super::caught::caught;
 #[cfg(not(target_arch = "wasm32"))]
-use super::cpu::CpuEasel;
-use super::easel::Easel;
+use super::cpu::CpuStepRenderer;
 #[cfg(not(target_arch = "wasm32"))]
-use super::gpu::GpuEasel;
+use super::gpu::GpuStepRenderer;
 use super::pace::Coarseness;
 use super::request::{Order, Shared};
+use super::step_painter::{StepPainter, Turn};
+use super::step_renderer::StepRenderer;
 use super::steps::Step;
-use super::studio::{Studio, Turn};
 #[cfg(not(target_arch = "wasm32"))]
 use super::{Backend, Event};
 
@@ -32,19 +32,19 @@ pub(super) fn run(shared: &Shared) {
     loop {
         let on_gpu = |gpu: Gpu, is_shared: bool| {
             gpu.block_on(async {
-                let mut easel = GpuEasel::open(gpu.clone(), is_shared).await?;
-                work(shared, &mut easel).await
+                let mut renderer = GpuStepRenderer::open(gpu.clone(), is_shared).await?;
+                work(shared, &mut renderer).await
             })
         };
         let outcome = caught(shared, "Painting", || match shared.backend() {
-            Backend::Cpu => pollster::block_on(work(shared, &mut CpuEasel::of_a_thread())),
+            Backend::Cpu => pollster::block_on(work(shared, &mut CpuStepRenderer::of_a_thread())),
             Backend::Gpu(gpu) => on_gpu(gpu, false),
             Backend::Shared(gpu) => on_gpu(gpu, true),
         });
         let error = match outcome {
             Some(Ok(())) => return,
             Some(Err(error)) => error,
-            // The same picture would panic again: the next one is tried, by an easel of its own.
+            // The same picture would panic again: the next one is tried, by a renderer of its own.
             None => match shared.next_order(shared.order().as_ref(), None) {
                 Some(_) => continue,
                 None => return,
@@ -52,7 +52,7 @@ pub(super) fn run(shared: &Shared) {
         };
         // A window whose own device is lost has to be opened anew; only a device beside it can be.
         let reopened = match shared.backend() {
-            Backend::Gpu(_) if reopenings < REOPENINGS => GpuEasel::reopen().ok(),
+            Backend::Gpu(_) if reopenings < REOPENINGS => GpuStepRenderer::reopen().ok(),
             _ => None,
         };
         reopenings += 1;
@@ -73,8 +73,11 @@ pub(super) fn run(shared: &Shared) {
 
 /// Paints until it is time to end.
 #[cfg(not(target_arch = "wasm32"))]
-async fn work(shared: &Shared, easel: &mut impl Easel) -> Result<(), hairline_gpu::Error> {
-    let mut progress = Progress::new(shared, easel.kind());
+async fn work(
+    shared: &Shared,
+    renderer: &mut impl StepRenderer,
+) -> Result<(), hairline_gpu::Error> {
+    let mut progress = Progress::new(shared, renderer.kind());
     loop {
         // A moment to see whether the movement goes on, or whether the rest is over; then finer and finer.
         let patience = progress.has_more().then_some(STILL);
@@ -84,13 +87,13 @@ async fn work(shared: &Shared, easel: &mut impl Easel) -> Result<(), hairline_gp
         if progress.is_at(&order) && progress.rests(shared) {
             continue;
         }
-        progress.go_on(shared, easel, order, None).await?;
+        progress.go_on(shared, renderer, order, None).await?;
     }
 }
 
 /// Order that is being painted, and its progress.
 pub(super) struct Progress {
-    studio: Studio,
+    step_painter: StepPainter,
     /// Order whose first picture is there.
     done: Option<Order>,
     /// The finer ones that are left.
@@ -102,7 +105,7 @@ pub(super) struct Progress {
 impl Progress {
     pub fn new(shared: &Shared, kind: &'static Coarseness) -> Self {
         Self {
-            studio: Studio::new(shared, kind),
+            step_painter: StepPainter::new(shared, kind),
             done: None,
             steps: Vec::new(),
             steps_first: 0,
@@ -130,18 +133,18 @@ impl Progress {
     pub async fn go_on(
         &mut self,
         shared: &Shared,
-        easel: &mut impl Easel,
+        renderer: &mut impl StepRenderer,
         order: Order,
         until: Option<Instant>,
     ) -> Result<(), hairline_gpu::Error> {
-        let studio = &mut self.studio;
+        let step_painter = &mut self.step_painter;
         match &self.done {
             Some(last) if last.has_same_pixels(&order) => {
                 if !last.view.is_shown_as(&order.view)
-                    && let Some(shown) = easel.show_again(&order).await?
+                    && let Some(shown) = renderer.show_again(&order).await?
                 {
                     let is_final = self.steps.is_empty();
-                    studio.put(shared, &order, shown, is_final, Duration::ZERO, None);
+                    step_painter.put(shared, &order, shown, is_final, Duration::ZERO, None);
                 }
                 self.done = Some(order.clone());
                 while let Some(&step) = self.steps.first() {
@@ -149,7 +152,7 @@ impl Progress {
                         1 => Turn::Last,
                         _ => Turn::Between,
                     };
-                    let painting = studio.paint(shared, easel, &order, &step, turn, until);
+                    let painting = step_painter.paint(shared, renderer, &order, &step, turn, until);
                     if !painting.await? {
                         break;
                     }
@@ -159,7 +162,7 @@ impl Progress {
             _ => {
                 // The first picture of a movement comes at once; in a movement pictures are as fine as they can be in time.
                 let begins = self.done.is_none() || self.steps.len() < self.steps_first;
-                self.steps = studio.first(shared, easel, &order, begins).await?;
+                self.steps = step_painter.first(shared, renderer, &order, begins).await?;
                 self.steps_first = self.steps.len();
                 self.done = Some(order);
             }

@@ -7,10 +7,10 @@ use std::sync::Arc;
 use hairline_gpu::{Error, Gpu};
 use wasm_bindgen_futures::spawn_local;
 
-use super::easel::Easel;
-use super::gpu::GpuEasel;
+use super::gpu::GpuStepRenderer;
 use super::painter::Progress;
 use super::request::{Order, Shared};
+use super::step_renderer::StepRenderer;
 use super::{Backend, Event};
 
 pub(super) struct Task {
@@ -19,7 +19,7 @@ pub(super) struct Task {
 }
 
 pub(super) struct Bench {
-    easel: GpuEasel,
+    renderer: GpuStepRenderer,
     pub progress: Progress,
 }
 
@@ -31,9 +31,9 @@ impl Task {
         };
         let told = Arc::clone(shared);
         task.spawn(shared, async move {
-            let easel = GpuEasel::open(gpu, true).await?;
-            let progress = Progress::new(&told, easel.kind());
-            Ok(Bench { easel, progress })
+            let renderer = GpuStepRenderer::open(gpu, true).await?;
+            let progress = Progress::new(&told, renderer.kind());
+            Ok(Bench { renderer, progress })
         });
         task
     }
@@ -50,8 +50,8 @@ impl Task {
         };
         let told = Arc::clone(shared);
         self.spawn(shared, async move {
-            let Bench { easel, progress } = &mut bench;
-            progress.go_on(&told, easel, order, None).await?;
+            let Bench { renderer, progress } = &mut bench;
+            progress.go_on(&told, renderer, order, None).await?;
             Ok(bench)
         });
     }

@@ -12,17 +12,17 @@ use web_time::Instant;
 
 use super::super::View;
 use super::super::bands::render;
-use super::super::build::Workshop;
+use super::super::build::ViewBuilder;
 use super::*;
 
 const FULL_PX: [u32; 2] = [240, 160];
 
 /// A matt plate with scratches and a ball on it, under two lamps, one of them of this radiance.
-fn built(shop: &mut Workshop, radiance: f64) -> Arc<Built> {
-    with_scratches(shop, radiance, 2000)
+fn built(builder: &mut ViewBuilder, radiance: f64) -> Arc<Built> {
+    with_scratches(builder, radiance, 2000)
 }
 
-fn with_scratches(shop: &mut Workshop, radiance: f64, scratches: u32) -> Arc<Built> {
+fn with_scratches(builder: &mut ViewBuilder, radiance: f64, scratches: u32) -> Arc<Built> {
     let description = SceneFile::seen_from([0.0, -0.21, 0.18])
         .metal("steel", "steel")
         .part("[[material]]\nname = \"white\"\nkind = \"dielectric\"")
@@ -35,7 +35,7 @@ fn with_scratches(shop: &mut Workshop, radiance: f64, scratches: u32) -> Arc<Bui
         .sphere([0.1, -0.05, 0.2], 0.01, radiance)
         .fov_y_deg(40.0)
         .description();
-    let built = shop.build(
+    let built = builder.build(
         &|| false,
         1,
         Instant::now(),
@@ -109,7 +109,7 @@ fn remembered(order: &Order) -> Remembered {
 
 #[test]
 fn a_coarse_picture_becomes_sharp_and_has_shadows() {
-    let built = built(&mut Workshop::default(), 60.0);
+    let built = built(&mut ViewBuilder::default(), 60.0);
     let before = remembered(&order(&built, 0.0));
     let now = order(&built, 4.0);
     let coarse = picture(&now, FULL_PX.map(|side| side / 8), Transport::DIRECT);
@@ -122,7 +122,7 @@ fn a_coarse_picture_becomes_sharp_and_has_shadows() {
 
 #[test]
 fn closed_forms_get_the_shadows_of_another_view() {
-    let built = built(&mut Workshop::default(), 60.0);
+    let built = built(&mut ViewBuilder::default(), 60.0);
     let before = remembered(&order(&built, 0.0));
     let now = order(&built, 4.0);
     let open = picture(&now, FULL_PX, Transport::DIRECT);
@@ -134,10 +134,10 @@ fn closed_forms_get_the_shadows_of_another_view() {
 
 #[test]
 fn other_light_has_detail_and_no_shadows() {
-    let mut shop = Workshop::default();
-    let first = built(&mut shop, 60.0);
+    let mut builder = ViewBuilder::default();
+    let first = built(&mut builder, 60.0);
     let before = remembered(&order(&first, 0.0));
-    let brighter = order(&built(&mut shop, 120.0), 0.0);
+    let brighter = order(&built(&mut builder, 120.0), 0.0);
     assert!(before.is_of(&brighter));
     let open = picture(&brighter, FULL_PX, Transport::DIRECT);
     assert!(before.shade(&open, &brighter).is_none());
@@ -149,9 +149,9 @@ fn other_light_has_detail_and_no_shadows() {
 
 #[test]
 fn other_scratches_lie_on_sharp_surfaces() {
-    let mut shop = Workshop::default();
-    let before = remembered(&order(&built(&mut shop, 60.0), 0.0));
-    let fewer = order(&with_scratches(&mut shop, 60.0, 20), 0.0);
+    let mut builder = ViewBuilder::default();
+    let before = remembered(&order(&built(&mut builder, 60.0), 0.0));
+    let fewer = order(&with_scratches(&mut builder, 60.0, 20), 0.0);
     assert!(before.is_of(&fewer));
     let open = picture(&fewer, FULL_PX, Transport::DIRECT);
     let coarse = picture(&fewer, FULL_PX.map(|side| side / 8), Transport::DIRECT);
@@ -162,17 +162,17 @@ fn other_scratches_lie_on_sharp_surfaces() {
 
 #[test]
 fn a_scene_with_other_surfaces_has_nothing_of_it() {
-    let mut shop = Workshop::default();
-    let before = remembered(&order(&built(&mut shop, 60.0), 0.0));
+    let mut builder = ViewBuilder::default();
+    let before = remembered(&order(&built(&mut builder, 60.0), 0.0));
     let other = oblique_plate(2000, 0.01).description();
-    let other = shop.build(&|| false, 2, Instant::now(), Arc::new(other), Path::new(""));
+    let other = builder.build(&|| false, 2, Instant::now(), Arc::new(other), Path::new(""));
     let other = Arc::new(other.unwrap().unwrap());
     assert!(!before.is_of(&order(&other, 0.0)));
 }
 
 #[test]
 fn from_the_same_place_each_pixel_is_itself() {
-    let built = built(&mut Workshop::default(), 60.0);
+    let built = built(&mut ViewBuilder::default(), 60.0);
     let order = order(&built, 0.0);
     let open = picture(&order, FULL_PX, Transport::DIRECT);
     let kept = Remembered::new(&order, &open, None);

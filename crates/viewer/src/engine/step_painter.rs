@@ -5,10 +5,10 @@ use std::time::Duration;
 
 use web_time::Instant;
 
-use super::easel::{Easel, EaselPicture};
 use super::frame::{Frame, Latency, Painted};
 use super::pace::{Coarseness, Pace};
 use super::request::{Order, Shared};
+use super::step_renderer::{RenderedStep, StepRenderer};
 use super::steps::{Step, steps};
 
 /// Longest time of a first picture; if it takes longer, a coarser one is painted in its place.
@@ -22,7 +22,7 @@ pub(super) enum Turn {
     Last,
 }
 
-pub(super) struct Studio {
+pub(super) struct StepPainter {
     pace: Pace,
     number: u64,
     /// Time that the unfinished step has taken.
@@ -31,7 +31,7 @@ pub(super) struct Studio {
     latency_told: Option<u64>,
 }
 
-impl Studio {
+impl StepPainter {
     pub fn new(shared: &Shared, kind: &'static Coarseness) -> Self {
         Self {
             pace: Pace::new(kind),
@@ -46,7 +46,7 @@ impl Studio {
     pub async fn first(
         &mut self,
         shared: &Shared,
-        easel: &mut impl Easel,
+        renderer: &mut impl StepRenderer,
         order: &Order,
         begins: bool,
     ) -> Result<Vec<Step>, hairline_gpu::Error> {
@@ -60,23 +60,23 @@ impl Studio {
                 size_px,
                 samples: 1,
                 thin,
-                transport: easel.backend().counts_in_motion(wanted),
+                transport: renderer.backend().counts_in_motion(wanted),
                 batch: None,
             };
             let start = Instant::now();
             let turn = Turn::First;
-            let painting = self.paint(shared, easel, order, &coarse, turn, None);
+            let painting = self.paint(shared, renderer, order, &coarse, turn, None);
             if painting.await? {
                 // A sketch is not refined: what it is a sketch of is on the way.
                 return Ok(match order.built.sketch {
                     Some(_) => Vec::new(),
                     None => {
-                        let best_samples = easel.best_samples();
-                        steps(easel.kind(), best_samples, full_px, &coarse, &order.view)
+                        let best_samples = renderer.best_samples();
+                        steps(renderer.kind(), best_samples, full_px, &coarse, &order.view)
                     }
                 });
             }
-            if shared.is_stopped() || !easel.kind().thins() {
+            if shared.is_stopped() || !renderer.kind().thins() {
                 return Ok(Vec::new());
             }
             self.pace.gave_up(size_px, thin, segments, start.elapsed());
@@ -88,19 +88,19 @@ impl Studio {
     pub async fn paint(
         &mut self,
         shared: &Shared,
-        easel: &mut impl Easel,
+        renderer: &mut impl StepRenderer,
         order: &Order,
         step: &Step,
         turn: Turn,
         until: Option<Instant>,
     ) -> Result<bool, hairline_gpu::Error> {
         let start = Instant::now();
-        let is_new = easel.take(order).await?;
+        let is_new = renderer.take(order).await?;
         let uploaded = start.elapsed();
-        let on_cores = easel.backend().is_software();
+        let on_cores = renderer.backend().is_software();
         // The first picture of a movement comes to its end, whatever is wanted meanwhile: else a steady hand would see none. One that
         // takes too long is made coarser, where that can be.
-        let may_be_coarser = easel.kind().thins() && !self.pace.is_at_coarsest();
+        let may_be_coarser = renderer.kind().thins() && !self.pace.is_at_coarsest();
         let gives_way = || match turn {
             Turn::First if may_be_coarser => start.elapsed() > FIRST_AT_MOST,
             Turn::First => false,
@@ -112,22 +112,22 @@ impl Studio {
         let interrupted = || {
             shared.is_stopped() || until.is_some_and(|until| Instant::now() >= until) || gives_way()
         };
-        let mut last: Option<EaselPicture> = None;
-        let mut show = |shown: EaselPicture| {
+        let mut last: Option<RenderedStep> = None;
+        let mut show = |shown: RenderedStep| {
             if shown.done < 1.0 {
                 self.put(shared, order, shown, false, start.elapsed(), None);
             } else if let Some(earlier) = last.replace(shown) {
                 self.put(shared, order, earlier, false, start.elapsed(), None);
             }
         };
-        let finished = easel.paint(order, step, &interrupted, &mut show).await?;
+        let finished = renderer.paint(order, step, &interrupted, &mut show).await?;
         let time = self.spent + (start.elapsed() - uploaded);
         self.spent = if finished { Duration::ZERO } else { time };
         if let Some(shown) = last {
             // The time of a picture that gave way to the interface says little about that of a coarse one.
             let gave_way =
-                turn != Turn::First && easel.kind().thins() && step.is_whole(&order.view);
-            let moving = easel.backend().counts_in_motion(order.view.transport);
+                turn != Turn::First && renderer.kind().thins() && step.is_whole(&order.view);
+            let moving = renderer.backend().counts_in_motion(order.view.transport);
             if step.samples == 1 && !gave_way && step.transport == moving {
                 let segments = order.built.segments;
                 self.pace.took(step.size_px, step.thin, segments, time);
@@ -152,7 +152,7 @@ impl Studio {
         &mut self,
         shared: &Shared,
         order: &Order,
-        shown: EaselPicture,
+        shown: RenderedStep,
         is_final: bool,
         time: Duration,
         latency: Option<Latency>,

@@ -10,7 +10,7 @@ use super::request::Order;
 use super::steps::Step;
 
 /// Steps of a renderer for the painter.
-pub(super) trait Easel {
+pub(super) trait StepRenderer {
     /// Takes the scene of `order`, if it is another one than before. True if it was.
     async fn take(&mut self, order: &Order) -> Result<bool, hairline_gpu::Error>;
     /// Paints a step; `show` is called whenever there is something better to be seen than before. False if `interrupted`
@@ -20,13 +20,13 @@ pub(super) trait Easel {
         order: &Order,
         step: &Step,
         interrupted: &(dyn Fn() -> bool + Sync),
-        show: &mut dyn FnMut(EaselPicture),
+        show: &mut dyn FnMut(RenderedStep),
     ) -> Result<bool, hairline_gpu::Error>;
     /// The last picture by another exposure or tone curve.
     async fn show_again(
         &mut self,
         order: &Order,
-    ) -> Result<Option<EaselPicture>, hairline_gpu::Error>;
+    ) -> Result<Option<RenderedStep>, hairline_gpu::Error>;
     /// Samples of a pixel, where edges are as smooth as they get.
     fn best_samples(&self) -> u32;
     /// Renderer behind it.
@@ -35,8 +35,8 @@ pub(super) trait Easel {
     fn kind(&self) -> &'static Coarseness;
 }
 
-/// A picture of an easel, ready to be shown.
-pub(super) struct EaselPicture {
+/// A picture of a renderer, ready to be shown.
+pub(super) struct RenderedStep {
     pub picture: Picture,
     pub size_px: [u32; 2],
     pub samples: u32,
