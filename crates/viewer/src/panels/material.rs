@@ -15,7 +15,7 @@ use crate::workspace::Workspace;
 
 /// Kinds of materials, each with its defaults.
 #[derive(Clone, Copy, PartialEq)]
-enum MaterialKind {
+enum MaterialChoice {
     Measured,
     Colored,
     Dielectric,
@@ -23,15 +23,15 @@ enum MaterialKind {
     Mirror,
 }
 
-const KINDS: [(MaterialKind, &str); 5] = [
-    (MaterialKind::Measured, "measured metal"),
-    (MaterialKind::Colored, "coloured metal"),
-    (MaterialKind::Dielectric, "clear coat over a body"),
-    (MaterialKind::MetallicRoughness, "metallic-roughness"),
-    (MaterialKind::Mirror, "mirror"),
+const KINDS: [(MaterialChoice, &str); 5] = [
+    (MaterialChoice::Measured, "measured metal"),
+    (MaterialChoice::Colored, "coloured metal"),
+    (MaterialChoice::Dielectric, "clear coat over a body"),
+    (MaterialChoice::MetallicRoughness, "metallic-roughness"),
+    (MaterialChoice::Mirror, "mirror"),
 ];
 
-impl MaterialKind {
+impl MaterialChoice {
     fn of(kind: &MaterialKind) -> Self {
         match kind {
             MaterialKind::Metal(MetalColor::Measured(_)) => Self::Measured,
@@ -132,14 +132,14 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let mut form = Form::new(ui, ("material", index), work.diagonal_m(None));
     let mut name = material.name.clone();
     form.text(NAME, "What objects call it", &mut name);
-    let mut kind = MaterialKind::of(&material.kind);
+    let mut kind = MaterialChoice::of(&material.kind);
     form.choice(
-        "Kind",
+        "MaterialChoice",
         "What the surface is made of",
         KINDS.map(|(kind, name)| (kind, name.to_owned())),
         &mut kind,
     );
-    if kind != MaterialKind::of(&material.kind) {
+    if kind != MaterialChoice::of(&material.kind) {
         material.kind = kind.begin();
     }
     match &mut material.kind {
