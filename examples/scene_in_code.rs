@@ -103,6 +103,7 @@ fn scratched_square(half_m: f32) -> Object {
             profile: Profile {
                 width_um: 2.0,
                 depth_nm: 60.0 + 12.0 * f32::from(wave),
+                ..Profile::default()
             },
             layer: 0,
             closed: false,

@@ -21,7 +21,7 @@ fn main(@builtin(local_invocation_index) i: u32) {
     point.coherence_um = 20.0;
     point.table = 0u;
     // A scratch of 4 mm along y, 2 um wide and 180 nm deep.
-    let seen = scratch_seen(point, vec2f(0.0, -2000.0), vec2f(0.0, 2000.0), Profile(2.0, 180.0), 0.0);
+    let seen = scratch_seen(point, vec2f(0.0, -2000.0), vec2f(0.0, 2000.0), Profile(2.0, 180.0, 0u), 0.0);
     let angle = radians(f32(i));
     let light_m = vec3f(sin(angle), 0.0, cos(angle));
     radiance[i] = seen.share.segment * scratch_sphere(tables, point, seen, light_m, 0.01);

@@ -4,7 +4,7 @@
 //! Each part measures into a file of figures; the document and the plots are made of these files alone. References are kept
 //! beside them (`renders`), so a part that was stopped goes on where it was.
 
-mod compared;
+pub(crate) mod compared;
 mod cost;
 mod figure;
 mod figures;
@@ -13,7 +13,7 @@ mod masks;
 mod plots;
 mod renders;
 mod scenes;
-mod stage;
+pub(crate) mod stage;
 mod sweeps;
 mod text;
 

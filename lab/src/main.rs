@@ -6,6 +6,7 @@ mod fit_lobes;
 mod fuzz;
 
 mod gratings;
+mod grooves;
 mod make_models;
 mod models;
 mod passes;
@@ -26,6 +27,8 @@ enum Command {
     Fuzz(fuzz::Fuzz),
     /// Measure gratings against the full wave, and write docs/accuracy/gratings.md.
     Gratings(gratings::Gratings),
+    /// Measure wide grooves and profiles against both references, and write docs/accuracy/grooves.md.
+    Grooves(grooves::Grooves),
     /// Make the models and the sky of scenes/, and write them to scenes/models and scenes/maps.
     MakeModels(make_models::MakeModels),
     /// Open and render glTF files of public repositories, and write docs/accuracy/models.md.
@@ -44,6 +47,7 @@ fn main() -> anyhow::Result<()> {
         Command::FitLobes(command) => command.run(),
         Command::Fuzz(command) => command.run(),
         Command::Gratings(command) => command.run(),
+        Command::Grooves(command) => command.run(),
         Command::MakeModels(command) => command.run(),
         Command::Models(command) => command.run(),
         Command::Passes(command) => command.run(),

@@ -132,7 +132,11 @@ pub fn lay(
         triangle: 0,
     }));
     Arc::make_mut(&mut object.scratches).push(Scratch {
-        profile: Profile { width_um, depth_nm },
+        profile: Profile {
+            width_um,
+            depth_nm,
+            ..Profile::default()
+        },
         layer: 0,
         closed: false,
         segments: first..first + pieces,

@@ -5,7 +5,7 @@
 //! the same few each time, so a picture in motion does not flicker.
 
 use hairline_index::{IndexedSegment, ScratchIndex};
-use hairline_scene::Scene;
+use hairline_scene::{GrooveShapes, Scene};
 use std::ops::Range;
 
 /// A layer keeps at least so many scratches: those of a hand are few, and each of them is looked for.
@@ -36,6 +36,7 @@ impl Draft {
     /// Takes one of every `step` scratches of each layer, or all of them where they are few. `layer` describes a layer by its number.
     pub fn new(scene: &Scene, step: usize, layer: &dyn Fn(u32) -> DraftLayer) -> Self {
         let mut draft = Self::default();
+        let shapes = GrooveShapes::new(scene);
         for object in &scene.objects {
             let first = draft.segments.len();
             for scratches in object.scratches.chunk_by(|a, b| a.layer == b.layer) {
@@ -43,10 +44,10 @@ impl Draft {
                 let DraftLayer { weight, is_random } = layer(scratches[0].layer);
                 let kept = (all / step.max(1)).max(FEWEST).min(all);
                 let pieces = if is_random || kept == all {
-                    ScratchIndex::pieces(scene, object, &scratches[..kept])
+                    ScratchIndex::pieces(scene, &shapes, object, &scratches[..kept])
                 } else {
                     let chosen = (0..kept).map(|i| scratches[i * all / kept].clone());
-                    ScratchIndex::pieces(scene, object, &chosen.collect::<Vec<_>>())
+                    ScratchIndex::pieces(scene, &shapes, object, &chosen.collect::<Vec<_>>())
                 };
                 let weight = weight * all as f64 / kept as f64;
                 let end = draft.segments.len() + pieces.len();

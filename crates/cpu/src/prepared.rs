@@ -2,7 +2,10 @@
 
 use crate::draft::Draft;
 use crate::sampling::environment::EnvironmentSampler;
-use hairline_index::{Hit, IndexedSegment, ScratchIndex, TriangleIndex, TriangleLists, Watch};
+use hairline_index::{
+    Hit, IndexedProfile, IndexedSegment, ScratchIndex, TriangleIndex, TriangleLists, Watch,
+};
+use hairline_optics::table::ScratchTable;
 use hairline_scene::{Scene, ScratchTables};
 use std::sync::{Arc, OnceLock};
 
@@ -147,6 +150,12 @@ impl<'a> Prepared<'a> {
     /// The tables of the scratches' profiles.
     pub fn tables(&self) -> &ScratchTables {
         &self.tables
+    }
+
+    /// Returns the table of a scratch, where those of the material begin at `first`.
+    #[inline]
+    pub(crate) fn scratch_table(&self, first: usize, profile: IndexedProfile) -> &ScratchTable {
+        &self.tables.tables[first + usize::from(profile.shape)]
     }
 
     /// The pieces that `project` lists, and how many of each there are; 1 where it says nothing.

@@ -159,9 +159,9 @@ impl Shading<'_, '_> {
         node: Option<f64>,
     ) {
         let environment = self.prepared.scene.environment.as_ref();
-        let width_um = f64::from(segment.profile.width_um);
+        let profile = segment.profile;
         for lane in 0..LANES {
-            let Some(mut share) = seen.share(lane, width_um) else {
+            let Some(mut share) = seen.share(lane, profile) else {
                 continue;
             };
             // A weight counts as that many scratches, each with the line's full length.
@@ -169,7 +169,9 @@ impl Shading<'_, '_> {
             self.counts.pairs += 1;
             let point = &self.points[first + lane];
             let frame = &self.shader.frames[first + lane];
-            let table = &self.prepared.tables.tables[point.point.table];
+            let table = self
+                .prepared
+                .scratch_table(point.point.table, segment.profile);
             let mut radiance = DVec3::ZERO;
             let energy = scratch_energy(segment.profile, table, point.point.wo.z);
             let mut picks = self.picks.as_mut().map(|picks| &mut picks[point.index]);

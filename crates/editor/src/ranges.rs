@@ -26,19 +26,6 @@ pub struct Range {
     pub tooltip: &'static str,
 }
 
-/// Largest width that the model is right for on any base, micrometres.
-const WIDE_UM: f64 = 10.0;
-/// Roughness above which a base does not bear wider scratches.
-const ROUGH: f64 = 0.1;
-
-/// Hint about scratches of a width, as a mean, on a base of a roughness, where the model is off.
-pub fn hint_on_width(width_um: f64, roughness: f64) -> Option<&'static str> {
-    (width_um > WIDE_UM && roughness > ROUGH).then_some(
-        "Wider than 10 µm on a rough base: the light of these scratches is wrong. On steel of roughness 0.3 it was \
-         off by 131 % at 30 µm and by 305 % at 100 µm against the reference.",
-    )
-}
-
 /// The diagonal of an object that is not known yet: a pan's.
 pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 /// 2^53: beyond it a control's number is no longer the whole number that it shows.

@@ -3,8 +3,7 @@
 use glam::{DMat4, DVec3, Mat4, Vec3, Vec4};
 use hairline_index::{IndexedSegment, ScratchIndex};
 use hairline_scene::{
-    AlphaRule, Bearing, Coat, GrooveField, GroovePicture, Mesh, PictureLie, Profile, Scene,
-    ScratchTables,
+    AlphaRule, Bearing, Coat, GrooveField, GroovePicture, Mesh, PictureLie, Scene, ScratchTables,
 };
 use half::f16;
 use rayon::prelude::*;
@@ -295,25 +294,35 @@ fn scratch_node(node: &hairline_index::ScratchNode, origin_m: DVec3) -> ScratchN
 }
 
 fn scratch_segment(segment: &IndexedSegment, origin_m: DVec3) -> ScratchSegment {
+    let [width_depth, more] = profile_words(segment);
     ScratchSegment {
         start_m: relative(segment.start_m.as_dvec3(), origin_m),
-        width_depth: profile_bits(segment.profile),
+        width_depth,
         end_m: relative(segment.end_m.as_dvec3(), origin_m),
-        normal_blur: octahedral(segment.normal) | half_bits(segment.blur_um) << 16,
+        more,
     }
 }
 
-/// Width and depth.
-pub(crate) fn profile_bits(profile: Profile) -> u32 {
-    half_bits(profile.width_um) | half_bits(profile.depth_nm) << 16
+/// Profile, normal and blur of a segment. Twin: `profile_unpacked` in scratch.wgsl.
+pub(crate) fn profile_words(segment: &IndexedSegment) -> [u32; 2] {
+    let profile = segment.profile;
+    let blur_um = match profile.is_part {
+        true => -segment.blur_um,
+        false => segment.blur_um,
+    };
+    let shape = u32::from(profile.shape) << 12;
+    [
+        half_bits(profile.width_um) | half_bits(profile.depth_nm) << 16,
+        octahedral(segment.normal) | shape | half_bits(blur_um) << 16,
+    ]
 }
 
-pub(crate) fn half_bits(value: f32) -> u32 {
+fn half_bits(value: f32) -> u32 {
     u32::from(f16::from_f32(value).to_bits())
 }
 
-/// A unit vector as two signed bytes. Twin: `octahedral_normal` in scratch.wgsl.
-pub(crate) fn octahedral(normal: Vec3) -> u32 {
+/// A unit vector as two signed numbers of six bits. Twin: `octahedral_normal` in scratch.wgsl.
+fn octahedral(normal: Vec3) -> u32 {
     let v = normal / (normal.x.abs() + normal.y.abs() + normal.z.abs()).max(1e-30);
     let folded = |value: f32, other: f32| {
         if v.z >= 0.0 {
@@ -322,8 +331,8 @@ pub(crate) fn octahedral(normal: Vec3) -> u32 {
             (1.0 - other.abs()).copysign(value)
         }
     };
-    let byte = |value: f32| u32::from((value * 127.0).round() as i8 as u8);
-    byte(folded(v.x, v.y)) | byte(folded(v.y, v.x)) << 8
+    let six_bits = |value: f32| u32::from((value * 31.0).round() as i8 as u8 & 63);
+    six_bits(folded(v.x, v.y)) | six_bits(folded(v.y, v.x)) << 6
 }
 
 #[cfg(test)]

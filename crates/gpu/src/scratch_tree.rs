@@ -6,7 +6,7 @@
 use glam::Vec3;
 use hairline_index::ScratchIndex;
 
-use crate::host::{half_bits, octahedral, profile_bits};
+use crate::host::profile_words;
 
 /// Texels in a row of the texture.
 pub const WIDTH: usize = 1024;
@@ -45,8 +45,8 @@ pub fn texels(index: &ScratchIndex, object: usize) -> Vec<[u32; 4]> {
     }
     let pieces_at = 1 + 2 * nodes.len();
     for (i, piece) in pieces.iter().enumerate() {
-        let more = octahedral(piece.normal) | half_bits(piece.blur_um) << 16;
-        texels[pieces_at + 2 * i] = with(piece.start_m, profile_bits(piece.profile));
+        let [sizes, more] = profile_words(piece);
+        texels[pieces_at + 2 * i] = with(piece.start_m, sizes);
         texels[pieces_at + 2 * i + 1] = with(piece.end_m, more);
     }
     texels.resize(texels.len().next_multiple_of(WIDTH), [0; 4]);

@@ -8,7 +8,9 @@ use hairline_optics::lobe_table::{self, LOBE_TABLE_SIZE};
 use hairline_optics::metal::Metal;
 use hairline_optics::table;
 use hairline_scene::environment::LEVEL_HALVINGS;
-use hairline_scene::{Environment, GratingSpectrum, Reflector, ScratchTables, Texture};
+use hairline_scene::{
+    Environment, GratingSpectrum, GrooveShapes, Reflector, ScratchTables, Texture,
+};
 use half::f16;
 use rayon::prelude::*;
 use wgpu::TextureFormat;
@@ -23,8 +25,9 @@ use crate::transfer::{TexturePosition, Transfer};
 /// Bind group of the tables and textures, and the data that they were made from.
 pub(crate) struct SceneTextures {
     pub group: wgpu::BindGroup,
-    /// Each has one table.
+    /// Each has one table for each shape.
     metals: Vec<Option<Metal>>,
+    shapes: GrooveShapes,
     /// Spectra of the gratings' tables, which follow those of the metals.
     grating_spectra: Vec<GratingSpectrum>,
     scratch_tables: wgpu::TextureView,
@@ -50,7 +53,8 @@ impl SceneTextures {
     ) -> Result<Self, Error> {
         let Source { scene, tables, .. } = *source;
         let same_tables = |last: &&Self| {
-            last.metals == tables.metals && last.grating_spectra == tables.grating_spectra
+            (&last.metals, &last.shapes) == (&tables.metals, &tables.shapes)
+                && last.grating_spectra == tables.grating_spectra
         };
         let scratch_tables = match last.filter(same_tables) {
             Some(last) => last.scratch_tables.clone(),
@@ -110,6 +114,7 @@ impl SceneTextures {
         Ok(Self {
             group: bind(transfer.gpu, "textures", &layouts.textures, &resources),
             metals: tables.metals.clone(),
+            shapes: tables.shapes.clone(),
             grating_spectra: tables.grating_spectra.clone(),
             scratch_tables,
             reflectors: tables.reflectors.clone(),

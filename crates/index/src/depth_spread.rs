@@ -1,8 +1,9 @@
 //! Coherence of the phase steps of an object's scratches (docs/model.md, section 3), for millions of them.
 
 use hairline_optics::mask::depth_coherence;
-use hairline_scene::{Object, Scratch};
+use hairline_scene::{Object, Scratch, SectionId};
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 /// Number of bins of depth: for grooves of 2 µm a bin is 0.13 nm wide, and its depths are taken at their mean. This moves a
 /// phase by 0.002 at most and, since deeper and shallower ones even out, the result by some millionths.
@@ -12,6 +13,9 @@ const BINS: usize = 1 << 14;
 pub(crate) fn object_coherence(object: &Object) -> f32 {
     let deepest = object.scratches.iter().map(|s| s.profile.depth_nm);
     let deepest = deepest.fold(0.0_f32, f32::max);
+    if (object.scratches.iter()).any(|s| s.profile.section != SectionId::default()) {
+        return of_strips(object);
+    }
     let area = |s: &Scratch| f64::from(object.covered_um_m(s));
     let areas: Vec<f64> = object.scratches.par_iter().map(area).collect();
     // Weights, and weights times depths.
@@ -28,6 +32,34 @@ pub(crate) fn object_coherence(object: &Object) -> f32 {
         .iter()
         .map(|[weight, moment]| (moment / weight, *weight));
     depth_coherence(depths) as f32
+}
+
+/// Strips of a section, each of one depth.
+const STRIPS: usize = 16;
+/// Bins of depth of each section.
+const SECTION_BINS: usize = 256;
+
+/// The coherence where floors are not all of one depth: each strip of a groove counts as a groove.
+fn of_strips(object: &Object) -> f32 {
+    let mut bins: HashMap<(SectionId, u32), [f64; 2]> = HashMap::new();
+    for scratch in object.scratches.iter() {
+        let area = f64::from(object.covered_um_m(scratch));
+        let depth_nm = f64::from(scratch.profile.depth_nm.max(0.0));
+        let bin = (depth_nm / 2000.0 * SECTION_BINS as f64) as u32;
+        let sum = bins.entry((scratch.profile.section, bin)).or_default();
+        sum[0] += area;
+        sum[1] += area * depth_nm;
+    }
+    let mut bins: Vec<_> = bins.into_iter().collect();
+    bins.sort_unstable_by_key(|bin| bin.0);
+    let depths = bins.iter().flat_map(|((section, _), [weight, moment])| {
+        let strips = section.section().strips(STRIPS);
+        let each = weight / strips.len() as f64;
+        strips
+            .into_iter()
+            .map(move |(_, share)| (share * moment / weight.max(f64::MIN_POSITIVE), each))
+    });
+    depth_coherence(depths.collect::<Vec<_>>().iter().copied()) as f32
 }
 
 #[cfg(test)]

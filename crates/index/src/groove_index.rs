@@ -3,7 +3,7 @@
 
 use crate::segment_tree::{SegmentTree, Straight};
 use glam::Vec3;
-use hairline_scene::{Object, Profile, Scene};
+use hairline_scene::{GrooveShapes, Object, Profile, Scene, Scratch};
 
 /// A straight piece of a scratch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +16,8 @@ pub struct Groove {
     pub normal: Vec3,
     /// Profile of the scratch's groove.
     pub profile: Profile,
+    /// Index of its shape in [`GrooveShapes`].
+    pub shape: u8,
     /// Length of the scratch before `start_m`; infinite for a closed ring.
     pub before_um: f32,
     /// Length of the scratch after `end_m`; infinite for a closed ring.
@@ -30,16 +32,21 @@ impl Straight for Groove {
 
 /// The trees over all pieces of a scene.
 pub fn build(scene: &Scene) -> SegmentTree<Groove> {
-    SegmentTree::build(scene.objects.iter().map(grooves))
+    let shapes = GrooveShapes::new(scene);
+    let objects = scene.objects.iter();
+    SegmentTree::build(
+        objects.map(|object| grooves(object, |scratch| shapes.index(scene, object, scratch))),
+    )
 }
 
-fn grooves(object: &Object) -> Vec<Groove> {
+fn grooves(object: &Object, shape_of: impl Fn(&Scratch) -> u8) -> Vec<Groove> {
     let mut grooves = Vec::with_capacity(object.segments.len());
     for scratch in object.scratches.iter() {
         let pieces =
             &object.segments[scratch.segments.start as usize..scratch.segments.end as usize];
         let length_um = |p: &hairline_scene::Segment| p.start_m.distance(p.end_m) as f64 * 1e6;
         let whole_um: f64 = pieces.iter().map(length_um).sum();
+        let shape = shape_of(scratch);
         let mut before_um = 0.0;
         for piece in pieces {
             let after_um = (whole_um - before_um - length_um(piece)).max(0.0);
@@ -55,6 +62,7 @@ fn grooves(object: &Object) -> Vec<Groove> {
                     end_m: piece.end_m,
                     normal: piece.normal,
                     profile: scratch.profile,
+                    shape,
                     before_um: before,
                     after_um: after,
                 });
@@ -67,7 +75,7 @@ fn grooves(object: &Object) -> Vec<Groove> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hairline_scene::{Scratch, Segment};
+    use hairline_scene::Segment;
     use std::sync::Arc;
 
     #[test]
@@ -87,6 +95,7 @@ mod tests {
                 profile: Profile {
                     width_um: 2.0,
                     depth_nm: 100.0,
+                    ..Profile::default()
                 },
                 layer: 0,
                 closed,
@@ -97,7 +106,7 @@ mod tests {
             gratings: Vec::new(),
             is_lamp: false,
         };
-        let open = grooves(&object(false));
+        let open = grooves(&object(false), |_| 0);
         let beyond: Vec<_> = open.iter().map(|g| (g.before_um, g.after_um)).collect();
         let expected = [(0.0, 2500.0), (1000.0, 500.0), (3000.0, 0.0)];
         assert_eq!(beyond.len(), 3, "a piece of no length is no groove");
@@ -105,7 +114,7 @@ mod tests {
             assert!((found.0 - right.0).abs() < 0.01 && (found.1 - right.1).abs() < 0.01);
         }
         assert!(
-            grooves(&object(true))
+            grooves(&object(true), |_| 0)
                 .iter()
                 .all(|g| g.before_um.is_infinite())
         );

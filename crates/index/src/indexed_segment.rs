@@ -2,9 +2,8 @@
 
 use crate::segment_tree::Straight;
 use glam::Vec3;
-use hairline_scene::Profile;
 
-/// A straight piece of a scratch, its free ends moved inwards.
+/// A straight piece of a scratch, its free ends moved inwards, or of a part of a wide one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IndexedSegment {
     /// World space, metres.
@@ -14,9 +13,39 @@ pub struct IndexedSegment {
     /// The surface's unit normal.
     pub normal: Vec3,
     /// Profile of the scratch's groove.
-    pub profile: Profile,
+    pub profile: IndexedProfile,
     /// Standard deviation that smooths the ends; one for the whole scratch, so that joined ends cancel.
     pub blur_um: f32,
+}
+
+/// The cross section of a groove as it is looked up.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct IndexedProfile {
+    /// Width of the share, and of what is looked up.
+    pub width_um: f32,
+    /// Depth of the deepest place.
+    pub depth_nm: f32,
+    /// Index of the shape: [`GrooveShapes::index`](hairline_scene::GrooveShapes::index).
+    pub shape: u8,
+    /// Whether it is a part of a groove, whose other parts lie beside it.
+    pub is_part: bool,
+}
+
+impl IndexedProfile {
+    /// A narrow rectangle.
+    pub const fn rectangle(width_um: f32, depth_nm: f32) -> Self {
+        Self {
+            width_um,
+            depth_nm,
+            shape: 0,
+            is_part: false,
+        }
+    }
+
+    /// Number of parts side by side that weaken one another as little as a scratch does itself.
+    pub fn lines(&self) -> f64 {
+        if self.is_part { 2.0 } else { 1.0 }
+    }
 }
 
 impl Straight for IndexedSegment {

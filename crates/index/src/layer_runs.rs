@@ -2,10 +2,11 @@
 //! editor can reuse it.
 
 use hairline_optics::footprint;
-use hairline_scene::{Object, Scene, Scratch, Segment};
+use hairline_optics::section::{Parts, width_class};
+use hairline_scene::{GrooveShapes, Object, Scene, Scratch, Segment};
 use rayon::prelude::*;
 
-use crate::indexed_segment::IndexedSegment;
+use crate::indexed_segment::{IndexedProfile, IndexedSegment};
 
 /// Largest turn between pieces that count as one: a tenth of the width of the narrowest bands, and a micrometre off in the middle of
 /// a centimetre.
@@ -36,6 +37,7 @@ fn goes_on(last: &IndexedSegment, next: &IndexedSegment) -> bool {
 #[derive(Clone, Copy)]
 pub(crate) struct LayerRun<'a> {
     scene: &'a Scene,
+    shapes: &'a GrooveShapes,
     object: &'a Object,
     scratches: &'a [Scratch],
 }
@@ -50,11 +52,15 @@ const BATCH: usize = 32 * TASK;
 const SHARED_PIECES: usize = 1 << 16;
 
 /// The layers of an object, in their order, by the trees that they go to: a large one for itself, small ones together.
-pub(crate) fn groups<'a>(scene: &'a Scene, object: &'a Object) -> Vec<Vec<LayerRun<'a>>> {
+pub(crate) fn groups<'a>(
+    scene: &'a Scene,
+    shapes: &'a GrooveShapes,
+    object: &'a Object,
+) -> Vec<Vec<LayerRun<'a>>> {
     let mut groups: Vec<Vec<LayerRun>> = Vec::new();
     // Pieces in the last group.
     let mut pieces = 0;
-    for run in LayerRun::of(scene, object) {
+    for run in LayerRun::of(scene, shapes, object) {
         let own = run.piece_count();
         match groups.last_mut() {
             Some(group) if pieces + own <= SHARED_PIECES => {
@@ -72,27 +78,40 @@ pub(crate) fn groups<'a>(scene: &'a Scene, object: &'a Object) -> Vec<Vec<LayerR
 
 impl<'a> LayerRun<'a> {
     /// All runs of an object, in their order; one for each layer, since a builder lays them layer by layer.
-    pub(crate) fn of(scene: &'a Scene, object: &'a Object) -> impl Iterator<Item = Self> {
+    pub(crate) fn of(
+        scene: &'a Scene,
+        shapes: &'a GrooveShapes,
+        object: &'a Object,
+    ) -> impl Iterator<Item = Self> {
         let runs = object.scratches.chunk_by(|a, b| a.layer == b.layer);
-        runs.map(move |scratches| Self {
-            scene,
-            object,
-            scratches,
-        })
+        runs.map(move |scratches| Self::new(scene, shapes, object, scratches))
     }
 
     /// Some scratches of an object.
-    pub(crate) fn new(scene: &'a Scene, object: &'a Object, scratches: &'a [Scratch]) -> Self {
+    pub(crate) fn new(
+        scene: &'a Scene,
+        shapes: &'a GrooveShapes,
+        object: &'a Object,
+        scratches: &'a [Scratch],
+    ) -> Self {
         Self {
             scene,
+            shapes,
             object,
             scratches,
         }
     }
 
-    /// Number of its straight pieces.
+    /// Number of its straight pieces, about: wide scratches count as two of each, and seldom more.
     pub(crate) fn piece_count(&self) -> usize {
-        self.scratches.iter().map(|s| s.segments.len()).sum()
+        let own =
+            |scratch: &Scratch| scratch.segments.len() * (1 + usize::from(self.is_wide(scratch)));
+        self.scratches.iter().map(own).sum()
+    }
+
+    fn is_wide(&self, scratch: &Scratch) -> bool {
+        let coherence_um = self.coherence_um(scratch).unwrap_or(f64::INFINITY);
+        width_class(f64::from(scratch.profile.width_um) / coherence_um) > 0
     }
 
     fn pieces(&self, scratch: &Scratch) -> &'a [Segment] {
@@ -101,9 +120,7 @@ impl<'a> LayerRun<'a> {
 
     /// Coherence length of the material under the scratch's beginning.
     fn coherence_um(&self, scratch: &Scratch) -> Option<f64> {
-        let first = self.pieces(scratch).first()?;
-        let material = self.object.mesh.triangle_materials[first.triangle as usize];
-        Some(self.scene.materials[material as usize].coherence_um)
+        self.scene.scratch_coherence_um(self.object, scratch)
     }
 
     /// Whether the same pieces come of both, in the same order. Wherever their layers stand, and whatever else their objects
@@ -125,7 +142,7 @@ impl<'a> LayerRun<'a> {
     pub(crate) fn append_effective(&self, effective: &mut Vec<IndexedSegment>) {
         for batch in self.scratches.chunks(BATCH) {
             let tasks = batch.par_chunks(TASK).map(|scratches| {
-                let pieces = scratches.iter().map(|s| s.segments.len()).sum();
+                let pieces = Self { scratches, ..*self }.piece_count();
                 let mut effective = Vec::with_capacity(pieces);
                 for scratch in scratches {
                     self.append_scratch(scratch, &mut effective);
@@ -149,6 +166,11 @@ impl<'a> LayerRun<'a> {
             .sum();
         let ends = footprint::ends(length_um, coherence_um);
         let shrink_um = if scratch.closed { 0.0 } else { ends.shrink_um };
+        let width_um = scratch.profile.width_um;
+        let profile = IndexedProfile {
+            shape: self.shapes.index(self.scene, self.object, scratch),
+            ..IndexedProfile::rectangle(width_um, scratch.profile.depth_nm)
+        };
         let first = effective.len();
         let mut arc_um = 0.0;
         for piece in pieces {
@@ -162,7 +184,7 @@ impl<'a> LayerRun<'a> {
                     start_m: piece.start_m.lerp(piece.end_m, start as f32),
                     end_m: piece.start_m.lerp(piece.end_m, end as f32),
                     normal: piece.normal,
-                    profile: scratch.profile,
+                    profile,
                     blur_um: ends.blur_um as f32,
                 };
                 match effective[first..].last_mut() {
@@ -171,5 +193,31 @@ impl<'a> LayerRun<'a> {
                 }
             }
         }
+        if self.is_wide(scratch) {
+            let section = scratch.profile.section.section();
+            let parts = section.parts(width_um.into(), coherence_um);
+            append_parts(effective, first, &parts);
+        }
+    }
+}
+
+/// Puts the parts of a wide groove in the place of the pieces from `first` on.
+fn append_parts(effective: &mut Vec<IndexedSegment>, first: usize, parts: &Parts) {
+    let pieces = effective.split_off(first);
+    for &offset_um in &parts.offsets_um {
+        effective.extend(pieces.iter().map(|piece| {
+            let across = piece.normal.cross(piece.end_m - piece.start_m);
+            let offset_m = across.normalize_or_zero() * (offset_um * 1e-6) as f32;
+            IndexedSegment {
+                start_m: piece.start_m + offset_m,
+                end_m: piece.end_m + offset_m,
+                profile: IndexedProfile {
+                    width_um: parts.width_um as f32,
+                    is_part: true,
+                    ..piece.profile
+                },
+                ..*piece
+            }
+        }));
     }
 }

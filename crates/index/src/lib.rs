@@ -42,7 +42,7 @@ pub mod watch;
 pub use coverage::Coverage;
 pub use groove_index::Groove;
 pub use hit::Hit;
-pub use indexed_segment::IndexedSegment;
+pub use indexed_segment::{IndexedProfile, IndexedSegment};
 pub use method::Method;
 pub use scratch_index::ScratchIndex;
 pub use segment_tree::{ScratchNode, SegmentTree};

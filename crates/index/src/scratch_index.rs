@@ -6,7 +6,7 @@ use crate::indexed_segment::IndexedSegment;
 use crate::layer_runs::{LayerRun, groups};
 use crate::segment_tree::{Plot, SegmentTree, Tree, plant};
 use crate::watch::Watch;
-use hairline_scene::{Object, Scene, Scratch};
+use hairline_scene::{GrooveShapes, Object, Scene, Scratch};
 use std::ops::Range;
 
 /// The scratches of a scene under footprints. Each large layer on an object has a tree of its own, so that those that an edit
@@ -44,7 +44,10 @@ impl ScratchIndex {
     /// # Panics
     /// As [`Self::build`].
     pub fn rebuild(scene: &Scene, last: Option<(&Scene, &Self)>, watch: &Watch) -> Option<Self> {
-        let plots = plots(scene, last);
+        let shapes = GrooveShapes::new(scene);
+        // Pieces hold numbers of shapes.
+        let kept = last.filter(|(scene, _)| GrooveShapes::new(scene) == shapes);
+        let plots = plots(scene, &shapes, kept);
         let (tree, depth_coherence) = rayon::join(
             || plant(plots, last.map(|(_, index)| &index.tree), watch),
             || Self::depth_coherence(scene),
@@ -88,18 +91,27 @@ impl ScratchIndex {
 
     /// Returns the pieces of some scratches of an object, their free ends moved inwards, one scratch after the other, as a tree is
     /// grown over them. For pictures that show a few of all scratches.
-    pub fn pieces(scene: &Scene, object: &Object, scratches: &[Scratch]) -> Vec<IndexedSegment> {
-        let run = LayerRun::new(scene, object, scratches);
+    pub fn pieces(
+        scene: &Scene,
+        shapes: &GrooveShapes,
+        object: &Object,
+        scratches: &[Scratch],
+    ) -> Vec<IndexedSegment> {
+        let run = LayerRun::new(scene, shapes, object, scratches);
         let mut pieces = Vec::with_capacity(run.piece_count());
         run.append_effective(&mut pieces);
         pieces
     }
 
     /// The layers of the scene that this was built of, with their trees.
-    fn groups<'s>(&self, scene: &'s Scene) -> Vec<(Vec<LayerRun<'s>>, &Tree)> {
+    fn groups<'s>(
+        &self,
+        scene: &'s Scene,
+        shapes: &'s GrooveShapes,
+    ) -> Vec<(Vec<LayerRun<'s>>, &Tree)> {
         let objects = scene.objects.iter().zip(&self.tree.trees);
         objects
-            .flat_map(|(object, trees)| groups(scene, object).into_iter().zip(trees))
+            .flat_map(|(object, trees)| groups(scene, shapes, object).into_iter().zip(trees))
             .collect()
     }
 }
@@ -107,9 +119,10 @@ impl ScratchIndex {
 /// Trees for the layers on each object: those that exist, or the segments to grow them over.
 fn plots<'a>(
     scene: &'a Scene,
+    shapes: &'a GrooveShapes,
     last: Option<(&Scene, &ScratchIndex)>,
 ) -> Vec<Vec<Plot<'a, IndexedSegment>>> {
-    let kept = last.map_or_else(Vec::new, |(scene, index)| index.groups(scene));
+    let kept = last.map_or_else(Vec::new, |(scene, index)| index.groups(scene, shapes));
     let plot = |group: Vec<LayerRun<'a>>| {
         let is_like = |before: &[LayerRun]| {
             let mut pairs = before.iter().zip(&group);
@@ -127,7 +140,10 @@ fn plots<'a>(
     };
     let objects = scene.objects.iter();
     objects
-        .map(|object| groups(scene, object).into_iter().map(plot).collect())
+        .map(|object| {
+            let groups = groups(scene, shapes, object).into_iter();
+            groups.map(plot).collect()
+        })
         .collect()
 }
 
@@ -156,7 +172,8 @@ fn coherence_max_um(scene: &Scene, object: &Object) -> f32 {
 /// The pieces of an object's scratches, free ends moved inwards along the scratch.
 #[cfg(test)]
 fn effective_segments(scene: &Scene, object: &Object) -> Vec<IndexedSegment> {
-    let runs: Vec<_> = LayerRun::of(scene, object).collect();
+    let shapes = GrooveShapes::new(scene);
+    let runs: Vec<_> = LayerRun::of(scene, &shapes, object).collect();
     let mut effective = Vec::with_capacity(runs.iter().map(LayerRun::piece_count).sum());
     for run in runs {
         run.append_effective(&mut effective);

@@ -43,6 +43,7 @@ pub mod picture;
 pub mod published;
 pub mod rigorous;
 pub mod scratch;
+pub mod section;
 pub mod spectrum;
 pub mod sptd;
 pub mod table;

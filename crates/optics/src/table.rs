@@ -7,6 +7,7 @@
 //! turns the light integral of any scratch into differences of two look-ups, whatever the number of wavelengths.
 //! R/F0 carries the correlation of the metal's colour with the scratch's; the caller multiplies by Fresnel in RGB.
 
+use crate::section::{GrooveShape, GrooveSpectrum};
 use crate::{diffraction, scratch, spectrum};
 use rayon::prelude::*;
 
@@ -91,6 +92,41 @@ impl ScratchTable {
                     for c in 0..3 {
                         sum[c] += weight[c] * chord[0];
                         sum[3 + c] += weight[c] * chord[1];
+                    }
+                }
+            }
+        })
+    }
+
+    /// The table of grooves of a shape. Wide ones are looked up by the width of a [part](crate::section::Section::parts).
+    pub fn of_shape(shape: &GrooveShape, reflectance: impl Fn(f64) -> f64 + Sync) -> Self {
+        if *shape == GrooveShape::default() {
+            return Self::new(reflectance);
+        }
+        let grid = GrooveSpectrum::new(shape);
+        let widths = shape.widths_of_part();
+        let part_count = shape.part_count() as f64;
+        let samples = spectrum::samples();
+        let f0 = spectrum::rgb_from_reflectance(&reflectance);
+        Self::from_rows(|row, sums| {
+            let depth_nm = row as f64 * DEPTH_MAX_NM / (ROWS - 1) as f64;
+            for sample in samples {
+                let reflected = reflectance(sample.wavelength_nm);
+                let weight: [f64; 3] = std::array::from_fn(|c| {
+                    sample.weight[c] * reflected / f0[c] * widths / part_count
+                });
+                let per_um = widths * 1e3 / sample.wavelength_nm;
+                let of_row = grid.at_depth(depth_nm / sample.wavelength_nm);
+                for (column, sum) in sums.iter_mut().enumerate() {
+                    let u_um = column_u_um(column as f64);
+                    let [density, integral] = of_row.at(per_um * u_um);
+                    let slope = match column == COLUMNS - 1 {
+                        true => of_row.tail() / (per_um * U_HALF_UM * (COLUMNS - 1) as f64),
+                        false => density * per_um * column_step_um(u_um),
+                    };
+                    for c in 0..3 {
+                        sum[c] += weight[c] * integral;
+                        sum[3 + c] += weight[c] * slope;
                     }
                 }
             }
@@ -204,8 +240,12 @@ fn chord_slope(column: usize, wavelength_um: f64) -> f64 {
     }
     let u = column_u_um(column as f64);
     let k = 2.0 * std::f64::consts::PI / wavelength_um;
-    let du = (u + U_HALF_UM).powi(2) / (U_HALF_UM * columns);
-    diffraction::sinc(k * u / 2.0).powi(2) * du / wavelength_um
+    diffraction::sinc(k * u / 2.0).powi(2) * column_step_um(u) / wavelength_um
+}
+
+/// Derivative of u by the column index.
+fn column_step_um(u_um: f64) -> f64 {
+    (u_um + U_HALF_UM).powi(2) / (U_HALF_UM * (COLUMNS - 1) as f64)
 }
 
 #[cfg(test)]

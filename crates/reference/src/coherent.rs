@@ -123,7 +123,7 @@ impl<'a> Field<'a> {
             point,
             grooves,
             field: GrooveField::new(
-                grooves.iter().map(|g| g.piece).collect(),
+                grooves.iter().flat_map(GrooveView::strips).collect(),
                 point.coherence_um,
             ),
             smooth,
@@ -195,7 +195,7 @@ impl<'a> Field<'a> {
         for groove in self.grooves {
             let share = groove.share.segment / all.max(1e-30);
             if share > NEGLIGIBLE_SHARE
-                && let Some(band) = Band::new(groove, std, &extent)
+                && let Some(band) = Band::new(groove, (std, self.point.coherence_um), &extent)
             {
                 components.push((share, Component::Band(band)));
             }
@@ -217,31 +217,28 @@ impl<'a> Field<'a> {
     }
 }
 
-/// The sum of D times the share of each groove, in the mirror's direction. Grooves that cross share floor: of random ones
-/// that would cover x, 1 - exp(-x) is covered. Those of a grating do not cross.
+/// The sum of D times the share of each groove, in the mirror's direction. Grooves that cross share floor: at random places each leaves its share
+/// of what the others leave. Those of a grating do not cross.
 fn taken_amplitude(
     point: &SurfacePoint,
     grooves: &[GrooveView],
     wavelengths: &Wavelengths,
 ) -> Spectrum<Complex64> {
-    let shares = grooves
-        .iter()
-        .map(|g| groove_overlap(&g.piece, point.coherence_um));
-    let crossing = grooves
-        .iter()
-        .zip(shares.clone())
-        .filter(|(g, _)| !g.is_in_row);
-    let all: f64 = crossing.map(|(_, share)| share).sum();
-    let apart = if all > 0.0 {
-        -(-all).exp_m1() / all
-    } else {
-        1.0
-    };
+    let (mut all, mut free) = (0.0, 1.0);
+    for groove in grooves.iter().filter(|g| !g.is_in_row) {
+        let share = groove_overlap(&groove.piece, point.coherence_um);
+        all += share;
+        free *= 1.0 - share;
+    }
+    let apart = if all > 0.0 { (1.0 - free) / all } else { 1.0 };
     let mut taken = [Complex64::ZERO; WAVELENGTHS];
-    for (groove, share) in grooves.iter().zip(shares) {
+    for groove in grooves {
         let apart = if groove.is_in_row { 1.0 } else { apart };
-        for (taken, nm) in taken.iter_mut().zip(wavelengths.nm) {
-            *taken += apart * share * groove.piece.phase_step(2.0 * point.wo.z, nm);
+        for strip in groove.strips() {
+            let share = apart * groove_overlap(&strip, point.coherence_um);
+            for (taken, nm) in taken.iter_mut().zip(wavelengths.nm) {
+                *taken += share * strip.phase_step(2.0 * point.wo.z, nm);
+            }
         }
     }
     taken
@@ -278,12 +275,15 @@ struct Band {
 }
 
 impl Band {
-    fn new(groove: &GrooveView, std: f64, extent: impl Fn(DVec2) -> (f64, f64)) -> Option<Self> {
+    fn new(
+        groove: &GrooveView,
+        (std, sigma_um): (f64, f64),
+        extent: impl Fn(DVec2) -> (f64, f64),
+    ) -> Option<Self> {
         let tangent = groove.frame.tangent;
         let (along, across) = (extent(tangent), extent(tangent.perp()));
         let (low, high) = (groove.wo.x + along.0, groove.wo.x + along.1);
-        // Half the first lobe of sinc^2 at green is 0.25 um of u = W q.
-        let scale = 0.2 / groove.piece.width_um;
+        let scale = groove.drawn_um(sigma_um) / groove.lit_um;
         Some(Self {
             frame: groove.frame,
             core: CutNormal::new(std, low, high),

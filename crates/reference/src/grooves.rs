@@ -7,6 +7,7 @@ use hairline_index::{Groove, SegmentTree};
 use hairline_optics::band::BandFrame;
 use hairline_optics::coherent::GroovePiece;
 use hairline_optics::footprint::ScratchShare;
+use hairline_optics::section::{Parts, Section, width_class};
 use spec_math::cephes64::erf;
 use std::f64::consts::{PI, SQRT_2};
 
@@ -17,12 +18,20 @@ pub(super) const REACH_OF_ENERGY: f64 = 3.5;
 pub(super) const REACH_OF_AMPLITUDE: f64 = 5.0;
 
 /// A piece of a groove from a point.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct GrooveView {
     pub frame: BandFrame,
     /// `wo` in the groove's frame.
     pub wo: DVec3,
+    /// All of the cross section, at its deepest.
     pub piece: GroovePiece,
+    pub section: Section,
+    /// Index of the shape.
+    pub shape: u8,
+    /// Width that sends light.
+    pub lit_um: f64,
+    /// Width that sends light over the width that the share counts by.
+    pub lit_per_share: f64,
     /// (6) at the point.
     pub share: ScratchShare,
     /// Whether it is one of a grating's, which run side by side.
@@ -61,6 +70,9 @@ impl GrooveView {
         if piece.offset_um.abs() > reach_um || nearest_um.abs() > reach_um {
             return None;
         }
+        let section = groove.profile.section.section();
+        let parts = (width_class(piece.width_um / sigma_um) > 0)
+            .then(|| section.parts(piece.width_um, sigma_um));
         let whole = [
             piece.start_um - groove.before_um as f64,
             piece.end_um + groove.after_um as f64,
@@ -69,8 +81,39 @@ impl GrooveView {
             frame,
             wo: frame.band_from_surface(point.wo),
             piece,
-            share: point_share(&piece, whole, sigma_um),
+            section,
+            shape: groove.shape,
+            lit_um: parts.as_ref().map_or(piece.width_um, |it| it.lit_um),
+            lit_per_share: parts.as_ref().map_or(1.0, |it| {
+                it.lit_um / (it.width_um * it.offsets_um.len() as f64)
+            }),
+            share: match &parts {
+                None => point_share(&piece, whole, sigma_um),
+                Some(parts) => parts_share(&piece, whole, sigma_um, parts),
+            },
             is_in_row: false,
+        })
+    }
+
+    /// Half width of the distribution over u = W q that directions across the groove are drawn by. A floor has that of sinc² at green, one
+    /// wider than the window that of an edge; slopes mirror light to sides.
+    pub(crate) fn drawn_um(&self, sigma_um: f64) -> f64 {
+        let slopes_um = match self.section {
+            Section::Rectangle => 0.0,
+            _ => 2e-3 * self.piece.depth_nm,
+        };
+        DRAWN_UM.max(0.1 * self.lit_um / sigma_um) + slopes_um
+    }
+
+    /// Strips of one depth each, side by side, that the groove is for the whole field.
+    pub(crate) fn strips(&self) -> impl Iterator<Item = GroovePiece> {
+        let strips = self.section.strips(STRIPS);
+        let width_um = self.piece.width_um / strips.len() as f64;
+        strips.into_iter().map(move |(x, share)| GroovePiece {
+            offset_um: self.piece.offset_um + 0.5 * self.piece.width_um * x,
+            width_um,
+            depth_nm: self.piece.depth_nm * share,
+            ..self.piece
         })
     }
 
@@ -80,6 +123,10 @@ impl GrooveView {
             frame,
             wo,
             piece,
+            section: Section::Rectangle,
+            shape: 0,
+            lit_um: piece.width_um,
+            lit_per_share: 1.0,
             share: point_share(&piece, [f64::NEG_INFINITY, f64::INFINITY], sigma_um),
             is_in_row: true,
         }
@@ -105,15 +152,45 @@ fn point_share(piece: &GroovePiece, whole_um: [f64; 2], sigma_um: f64) -> Scratc
     }
 }
 
-/// All grooves of an object in the window around a point.
+/// As [`point_share`], for a wide groove, each part of which counts where it lies.
+fn parts_share(
+    piece: &GroovePiece,
+    whole_um: [f64; 2],
+    sigma_um: f64,
+    parts: &Parts,
+) -> ScratchShare {
+    let mut sum = ScratchShare {
+        segment: 0.0,
+        line: 0.0,
+    };
+    for offset_um in &parts.offsets_um {
+        let part = GroovePiece {
+            offset_um: piece.offset_um + offset_um,
+            width_um: parts.width_um,
+            ..*piece
+        };
+        let share = point_share(&part, whole_um, sigma_um);
+        sum.segment += share.segment;
+        sum.line += share.line;
+    }
+    sum
+}
+
+/// Half width of sinc² at green over u = W q, about.
+const DRAWN_UM: f64 = 0.2;
+/// Strips of a groove that is no rectangle.
+const STRIPS: usize = 24;
+
+/// All grooves of an object in the window around a point. None is wider than `widest_um`.
 pub(super) fn gather(
     tree: &SegmentTree<Groove>,
+    widest_um: f64,
     object: usize,
     point: &SurfacePoint,
     reach_sigma: f64,
 ) -> Vec<GrooveView> {
     let mut views = Vec::new();
-    let reach_m = (reach_sigma * point.coherence_um * 1e-6) as f32;
+    let reach_m = ((reach_sigma * point.coherence_um + 0.5 * widest_um) * 1e-6) as f32;
     tree.gather(
         object,
         point.position_m.as_vec3(),
@@ -139,6 +216,9 @@ mod tests {
             width_um: 2.0,
             depth_nm: 100.0,
         };
+        let section = groove.profile.section.section();
+        let parts = (width_class(piece.width_um / sigma_um) > 0)
+            .then(|| section.parts(piece.width_um, sigma_um));
         let whole = [-31.0, 17.0];
         let cuts = [-31.0, -12.0, -3.0, 8.0, 17.0];
         let sum: f64 = cuts

@@ -5,6 +5,7 @@ use hairline_cpu::sampling::environment::EnvironmentSampler;
 use hairline_cpu::sampling::lights::AreaLights;
 use hairline_index::{Groove, ScratchIndex, SegmentTree, TriangleIndex, groove_index};
 use hairline_optics::mask::Mask;
+use hairline_optics::section::{GrooveShape, GrooveSpectrum};
 use hairline_scene::{CameraFrame, Object, Scene, ScratchTables};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -42,6 +43,10 @@ pub struct SceneIndex {
     pub triangles: Arc<TriangleIndex>,
     /// Tree over the grooves of the scratches, in full detail.
     pub grooves: Arc<SegmentTree<Groove>>,
+    /// Spectrum of each of the scene's shapes of grooves; none for narrow rectangles.
+    spectra: Arc<Vec<Option<GrooveSpectrum>>>,
+    /// Width of the widest scratch of each object.
+    widest_um: Arc<Vec<f64>>,
     /// Optical properties of the materials.
     pub tables: Arc<ScratchTables>,
     /// One for each material.
@@ -75,6 +80,13 @@ impl SceneIndex {
             .map(Reflectance::of_coat)
             .collect();
         Self {
+            spectra: (tables.shapes.shapes())
+                .map(|shape| (shape != GrooveShape::default()).then(|| GrooveSpectrum::new(&shape)))
+                .collect::<Vec<_>>()
+                .into(),
+            widest_um: (scene.objects.iter().map(widest_um))
+                .collect::<Vec<_>>()
+                .into(),
             triangles,
             grooves,
             tables,
@@ -100,6 +112,11 @@ impl SceneIndex {
     }
 }
 
+fn widest_um(object: &Object) -> f64 {
+    let widths = object.scratches.iter().map(|it| it.profile.width_um);
+    widths.fold(0.0, f32::max).into()
+}
+
 /// A scene made ready.
 pub struct Integrator<'a> {
     pub(super) scene: &'a Scene,
@@ -108,6 +125,9 @@ pub struct Integrator<'a> {
     pub(super) rows: Range<u32>,
     pub(super) triangles: Arc<TriangleIndex>,
     pub(super) grooves: Arc<SegmentTree<Groove>>,
+    /// Spectrum of each shape of grooves; none for narrow rectangles.
+    pub(super) spectra: Arc<Vec<Option<GrooveSpectrum>>>,
+    pub(super) widest_um: Arc<Vec<f64>>,
     pub(super) depth_coherence: Arc<Vec<f32>>,
     pub(super) tables: Arc<ScratchTables>,
     /// One for each material.
@@ -132,6 +152,8 @@ impl<'a> Integrator<'a> {
         let SceneIndex {
             triangles,
             grooves,
+            spectra,
+            widest_um,
             tables,
             reflectances,
             coats,
@@ -144,6 +166,8 @@ impl<'a> Integrator<'a> {
             rows: 0..scene.render.size_px[1],
             triangles,
             grooves,
+            spectra,
+            widest_um,
             depth_coherence,
             tables,
             reflectances,

@@ -14,6 +14,7 @@ use hairline_cpu::surface::{SurfacePoint, surface_point};
 use hairline_index::Hit;
 use hairline_optics::ggx::{GGX_MIN_ALPHA, ggx_alpha};
 use hairline_optics::mask::ScratchSums;
+use hairline_optics::section::GrooveSpectrum;
 use std::f64::consts::PI;
 
 /// Light that a sample adds to the film.
@@ -120,7 +121,13 @@ impl Integrator<'_> {
             Model::Separable => REACH_OF_ENERGY,
             Model::Full => REACH_OF_AMPLITUDE,
         };
-        let mut views = grooves::gather(&self.grooves, object, &point, reach_sigma);
+        let mut views = grooves::gather(
+            &self.grooves,
+            self.widest_um[object],
+            object,
+            &point,
+            reach_sigma,
+        );
         let row = RowView::drawn(self.scene, object, &self.tables, &point, random);
         let material = &self.scene.materials[point.material];
         let optics = &self.tables.materials[point.material];
@@ -133,7 +140,7 @@ impl Integrator<'_> {
             Model::Separable => {
                 let (kept, taken) = self.mask(object, &point, &views);
                 let sigma_um = point.coherence_um;
-                let lobes = lobes(&views, wavelengths, &weights, sigma_um);
+                let lobes = lobes(&views, &self.spectra, wavelengths, &weights, sigma_um);
                 let mut left = DVec3::ONE - taken;
                 // Scratches lie on top.
                 let row = row.map(|row| {
@@ -197,9 +204,9 @@ impl Integrator<'_> {
 
     /// Share of their light that scratches keep beside one another, and the share that they take from the base.
     fn mask(&self, object: usize, point: &SurfacePoint, views: &[GrooveView]) -> (f64, DVec3) {
-        let table = &self.tables.tables[point.table];
         let mut sums = ScratchSums::default();
         for view in views {
+            let table = &self.tables.tables[point.table + usize::from(view.shape)];
             // In the mirror's direction both cosines are the viewer's.
             let total = table.scratch_table_total(view.piece.depth_nm * point.wo.z);
             sums.add(view.share, total, [1.0; 3]);
@@ -532,15 +539,19 @@ impl Integrator<'_> {
 /// Below, d xi = cos d omega loses its meaning as a measure of directions.
 const MIN_COS: f64 = 1e-6;
 
-fn lobes(
+fn lobes<'a>(
     views: &[GrooveView],
+    spectra: &'a [Option<GrooveSpectrum>],
     wavelengths: &Wavelengths,
     weights: &Spectrum<DVec3>,
     coherence_um: f64,
-) -> Vec<Lobe<'static>> {
+) -> Vec<Lobe<'a>> {
     views
         .iter()
         .filter(|view| view.share.segment > 0.0)
-        .map(|view| Lobe::new(view, wavelengths, weights, coherence_um))
+        .map(|view| {
+            let spectrum = spectra[usize::from(view.shape)].as_ref();
+            Lobe::new(view, spectrum, wavelengths, weights, coherence_um)
+        })
         .collect()
 }

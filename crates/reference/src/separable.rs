@@ -11,10 +11,8 @@ use hairline_optics::band::BandFrame;
 use hairline_optics::diffraction::sinc;
 use hairline_optics::grating::{Grating as Row, RigorousGrating};
 use hairline_optics::scratch::{band_std, phase_step_energy};
+use hairline_optics::section::GrooveSpectrum;
 use std::f64::consts::PI;
-
-/// Half width of the distribution over u = W q that directions across a groove are drawn by: about that of sinc^2 at green.
-const DRAWN_HALF_WIDTH_UM: f64 = 0.2;
 
 /// Weight by which rigorous orders are drawn at least, of all light.
 const LEAST_RIGOROUS: f64 = 0.01;
@@ -36,7 +34,16 @@ pub(super) struct Lobe<'a> {
 
 /// Source of a lobe.
 enum LobeSource<'a> {
-    Groove { width_um: f64, depth_nm: f64 },
+    Groove {
+        width_um: f64,
+        depth_nm: f64,
+        /// Half width of the distribution over u = W q that directions are drawn by.
+        drawn_um: f64,
+        /// Width over the width of the share.
+        lit_per_share: f64,
+        /// None for a narrow rectangle.
+        spectrum: Option<&'a GrooveSpectrum>,
+    },
     Row(Row, Option<RigorousGrating<'a>>),
 }
 
@@ -44,14 +51,21 @@ impl<'a> Lobe<'a> {
     /// `weight` holds the material's reflectance; `coherence_um` is sigma.
     pub(crate) fn new(
         groove: &GrooveView,
+        spectrum: Option<&'a GrooveSpectrum>,
         wavelengths: &Wavelengths,
         weight: &Spectrum<DVec3>,
         coherence_um: f64,
     ) -> Self {
-        let (width_um, depth_nm) = (groove.piece.width_um, groove.piece.depth_nm);
+        let of = LobeSource::Groove {
+            width_um: groove.lit_um,
+            lit_per_share: groove.lit_per_share,
+            depth_nm: groove.piece.depth_nm,
+            drawn_um: groove.drawn_um(coherence_um),
+            spectrum,
+        };
         Self::of(
             (groove.frame, groove.wo, groove.share.segment),
-            LobeSource::Groove { width_um, depth_nm },
+            of,
             wavelengths,
             weight,
             coherence_um,
@@ -105,7 +119,20 @@ impl<'a> Lobe<'a> {
             .map(|j| {
                 let nm = self.nm[j];
                 let across = match &self.of {
-                    LobeSource::Groove { width_um, depth_nm } => {
+                    LobeSource::Groove {
+                        width_um,
+                        depth_nm,
+                        lit_per_share,
+                        spectrum: Some(spectrum),
+                        ..
+                    } => {
+                        let per_um = width_um / (nm * 1e-3);
+                        let row = spectrum.at_depth(depth_nm * depth_share / nm);
+                        lit_per_share * per_um * row.at(per_um * to.q.abs())[0]
+                    }
+                    LobeSource::Groove {
+                        width_um, depth_nm, ..
+                    } => {
                         let slit = sinc(PI * width_um / (nm * 1e-3) * to.q);
                         let energy = phase_step_energy(depth_nm * depth_share, nm);
                         energy * width_um / (nm * 1e-3) * slit * slit
@@ -133,9 +160,9 @@ impl<'a> Lobe<'a> {
     ) -> Option<LobeDirections> {
         let (low, high) = (self.wo.y + across.0, self.wo.y + across.1);
         let q = match &self.of {
-            LobeSource::Groove { width_um, .. } => {
-                Across::Slit(CutCauchy::new(DRAWN_HALF_WIDTH_UM / width_um, low, high)?)
-            }
+            LobeSource::Groove {
+                width_um, drawn_um, ..
+            } => Across::Slit(CutCauchy::new(drawn_um / width_um, low, high)?),
             LobeSource::Row(row, rigorous) => {
                 // Orders that a rectangle does not send may have light.
                 let least = if rigorous.is_some() {

@@ -16,6 +16,7 @@ use crate::convert;
 use crate::description::{self, Description};
 use crate::error::Error;
 use crate::estimate::Estimate;
+use crate::groove_shapes::{GrooveShapes, MOST_SHAPES};
 use crate::lamp_shape;
 use crate::light_picture::LightPicture;
 use crate::loader::{Loader, Stage};
@@ -101,6 +102,7 @@ impl<'a> Work<'a> {
         self.loader.go_on()?;
         scene.environment = self.environment(&mut scene)?;
         self.scratches(&surfaces, &mut scene)?;
+        check_shapes(&scene)?;
         self.new.surfaces = surfaces;
         Ok(scene)
     }
@@ -334,4 +336,21 @@ impl<'a> Work<'a> {
 fn no_mesh() -> Arc<Mesh> {
     static NONE: LazyLock<Arc<Mesh>> = LazyLock::new(Arc::default);
     NONE.clone()
+}
+
+/// Refuses scratches of more shapes than renderers have tables for.
+fn check_shapes(scene: &Scene) -> Result<(), Error> {
+    let count = GrooveShapes::new(scene).count();
+    match count <= MOST_SHAPES {
+        true => Ok(()),
+        false => Err(Error::new(
+            "scratches",
+            format!(
+                "found grooves of {count} shapes: profiles, each as narrow ones and in up to five classes of wide ones"
+            ),
+            format!(
+                "must be at most {MOST_SHAPES}: fewer profiles, or widths below 0.4 of the materials' `coherence_um`"
+            ),
+        )),
+    }
 }

@@ -2,6 +2,7 @@
 
 use crate::fine_gratings::{cover, efficiencies, fine_grooves};
 use crate::grating::Grating;
+use crate::groove_shapes::GrooveShapes;
 use crate::scene::{Base, COAT_IOR, Material, Scene};
 use hairline_optics::cover::Cover;
 use hairline_optics::fresnel::FresnelCurve;
@@ -9,8 +10,10 @@ use hairline_optics::grating::{Grating as Row, RigorousGrating};
 use hairline_optics::metal::Metal;
 use hairline_optics::published::spectrum::PublishedSpectrum;
 use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
+use hairline_optics::section::GrooveShape;
 use hairline_optics::table::ScratchTable;
-use std::sync::{Arc, OnceLock};
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// A material's reflection before textures: a metallic part with the base colour as its reflectance at normal incidence, and
 /// a dielectric one over a diffuse body of the base colour.
@@ -24,7 +27,8 @@ pub struct MaterialOptics {
     pub dielectric_f0: f64,
     /// Index of the material's reflectance in [`ScratchTables::curves`].
     pub curve: u32,
-    /// Index of the table of its scratches in [`ScratchTables::tables`]; the table of white if they lie in a coat.
+    /// Index of the table of its narrow rectangular scratches in [`ScratchTables::tables`], which those of the scene's further shapes follow; the
+    /// table of white if they lie in a coat.
     pub table: u32,
     /// Index of the coat's reflectance in [`ScratchTables::curves`].
     pub coat_curve: Option<u32>,
@@ -69,12 +73,14 @@ impl Reflector {
     }
 }
 
-/// The scratch tables that a scene needs, one for each reflectance spectrum.
+/// The scratch tables that a scene needs, one for each reflectance spectrum and shape of grooves.
 pub struct ScratchTables {
     /// Distinct tables.
     pub tables: Vec<Arc<ScratchTable>>,
-    /// The metal of each table; none for white's.
+    /// The metals, each with tables for all shapes; none for white.
     pub metals: Vec<Option<Metal>>,
+    /// Shapes of the scratches.
+    pub shapes: GrooveShapes,
     /// Distinct curves of reflectance over the angle.
     pub curves: Vec<FresnelCurve>,
     /// Reflector of each curve.
@@ -129,6 +135,8 @@ impl ScratchTables {
         // Colours given in RGB have no spectrum: their scratches use white's table and take the colour at the end.
         let mut metals: Vec<Option<Metal>> = Vec::new();
         let mut reflectors: Vec<Reflector> = Vec::new();
+        let shapes = GrooveShapes::new(scene);
+        let shape_count = shapes.shapes().len();
         let materials = scene
             .materials
             .iter()
@@ -154,12 +162,19 @@ impl ScratchTables {
                 let curve = curve_of(Reflector::new(material));
                 MaterialOptics {
                     coat_curve: material.coat.map(|_| curve_of(Reflector::COAT)),
-                    ..material_optics(material, table as u32, curve)
+                    ..material_optics(material, (table * shape_count) as u32, curve)
                 }
             })
             .collect();
-        let mut tables: Vec<Arc<ScratchTable>> =
-            metals.iter().map(|metal| scratch_table(*metal)).collect();
+        let mut tables: Vec<Arc<ScratchTable>> = Vec::new();
+        for metal in &metals {
+            for shape in shapes.shapes() {
+                if cancelled() {
+                    return None;
+                }
+                tables.push(shaped_table(*metal, shape));
+            }
+        }
         let materials: Vec<MaterialOptics> = materials;
         let mut all = Self {
             tables: Vec::new(),
@@ -167,6 +182,7 @@ impl ScratchTables {
             efficiencies: Vec::new(),
             of: scene.materials.clone(),
             metals,
+            shapes,
             curves: reflectors.iter().map(|r| r.curve()).collect(),
             reflectors,
             materials,
@@ -206,7 +222,7 @@ impl ScratchTables {
         }
         GratingSpectrum {
             row,
-            metal: self.metals[self.materials[material].table as usize],
+            metal: self.metals[self.materials[material].table as usize / self.shape_count()],
             coherence_um: self.of[material].coherence_um,
             fine,
             cover,
@@ -218,21 +234,32 @@ impl ScratchTables {
     pub fn grating_table(&self, grating: &Grating, material: usize) -> Option<usize> {
         let spectrum = self.spectrum(grating, material);
         let at = self.grating_spectra.iter().position(|of| *of == spectrum)?;
-        Some(self.metals.len() + at)
+        Some(self.grating_tables_at() + at)
+    }
+
+    /// Number of tables of each metal.
+    fn shape_count(&self) -> usize {
+        self.shapes.shapes().len()
+    }
+
+    /// Index of the first table of a grating.
+    fn grating_tables_at(&self) -> usize {
+        self.metals.len() * self.shape_count()
     }
 
     /// The grating of a table of one, with its efficiencies; none where they are scalar.
     pub fn rigorous(&self, table: usize) -> Option<RigorousGrating<'_>> {
-        let at = table - self.metals.len();
+        let at = table - self.grating_tables_at();
         self.grating_spectra[at].rigorous(self.efficiencies[at].as_ref()?)
     }
 
-    /// Spectra of `count` wavelengths that the method of 2018 uses in the place of each table.
+    /// Spectra of `count` wavelengths that the method of 2018 uses in the place of each table. It knows no shape but the rectangle.
     pub fn published_spectra(&self, count: usize) -> Vec<PublishedSpectrum> {
-        self.metals
-            .iter()
-            .map(|metal| PublishedSpectrum::new(count, |nm| reflectance(*metal, nm)))
-            .collect()
+        let spectra = self.metals.iter().flat_map(|metal| {
+            let spectrum = PublishedSpectrum::new(count, |nm| reflectance(*metal, nm));
+            std::iter::repeat_n(spectrum, self.shape_count())
+        });
+        spectra.collect()
     }
 }
 
@@ -248,6 +275,30 @@ fn scratch_table(metal: Option<Metal>) -> Arc<ScratchTable> {
     }
     let made = Arc::new(ScratchTable::new(|nm| reflectance(metal, nm)));
     Arc::clone(MADE[at].get_or_init(|| made))
+}
+
+/// Tables of further shapes that the process keeps: 8 MB each.
+const KEPT_TABLES: usize = 24;
+
+/// The table of grooves of a shape in a metal.
+fn shaped_table(metal: Option<Metal>, shape: GrooveShape) -> Arc<ScratchTable> {
+    type Kept = VecDeque<(Option<Metal>, GrooveShape, Arc<ScratchTable>)>;
+    static KEPT: Mutex<Kept> = Mutex::new(VecDeque::new());
+    if shape == GrooveShape::default() {
+        return scratch_table(metal);
+    }
+    // Not locked while a table is made, as above.
+    let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((.., made)) = kept().iter().find(|it| (it.0, &it.1) == (metal, &shape)) {
+        return Arc::clone(made);
+    }
+    let made = Arc::new(ScratchTable::of_shape(&shape, |nm| reflectance(metal, nm)));
+    let mut kept = kept();
+    kept.push_back((metal, shape, Arc::clone(&made)));
+    if kept.len() > KEPT_TABLES {
+        kept.pop_front();
+    }
+    made
 }
 
 /// Reflectance at normal incidence.

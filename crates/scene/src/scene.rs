@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use crate::environment::Environment;
 use crate::grating::Grating;
+use crate::section_id::SectionId;
 
 pub use crate::light::{Cone, Doors, Light, LightShape};
 pub use hairline_model::material::*;
@@ -186,13 +187,15 @@ impl Object {
     }
 }
 
-/// The cross section of a groove: a rectangle. It travels whole, from the layer that draws it to what shades it.
+/// The cross section of a groove. It travels whole, from the layer that draws it to what shades it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Profile {
-    /// Width of the opening.
+    /// Width of the opening, with the shoulders beside it.
     pub width_um: f32,
-    /// Depth of the floor.
+    /// Depth of the deepest place.
     pub depth_nm: f32,
+    /// Shape of the cross section.
+    pub section: SectionId,
 }
 
 /// One scratch: one groove, one wave. Where two of its segments meet, the end is joined; its own two ends are free,

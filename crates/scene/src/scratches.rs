@@ -30,12 +30,13 @@ use rayon::prelude::*;
 use crate::description::{Amount, Layer, Stroke};
 use crate::error::Error;
 use crate::loader::{Loader, Stage};
-use crate::scene::{Scratch, Segment};
+use crate::scene::{Profile, Scratch, Segment};
+use crate::section_id::SectionId;
 
 use erase::Eraser;
 pub(crate) use ground::Ground;
 pub(crate) use laying::LISTED_SIZES;
-use laying::{Groove, Laying, MOST_SEGMENTS};
+use laying::{Laying, MOST_SEGMENTS};
 use listed::Listed;
 pub use listed::write_scratches;
 use memory::{Demand, SEGMENT_BYTES};
@@ -67,6 +68,8 @@ pub(crate) struct Table<'a> {
     /// Path of the layer's key in the scene file.
     pub key: String,
     pub layer: &'a Layer,
+    /// Cross section of its grooves.
+    pub section: SectionId,
     pub strokes: &'a [Stroke],
     /// Number of earlier layers on the same object with the same seed.
     pub number: u64,
@@ -88,10 +91,10 @@ impl Laid {
         bytes(self.scratches.len(), self.segments.len())
     }
 
-    fn push(&mut self, groove: &Groove, course: Course, segments: std::ops::Range<usize>) {
+    fn push(&mut self, profile: Profile, course: Course, segments: std::ops::Range<usize>) {
         if !segments.is_empty() {
             self.scratches.push(Scratch {
-                profile: groove.profile,
+                profile,
                 layer: 0,
                 closed: course == Course::Closed,
                 segments: segments.start as u32..segments.end as u32,
@@ -346,16 +349,20 @@ impl<'a> Plan<'a> {
             }
             let start = laid.segments.len();
             let groove = self.laying.lay(walker, index, &mut laid.segments);
+            let profile = Profile {
+                section: self.table.section,
+                ..groove.profile
+            };
             let whole = &laid.segments[start..];
             let Some(runs) = self.rest(walker, index, groove.course, whole) else {
-                laid.push(&groove, groove.course, start..laid.segments.len());
+                laid.push(profile, groove.course, start..laid.segments.len());
                 continue;
             };
             laid.segments.truncate(start);
             for run in runs {
                 let start = laid.segments.len();
                 laid.segments.extend(run);
-                laid.push(&groove, Course::Open, start..laid.segments.len());
+                laid.push(profile, Course::Open, start..laid.segments.len());
             }
         }
         laid

@@ -98,6 +98,7 @@ fn is_same_layer((a, x): (&Description, &Scratches), (b, y): (&Description, &Scr
         name: _,
         hidden,
         solo,
+        profile,
         layer,
         strokes,
     } = x;
@@ -106,6 +107,7 @@ fn is_same_layer((a, x): (&Description, &Scratches), (b, y): (&Description, &Scr
         && *solo == y.solo
         && (material, node) == (&y.material, &y.node)
         && *places == y.place
+        && *profile == y.profile
         && *layer == y.layer
         && *strokes == y.strokes
 }

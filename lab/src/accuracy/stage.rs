@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use anyhow::{Result, anyhow};
 use glam::{DVec2, DVec3, Vec3};
-use hairline_scene::{Environment, Light, Profile, Scene, Scratch, Segment};
+use hairline_optics::section::Section;
+use hairline_scene::{Environment, Light, Profile, Scene, Scratch, SectionId, Segment};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -42,6 +43,9 @@ pub struct Stage {
     pub covered: f64,
     pub width_um: f64,
     pub depth_nm: f64,
+    /// Cross section of the grooves.
+    pub section: fn() -> Section,
+    pub coherence_um: f64,
     pub length_um: f64,
     /// Largest angle of scratches to the plane of incidence; a quarter turn is every direction.
     pub spread_rad: f64,
@@ -61,6 +65,8 @@ impl Default for Stage {
             covered: 0.05,
             width_um: 2.0,
             depth_nm: 150.0,
+            section: Section::default,
+            coherence_um: 20.0,
             length_um: 1000.0,
             spread_rad: 0.35,
             seed: 1,
@@ -82,14 +88,19 @@ impl Stage {
         let text = format!(
             "[camera]\nposition_m = [0.0, {:?}, {:?}]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 1.0, 0.0]\n\
              fov_y_deg = {fov_y_deg:?}\n[render]\nsize_px = [{size}, {size}]\n\
-             [[material]]\nname = \"mirror\"\nkind = \"mirror\"\nroughness = {:?}\n\
+             [[light]]\nkind = \"sphere\"\ncenter_m = [0.0, 0.0, 9.0]\nradius_m = 0.1\nradiance = 1.0\n\
+             [[material]]\nname = \"mirror\"\nkind = \"mirror\"\nroughness = {:?}\ncoherence_um = {:?}\n\
              [[object]]\nname = \"plate\"\nmaterial = \"mirror\"\nshape = {{ plane = {{ size_m = [{plate_m:?}, {plate_m:?}] }} }}\n",
             camera.y,
             camera.z,
             self.roughness,
+            self.coherence_um,
             size = self.size_px,
         );
         let mut scene = Scene::from_toml(&text, "the stage", ".").map_err(|e| anyhow!("{e}"))?;
+        // A file without a light would get a photographer's set.
+        scene.lights.clear();
+        scene.objects.truncate(1);
         match self.light() {
             Some(light) => scene.lights.push(light),
             None => scene.environment = Some(Environment::uniform([1.0; 3])),
@@ -135,7 +146,7 @@ impl Stage {
         }
         // Filter, perspective and the window reach beyond the picture's edge, and a scratch reaches half its length.
         let seen_um = f64::from(self.size_px + 8) * self.pixel_um;
-        let margin_um = 150.0 + 0.5 * self.length_um;
+        let margin_um = 150.0 + self.width_um + 0.5 * self.length_um;
         let half_um = DVec2::new(
             0.5 * seen_um + margin_um,
             0.5 * seen_um / self.view_rad.cos() * 1.1 + margin_um,
@@ -163,6 +174,7 @@ impl Stage {
                 profile: Profile {
                     width_um: self.width_um as f32,
                     depth_nm: self.depth_nm as f32,
+                    section: SectionId::new(&(self.section)()),
                 },
                 layer: 0,
                 closed: false,

@@ -8,7 +8,10 @@ use bevy::mesh::{Indices, Mesh, PrimitiveTopology, VertexAttributeValues};
 use bevy::prelude::BevyError;
 use hairline_gpu::scratch_tree;
 use hairline_index::ScratchIndex;
-use hairline_scene::{Arrays, Description, Loader, MeshArrays, Scene, SceneBuilder};
+use hairline_optics::section::GrooveShape;
+use hairline_scene::{
+    Arrays, Description, GrooveShapes, Loader, MeshArrays, Scene, SceneBuilder,
+};
 
 /// Name of the mesh where a scene has a file.
 const NAME: &str = "mesh";
@@ -24,6 +27,8 @@ object = [{ name = 'mesh', mesh = 'mesh', material = 'material' }]
 #[derive(Clone, Debug)]
 pub struct Scratches {
     pub(crate) texels: Vec<[u32; 4]>,
+    /// Shapes of the grooves, each with a layer of the spectra.
+    pub(crate) shapes: Vec<GrooveShape>,
 }
 
 impl Scratches {
@@ -52,6 +57,7 @@ impl Scratches {
     pub fn of_scene(scene: &Scene, object: usize) -> Self {
         Self {
             texels: scratch_tree::texels(&ScratchIndex::build(scene), object),
+            shapes: GrooveShapes::new(scene).shapes().collect(),
         }
     }
 }

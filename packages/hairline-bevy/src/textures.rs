@@ -1,7 +1,5 @@
 //! The textures that shaders look things up in.
 
-use std::collections::HashMap;
-
 use bevy::asset::RenderAssetUsages;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
@@ -11,17 +9,25 @@ use bevy::render::render_resource::{
 use hairline_gpu::engine_tables::{self, Texels};
 use hairline_gpu::scratch_tree;
 use hairline_optics::metal::Metal;
+use hairline_optics::section::GrooveShape;
 use hairline_optics::table::{COLUMNS, ROWS, ScratchTable};
 
 use crate::{Scratched, Scratches, Settings};
 
-/// Textures of all scratched materials: 0.35 MB, and 8 MB for each metal.
+/// Textures of all scratched materials: 0.35 MB, and 8 MB for each metal and shape of grooves.
 #[derive(Resource)]
 pub(crate) struct Shared {
     shapes: Handle<Image>,
     albedo: Handle<Image>,
     curves: Handle<Image>,
-    spectra: HashMap<Option<Metal>, Handle<Image>>,
+    spectra: Vec<Spectrum>,
+}
+
+/// The tables of a metal, one layer for each shape of grooves.
+struct Spectrum {
+    metal: Option<Metal>,
+    shapes: Vec<GrooveShape>,
+    image: Handle<Image>,
 }
 
 impl FromWorld for Shared {
@@ -36,7 +42,7 @@ impl FromWorld for Shared {
             shapes: add(engine_tables::shapes()),
             albedo: add(engine_tables::albedo()),
             curves: add(engine_tables::curves()),
-            spectra: HashMap::new(),
+            spectra: Vec::new(),
         }
     }
 }
@@ -56,19 +62,34 @@ impl ScratchedTextures<'_> {
         let rows = texels.len() / scratch_tree::WIDTH;
         let size = [scratch_tree::WIDTH, rows].map(|n| n as u32);
         let tree = self.images.add(words(size, texels));
-        let spectrum = self.shared.spectra.entry(metal).or_insert_with(|| {
-            let table =
-                ScratchTable::new(|nm| metal.map_or(1.0, |metal| metal.reflectance(1.0, nm)));
-            let mut spectrum = words([COLUMNS, ROWS].map(|n| n as u32), &table.texels);
-            spectrum.texture_view_descriptor = Some(TextureViewDescriptor {
-                dimension: Some(TextureViewDimension::D2Array),
-                ..default()
-            });
-            self.images.add(spectrum)
-        });
+        let mut spectra = self.shared.spectra.iter();
+        let known = spectra.find(|it| it.metal == metal && it.shapes == scratches.shapes);
+        let spectrum = match known {
+            Some(known) => known.image.clone(),
+            None => {
+                let reflectance =
+                    |nm| metal.map_or(1.0, |metal: Metal| metal.reflectance(1.0, nm));
+                let shapes = scratches.shapes.iter();
+                let texels: Vec<[u32; 4]> = shapes
+                    .flat_map(|shape| ScratchTable::of_shape(shape, reflectance).texels)
+                    .collect();
+                let mut spectrum = words([COLUMNS, ROWS].map(|n| n as u32), &texels);
+                spectrum.texture_view_descriptor = Some(TextureViewDescriptor {
+                    dimension: Some(TextureViewDimension::D2Array),
+                    ..default()
+                });
+                let image = self.images.add(spectrum);
+                self.shared.spectra.push(Spectrum {
+                    metal,
+                    shapes: scratches.shapes.clone(),
+                    image: image.clone(),
+                });
+                image
+            }
+        };
         Scratched {
             tree,
-            tables: spectrum.clone(),
+            tables: spectrum,
             shapes: self.shared.shapes.clone(),
             albedo: self.shared.albedo.clone(),
             curves: self.shared.curves.clone(),
@@ -91,11 +112,12 @@ fn words(size: [u32; 2], texels: &[[u32; 4]]) -> Image {
     image(size, bytes.collect(), TextureFormat::Rgba32Uint)
 }
 
+/// An image of as many layers as there are bytes for; both formats have 16 a texel.
 fn image([width, height]: [u32; 2], bytes: Vec<u8>, format: TextureFormat) -> Image {
     let size = Extent3d {
         width,
         height,
-        depth_or_array_layers: 1,
+        depth_or_array_layers: bytes.len() as u32 / (16 * width * height),
     };
     Image::new(
         size,

@@ -57,6 +57,7 @@ export const bandOf = wgslFn(`fn hairline_band(${SCRATCHES}, walked: mat4x4f) ->
     band[0] = vec4f(seen.tangent, max(seen.share.segment, 0.0), seen.profile.width_um);
     band[1] = vec4f(point.lit.wo, seen.profile.depth_nm);
     band[3].y = 1.0;
+    band[3].z = f32(seen.profile.shape);
   }
   band[2] = vec4f(f32(walk.node), f32(walk.piece), f32(walk.end), f32(walk.step));
   band[3].x = walk.weight;
@@ -65,7 +66,7 @@ export const bandOf = wgslFn(`fn hairline_band(${SCRATCHES}, walked: mat4x4f) ->
 
 // One cell of its band: a direction of the surface's frame and the roughness of a look-up; what comes of it.
 export const bandCell = wgslFn(`fn hairline_band_cell(band: mat4x4f, tables: texture_2d_array<u32>, j: u32) -> mat4x4f {
-  let cell = scratched_cell(tables, 0u, band[1].xyz, band[0].xy, Profile(band[0].w, band[1].w), j);
+  let cell = scratched_cell(tables, 0u, band[1].xyz, band[0].xy, Profile(band[0].w, band[1].w, u32(band[3].z)), j);
   return mat4x4f(vec4f(cell.direction, cell.roughness), vec4f(band[0].z * cell.response, 0.0), vec4f(0.0), vec4f(0.0));
 }`, [library]);
 

@@ -1,12 +1,13 @@
 //! The closed form against the Monte Carlo integral of the model that it stands for.
 
 use super::pictures::{Compared, LINEAR, closed, compared, sampled};
-use super::scenes::{View, leaning, outline, panel, plate, scratch, sphere, tube};
+use super::scenes::{View, leaning, outline, panel, plate, scratch, scratch_alike, sphere, tube};
 use glam::DVec2;
 use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Layer;
 use hairline_optics::metal::Metal;
-use hairline_scene::{Anisotropy, Base, Coat, Cone, LightShape, Scene, Specular};
+use hairline_optics::section::Section;
+use hairline_scene::{Anisotropy, Base, Coat, Cone, LightShape, Scene, SectionId, Specular};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -413,4 +414,41 @@ fn a_ball() {
         [Layer::Scratches, Layer::Base].map(|layer| compared("ball", &exact, &reference, layer));
     assert!(agrees(&scratches, SCRATCHES), "{scratches:?}");
     assert!(base.rms().0 < BASE, "{base:?}");
+}
+
+/// Grooves of each profile, narrow ones and wider than the window, whose parts lie beside one another.
+#[test]
+fn plates_of_profiles_and_wide_grooves() {
+    let view = View {
+        angle_rad: 40f64.to_radians(),
+        pixel_um: 60.0,
+        size_px: 16,
+    };
+    let listed = Section::Listed([1.0, 0.8, 0.1, -0.3, 0.0].into());
+    for (section, width_um) in [
+        (Section::V, 2.0),
+        (Section::Round, 2.0),
+        (Section::Shoulders, 3.0),
+        (listed, 3.0),
+        (Section::Rectangle, 30.0),
+        (Section::Rectangle, 100.0),
+        (Section::V, 30.0),
+    ] {
+        let mut scene = plate(Base::Metal(Metal::Gold), view);
+        light(&mut scene, view);
+        scratch_alike(&mut scene, view, 24, width_um, 250.0);
+        let as_rectangles = scene.clone();
+        for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {
+            scratch.profile.section = SectionId::new(&section);
+        }
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let name = format!("{section:?}, {width_um} um");
+        let found = compared(&name, &exact, &reference, Layer::Scratches);
+        assert!(agrees(&found, 2.0 * SCRATCHES), "{name}: {found:?}");
+        if section != Section::Rectangle {
+            let wrong = closed(&as_rectangles);
+            let wrong = compared("as rectangles", &wrong, &reference, Layer::Scratches);
+            assert!(wrong.rms().0 > 0.1, "{name}: {wrong:?}");
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! The full-wave model against the separable one: alike where waves are alone, fringes where two meet, alike in the mean of many.
 
-use super::pictures::{LINEAR, compared, mean, sampled};
+use super::pictures::{LINEAR, closed, compared, mean, sampled};
 use super::scenes::{View, plate, scratch, sphere};
 use conformance::lay;
 use glam::Vec3;
@@ -8,10 +8,12 @@ use hairline_image::Layer;
 use hairline_image::metrics::Verdict;
 use hairline_optics::diffraction::sinc;
 use hairline_optics::scratch::phase_step_energy;
+use hairline_optics::section::Section;
 use hairline_optics::spectrum;
 use hairline_reference::{Model, Settings};
-use hairline_scene::{Base, Scene};
+use hairline_scene::{Base, Scene, SectionId};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 const FULL: Settings = Settings {
     model: Model::Full,
@@ -119,4 +121,44 @@ fn many_scratches_are_alike_in_the_mean() {
     );
     // Some twenty scratches that meet one another at random: their fringes cancel but for a few percent.
     assert!((found.mean_ratio - 1.0).abs() < 0.05 && found.mean_ratio_error < 0.015);
+}
+
+/// One groove of each profile, and wide ones, whose light comes from their edges: the closed form against the whole field.
+#[test]
+fn profiles_and_wide_grooves_alone() {
+    let view = View {
+        angle_rad: 0.15,
+        pixel_um: 40.0,
+        size_px: 8,
+    };
+    for (section, width_um) in [
+        (Section::V, 2.0),
+        (Section::Round, 3.0),
+        (Section::Shoulders, 4.0),
+        (Section::Rectangle, 30.0),
+        (Section::Rectangle, 100.0),
+        (Section::Shoulders, 30.0),
+    ] {
+        let mut scene = mirror(view);
+        scene.lights = vec![sphere(view, 0.0, 0.2, 0.06)];
+        lay_along_x(&mut scene, 3.0, width_um, 200.0);
+        let narrow = {
+            let mut scene = scene.clone();
+            Arc::make_mut(&mut scene.objects[0].scratches)[0]
+                .profile
+                .width_um = 4.0;
+            scene
+        };
+        let profile = &mut Arc::make_mut(&mut scene.objects[0].scratches)[0].profile;
+        profile.section = SectionId::new(&section);
+        let (full, ours) = (sampled(&scene, FULL, 16), closed(&scene));
+        let name = format!("{section:?}, {width_um} um, closed form and full");
+        let found = compared(&name, &ours, &full, Layer::Scratches);
+        let limit = 0.03 + 3.0 * found.mean_ratio_error;
+        assert!((found.mean_ratio - 1.0).abs() < limit, "{name}: {found:?}");
+        let [at_least, _] = found.beyond.relative_rms_within(2.0);
+        assert!(at_least < 0.05, "{name}: {found:?}");
+        let wrong = compared("narrower", &closed(&narrow), &full, Layer::Scratches);
+        assert!(wrong.rms().0 > 0.1, "{name}: {wrong:?}");
+    }
 }

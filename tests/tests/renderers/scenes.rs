@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use conformance::middle_of;
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
+use hairline_fixtures::{DISK, SceneFile};
 use hairline_scene::{DEFAULT_SAMPLES, Scene};
 
 /// Widths of the whole picture and of its middle: a whole picture of that size would have all scratches in each tile.
@@ -61,7 +62,7 @@ macro_rules! scenes {
     };
 }
 
-scenes! { baubles bokeh bonnet brushed built_in_scene caseback closeup disc drawn dvd groove knife knob lamps lid lighter lights mirror movement pan phone plate record rings seal spoon sundial sunlit }
+scenes! { baubles bokeh bonnet brushed built_in_scene caseback closeup disc drawn dvd groove knife knob lamps lid lighter lights mirror movement pan phone plate profiles record rings seal spoon sundial sunlit }
 
 #[test]
 fn no_scene_is_left_out() {
@@ -88,4 +89,27 @@ fn a_wrong_scratch_is_seen() {
     let cpu = on_the_cpu(&wrong, DEFAULT_SAMPLES);
     let seen = compare("wrong", &scene, &gpu, &cpu).unwrap_err();
     assert!(seen.contains("scratches"), "{seen}");
+}
+
+/// Grooves of several shapes on one object, narrow and wide ones.
+#[test]
+fn shapes_of_grooves() {
+    let scene = SceneFile::seen_from([0.0, -0.02, 0.03])
+        .size_px([64, 48])
+        .fov_y_deg(6.0)
+        .mirror("m")
+        .object("plate", "m", DISK)
+        .random("plate", 60_000)
+        .with("profile = \"shoulders\"\nwidth_um = { mean = 3.0, spread = 0.3 }\nlength_m = 0.004")
+        .random("plate", 8000)
+        .with("seed = 2\nwidth_um = { mean = 40.0, spread = 0.8 }\nlength_m = 0.004")
+        .random("plate", 8000)
+        .with("seed = 3\nprofile = [1, 0.6, -0.2, 0]\nwidth_um = 20.0\nlength_m = 0.004")
+        .sphere([0.0, 0.02, 0.03], 0.002, 9.0)
+        .scene();
+    let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {
+        return;
+    };
+    let cpu = on_the_cpu(&scene, DEFAULT_SAMPLES);
+    compare("shapes of grooves", &scene, &gpu, &cpu).unwrap_or_else(|error| panic!("{error}"));
 }

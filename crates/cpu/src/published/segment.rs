@@ -2,12 +2,11 @@
 
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
-use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
+use hairline_index::{IndexedProfile, IndexedSegment};
 use hairline_optics::band::BandFrame;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
 use hairline_optics::published::footprint::{PixelFootprint, published_share};
-use hairline_scene::Profile;
 
 /// A segment as seen from a point.
 pub(super) struct SegmentView {
@@ -17,7 +16,7 @@ pub(super) struct SegmentView {
     pub share: ScratchShare,
     /// Share of the base that the scratch masks by the talk's mask.
     pub density: f64,
-    pub profile: Profile,
+    pub profile: IndexedProfile,
 }
 
 /// Length that stands for an endless scratch: far beyond any pixel, yet small enough for sums of it to

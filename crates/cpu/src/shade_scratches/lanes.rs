@@ -5,8 +5,8 @@ use super::picks::Pick;
 use super::point::{Frame, ScratchPoint, share};
 use crate::project::Projected;
 use glam::{DVec2, DVec3};
-use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
+use hairline_index::{IndexedProfile, IndexedSegment};
 use hairline_optics::band::{Along, BandPlace};
 use hairline_optics::footprint::ScratchShare;
 
@@ -256,16 +256,17 @@ impl SegmentView {
 
     /// The share that a point sees; none if it doesn't.
     #[inline(always)]
-    pub fn share(&self, lane: usize, width_um: f64) -> Option<ScratchShare> {
+    pub fn share(&self, lane: usize, profile: IndexedProfile) -> Option<ScratchShare> {
         if self.sees[lane] == 0 {
             return None;
         }
-        let share = share(
-            width_um,
+        let mut share = share(
+            profile.width_um.into(),
             self.far2[lane],
             self.variance_um2[lane],
             self.ends(lane),
         );
+        share.line *= profile.lines();
         (share.segment > 0.0).then_some(share)
     }
 }

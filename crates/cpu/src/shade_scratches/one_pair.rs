@@ -28,7 +28,6 @@ pub(crate) fn pick_one_pair(
     } = *at;
     let frame = Frame::new(point);
     let group = Group::new(std::slice::from_ref(at), std::slice::from_ref(&frame));
-    let table = &prepared.tables.tables[point.table];
     let environment = prepared.scene.environment.as_ref();
     let around = environment.map(|it| luminance(it.irradiance(point.normal)) / PI);
     let (segments, _) = prepared.segments();
@@ -37,9 +36,10 @@ pub(crate) fn pick_one_pair(
         let Some(seen) = group.see(segment, object) else {
             return;
         };
-        let Some(share) = seen.share(0, segment.profile.width_um.into()) else {
+        let Some(share) = seen.share(0, segment.profile) else {
             return;
         };
+        let table = prepared.scratch_table(point.table, segment.profile);
         let energy = DVec3::from(scratch_energy(segment.profile, table, point.wo.z));
         sums.add(share, energy.to_array(), [0.0; 3]);
         let pick = || seen.pick(0, &frame, segment, share.segment);
@@ -57,6 +57,7 @@ pub(crate) fn pick_one_pair(
         }
     });
     picks.light_one(|pick| {
+        let table = prepared.scratch_table(point.table, pick.profile);
         let light = ScratchLight::new(point.wo, pick.tangent, table, pick.profile);
         let sent = match environment {
             Some(environment) if pick.source == views.views.len() => {

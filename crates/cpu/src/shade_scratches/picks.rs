@@ -4,8 +4,8 @@
 use super::row_spread::RowSpread;
 use crate::sampling::luminance;
 use glam::{DVec2, DVec3};
+use hairline_index::IndexedProfile;
 use hairline_optics::band::{Along, BandPlace};
-use hairline_scene::Profile;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -16,7 +16,7 @@ pub(crate) struct Pick {
     pub tangent: DVec2,
     pub place: BandPlace,
     pub along: Along,
-    pub profile: Profile,
+    pub profile: IndexedProfile,
     /// Spread of a grating's grooves; none for a scratch.
     pub row: Option<RowSpread>,
     /// Share of the point that it covers.
@@ -169,10 +169,7 @@ mod tests {
                         blur_um: 0.0,
                         ends: [0.0; 2],
                     },
-                    profile: Profile {
-                        width_um: 1.0,
-                        depth_nm: 0.0,
-                    },
+                    profile: IndexedProfile::rectangle(1.0, 0.0),
                     row: None,
                     share: 1.0,
                     source: 0,

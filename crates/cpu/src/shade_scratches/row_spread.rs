@@ -1,14 +1,12 @@
 //! Spread of the grooves of a grating under a pixel.
 
+use hairline_index::IndexedProfile;
 use hairline_optics::band::BandMotion;
 use hairline_optics::grating::{GRATING_DEPTH_NM, GRATING_WIDTH_UM};
-use hairline_scene::Profile;
 
 /// A grating's table is looked up as that of such a scratch.
-pub(crate) const ROW_PROFILE: Profile = Profile {
-    width_um: GRATING_WIDTH_UM as f32,
-    depth_nm: GRATING_DEPTH_NM as f32,
-};
+pub(crate) const ROW_PROFILE: IndexedProfile =
+    IndexedProfile::rectangle(GRATING_WIDTH_UM as f32, GRATING_DEPTH_NM as f32);
 
 /// Spread of the grooves of a grating under a pixel.
 #[derive(Clone, Copy, Debug)]

@@ -8,6 +8,7 @@ use crate::picture::PictureView;
 use crate::sampling::luminance;
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
+use hairline_index::IndexedProfile;
 use hairline_optics::band::{
     BandFrame, BandLine, BandLines, BandMotion, BandPlace, BandStds, Cap, Outline, OutlineRoots,
     band_is_whole, band_lines, chord_cos, sphere_band_extent, sphere_chord,
@@ -16,10 +17,14 @@ use hairline_optics::band_environment::{EnvironmentCell, environment_cells, row_
 use hairline_optics::grating::IncidenceRow;
 use hairline_optics::scratch::oblique_depth_nm;
 use hairline_optics::table::{ScratchTable, TableRow};
-use hairline_scene::{Environment, Profile};
+use hairline_scene::Environment;
 
 /// Energy that a scratch takes from the reflection in the mirror's direction, where both cosines are the viewer's. Twin: `scratch_energy`.
-pub(super) fn scratch_energy(profile: Profile, table: &ScratchTable, cos_o: f64) -> [f64; 3] {
+pub(super) fn scratch_energy(
+    profile: IndexedProfile,
+    table: &ScratchTable,
+    cos_o: f64,
+) -> [f64; 3] {
     table.scratch_table_total(oblique_depth_nm(profile.depth_nm.into(), cos_o, cos_o))
 }
 
@@ -49,7 +54,7 @@ pub(crate) struct ScratchLight<'a> {
     /// `wo` in the frame of the scratch.
     pub(super) wo: DVec3,
     table: &'a ScratchTable,
-    profile: Profile,
+    profile: IndexedProfile,
     pub(super) row: Option<RowSpread>,
     /// Place of the one line that stands for the band, if it is one of very many scratches ([`BandLines::by_one_line`]).
     one_line: Option<f64>,
@@ -57,7 +62,12 @@ pub(crate) struct ScratchLight<'a> {
 
 impl<'a> ScratchLight<'a> {
     /// `wo` and `tangent` in the surface's frame.
-    pub fn new(wo: DVec3, tangent: DVec2, table: &'a ScratchTable, profile: Profile) -> Self {
+    pub fn new(
+        wo: DVec3,
+        tangent: DVec2,
+        table: &'a ScratchTable,
+        profile: IndexedProfile,
+    ) -> Self {
         let frame = BandFrame { tangent };
         Self {
             frame,

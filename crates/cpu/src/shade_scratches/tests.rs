@@ -13,7 +13,7 @@ use hairline_fixtures::SceneFile;
 use hairline_optics::band::BandLine;
 use hairline_optics::footprint::{Footprint, scratch_share};
 use hairline_optics::gaussian::gaussian;
-use hairline_scene::{Profile, Scene};
+use hairline_scene::Scene;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -75,7 +75,7 @@ fn needed_margin(scene: &Scene, step: usize) -> Needed {
         let coherence_m = f64::from(prepared.scratches.coherence_max_um()[object]) * 1e-6;
         for segment in &prepared.scratches.tree.segments[range.start as usize..range.end as usize] {
             let seen = group.see(segment, hit.object);
-            let Some(share) = seen.and_then(|s| s.share(0, segment.profile.width_um.into())) else {
+            let Some(share) = seen.and_then(|s| s.share(0, segment.profile)) else {
                 continue;
             };
             needed.pairs += 1;
@@ -166,10 +166,7 @@ fn lanes_see_the_closed_forms_share() {
             start_m: (point.position_m + a).as_vec3(),
             end_m: (point.position_m + b).as_vec3(),
             normal: point.normal.as_vec3(),
-            profile: Profile {
-                width_um: 3.0,
-                depth_nm: 200.0,
-            },
+            profile: IndexedProfile::rectangle(3.0, 200.0),
             blur_um: 16.0,
         };
         // Single precision, as the index has it.
@@ -259,10 +256,7 @@ fn what_is_drawn_of_an_environment_comes_from_there() {
     };
     let table = &prepared.tables.tables[point.table];
     for (turn_rad, width_um) in [(0.3f64, 1.0), (1.2, 3.0)] {
-        let profile = Profile {
-            width_um,
-            depth_nm: 300.0,
-        };
+        let profile = IndexedProfile::rectangle(width_um, 300.0);
         let tangent = DVec2::from_angle(turn_rad);
         let scratch = ScratchLight::new(point.wo, tangent, table, profile);
         let line = BandLine::new(scratch.wo, 0.0);
@@ -373,10 +367,7 @@ fn windows_and_the_rest_are_the_map() {
             let (mut negative, mut most) = (0, 0.0f64);
             for turn in 0..45 {
                 let tangent = DVec2::from_angle(std::f64::consts::PI * f64::from(turn) / 45.0);
-                let profile = Profile {
-                    width_um,
-                    depth_nm: 300.0,
-                };
+                let profile = IndexedProfile::rectangle(width_um, 300.0);
                 let scratch = ScratchLight::new(point.wo, tangent, table, profile);
                 let (mut exact, mut cells) = (DVec3::ZERO, DVec3::ZERO);
                 let world = |in_band: DVec3| {

@@ -131,13 +131,15 @@ impl<'a> Shadows<'a> {
     }
 
     fn picked(&self, point: &SurfacePoint, pick: &Pick) -> ScratchLight<'_> {
-        let tables = &self.prepared.tables.tables;
         match pick.row {
             None => {
-                let table = &tables[point.table];
+                let table = self.prepared.scratch_table(point.table, pick.profile);
                 ScratchLight::new(point.wo, pick.tangent, table, pick.profile)
             }
-            Some(row) => ScratchLight::of_row(point.wo, pick.tangent, &tables[row.table], row),
+            Some(row) => {
+                let table = &self.prepared.tables.tables[row.table];
+                ScratchLight::of_row(point.wo, pick.tangent, table, row)
+            }
         }
     }
 

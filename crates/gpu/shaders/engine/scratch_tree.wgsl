@@ -7,7 +7,7 @@
 //   texel 0   number of nodes, number of pieces, depth coherence (f32), coherence window in micrometres (f32)
 //   nodes     in depth-first order, two texels each: least corner and the node after those below; greatest corner and, in 28 bits, the
 //             first piece below with, in the other 4, the number of pieces of a leaf, 0 for an inner node
-//   pieces    in the order of the leaves, two texels each: start, width and depth (halves); end, normal (octahedral bytes), blur (half)
+//   pieces    in the order of the leaves, two texels each: start and end, each with a word of profile_unpacked()
 
 const SCRATCH_TREE_WIDTH: u32 = 1024u;
 const SCRATCH_TREE_FIRST_BITS: u32 = 28u;
@@ -15,7 +15,7 @@ const SCRATCH_TREE_END: u32 = 0xffffffffu;
 // Pieces of a node within the footprint's reach that stand for all.
 const SCRATCH_TREE_MOST: u32 = 64u;
 // Word in the place of a normal: scratches from a list have none, and show on both sides of a sheet.
-const SCRATCH_TREE_NO_NORMAL: u32 = 0x8080u;
+const SCRATCH_TREE_NO_NORMAL: u32 = 0x820u;
 // A scratch shows at a point only if their normals agree at least this well: the far side of a sheet has the opposite one.
 const SCRATCH_TREE_FACING: f32 = 0.2;
 
@@ -116,12 +116,13 @@ fn scratch_tree_piece(tree: texture_2d<u32>, walk: ScratchWalk, piece: u32) -> S
     let at = 1u + 2u * walk.node_count + 2u * piece;
     let start = scratch_tree_texel(tree, at);
     let end = scratch_tree_texel(tree, at + 1u);
-    let is_known = (end.w & 0xffffu) != SCRATCH_TREE_NO_NORMAL;
+    let is_known = (end.w & 0xfffu) != SCRATCH_TREE_NO_NORMAL;
+    let of = profile_unpacked(start.w, end.w);
     return ScratchPiece(
         bitcast<vec3f>(start.xyz),
         bitcast<vec3f>(end.xyz),
-        select(vec3f(0.0), octahedral_normal(unpack4x8snorm(end.w).xy), is_known),
-        profile_unpacked(start.w),
-        unpack2x16float(end.w).y,
+        select(vec3f(0.0), of.normal, is_known),
+        of.profile,
+        of.blur_um,
     );
 }

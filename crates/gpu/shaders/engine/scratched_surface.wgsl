@@ -137,8 +137,9 @@ struct ScratchedCell {
 fn scratched_cell(tables: texture_2d_array<u32>, table: u32, wo: vec3f, tangent: vec2f, profile: Profile, i: u32) -> ScratchedCell {
     let cell = environment_cell(i, band_line_at(band_from_surface(tangent, wo), 0.0), profile.width_um);
     let depth_nm = oblique_depth_nm(profile.depth_nm, cell.direction.z, wo.z);
-    let low = scratch_table(tables, table, profile.width_um * cell.q_low, depth_nm);
-    let high = scratch_table(tables, table, profile.width_um * max(cell.q_high, cell.q_low), depth_nm);
+    let layer = profile_table(table, profile);
+    let low = scratch_table(tables, layer, profile.width_um * cell.q_low, depth_nm);
+    let high = scratch_table(tables, layer, profile.width_um * max(cell.q_high, cell.q_low), depth_nm);
     return ScratchedCell(surface_from_band(tangent, cell.direction), environment_cell_roughness(cell), high - low);
 }
 

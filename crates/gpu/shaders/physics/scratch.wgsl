@@ -1,15 +1,37 @@
 // One scratch under a Gaussian coherence window and a Gaussian footprint. Twins: optics/src/scratch.rs, footprint.rs.
 
-// The cross section of a groove: a rectangle. Twin: Profile in scene/src/scene.rs.
+// The cross section of a groove as it is looked up. Twin: IndexedProfile in index/src/indexed_segment.rs.
 struct Profile {
     width_um: f32,
     depth_nm: f32,
+    shape: u32,                 // which of the material's tables; 16 more for a part of a wide groove, see profile_lines()
 }
 
-// Profile from two half floats.
-fn profile_unpacked(word: u32) -> Profile {
-    let halves = unpack2x16float(word);
-    return Profile(halves.x, halves.y);
+// Profile and more of a segment in two words. Twin: profile_words in src/host.rs.
+//   first   width and depth, half floats
+//   second  normal, two numbers of six bits of an octahedral map; table, four bits; blur, a half float, negative for a part of a wide groove
+struct PackedProfile {
+    profile: Profile,
+    normal: vec3f,
+    blur_um: f32,
+}
+
+fn profile_unpacked(sizes: u32, more: u32) -> PackedProfile {
+    let halves = unpack2x16float(sizes);
+    let shape = extractBits(more, 12u, 4u) | ((more >> 31u) << 4u);
+    let word = bitcast<i32>(more);
+    let octahedral = vec2f(vec2i(extractBits(word, 0u, 6u), extractBits(word, 6u, 6u))) * (1.0 / 31.0);
+    return PackedProfile(Profile(halves.x, halves.y, shape), octahedral_normal(octahedral), abs(unpack2x16float(more).y));
+}
+
+// Layer of the table of a groove, where those of a material begin at one.
+fn profile_table(first: u32, profile: Profile) -> u32 {
+    return first + (profile.shape & 15u);
+}
+
+// Number of parts side by side that weaken one another as little as a scratch does itself.
+fn profile_lines(profile: Profile) -> f32 {
+    return f32(1u + (profile.shape >> 4u));
 }
 
 // A unit vector from its octahedral map. Q. Meyer et al., "On Floating-Point Normal Vectors", 2010.

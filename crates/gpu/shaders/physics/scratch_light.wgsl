@@ -15,7 +15,7 @@ struct LitPoint {
     turn_x: vec2f,              // how the normal turns over each of them; 0 on a plane
     turn_y: vec2f,
     coherence_um: f32,
-    table: u32,                 // layer of the scratch tables
+    table: u32,                 // layer of the table of narrow rectangles; those of further shapes follow
 }
 
 // A straight segment as seen from the point.
@@ -47,6 +47,7 @@ fn scratch_seen(point: LitPoint, start_um: vec2f, end_um: vec2f, profile: Profil
     if length2 > 0.0 && offset * offset <= SCRATCH_REACH_STD * SCRATCH_REACH_STD * variance {
         let footprint = Footprint(dot(across, across), dot(along, along), dot(across, along));
         share = scratch_share(profile.width_um, offset, dot(t, start_um), dot(t, end_um), blur_um, footprint, point.coherence_um);
+        share.line *= profile_lines(profile);
     }
     return SeenScratch(share, t, offset, across, variance, profile, false, false, vec2f(0.0), 0.0, -1.0);
 }
@@ -61,7 +62,7 @@ const SCRATCH_REACH_STD: f32 = 3.5;
 
 // The energy that it takes from the base, per unit of its share. In the mirror's direction both cosines are the viewer's.
 fn scratch_energy(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch) -> vec3f {
-    return scratch_table_total(tables, point.table, oblique_depth_nm(seen.profile.depth_nm, point.wo.z, point.wo.z));
+    return scratch_table_total(tables, profile_table(point.table, seen.profile), oblique_depth_nm(seen.profile.depth_nm, point.wo.z, point.wo.z));
 }
 
 // The band of a scratch as the pixel sees it towards a light at a distance along `axis`.
@@ -135,7 +136,7 @@ fn scratch_below(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScrat
     if seen.by_incidence {
         return incidence_table(tables, point.table, seen.profile.width_um * q, band_from_surface(seen.tangent, point.wo));
     }
-    return scratch_table(tables, point.table, seen.profile.width_um * q, oblique_depth_nm(seen.profile.depth_nm, cos_i, point.wo.z));
+    return scratch_table(tables, profile_table(point.table, seen.profile), seen.profile.width_um * q, oblique_depth_nm(seen.profile.depth_nm, cos_i, point.wo.z));
 }
 
 // Derivative of that at q, up to a factor.
@@ -143,7 +144,7 @@ fn scratch_slope(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScrat
     if seen.by_incidence {
         return incidence_table_slope(tables, point.table, seen.profile.width_um * q, band_from_surface(seen.tangent, point.wo));
     }
-    return scratch_table_slope(tables, point.table, seen.profile.width_um * q, oblique_depth_nm(seen.profile.depth_nm, cos_i, point.wo.z));
+    return scratch_table_slope(tables, profile_table(point.table, seen.profile), seen.profile.width_um * q, oblique_depth_nm(seen.profile.depth_nm, cos_i, point.wo.z));
 }
 
 // Whether any light within a sphere can reach the scratch.

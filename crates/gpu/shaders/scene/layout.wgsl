@@ -165,7 +165,7 @@ struct ScratchSegment {
     start_m: vec3f,
     width_depth: u32,           // half floats: um, nm
     end_m: vec3f,
-    normal_blur: u32,           // two bytes of an octahedral map, a half float in um
+    more: u32,                  // normal, table and blur: profile_unpacked()
 }
 
 // The surface point that a pixel sees, as its scratches need it. The surface frame has z along the shading normal and the viewer

@@ -8,16 +8,9 @@ struct Segment {
     blur_um: f32,
 }
 
-// Unpacks a segment from half floats and bytes: five parts in ten thousand of a width, a depth or a blur, a degree
-// of a normal that is only asked which side of a sheet it is on.
+// Unpacks a segment: five parts in ten thousand of a width, a depth or a blur, four degrees of a normal that is only asked
+// which side of a sheet it is on.
 fn segment_from(packed: ScratchSegment) -> Segment {
-    let normal_blur = packed.normal_blur;
-    let octahedral = unpack4x8snorm(normal_blur).xy;
-    return Segment(
-        packed.start_m,
-        packed.end_m,
-        octahedral_normal(octahedral),
-        profile_unpacked(packed.width_depth),
-        unpack2x16float(normal_blur).y,
-    );
+    let of = profile_unpacked(packed.width_depth, packed.more);
+    return Segment(packed.start_m, packed.end_m, of.normal, of.profile, of.blur_um);
 }

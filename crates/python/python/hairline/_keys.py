@@ -190,7 +190,7 @@ class ScratchesKeys(Table):
     """``[[scratches]]``: a layer on one object."""
 
     _section = "scratches"
-    _absent = {"hidden": False, "solo": False, "strokes": ()}
+    _absent = {"hidden": False, "solo": False, "profile": "rectangle", "strokes": ()}
 
     pattern: str
     """``"random"``, ``"parallel"``, ``"circular"``, ``"radial"``, ``"spun"``, ``"swirl"``, ``"drawn"``, ``"file"``."""
@@ -208,6 +208,8 @@ class ScratchesKeys(Table):
     """Lays nothing. Other layers stay as they are. Default: ``false``."""
     solo: bool = _default()
     """If any layer of the scene is solo, only solo ones that are not hidden are laid. Default: ``false``."""
+    profile: Union[str, Sequence[float]] = _default()
+    """Cross section of the grooves: ``"rectangle"``, a flat floor, which shows the purest colours; ``"v"``, two straight flanks, of a sharp point; ``"round"``, of a grain or a stylus; ``"shoulders"``, round with ridges beside it, which a blunt point pushes up in soft metal. Or the depths over ``depth_nm`` at equal steps from the middle to the rim, below 0 above the surface: ``[1, 0.7, 0, -0.3, 0]``. Width is that of all of it. Default: ``"rectangle"``. Range: one of these names, or 2 to 64 numbers of ±1, not all 0."""
     strokes: Sequence[Mapping[str, Any]] = _default()
     """What a brush or an eraser did. Default: none. Range: see strokes."""
     count: Optional[int] = _default()

@@ -13,6 +13,7 @@ use crate::error::Error;
 use crate::grey_map::GreyMap;
 use crate::scene::Scene;
 use crate::scratches;
+use crate::section_id::SectionId;
 
 /// A `[[scratches]]` table and where it goes.
 struct Coat<'a> {
@@ -58,6 +59,7 @@ impl<'a> Work<'a> {
             let key = format!("scratches[{i}]");
             tables.push(scratches::Table {
                 layer: &coat.table.layer,
+                section: SectionId::new(&coat.table.profile),
                 strokes: &coat.table.strokes,
                 number: coat.number,
                 ground: &ground.ground,
@@ -74,6 +76,7 @@ impl<'a> Work<'a> {
             };
             coat.laid = Some(Arc::new(KeptLayer {
                 layer: coat.table.layer.clone(),
+                profile: coat.table.profile.clone(),
                 strokes: coat.table.strokes.clone(),
                 place: coat.table.place.clone(),
                 number: coat.number,

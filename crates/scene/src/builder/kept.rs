@@ -6,6 +6,7 @@ use std::time::SystemTime;
 
 use glam::{DMat4, DVec3};
 use hairline_image::held;
+use hairline_optics::section::Section;
 
 use super::parts::{OnPart, PartGround, Surroundings};
 use crate::description::{self, Layer, LayerPlaces, LightKind, Map, Stroke, Surface};
@@ -311,6 +312,7 @@ pub(super) struct Textures {
 /// A layer's scratches with all that they depend on.
 pub(super) struct KeptLayer {
     pub layer: Layer,
+    pub profile: Section,
     pub strokes: Vec<Stroke>,
     pub place: LayerPlaces,
     pub number: u64,
@@ -394,6 +396,7 @@ impl BuildCache {
             Arc::ptr_eq(&kept.ground, ground)
                 && kept.number == number
                 && kept.layer == table.layer
+                && kept.profile == table.profile
                 && kept.strokes == table.strokes
                 && kept.place == table.place
                 && kept.files == files

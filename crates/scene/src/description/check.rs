@@ -9,6 +9,7 @@ use super::{
 use crate::error::Error;
 use crate::schema::{self, environment, material, object, place, scratches, stroke};
 use hairline_model::text::shown;
+use hairline_optics::section::Section;
 use std::collections::HashSet;
 
 impl Description {
@@ -181,11 +182,41 @@ fn check_scratches(it: &Scratches, key: &str) -> Check {
         }
         Layer::Listed(_) => {}
     }
+    check_profile(&it.profile, key)?;
     check_place(&it.place, &format!("{key}.where"))?;
     let paints = matches!(it.layer, Layer::Brushed(_));
     each(&format!("{key}.strokes"), &it.strokes, |s, key| {
         check_stroke(s, paints, key)
     })
+}
+
+/// Depths of one profile.
+const PROFILE_DEPTHS: std::ops::RangeInclusive<usize> = 2..=64;
+
+fn check_profile(it: &Section, key: &str) -> Check {
+    let Section::Listed(depths) = it else {
+        return Ok(());
+    };
+    let wrong = |found: String, right: String| {
+        Err(Error::new(
+            format!("{key}.{}", scratches::PROFILE.name),
+            found,
+            right,
+        ))
+    };
+    if !PROFILE_DEPTHS.contains(&depths.len()) {
+        let (least, most) = PROFILE_DEPTHS.into_inner();
+        let right = format!("must be from {least} to {most}, from the middle to the rim");
+        return wrong(format!("found {} depths", depths.len()), right);
+    }
+    scratches::PROFILE.check(key, &depths[..])?;
+    match depths.iter().all(|depth| *depth == 0.0) {
+        true => wrong(
+            "found no depth but 0".to_owned(),
+            "must have one that is not, such as `[1, 0.5, 0]`".to_owned(),
+        ),
+        false => Ok(()),
+    }
 }
 
 /// Refuses values out of range, and keys that need another one.

@@ -42,6 +42,12 @@ impl Numbers for f64 {
 
 impl<const N: usize> Numbers for [f64; N] {
     fn each(&self, key: &Key, check: &mut dyn FnMut(&str, f64, Bounds) -> Check) -> Check {
+        self[..].each(key, check)
+    }
+}
+
+impl Numbers for [f64] {
+    fn each(&self, key: &Key, check: &mut dyn FnMut(&str, f64, Bounds) -> Check) -> Check {
         let mut numbers = self.iter().enumerate();
         numbers.try_for_each(|(i, &number)| check(&format!("[{i}]"), number, key.bounds))
     }

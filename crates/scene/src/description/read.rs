@@ -282,6 +282,7 @@ impl Read for Scratches {
             name: table.value(&scratches::NAME)?,
             hidden: table.value(&scratches::HIDDEN)?,
             solo: table.value(&scratches::SOLO)?,
+            profile: table.value(&scratches::PROFILE)?,
             layer: layer(pattern, &table)?,
             strokes: table.value(&scratches::STROKES)?,
         })

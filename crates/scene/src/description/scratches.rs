@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use hairline_optics::section::Section;
 use serde::{Serialize, Serializer};
 
 use super::place::LayerPlaces;
@@ -30,6 +31,12 @@ pub struct Scratches {
     /// Whether the layer is solo: if any layer of the scene is, only solo ones that are not hidden are laid. Default: false.
     #[serde(skip_serializing_if = "super::values::is_false")]
     pub solo: bool,
+    /// Cross section of their grooves. Default: a rectangle.
+    #[serde(
+        serialize_with = "super::values::serialize_section",
+        skip_serializing_if = "super::values::is_default"
+    )]
+    pub profile: Section,
     /// Pattern of the scratches.
     #[serde(flatten)]
     pub layer: Layer,
@@ -49,6 +56,7 @@ impl Scratches {
             name: None,
             hidden: false,
             solo: false,
+            profile: Section::default(),
             layer,
             strokes: Vec::new(),
         }

@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 
+use hairline_optics::section::Section;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::hint;
-use super::values::Named;
+use super::values::{Named, SECTIONS};
 use crate::error::Error;
-use crate::schema::{Choice, Initial, Key, Section};
+use crate::schema::scratches::PROFILES;
+use crate::schema::{self, Choice, Initial, Key};
 use hairline_model::text::shown;
 
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
@@ -71,7 +73,11 @@ impl<'a> Table<'a> {
     }
 
     /// Opens a table whose keys are those of a section without kinds.
-    pub(super) fn of(section: &Section, value: &'a Value<'a>, key: &str) -> Result<Self, Error> {
+    pub(super) fn of(
+        section: &schema::Section,
+        value: &'a Value<'a>,
+        key: &str,
+    ) -> Result<Self, Error> {
         Self::read(value, key, &names(section.keys))
     }
 
@@ -86,7 +92,7 @@ impl<'a> Table<'a> {
 
     /// Opens a table whose keys are those of a section and of its kind, and returns the kind.
     pub(super) fn of_kind(
-        section: &'static Section,
+        section: &'static schema::Section,
         value: &'a Value<'a>,
         key: &str,
     ) -> Result<(&'static str, Self), Error> {
@@ -285,6 +291,34 @@ impl<T: Named> Held for T {
 impl<T: Read> Held for Option<T> {
     fn initial(_: Initial) -> Option<Self> {
         Some(None)
+    }
+}
+
+impl Held for Section {
+    fn initial(_: Initial) -> Option<Self> {
+        Some(Self::default())
+    }
+}
+
+impl Read for Section {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        match value.get_ref() {
+            DeValue::Array(_) => Ok(Self::Listed(Vec::<f64>::read(value, key)?.into())),
+            _ => {
+                let name = String::read(value, key).map_err(|_| {
+                    wrong_type(value, key, "the name of a profile, or an array of depths")
+                })?;
+                let named = SECTIONS.into_iter().find(|(known, _)| *known == name);
+                named.map(|(_, section)| section).ok_or_else(|| {
+                    let names = PROFILES.map(|name| format!("`{name}`"));
+                    Error::new(
+                        key,
+                        format!("found the text \"{}\"", shown(&name)),
+                        format!("must be one of {}, or an array of depths", names.join(", ")),
+                    )
+                })
+            }
+        }
     }
 }
 

@@ -2,9 +2,11 @@
 
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
+use hairline_optics::section::Section;
 use serde::{Serialize, Serializer};
 
 use crate::environment::BuiltInMap;
+use crate::schema::scratches::PROFILES;
 
 /// Values that a scene file calls by name.
 pub(crate) trait Named: Copy + PartialEq + 'static {
@@ -71,6 +73,26 @@ pub(super) fn serialize_named<T: Named, S: Serializer>(
         .find(|(_, named)| named == value)
         .ok_or_else(|| serde::ser::Error::custom("a value that scene files have no name for"))?;
     serializer.serialize_str(name)
+}
+
+/// Cross sections that have a name.
+pub(crate) const SECTIONS: [(&str, Section); 4] = [
+    (PROFILES[0], Section::Rectangle),
+    (PROFILES[1], Section::V),
+    (PROFILES[2], Section::Round),
+    (PROFILES[3], Section::Shoulders),
+];
+
+/// Writes the name, or the depths.
+pub(super) fn serialize_section<S: Serializer>(
+    section: &Section,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    if let Section::Listed(depths) = section {
+        return depths.serialize(serializer);
+    }
+    let name = SECTIONS.iter().find(|(_, named)| named == section);
+    serializer.serialize_str(name.map_or("", |(name, _)| name))
 }
 
 pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {

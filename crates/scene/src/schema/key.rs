@@ -58,6 +58,8 @@ pub enum Form {
     File,
     /// One of these texts.
     Name(&'static [&'static str]),
+    /// One of these texts, or a list of numbers.
+    NameOrNumbers(&'static [&'static str]),
     /// A table.
     Table,
     /// A list of tables.
@@ -329,7 +331,7 @@ impl Key {
         }
         let each = match self.form {
             Form::Flag => return "`true`, `false`".to_owned(),
-            Form::Name(names) => {
+            Form::Name(names) | Form::NameOrNumbers(names) => {
                 let names: Vec<_> = names.iter().map(|name| format!("`\"{name}\"`")).collect();
                 return names.join(", ");
             }

@@ -4,7 +4,7 @@ use super::key::{Bounds, Form, Initial, Key, LARGEST_M, linear, log};
 use super::section::{Choice, Section};
 
 /// `[[scratches]]`
-pub static SCRATCHES: Section = Section::many("scratches", "Scratches", "a layer on one object.", &[&OBJECT, &MATERIAL, &NODE, &WHERE, &NAME, &HIDDEN, &SOLO, &STROKES]).kinds("pattern", &[
+pub static SCRATCHES: Section = Section::many("scratches", "Scratches", "a layer on one object.", &[&OBJECT, &MATERIAL, &NODE, &WHERE, &NAME, &HIDDEN, &SOLO, &PROFILE, &STROKES]).kinds("pattern", &[
     Choice::new("random", "Every place and every direction: daily wear, cutlery from a drawer. Around the reflection of a lamp it draws circles of light.", &[&COUNT, &DENSITY_PER_M2, &SEED, &LENGTH_M, &WIDTH_UM, &DEPTH_NM, &BEND_PER_M]),
     Choice::new("parallel", "All along one direction: a brushed panel.", &[&COUNT, &DENSITY_PER_M2, &SEED, &LENGTH_M, &WIDTH_UM, &DEPTH_NM, &DIRECTION, &JITTER_DEG]),
     Choice::new("circular", "Rings and arcs around an axis: a turned pan, a plate wiped in circles. A lamp draws a fan through the centre.", &[&COUNT, &DENSITY_PER_M2, &SEED, &LENGTH_M, &WIDTH_UM, &DEPTH_NM, &AXIS, &CENTER_M, &JITTER_DEG]),
@@ -46,6 +46,15 @@ pub static HIDDEN: Key = Key::new("hidden", Form::Flag)
 pub static SOLO: Key = Key::new("solo", Form::Flag)
     .flag(false)
     .means("If any layer of the scene is solo, only solo ones that are not hidden are laid.");
+
+/// Names of cross sections.
+pub const PROFILES: [&str; 4] = ["rectangle", "v", "round", "shoulders"];
+
+pub static PROFILE: Key = Key::new("profile", Form::NameOrNumbers(&PROFILES))
+    .text(PROFILES[0])
+    .within(-1.0, 1.0)
+    .range_words("one of these names, or 2 to 64 numbers of ±1, not all 0")
+    .means("Cross section of the grooves: `\"rectangle\"`, a flat floor, which shows the purest colours; `\"v\"`, two straight flanks, of a sharp point; `\"round\"`, of a grain or a stylus; `\"shoulders\"`, round with ridges beside it, which a blunt point pushes up in soft metal. Or the depths over `depth_nm` at equal steps from the middle to the rim, below 0 above the surface: `[1, 0.7, 0, -0.3, 0]`. Width is that of all of it.");
 
 pub static STROKES: Key = Key::new("strokes", Form::Tables)
     .none()

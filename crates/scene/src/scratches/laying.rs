@@ -4,6 +4,7 @@ use super::walk::{Course, MeshPoint, Walker};
 use crate::description::Distribution;
 use crate::error::Error;
 use crate::scene::{Profile, Segment};
+use crate::section_id::SectionId;
 
 /// Range of widths: the spectral table's, and below the coherence windows of scenes.
 const WIDTHS_UM: (f64, f64) = (0.05, 100.0);
@@ -51,7 +52,7 @@ impl ListedSize {
 /// The renderers' trees number the segments by 28 bits.
 pub(super) const MOST_SEGMENTS: usize = 1 << 28;
 
-/// Profile and course of a scratch, besides its segments.
+/// Profile and course of a scratch, besides its segments. Its section is the layer's.
 pub(super) struct Groove {
     pub profile: Profile,
     pub course: Course,
@@ -83,5 +84,6 @@ pub(super) fn scratch_profile(
     Profile {
         width_um: drawn(width_um, normals[0], width, WIDTHS_UM),
         depth_nm: drawn(depth_nm, normals[1], depth, DEPTHS_NM),
+        section: SectionId::default(),
     }
 }

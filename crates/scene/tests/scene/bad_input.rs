@@ -224,6 +224,22 @@ fn sizes_that_are_negative_or_not_finite() {
             "plate.toml:14: material[1].clearcoat: found 1.5; must be from 0 to 1",
         ),
         (
+            "[[scratches]]\nobject = \"o\"\npattern = \"random\"\ncount = 1\nprofile = \"w\"",
+            "plate.toml:15: scratches[0].profile: found the text \"w\"; must be one of `rectangle`, `v`, `round`, `shoulders`, or an array of depths",
+        ),
+        (
+            "[[scratches]]\nobject = \"o\"\npattern = \"random\"\ncount = 1\nprofile = [1]",
+            "plate.toml:15: scratches[0].profile: found 1 depths; must be from 2 to 64, from the middle to the rim",
+        ),
+        (
+            "[[scratches]]\nobject = \"o\"\npattern = \"random\"\ncount = 1\nprofile = [1, 2]",
+            "plate.toml:15: scratches[0].profile[1]: found 2; must be from -1 to 1",
+        ),
+        (
+            "[[scratches]]\nobject = \"o\"\npattern = \"random\"\ncount = 1\nprofile = [0, 0]",
+            "plate.toml:15: scratches[0].profile: found no depth but 0; must have one that is not, such as `[1, 0.5, 0]`",
+        ),
+        (
             "[[material]]\nname = \"a\"\nkind = \"metal\"\nmetal = \"gold\"\ncover = { ior = 0.9 }",
             "plate.toml:15: material[1].cover.ior: found 0.9; must be from 1 to 4",
         ),

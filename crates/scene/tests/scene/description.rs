@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::common::{asset, scene_with, temporary_dir};
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
+use hairline_optics::section::Section;
 use hairline_scene::description::*;
 use hairline_scene::{Anisotropy, Base, Coat, Scene, Specular, description};
 
@@ -107,6 +108,7 @@ fn everything() -> Description {
     ));
     scratches.push(Scratches {
         name: Some("drawn, \"by hand\"\n".to_owned()),
+        profile: Section::Listed([1.0, 1.0 / 3.0, -0.5].into()),
         hidden: true,
         solo: true,
         strokes: vec![

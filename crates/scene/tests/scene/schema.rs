@@ -190,6 +190,7 @@ fn python_type(section: &Section, key: &Key) -> &'static str {
         Form::Sizes => "Sizes",
         Form::Flag => "bool",
         Form::Text | Form::Name(_) => "str",
+        Form::NameOrNumbers(_) => "Union[str, Sequence[float]]",
         Form::File => "Path",
         Form::Table => "Mapping[str, Any]",
         Form::Tables => "Sequence[Mapping[str, Any]]",

@@ -3,14 +3,14 @@
 use egui::Ui;
 use hairline_editor::Selection;
 use hairline_editor::presets::LayerPreset;
-use hairline_editor::ranges::hint_on_width;
+use hairline_optics::section::Section;
 use hairline_scene::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
 use hairline_scene::schema;
 
 use super::form::{Form, NAME};
 use super::layer_place;
 use crate::command::Command;
-use crate::parts::{self, Names};
+use crate::parts;
 use crate::style::beside;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
@@ -23,7 +23,6 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let object = Selection::Layer(index).object(&description);
     let diagonal_m = work.diagonal_m(object);
     let names = parts::names(work, &layer.object);
-    let roughness = roughest(work, &layer.object, &names);
     ui.heading("Scratches");
     let mut form = Form::new(ui, ("layer", index), diagonal_m);
     let mut name = layer.name.clone().unwrap_or_default();
@@ -45,11 +44,12 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         &mut layer.solo,
     );
     let picks = layer_place::show(&mut form, &mut layer, index, names);
+    profile(&mut form, &mut layer.profile);
     match &mut layer.layer {
-        Layer::Laid(laid) => laid_rows(&mut form, laid, roughness),
+        Layer::Laid(laid) => laid_rows(&mut form, laid),
         Layer::Brushed(brushed) => {
             form.section("Look");
-            width(&mut form, &mut brushed.width_um, roughness);
+            form.distribution(&schema::scratches::WIDTH_UM, &mut brushed.width_um);
             form.distribution(&schema::scratches::DEPTH_NM, &mut brushed.depth_nm);
             form.distribution(&schema::scratches::LENGTH_M, &mut brushed.length_m);
             form.number(&schema::scratches::JITTER_DEG, &mut brushed.jitter_deg);
@@ -73,30 +73,25 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     buttons(ui, work, index, &layer, diagonal_m);
 }
 
-/// The largest roughness of an object's materials; 0 before they are known.
-fn roughest(work: &Workspace, object: &str, names: &Names) -> f64 {
-    let description = work.document.description();
-    let described = description.objects.iter().find(|it| it.name == object);
-    if let Some(name) = described.and_then(|it| it.material.as_ref()) {
-        let own = description.materials.iter().find(|it| it.name == *name);
-        return own.map_or(0.0, |material| material.roughness);
-    }
-    let built = work.engine.built();
-    let materials = built.iter().flat_map(|built| built.scene.materials.iter());
-    let own = materials.filter(|it| names.materials.contains(&it.name));
-    own.map(|material| material.roughness).fold(0.0, f64::max)
+/// A row for the cross section. Depths of a file's own are one more choice.
+fn profile(form: &mut Form, section: &mut Section) {
+    let named = [
+        (Section::Rectangle, "Flat floor"),
+        (Section::V, "V"),
+        (Section::Round, "Round"),
+        (Section::Shoulders, "Round, with shoulders"),
+    ];
+    let own = matches!(section, Section::Listed(_)).then(|| (section.clone(), "Own"));
+    let options = named.into_iter().chain(own);
+    form.choice(
+        "Profile",
+        "Cross section of the grooves. A flat floor shows the purest colours; slopes spread light further and mix them",
+        options.map(|(section, name)| (section, name.to_owned())),
+        section,
+    );
 }
 
-/// Rows for the width, with a hint where the model is off on a base of this roughness.
-fn width(form: &mut Form, width_um: &mut Distribution, roughness: f64) {
-    form.distribution(&schema::scratches::WIDTH_UM, width_um);
-    if let Some(hint) = hint_on_width(width_um.mean, roughness) {
-        let color = form.ui.visuals().warn_fg_color;
-        form.ui.colored_label(color, hint);
-    }
-}
-
-fn laid_rows(form: &mut Form, laid: &mut Laid, roughness: f64) {
+fn laid_rows(form: &mut Form, laid: &mut Laid) {
     let mut kind = Kind::of(&laid.pattern);
     form.choice(
         "Pattern",
@@ -109,7 +104,7 @@ fn laid_rows(form: &mut Form, laid: &mut Laid, roughness: f64) {
     }
     amount(form, &mut laid.amount);
     form.section("Look");
-    width(form, &mut laid.width_um, roughness);
+    form.distribution(&schema::scratches::WIDTH_UM, &mut laid.width_um);
     form.distribution(&schema::scratches::DEPTH_NM, &mut laid.depth_nm);
     form.distribution(&schema::scratches::LENGTH_M, &mut laid.length_m);
     form.section("Direction and bend");

@@ -93,29 +93,6 @@ fn high_contrast_is_kept() {
 }
 
 #[test]
-fn wide_scratches_on_a_rough_base_have_a_hint() {
-    let mut harness = viewer(SMALL);
-    wait_built(&mut harness);
-    select(&mut harness, Selection::Layer(0));
-    let has_hint = |harness: &mut Harness<'static, Viewer>, width_um: f64, roughness: f64| {
-        let document = harness.state_mut().document_mut();
-        document.edit("by the test", |d| {
-            d.materials[0].roughness = roughness;
-            if let hairline_scene::description::Layer::Laid(laid) = &mut d.scratches[0].layer {
-                laid.width_um.mean = width_um;
-            }
-        });
-        harness.run_steps(3);
-        harness
-            .query_by_label_contains("Wider than 10 µm")
-            .is_some()
-    };
-    assert!(has_hint(&mut harness, 30.0, 0.3));
-    assert!(!has_hint(&mut harness, 30.0, 0.05));
-    assert!(!has_hint(&mut harness, 6.0, 0.3));
-}
-
-#[test]
 fn picking_a_part_of_a_model_of_one_part_says_so() {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);
