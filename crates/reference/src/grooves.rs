@@ -216,9 +216,6 @@ mod tests {
             width_um: 2.0,
             depth_nm: 100.0,
         };
-        let section = groove.profile.section.section();
-        let parts = (width_class(piece.width_um / sigma_um) > 0)
-            .then(|| section.parts(piece.width_um, sigma_um));
         let whole = [-31.0, 17.0];
         let cuts = [-31.0, -12.0, -3.0, 8.0, 17.0];
         let sum: f64 = cuts
