@@ -300,6 +300,7 @@ fn metal_name(metal: Metal) -> &'static str {
         Metal::Chromium => "Chromium",
         Metal::Titanium => "Titanium",
         Metal::Nickel => "Nickel",
+        Metal::Own(_) => "n and k",
     }
 }
 

@@ -2,9 +2,11 @@
 
 use crate::fresnel::{self, FresnelCurve};
 use crate::spectrum;
-use std::sync::LazyLock;
+use std::collections::HashMap;
+use std::hash::{Hash, Hasher};
+use std::sync::{LazyLock, Mutex, PoisonError};
 
-/// A metal whose n and k were measured.
+/// A metal by its n and k.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Metal {
     /// Iron; also stands for carbon steel.
@@ -27,10 +29,54 @@ pub enum Metal {
     Titanium,
     /// Nickel.
     Nickel,
+    /// A metal that a scene brings.
+    Own(OwnMetal),
+}
+
+/// A metal by rows of its wavelength in nm, n and k. Equal rows are one metal, which is kept for as long as the program runs: scenes of one program have few.
+#[derive(Clone, Copy, Debug)]
+pub struct OwnMetal(&'static [[f64; 3]]);
+
+impl PartialEq for OwnMetal {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.0, other.0)
+    }
+}
+
+impl Eq for OwnMetal {}
+
+impl Hash for OwnMetal {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.0.as_ptr().hash(state);
+    }
+}
+
+impl OwnMetal {
+    fn new(rows: &[[f64; 3]]) -> Self {
+        static KNOWN: LazyLock<Mutex<HashMap<Vec<u64>, OwnMetal>>> = LazyLock::new(Mutex::default);
+        let bits = rows.as_flattened().iter().map(|value| value.to_bits());
+        let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        let made = || Self(Box::leak(rows.to_vec().into_boxed_slice()));
+        *known.entry(bits.collect()).or_insert_with(made)
+    }
+
+    fn n_k(self, wavelength_nm: f64) -> (f64, f64) {
+        let rows = self.0;
+        let above = rows.partition_point(|row| row[0] < wavelength_nm);
+        let (low, high) = (rows[above.max(1) - 1], rows[above.min(rows.len() - 1)]);
+        let span = high[0] - low[0];
+        let share = if span > 0.0 {
+            (wavelength_nm - low[0]) / span
+        } else {
+            0.0
+        };
+        let at = |column: usize| low[column] + share * (high[column] - low[column]);
+        (at(1), at(2))
+    }
 }
 
 impl Metal {
-    /// Every metal, in the order of the columns of data/metals.csv.
+    /// Every measured metal, in the order of the columns of data/metals.csv.
     pub const ALL: [Metal; 10] = [
         Metal::Iron,
         Metal::StainlessSteel,
@@ -44,13 +90,33 @@ impl Metal {
         Metal::Nickel,
     ];
 
+    /// The metal of rows of a wavelength in nm, n and k, the wavelengths rising; linear between them, and constant beyond.
+    ///
+    /// # Panics
+    /// Without a row.
+    pub fn own(rows: &[[f64; 3]]) -> Self {
+        assert!(!rows.is_empty(), "a metal has a refractive index");
+        Self::Own(OwnMetal::new(rows))
+    }
+
+    /// The column of n in data/metals.csv.
+    fn column(self) -> Result<usize, OwnMetal> {
+        match self {
+            Self::Own(own) => Err(own),
+            measured => Ok(2 * Self::ALL.iter().position(|it| *it == measured).unwrap_or(0)),
+        }
+    }
+
     /// n and k at a wavelength, linear between the tabulated ones (every 10 nm from 380 to 780 nm, constant beyond).
     pub fn n_k(self, wavelength_nm: f64) -> (f64, f64) {
+        let column = match self.column() {
+            Ok(column) => column,
+            Err(own) => return own.n_k(wavelength_nm),
+        };
         let rows = &*ROWS;
         let position = ((wavelength_nm - 380.0) / 10.0).clamp(0.0, (rows.len() - 1) as f64);
         let i = (position as usize).min(rows.len() - 2);
         let f = position - i as f64;
-        let column = 2 * self as usize;
         let at = |column: usize| rows[i][column] + f * (rows[i + 1][column] - rows[i][column]);
         (at(column), at(column + 1))
     }
@@ -88,6 +154,28 @@ static ROWS: LazyLock<Vec<Vec<f64>>> = LazyLock::new(|| {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A metal that is brought by the rows of a measured one is that one.
+    #[test]
+    fn own_metals_are_their_rows() {
+        let row = |i: u32| {
+            let nm = 380.0 + 10.0 * f64::from(i);
+            let (n, k) = Metal::Gold.n_k(nm);
+            [nm, n, k]
+        };
+        let rows: Vec<_> = (0..41).map(row).collect();
+        let own = Metal::own(&rows);
+        assert_eq!(own, Metal::own(&rows.clone()));
+        assert_ne!(own, Metal::own(&rows[1..]));
+        for nm in [300.0, 380.0, 497.3, 555.0, 780.0, 900.0] {
+            let (a, b) = (own.n_k(nm), Metal::Gold.n_k(nm));
+            assert!(
+                (a.0 - b.0).abs() < 1e-12 && (a.1 - b.1).abs() < 1e-12,
+                "{nm}"
+            );
+        }
+        assert_eq!(Metal::own(&[[500.0, 1.5, 2.0]]).n_k(600.0), (1.5, 2.0));
+    }
 
     #[test]
     fn metals_have_their_colours() {

@@ -6,6 +6,7 @@ use std::sync::{Arc, OnceLock};
 use glam::{DMat4, DVec3};
 use hairline_optics::cover::Cover;
 use hairline_optics::grating::Grating as Row;
+use hairline_optics::metal::Metal;
 
 use crate::Environment;
 use crate::description::references::find;
@@ -50,25 +51,34 @@ pub(crate) fn camera(camera: &description::Camera) -> Camera {
     }
 }
 
+fn bare_or_covered(metal: Metal, cover: Option<description::Cover>) -> Base {
+    match cover {
+        Some(description::Cover {
+            ior,
+            thickness_mm,
+            color,
+        }) => Base::Covered {
+            metal,
+            cover: Cover {
+                ior,
+                thickness_mm,
+                color,
+            },
+        },
+        None => Base::Metal(metal),
+    }
+}
+
 pub(crate) fn material(material: &description::Material) -> Material {
     Material {
         name: material.name.clone(),
         base: match material.kind {
-            MaterialKind::Metal(MetalColor::Measured(metal)) => match material.cover {
-                Some(description::Cover {
-                    ior,
-                    thickness_mm,
-                    color,
-                }) => Base::Covered {
-                    metal,
-                    cover: Cover {
-                        ior,
-                        thickness_mm,
-                        color,
-                    },
-                },
-                None => Base::Metal(metal),
-            },
+            MaterialKind::Metal(MetalColor::Measured(metal)) => {
+                bare_or_covered(metal, material.cover)
+            }
+            MaterialKind::Metal(MetalColor::Own(ref rows)) => {
+                bare_or_covered(Metal::own(rows), material.cover)
+            }
             MaterialKind::Metal(MetalColor::Color(base_color)) => Base::ColoredMetal { base_color },
             MaterialKind::Dielectric { ior, base_color } => Base::Dielectric { ior, base_color },
             MaterialKind::MetallicRoughness {

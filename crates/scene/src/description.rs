@@ -244,7 +244,7 @@ impl Default for Cover {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum MaterialKind {
-    /// `"metal"`, with `metal` or `base_color`.
+    /// `"metal"`, with `metal`, `base_color` or `n_k`.
     Metal(MetalColor),
     /// `"dielectric"`: a clear coat over a diffuse body.
     Dielectric {
@@ -277,6 +277,9 @@ pub enum MetalColor {
     /// `base_color`: reflectance at normal incidence, linear Rec.709, in [0, 1].
     #[serde(rename = "base_color")]
     Color([f64; 3]),
+    /// `n_k`: rows of a wavelength in nm, n and k.
+    #[serde(rename = "n_k")]
+    Own(Vec<[f64; 3]>),
 }
 
 /// `[[object]]`

@@ -268,7 +268,14 @@ impl ScratchTables {
 fn scratch_table(metal: Option<Metal>) -> Arc<ScratchTable> {
     static MADE: [OnceLock<Arc<ScratchTable>>; Metal::ALL.len() + 1] =
         [const { OnceLock::new() }; Metal::ALL.len() + 1];
-    let at = metal.map_or(Metal::ALL.len(), |metal| metal as usize);
+    let at = match metal {
+        Some(Metal::Own(_)) => return kept_table(metal, GrooveShape::default()),
+        Some(measured) => Metal::ALL
+            .iter()
+            .position(|it| *it == measured)
+            .unwrap_or(0),
+        None => Metal::ALL.len(),
+    };
     // Not within `get_or_init`: a thread that waits for the parts of a table may take up another scene, which would wait for the table for ever.
     if let Some(made) = MADE[at].get() {
         return Arc::clone(made);
@@ -282,17 +289,26 @@ const KEPT_TABLES: usize = 24;
 
 /// The table of grooves of a shape in a metal.
 fn shaped_table(metal: Option<Metal>, shape: GrooveShape) -> Arc<ScratchTable> {
+    match shape == GrooveShape::default() {
+        true => scratch_table(metal),
+        false => kept_table(metal, shape),
+    }
+}
+
+/// One of the last tables of shapes, and of metals that scenes bring.
+fn kept_table(metal: Option<Metal>, shape: GrooveShape) -> Arc<ScratchTable> {
     type Kept = VecDeque<(Option<Metal>, GrooveShape, Arc<ScratchTable>)>;
     static KEPT: Mutex<Kept> = Mutex::new(VecDeque::new());
-    if shape == GrooveShape::default() {
-        return scratch_table(metal);
-    }
     // Not locked while a table is made, as above.
     let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((.., made)) = kept().iter().find(|it| (it.0, &it.1) == (metal, &shape)) {
         return Arc::clone(made);
     }
-    let made = Arc::new(ScratchTable::of_shape(&shape, |nm| reflectance(metal, nm)));
+    let reflectance = |nm| reflectance(metal, nm);
+    let made = Arc::new(match shape == GrooveShape::default() {
+        true => ScratchTable::new(reflectance),
+        false => ScratchTable::of_shape(&shape, reflectance),
+    });
     let mut kept = kept();
     kept.push_back((metal, shape, Arc::clone(&made)));
     if kept.len() > KEPT_TABLES {

@@ -137,11 +137,13 @@ class Material(Table):
     coherence_um: float = _default()
     """Over what distance light interferes: standard deviation of the Gaussian coherence window. Nothing finer is seen, however small the pixels. Leave it alone but for macro views and studies. Unit: µm. Default: 20. Range: 1 to 1000."""
     metal: Optional[str] = _default()
-    """A metal by its measured refractive index; ``"steel"`` is stainless. Default: this or ``base_color``. Range: ``"iron"``, ``"steel"``, ``"aluminium"``, ``"copper"``, ``"gold"``, ``"silver"``, ``"brass"``, ``"chromium"``, ``"titanium"``, ``"nickel"``."""
+    """A metal by its measured refractive index; ``"steel"`` is stainless. Default: this, ``base_color`` or ``n_k``. Range: ``"iron"``, ``"steel"``, ``"aluminium"``, ``"copper"``, ``"gold"``, ``"silver"``, ``"brass"``, ``"chromium"``, ``"titanium"``, ``"nickel"``."""
     base_color: Optional[Vector] = _default()
-    """A metal by its reflectance when seen head-on. Unit: linear RGB. Default: this or ``metal``. Range: 0 to 1 each."""
+    """A metal by its reflectance when seen head-on. Unit: linear RGB. Default: this, ``metal`` or ``n_k``. Range: 0 to 1 each."""
+    n_k: Optional[Union[Sequence[Vector], ArrayLike]] = _default()
+    """A metal by a refractive index of your own: rows of a wavelength in nm, n and k, as ``[[400, 1.5, 1.9], [500, 0.9, 1.8]]``. Linear between them, constant beyond. Default: this, ``metal`` or ``base_color``. Range: 1 to 4096 rows: a wavelength from 100 to 2000 nm, each greater than that before; n above 0, k 0 or more, up to 100."""
     cover: Optional[Mapping[str, Any]] = _default()
-    """A clear plate with parallel faces over the metal: the polycarbonate of discs, the glass of a dial. Its outer face reflects with the metal's roughness. Gratings lie under it: waves are shorter there, and orders have other brightnesses in the same directions. Scratches lie in the metal. Default: none. Range: see cover; with ``metal``, without ``clearcoat``."""
+    """A clear plate with parallel faces over the metal: the polycarbonate of discs, the glass of a dial. Its outer face reflects with the metal's roughness. Gratings lie under it: waves are shorter there, and orders have other brightnesses in the same directions. Scratches lie in the metal. Default: none. Range: see cover; with ``metal`` or ``n_k``, without ``clearcoat``."""
     ior: Optional[float] = _default()
     """Refractive index of the clear coat. 1.5 is glass and most plastics and lacquers. Default: 1.5. Range: 1 to 4."""
     metallic: Optional[float] = _default()

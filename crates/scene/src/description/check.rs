@@ -121,6 +121,7 @@ fn check_material(it: &Material, key: &str) -> Check {
     }
     match &it.kind {
         MaterialKind::Metal(MetalColor::Measured(_)) | MaterialKind::Mirror => Ok(()),
+        MaterialKind::Metal(MetalColor::Own(rows)) => check_n_k(key, rows),
         MaterialKind::Metal(MetalColor::Color(color)) => material::METAL_COLOR.check(key, color),
         MaterialKind::Dielectric { ior, base_color } => {
             material::IOR.check(key, ior)?;
@@ -334,3 +335,39 @@ impl Around {
         scratches::JITTER_DEG.check(key, &self.jitter_deg)
     }
 }
+
+/// Rows of a wavelength, n and k.
+fn check_n_k(key: &str, rows: &[[f64; 3]]) -> Result<(), Error> {
+    if !(1..=MOST_N_K).contains(&rows.len()) {
+        let found = format!("found {} rows", rows.len());
+        let right = format!("must have from 1 to {MOST_N_K}");
+        return Err(Error::new(format!("{key}.n_k"), found, right));
+    }
+    for (i, &[nm, n, k]) in rows.iter().enumerate() {
+        let at = |column: usize, found: f64, right: &str| {
+            let key = format!("{key}.n_k[{i}][{column}]");
+            Err(Error::new(key, format!("found {found}"), right))
+        };
+        if !(100.0..=2000.0).contains(&nm) {
+            return at(0, nm, "must be a wavelength from 100 to 2000 (nm)");
+        }
+        if i > 0 && nm <= rows[i - 1][0] {
+            return at(
+                0,
+                nm,
+                &format!("must be above {}, the wavelength before it", rows[i - 1][0]),
+            );
+        }
+        // Written so that NaN is wrong.
+        if !(n > 0.0 && n <= 100.0) {
+            return at(1, n, "must be above 0, up to 100");
+        }
+        if !(0.0..=100.0).contains(&k) {
+            return at(2, k, "must be from 0 to 100");
+        }
+    }
+    Ok(())
+}
+
+/// Rows of a refractive index.
+const MOST_N_K: usize = 4096;

@@ -149,10 +149,13 @@ impl Read for Material {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         let (kind, table) = Table::of_kind(&material::MATERIAL, value, key)?;
         let kind = match kind {
-            "metal" => MaterialKind::Metal(match table.either("metal", "base_color")? {
-                "metal" => MetalColor::Measured(table.required("metal")?),
-                _ => MetalColor::Color(table.required("base_color")?),
-            }),
+            "metal" => {
+                MaterialKind::Metal(match table.one_of(&["metal", "base_color", "n_k"])? {
+                    "metal" => MetalColor::Measured(table.required("metal")?),
+                    "n_k" => MetalColor::Own(table.required("n_k")?),
+                    _ => MetalColor::Color(table.required("base_color")?),
+                })
+            }
             "dielectric" => MaterialKind::Dielectric {
                 ior: table.value(&material::IOR)?,
                 base_color: table.value(&material::BODY_COLOR)?,
@@ -200,7 +203,7 @@ impl Read for Material {
             return Err(Error::new(
                 table.way("cover"),
                 "found a plate over a metal that a colour stands for",
-                "belongs to `metal`, whose refractive index is known",
+                "belongs to `metal` or `n_k`, whose refractive index is known",
             ));
         }
         if cover.is_some() && coat.is_some() {

@@ -201,22 +201,29 @@ impl<'a> Table<'a> {
     }
 
     /// Returns the one of two exclusive keys that is there.
-    pub(super) fn either(&self, a: &'static str, b: &'static str) -> Result<&'static str, Error> {
-        match (self.get(a), self.get(b)) {
-            (Some(_), None) => Ok(a),
-            (None, Some(_)) => Ok(b),
-            (found, _) => {
-                let found = match found {
-                    Some(_) => format!("found both `{a}` and `{b}`"),
-                    None => format!("found neither `{a}` nor `{b}`"),
-                };
-                Err(Error::new(
-                    &self.key,
-                    found,
-                    "must have exactly one of them",
-                ))
-            }
+    pub(super) fn one_of(&self, keys: &[&'static str]) -> Result<&'static str, Error> {
+        let found: Vec<_> = keys.iter().filter(|key| self.has(key)).collect();
+        if let [one] = found[..] {
+            return Ok(one);
         }
+        let listed = |keys: &mut dyn Iterator<Item = &&'static str>, last: &str| {
+            let names: Vec<_> = keys.map(|key| format!("`{key}`")).collect();
+            names.join(last)
+        };
+        let found = match found.len() {
+            0 => format!("found neither {}", listed(&mut keys.iter(), " nor ")),
+            2 => format!("found both {}", listed(&mut found.into_iter(), " and ")),
+            _ => format!("found {}", listed(&mut found.into_iter(), " and ")),
+        };
+        Err(Error::new(
+            &self.key,
+            found,
+            "must have exactly one of them",
+        ))
+    }
+
+    pub(super) fn either(&self, a: &'static str, b: &'static str) -> Result<&'static str, Error> {
+        self.one_of(&[a, b])
     }
 }
 

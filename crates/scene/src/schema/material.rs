@@ -27,7 +27,11 @@ pub static MATERIAL: Section = Section::many(
 .kinds(
     "kind",
     &[
-        Choice::new("metal", "A bare metal.", &[&METAL, &METAL_COLOR, &COVER]),
+        Choice::new(
+            "metal",
+            "A bare metal.",
+            &[&METAL, &METAL_COLOR, &N_K, &COVER],
+        ),
         Choice::new(
             "dielectric",
             "A clear coat over a diffuse body.",
@@ -90,19 +94,25 @@ pub static COHERENCE_UM: Key = Key::new("coherence_um", Form::Number)
     .control("Coherence", log(5.0, 100.0), "How far apart two points of the surface still act together on light. Larger: each scratch catches a lamp in a narrower band, so glints are thinner and crisper. Smaller: broader, softer glints. 20 suits most.");
 
 pub static METAL: Key = Key::new("metal", Form::Name(METALS))
-    .words("this or `base_color`")
+    .words("this, `base_color` or `n_k`")
     .means("A metal by its measured refractive index; `\"steel\"` is stainless.");
 
 pub static METAL_COLOR: Key = Key::new("base_color", Form::Color)
     .unit("linear RGB")
-    .words("this or `metal`")
+    .words("this, `metal` or `n_k`")
     .within(0.0, 1.0)
     .means("A metal by its reflectance when seen head-on.")
     .control("Colour", linear(0.0, 1.0), "On metals it tints the mirror image and the scratches in it; on coated surfaces it is the body under the coat, which scratches leave as it is. Dark bodies let scratches show.");
 
+pub static N_K: Key = Key::new("n_k", Form::Points(3))
+    .words("this, `metal` or `base_color`")
+    .within(0.0, 2000.0)
+    .range_words("1 to 4096 rows: a wavelength from 100 to 2000 nm, each greater than that before; n above 0, k 0 or more, up to 100")
+    .means("A metal by a refractive index of your own: rows of a wavelength in nm, n and k, as `[[400, 1.5, 1.9], [500, 0.9, 1.8]]`. Linear between them, constant beyond.");
+
 pub static COVER: Key = Key::new("cover", Form::Table)
     .none()
-    .range_words("see [cover](#cover); with `metal`, without `clearcoat`")
+    .range_words("see [cover](#cover); with `metal` or `n_k`, without `clearcoat`")
     .means("A clear plate with parallel faces over the metal: the polycarbonate of discs, the glass of a dial. Its outer face reflects with the metal's roughness. Gratings lie under it: waves are shorter there, and orders have other brightnesses in the same directions. Scratches lie in the metal.");
 
 pub static IOR: Key = Key::new("ior", Form::Number)

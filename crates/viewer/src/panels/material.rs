@@ -18,14 +18,16 @@ use crate::workspace::Workspace;
 enum MaterialChoice {
     Measured,
     Colored,
+    Own,
     Dielectric,
     MetallicRoughness,
     Mirror,
 }
 
-const KINDS: [(MaterialChoice, &str); 5] = [
+const KINDS: [(MaterialChoice, &str); 6] = [
     (MaterialChoice::Measured, "measured metal"),
     (MaterialChoice::Colored, "coloured metal"),
+    (MaterialChoice::Own, "metal by n and k"),
     (MaterialChoice::Dielectric, "clear coat over a body"),
     (MaterialChoice::MetallicRoughness, "metallic-roughness"),
     (MaterialChoice::Mirror, "mirror"),
@@ -35,6 +37,7 @@ impl MaterialChoice {
     fn of(kind: &MaterialKind) -> Self {
         match kind {
             MaterialKind::Metal(MetalColor::Measured(_)) => Self::Measured,
+            MaterialKind::Metal(MetalColor::Own(_)) => Self::Own,
             MaterialKind::Metal(MetalColor::Color(_)) => Self::Colored,
             MaterialKind::Dielectric { .. } => Self::Dielectric,
             MaterialKind::MetallicRoughness { .. } => Self::MetallicRoughness,
@@ -46,6 +49,7 @@ impl MaterialChoice {
         match self {
             Self::Measured => MaterialKind::Metal(MetalColor::Measured(Metal::StainlessSteel)),
             Self::Colored => MaterialKind::Metal(MetalColor::Color([0.9, 0.9, 0.9])),
+            Self::Own => MaterialKind::Metal(MetalColor::Own(n_k_of(Metal::StainlessSteel))),
             Self::Dielectric => MaterialKind::Dielectric {
                 ior: 1.5,
                 base_color: [0.5; 3],
@@ -58,6 +62,16 @@ impl MaterialChoice {
             Self::Mirror => MaterialKind::Mirror,
         }
     }
+}
+
+/// n and k of a measured metal, to begin with.
+fn n_k_of(metal: Metal) -> Vec<[f64; 3]> {
+    let row = |i: u32| {
+        let nm = 380.0 + 10.0 * f64::from(i);
+        let (n, k) = metal.n_k(nm);
+        [nm, n, k]
+    };
+    (0..=40).map(row).collect()
 }
 
 /// Rows for a material without a coat, or with one.
@@ -148,6 +162,15 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             let hint = "Their reflectance at normal incidence in daylight, D65";
             form.custom("", hint, |ui, _| metal_swatches(ui, metal));
         }
+        MaterialKind::Metal(MetalColor::Own(rows)) => {
+            let hint =
+                "Rows of a wavelength, n and k: `n_k` of the scene file, where they are changed";
+            let rows = rows.len();
+            form.custom("n and k", hint, |ui, _| {
+                ui.label(format!("{rows} rows"));
+                false
+            });
+        }
         MaterialKind::Metal(MetalColor::Color(base_color)) => {
             form.color(&schema::material::METAL_COLOR, base_color);
         }
@@ -174,7 +197,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     anisotropy_rows(&mut form, &mut material.anisotropy);
     coat_rows(&mut form, &mut material.coat);
     match material.kind {
-        MaterialKind::Metal(MetalColor::Measured(_)) if material.coat.is_none() => {
+        MaterialKind::Metal(MetalColor::Measured(_) | MetalColor::Own(_))
+            if material.coat.is_none() =>
+        {
             cover_rows(&mut form, &mut material.cover);
         }
         _ => material.cover = None,
