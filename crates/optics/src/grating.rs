@@ -121,7 +121,7 @@ impl Grating {
     }
 
     /// The light that grooves send each for itself, as [`Self::density`].
-    fn rest_density(&self, q: f64, depth_share: f64, wavelength_nm: f64) -> f64 {
+    pub(crate) fn rest_density(&self, q: f64, depth_share: f64, wavelength_nm: f64) -> f64 {
         let per_um = 1e3 / wavelength_nm;
         let slit = sinc(PI * self.width_um * per_um * q);
         let displaced = 2.0 * PI * self.jitter_um * per_um * q;

@@ -1,6 +1,7 @@
 //! One scratch: a rectangular groove of width W and depth d under a Gaussian coherence window
 //! (docs/model.md, section 2; Werner, Velinov, Jakob, Hullin, *Scratch Iridescence*, 2017).
 
+use crate::footprint::ScratchShare;
 use spec_math::cephes64::erf;
 use std::f64::consts::PI;
 
@@ -30,6 +31,30 @@ pub fn window_overlap_um2(offset_um: f64, start_um: f64, end_um: f64, coherence_
 /// A groove radiates |D|^2 rho of the energy that falls on it, and the specular peak loses as much.
 pub fn window_share(width_um: f64, overlap_um2: f64, coherence_um: f64) -> f64 {
     width_um * overlap_um2 / (2.0 * PI.powf(1.5) * coherence_um.powi(3))
+}
+
+/// (6) with (4) at a point, for a piece of a scratch that reaches from `piece_um[0]` to `piece_um[1]` along its line, and whose whole reaches
+/// from `whole_um[0]` to `whole_um[1]`.
+///
+/// E of the whole scratch is the sum over its pieces, and E^2 the sum of products: a piece's part is its own E times the
+/// whole one's. So the shares of the pieces of one scratch add up to the scratch's, and no joint shows.
+pub fn piece_share(
+    width_um: f64,
+    offset_um: f64,
+    piece_um: [f64; 2],
+    whole_um: [f64; 2],
+    coherence_um: f64,
+) -> ScratchShare {
+    let e = |[from_um, to_um]: [f64; 2]| {
+        let unit = 1.0 / (std::f64::consts::SQRT_2 * coherence_um);
+        0.5 * (erf(to_um * unit) - erf(from_um * unit))
+    };
+    let p = offset_um / coherence_um;
+    let line = width_um / (PI.sqrt() * coherence_um) * (-p * p).exp();
+    ScratchShare {
+        segment: line * e(piece_um) * e(whole_um),
+        line,
+    }
 }
 
 /// Standard deviation, in direction cosines along the scratch, of the band that it lights: 1/(sqrt(2) k sigma).
@@ -72,6 +97,19 @@ mod tests {
             let share = window_share(width, overlap, sigma);
             assert!((energy_d * share / expected - 1.0).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn the_pieces_of_a_scratch_share_what_the_whole_has() {
+        let (sigma, whole) = (20.0, [-31.0, 17.0]);
+        let cuts = [-31.0, -12.0, -3.0, 8.0, 17.0];
+        let sum: f64 = cuts
+            .windows(2)
+            .map(|c| piece_share(2.0, 9.0, [c[0], c[1]], whole, sigma).segment)
+            .sum();
+        let overlap = window_overlap_um2(9.0, whole[0], whole[1], sigma);
+        let right = window_share(2.0, overlap, sigma);
+        assert!((sum / right - 1.0).abs() < 1e-12, "{sum} {right}");
     }
 
     #[test]

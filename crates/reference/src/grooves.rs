@@ -7,9 +7,8 @@ use hairline_index::{Groove, SegmentTree};
 use hairline_optics::band::BandFrame;
 use hairline_optics::coherent::GroovePiece;
 use hairline_optics::footprint::ScratchShare;
+use hairline_optics::scratch::piece_share;
 use hairline_optics::section::{Parts, Section, width_class};
-use spec_math::cephes64::erf;
-use std::f64::consts::{PI, SQRT_2};
 
 /// Distance within which grooves matter, in sigma. The window's energy falls as exp(-p^2/sigma^2): 7e-7 of it lies beyond
 /// 3.5.
@@ -133,23 +132,15 @@ impl GrooveView {
     }
 }
 
-/// (6) with (4) at a point, for a piece of a scratch that reaches from `whole_um[0]` to `whole_um[1]` along its line.
-///
-/// E of the whole scratch is the sum over its pieces, and E^2 the sum of products: a piece's part is its own E times the
-/// whole one's. So the shares of the pieces of one scratch add up to the scratch's, and no joint shows.
 fn point_share(piece: &GroovePiece, whole_um: [f64; 2], sigma_um: f64) -> ScratchShare {
-    let e = |from_um: f64, to_um: f64| {
-        let unit = 1.0 / (SQRT_2 * sigma_um);
-        0.5 * (erf(to_um * unit) - erf(from_um * unit))
-    };
-    let p = piece.offset_um / sigma_um;
-    let line = piece.width_um / (PI.sqrt() * sigma_um) * (-p * p).exp();
-    let own = e(piece.start_um, piece.end_um);
-    let all = e(whole_um[0], whole_um[1]);
-    ScratchShare {
-        segment: line * own * all,
-        line,
-    }
+    let piece_um = [piece.start_um, piece.end_um];
+    piece_share(
+        piece.width_um,
+        piece.offset_um,
+        piece_um,
+        whole_um,
+        sigma_um,
+    )
 }
 
 /// As [`point_share`], for a wide groove, each part of which counts where it lies.
@@ -198,32 +189,4 @@ pub(super) fn gather(
         |i| views.extend(GrooveView::new(point, &tree.segments[i], reach_sigma)),
     );
     views
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use hairline_optics::scratch::{window_overlap_um2, window_share};
-
-    #[test]
-    fn the_pieces_of_a_scratch_share_what_the_whole_has() {
-        let sigma = 20.0;
-        let piece = |start_um, end_um| GroovePiece {
-            tangent: DVec2::X,
-            offset_um: 9.0,
-            start_um,
-            end_um,
-            width_um: 2.0,
-            depth_nm: 100.0,
-        };
-        let whole = [-31.0, 17.0];
-        let cuts = [-31.0, -12.0, -3.0, 8.0, 17.0];
-        let sum: f64 = cuts
-            .windows(2)
-            .map(|c| point_share(&piece(c[0], c[1]), whole, sigma).segment)
-            .sum();
-        let overlap = window_overlap_um2(9.0, whole[0], whole[1], sigma);
-        let right = window_share(2.0, overlap, sigma);
-        assert!((sum / right - 1.0).abs() < 1e-12, "{sum} {right}");
-    }
 }
