@@ -140,6 +140,9 @@ pub struct Render {
     /// is not seen.
     #[arg(long)]
     pub transparent: bool,
+    /// Write which scratches each pixel shows too, to an .exr by the convention of Cryptomatte.
+    #[arg(long, value_name = "FILE")]
+    pub labels: Option<PathBuf>,
     /// Other scratches of the same kinds: added to the seed of each layer.
     #[arg(
         long,

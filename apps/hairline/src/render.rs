@@ -9,9 +9,9 @@ use std::path::Path;
 
 use anyhow::anyhow;
 use hairline_image::exr_file::Notes;
-use hairline_image::{Animation, Display, Image, Output};
+use hairline_image::{Animation, Display, Format, Image, Output};
 use hairline_index::method::Method;
-use hairline_scene::Transport;
+use hairline_scene::{Scene, Transport};
 
 use crate::console::tell;
 use crate::interrupt::{Interrupt, cannot_listen};
@@ -22,6 +22,7 @@ use crate::{cli, method_flags};
 use goals::Goals;
 use hairline_work::backend::{self, Painter, Refusal, Rendered, Task};
 use hairline_work::failure::Failure;
+use hairline_work::labels;
 use motion::Motion;
 
 /// Loads, renders and writes.
@@ -41,6 +42,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         None => Target::One(single(arguments)?),
         Some(motion) => Target::Many(motion, Goals::check(arguments, motion.frames)?),
     };
+    let labels = labels_goal(arguments, &target)?;
     let overrides = Overrides {
         size_px: arguments.size,
         exposure_ev: arguments.exposure,
@@ -84,6 +86,11 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
             if let Some(nothing) = nothing_seen(&image) {
                 tell(format_args!("note: {nothing}"));
             }
+            if let Some(labels) = labels
+                && samples == wanted
+            {
+                write_labels(scene, labels.path(), &is_stopped)?;
+            }
             if samples == wanted {
                 return write(&output, &image, &notes);
             }
@@ -108,6 +115,39 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
             )
         }
     }
+}
+
+/// Where labels go, if they are asked for.
+fn labels_goal(arguments: &cli::Render, target: &Target<'_>) -> Result<Option<Output>, Failure> {
+    let Some(path) = &arguments.labels else {
+        return Ok(None);
+    };
+    let refused = |what: &str| Failure::Input(anyhow!("--labels {}: {what}", path.display()));
+    if matches!(target, Target::Many(..)) {
+        return Err(refused(
+            "labels are of a single picture; leave --frames out",
+        ));
+    }
+    let output = Output::check(path)?;
+    match output.format() {
+        Format::Exr => Ok(Some(output)),
+        Format::Png => Err(refused("labels need an .exr")),
+    }
+}
+
+fn write_labels(
+    scene: &Scene,
+    path: &Path,
+    is_stopped: &(dyn Fn() -> bool + Sync),
+) -> Result<(), Failure> {
+    let progress = Progress::start("labelling");
+    let labels = labels::labels(scene, is_stopped);
+    drop(progress);
+    match labels {
+        Some(labels) => labels.write(path, scene)?,
+        None => tell(format_args!("interrupted: no labels")),
+    }
+    Ok(())
 }
 
 /// Why a picture shows nothing, where it does.

@@ -272,7 +272,7 @@ fn note_attributes(notes: &Notes) -> std::result::Result<Attributes, String> {
         .collect()
 }
 
-fn encode(
+pub(crate) fn encode(
     size_px: [u32; 2],
     channels: Vec<AnyChannel<FlatSamples>>,
     attributes: Attributes,

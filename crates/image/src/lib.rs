@@ -15,6 +15,7 @@
 
 mod animation;
 mod batches;
+pub mod cryptomatte;
 mod error;
 pub mod exr_file;
 mod film;

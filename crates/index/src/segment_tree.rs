@@ -10,8 +10,9 @@ use crate::watch::Watch;
 use glam::Vec3;
 use std::ops::Range;
 
+pub use node::Straight;
+pub(crate) use node::Tree;
 pub use node::{ScratchNode, SegmentTree};
-pub(crate) use node::{Straight, Tree};
 pub(crate) use plant::{Plot, plant};
 
 impl<S: Straight> SegmentTree<S> {

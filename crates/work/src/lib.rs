@@ -5,6 +5,7 @@
 
 pub mod backend;
 pub mod failure;
+pub mod labels;
 mod listener;
 pub mod reference;
 

@@ -1,0 +1,478 @@
+//! Labels of a picture: which scratches each pixel shows, and how much of it they cover.
+
+use std::path::Path;
+
+use glam::{DVec2, DVec3, Vec3};
+use hairline_image::cryptomatte::{self, Matte, NOTHING};
+use hairline_index::segment_tree::{SegmentTree, Straight};
+use hairline_index::{Hit, TriangleIndex};
+use hairline_optics::footprint::{Footprint, scratch_share};
+use hairline_scene::{CameraFrame, Object, Scene};
+use rayon::prelude::*;
+
+/// Number of scratches that each pixel names: three layers of the convention.
+pub const RANKS: usize = 6;
+/// Distance in standard deviations of a pixel's filter beyond which a scratch covers nothing of it.
+const REACH: f64 = 3.5;
+/// Least cosine between the normals of a scratch and of the surface that shows it.
+const FACING: f32 = 0.5;
+
+/// Labels of a picture, row by row from the top.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Labels {
+    /// Width and height.
+    pub size_px: [u32; 2],
+    /// Object that the middle of each pixel sees; [`NOTHING`] for none.
+    pub object: Vec<u32>,
+    /// The [`RANKS`] scratches that cover most of each pixel, the strongest first, counted over all objects; [`NOTHING`] for none.
+    pub scratch: Vec<u32>,
+    /// Share of the pixel, through its filter, that each of these covers.
+    pub coverage: Vec<f32>,
+    /// Direction of each of these in the picture, radians from the right, counter-clockwise, from -pi/2 to pi/2.
+    pub direction_rad: Vec<f32>,
+    /// Pixels that scratches go through: the index of the pixel and that of the scratch, in the order of the pixels.
+    pub touched: Vec<[u32; 2]>,
+}
+
+/// A straight piece of a scratch.
+#[derive(Clone, Copy)]
+struct Piece {
+    start_m: Vec3,
+    end_m: Vec3,
+    normal: Vec3,
+    width_um: f32,
+    /// Scratch, counted over all objects.
+    scratch: u32,
+}
+
+impl Straight for Piece {
+    fn ends_m(&self) -> [Vec3; 2] {
+        [self.start_m, self.end_m]
+    }
+}
+
+/// A scratch in a pixel.
+#[derive(Clone, Copy)]
+struct Shown {
+    scratch: u32,
+    coverage: f64,
+    /// Coverage by the piece that covers most, and its direction.
+    most: f64,
+    direction_rad: f64,
+    is_touched: bool,
+}
+
+/// One pixel's labels.
+#[derive(Clone)]
+struct Pixel {
+    object: u32,
+    shown: Vec<Shown>,
+}
+
+/// The index of the first scratch of each object, counted over all objects, and that behind the last one.
+pub fn first_scratches(scene: &Scene) -> Vec<u32> {
+    let mut first = vec![0];
+    for object in &scene.objects {
+        first.push(first[first.len() - 1] + object.scratches.len() as u32);
+    }
+    first
+}
+
+/// Labels of a scene's picture. None where `cancelled` says so, which is asked from any thread.
+pub fn labels(scene: &Scene, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Labels> {
+    let first = first_scratches(scene);
+    let objects = scene.objects.iter().zip(&first);
+    let pieces = SegmentTree::build(objects.map(|(object, first)| pieces(object, *first)));
+    let triangles = TriangleIndex::build(scene);
+    let frame = scene.camera.frame(scene.render.size_px);
+    let [width, height] = scene.render.size_px;
+    let rows = (0..height).into_par_iter().map(|y| {
+        if cancelled() {
+            return None;
+        }
+        let pixel = |x| {
+            labelled(
+                scene,
+                &frame,
+                &triangles,
+                &pieces,
+                DVec2::new(f64::from(x), f64::from(y)),
+            )
+        };
+        Some((0..width).map(pixel).collect::<Vec<_>>())
+    });
+    let pixels: Option<Vec<Vec<Pixel>>> = rows.collect();
+    let mut labels = Labels {
+        size_px: scene.render.size_px,
+        ..Labels::default()
+    };
+    for (i, pixel) in pixels?.into_iter().flatten().enumerate() {
+        labels.object.push(pixel.object);
+        let touched = pixel.shown.iter().filter(|it| it.is_touched);
+        labels
+            .touched
+            .extend(touched.map(|it| [i as u32, it.scratch]));
+        for rank in 0..RANKS {
+            let shown = pixel.shown.get(rank);
+            labels.scratch.push(shown.map_or(NOTHING, |it| it.scratch));
+            labels
+                .coverage
+                .push(shown.map_or(0.0, |it| it.coverage as f32));
+            labels
+                .direction_rad
+                .push(shown.map_or(0.0, |it| it.direction_rad as f32));
+        }
+    }
+    Some(labels)
+}
+
+fn pieces(object: &Object, first: u32) -> Vec<Piece> {
+    let scratches = object.scratches.iter().zip(first..);
+    let pieces = scratches.flat_map(|(scratch, number)| {
+        let own = scratch.segments.start as usize..scratch.segments.end as usize;
+        object.segments[own].iter().map(move |piece| Piece {
+            start_m: piece.start_m,
+            end_m: piece.end_m,
+            normal: piece.normal,
+            width_um: scratch.profile.width_um,
+            scratch: number,
+        })
+    });
+    pieces
+        .filter(|piece| piece.start_m != piece.end_m)
+        .collect()
+}
+
+/// The pixel whose upper left corner is at `corner_px`.
+fn labelled(
+    scene: &Scene,
+    frame: &CameraFrame,
+    triangles: &TriangleIndex,
+    pieces: &SegmentTree<Piece>,
+    corner_px: DVec2,
+) -> Pixel {
+    let ray = frame.camera_ray(corner_px + 0.5);
+    let nothing = Pixel {
+        object: NOTHING,
+        shown: Vec::new(),
+    };
+    let Some(hit) = triangles.intersect(frame.position_m, ray.normalize()) else {
+        return nothing;
+    };
+    if scene.objects[hit.object as usize].is_lamp {
+        return nothing;
+    }
+    let position_m = frame.position_m + ray.normalize() * hit.distance_m;
+    let normal = smooth_normal(scene, &hit, -ray);
+    let depth_m = hit.distance_m / ray.length();
+    let px_m = frame.footprint_axes(ray, depth_m, normal);
+    let axes = px_m.map(|axis| axis * scene.render.filter_std_px);
+    // The filter, or the square of the pixel, whichever is wider. On a flat surface the box of both has no height, and rounding would miss it.
+    let reach_m = |axes: [DVec3; 2]| axes.map(|axis| axis.length()).iter().sum::<f64>();
+    let reach = DVec3::splat((REACH * reach_m(axes)).max(reach_m(px_m)));
+    let mut shown: Vec<Shown> = Vec::new();
+    pieces.gather(
+        hit.object as usize,
+        position_m.as_vec3(),
+        reach.as_vec3(),
+        |i| {
+            let piece = &pieces.segments[i];
+            if piece.normal.dot(normal.as_vec3()) < FACING {
+                return;
+            }
+            let Some(seen) = Seen::new(piece, frame, corner_px, position_m, axes, normal) else {
+                return;
+            };
+            let at = shown.iter_mut().find(|it| it.scratch == piece.scratch);
+            match at {
+                Some(it) => {
+                    it.coverage += seen.coverage;
+                    it.is_touched |= seen.is_touched;
+                    if seen.coverage > it.most {
+                        (it.most, it.direction_rad) = (seen.coverage, seen.direction_rad);
+                    }
+                }
+                None => shown.push(Shown {
+                    scratch: piece.scratch,
+                    coverage: seen.coverage,
+                    most: seen.coverage,
+                    direction_rad: seen.direction_rad,
+                    is_touched: seen.is_touched,
+                }),
+            }
+        },
+    );
+    shown.retain(|it| it.coverage > 1e-9 || it.is_touched);
+    // Equal coverage falls to the scratch that was laid first.
+    shown.sort_by(|a, b| {
+        b.coverage
+            .total_cmp(&a.coverage)
+            .then(a.scratch.cmp(&b.scratch))
+    });
+    Pixel {
+        object: hit.object,
+        shown,
+    }
+}
+
+/// The shading normal without textures, on the side of the viewer.
+fn smooth_normal(scene: &Scene, hit: &Hit, to_viewer: DVec3) -> DVec3 {
+    let mesh = &scene.objects[hit.object as usize].mesh;
+    let [a, b, c] =
+        mesh.triangles[hit.triangle as usize].map(|i| mesh.normals[i as usize].as_dvec3());
+    let [u, v] = hit.barycentric;
+    let normal = (a * (1.0 - u - v) + b * u + c * v).normalize_or(to_viewer.normalize());
+    if normal.dot(to_viewer) < 0.0 {
+        -normal
+    } else {
+        normal
+    }
+}
+
+/// A piece in a pixel.
+struct Seen {
+    coverage: f64,
+    direction_rad: f64,
+    is_touched: bool,
+}
+
+impl Seen {
+    fn new(
+        piece: &Piece,
+        frame: &CameraFrame,
+        corner_px: DVec2,
+        position_m: DVec3,
+        axes: [DVec3; 2],
+        normal: DVec3,
+    ) -> Option<Self> {
+        let [start, end] = [piece.start_m, piece.end_m].map(|p| 1e6 * (p.as_dvec3() - position_m));
+        let along = end - start;
+        let flat = along - normal * along.dot(normal);
+        let tangent = flat.try_normalize()?;
+        let across = normal.cross(tangent);
+        let variance = |a: DVec3, b: DVec3| {
+            let each = axes.map(|axis| 1e12 * axis.dot(a) * axis.dot(b));
+            each[0] + each[1]
+        };
+        let footprint = Footprint {
+            across_um2: variance(across, across),
+            along_um2: variance(tangent, tangent),
+            cross_um2: variance(across, tangent),
+        };
+        // No coherence: what is asked for is an area.
+        let width_um = f64::from(piece.width_um);
+        let offset_um = 0.5 * (start + end).dot(across);
+        let ends = [start, end].map(|p| p.dot(tangent));
+        let coverage =
+            scratch_share(width_um, offset_um, ends[0], ends[1], 0.0, footprint, 0.0).segment;
+        let [from, to] = [piece.start_m, piece.end_m].map(|p| in_picture(frame, p.as_dvec3()));
+        let (from, to) = (from?, to?);
+        let way = to - from;
+        // The picture's y runs down.
+        let direction = (-way.y).atan2(way.x);
+        let half_turn = std::f64::consts::FRAC_PI_2;
+        let direction_rad = match direction {
+            d if d > half_turn => d - 2.0 * half_turn,
+            d if d <= -half_turn => d + 2.0 * half_turn,
+            d => d,
+        };
+        let px_um =
+            1e6 * (frame.per_px_x.length() * (position_m - frame.position_m).dot(frame.forward));
+        let is_wide =
+            width_um > px_um && distance(corner_px + 0.5, from, to) <= 0.5 * width_um / px_um;
+        Some(Self {
+            coverage,
+            direction_rad,
+            is_touched: is_wide || crosses(corner_px, from, to),
+        })
+    }
+}
+
+/// Place of a point in the picture; none behind the camera.
+fn in_picture(frame: &CameraFrame, point_m: DVec3) -> Option<DVec2> {
+    let way = point_m - frame.position_m;
+    let depth = way.dot(frame.forward);
+    let [x, y] = [frame.per_px_x, frame.per_px_y]
+        .map(|axis| way.dot(axis) / (depth * axis.length_squared()));
+    (depth > 0.0).then(|| frame.middle_px + DVec2::new(x, y))
+}
+
+/// Whether a line crosses the square of one pixel: that of Y.-D. Liang and B. Barsky (1984).
+fn crosses(corner: DVec2, from: DVec2, to: DVec2) -> bool {
+    let (way, low, high) = (to - from, corner - from, corner + 1.0 - from);
+    let (mut first, mut last) = (0.0_f64, 1.0_f64);
+    for axis in 0..2 {
+        if way[axis] == 0.0 {
+            if low[axis] > 0.0 || high[axis] <= 0.0 {
+                return false;
+            }
+            continue;
+        }
+        let (a, b) = (low[axis] / way[axis], high[axis] / way[axis]);
+        first = first.max(a.min(b));
+        last = last.min(a.max(b));
+    }
+    first < last
+}
+
+fn distance(point: DVec2, from: DVec2, to: DVec2) -> f64 {
+    let way = to - from;
+    let share = ((point - from).dot(way) / way.length_squared().max(1e-300)).clamp(0.0, 1.0);
+    point.distance(from + way * share)
+}
+
+impl Labels {
+    /// Writes the labels as an .exr by the convention of Cryptomatte, with the layer, the width, the depth and the direction of each pixel's strongest
+    /// scratch.
+    ///
+    /// # Errors
+    /// Another ending; a file that cannot be written.
+    pub fn write(&self, path: &Path, scene: &Scene) -> Result<(), hairline_image::Error> {
+        let first = first_scratches(scene);
+        let owner = |scratch: u32| first.partition_point(|f| *f <= scratch) - 1;
+        let scratch_of = |scratch: u32| {
+            let object = owner(scratch);
+            (object, scratch - first[object])
+        };
+        let named = |scratch: u32| {
+            let (object, i) = scratch_of(scratch);
+            format!("{}/{i}", scene.objects[object].name)
+        };
+        let object_named = |object: u32| scene.objects[object as usize].name.clone();
+        let whole: Vec<f32> = self
+            .object
+            .iter()
+            .map(|o| f32::from(u8::from(*o != NOTHING)))
+            .collect();
+        let mattes = [
+            Matte {
+                name: "CryptoScratch",
+                ranks: RANKS,
+                things: &self.scratch,
+                coverage: &self.coverage,
+                name_of: &named,
+            },
+            Matte {
+                name: "CryptoObject",
+                ranks: 1,
+                things: &self.object,
+                coverage: &whole,
+                name_of: &object_named,
+            },
+        ];
+        let strongest = |of: &dyn Fn(u32, usize) -> f32| {
+            let each = self.scratch.iter().step_by(RANKS).enumerate();
+            each.map(|(i, scratch)| {
+                if *scratch == NOTHING {
+                    0.0
+                } else {
+                    of(*scratch, i * RANKS)
+                }
+            })
+            .collect()
+        };
+        let of_scratch = |value: fn(&hairline_scene::Scratch) -> f32| {
+            strongest(&|scratch, _| {
+                let (object, i) = scratch_of(scratch);
+                value(&scene.objects[object].scratches[i as usize])
+            })
+        };
+        let planes = vec![
+            // 0 is no scratch.
+            ("label.layer", of_scratch(|it| it.layer as f32 + 1.0)),
+            ("label.width_um", of_scratch(|it| it.profile.width_um)),
+            ("label.depth_nm", of_scratch(|it| it.profile.depth_nm)),
+            (
+                "label.direction_rad",
+                strongest(&|_, i| self.direction_rad[i]),
+            ),
+        ];
+        cryptomatte::write_labels(path, self.size_px, &mattes, planes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_fixtures::SceneFile;
+
+    fn plate() -> Scene {
+        SceneFile::seen_from([0.0, -0.05, 0.3])
+            .fov_y_deg(20.0)
+            .size_px([64, 48])
+            .metal("steel", "steel")
+            .object("disk", "steel", "disk = { radius_m = 0.05 }")
+            .random("disk", 60)
+            .with("seed = 1\nlength_m = 0.03\nwidth_um = 20.0\ndepth_nm = 180.0")
+            .sphere([0.0, 0.3, 0.2], 0.02, 50.0)
+            .scene()
+    }
+
+    /// Coverages of all pixels add up to the area of the scratches in the picture.
+    #[test]
+    fn coverage_is_the_area_of_the_scratches() {
+        let scene = plate();
+        let labels = labels(&scene, &|| false).unwrap();
+        let frame = scene.camera.frame(scene.render.size_px);
+        let object = &scene.objects[0];
+        let mut area_px = 0.0;
+        for scratch in object.scratches.iter() {
+            for piece in
+                &object.segments[scratch.segments.start as usize..scratch.segments.end as usize]
+            {
+                let [a, b] = [piece.start_m, piece.end_m].map(|p| p.as_dvec3());
+                let way = b - a;
+                let half =
+                    0.5e-6 * f64::from(scratch.profile.width_um) * DVec3::Z.cross(way).normalize();
+                let corners = [a - half, a + half, b + half, b - half]
+                    .map(|p| in_picture(&frame, p).unwrap());
+                let inside = corners
+                    .iter()
+                    .all(|c| c.x > 0.0 && c.y > 0.0 && c.x < 64.0 && c.y < 48.0);
+                assert!(inside, "the plate fills less than the picture");
+                let (p, q) = (corners[2] - corners[0], corners[3] - corners[1]);
+                area_px += 0.5 * p.perp_dot(q).abs();
+            }
+        }
+        let found: f64 = labels.coverage.iter().map(|c| f64::from(*c)).sum();
+        assert!((found / area_px - 1.0).abs() < 0.02, "{found} {area_px}");
+    }
+
+    /// Pixels of a scratch are those that samples of its line fall into.
+    #[test]
+    fn touched_pixels_are_those_under_the_line() {
+        let scene = plate();
+        let labels = labels(&scene, &|| false).unwrap();
+        let frame = scene.camera.frame(scene.render.size_px);
+        let object = &scene.objects[0];
+        let mut right = std::collections::BTreeMap::new();
+        for (i, scratch) in object.scratches.iter().enumerate() {
+            for piece in
+                &object.segments[scratch.segments.start as usize..scratch.segments.end as usize]
+            {
+                for step in 0..20_000 {
+                    let at = piece
+                        .start_m
+                        .as_dvec3()
+                        .lerp(piece.end_m.as_dvec3(), f64::from(step) / 2e4);
+                    let px = in_picture(&frame, at).unwrap().floor();
+                    *right
+                        .entry([px.y as u32 * 64 + px.x as u32, i as u32])
+                        .or_insert(0) += 1;
+                }
+            }
+        }
+        let found: std::collections::BTreeSet<_> = labels.touched.iter().copied().collect();
+        // Corners that a line cuts by less than a few samples may fall either way.
+        let missed = right
+            .iter()
+            .filter(|(key, count)| **count > 3 && !found.contains(*key))
+            .count();
+        let added = found.iter().filter(|key| !right.contains_key(*key)).count();
+        assert!(
+            found.len() > 500 && missed == 0 && added * 200 < found.len(),
+            "{missed} {added} {}",
+            found.len()
+        );
+    }
+}
