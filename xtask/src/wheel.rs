@@ -32,6 +32,8 @@ const TOOLS: [&str; 8] = [
     "distributed",
     "matplotlib",
 ];
+/// Packages that single tests need, which are skipped where there are none for the interpreter.
+const OF_SINGLE_TESTS: [&str; 2] = ["mitsuba", "pyyaml"];
 
 /// Imported modules are compiled at that time.
 const QUIETLY: [&str; 6] = [
@@ -84,6 +86,9 @@ impl Wheel {
         let output = self.output.canonicalize()?;
         let programs = environment(&self.python, &output, &TOOLS)?;
         let python = || Command::new(programs.join("python"));
+        if let Err(error) = run(python().args(QUIETLY).args(OF_SINGLE_TESTS)) {
+            println!("tests that need them are skipped: {error}");
+        }
 
         let make = || -> anyhow::Result<PathBuf> {
             let wheel = build(&package, &programs, &output)?;

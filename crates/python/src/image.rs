@@ -12,6 +12,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict};
 
 use crate::errors;
+use crate::labels::Labels;
 use crate::names::{exposure, named, notes_dict, tone_map};
 
 /// A picture with its layers: linear Rec.709, rows from the top. Its arrays share its memory and cannot be written to.
@@ -25,6 +26,8 @@ pub(crate) struct Image {
     is_complete: bool,
     /// Beauty picture, made at the first access.
     beauty: PyOnceLock<Py<PyArray3<f32>>>,
+    /// Labels that were rendered with it.
+    labels: PyOnceLock<Py<Labels>>,
 }
 
 /// Reads a layered EXR that `Image.save`, `hairline render` or `hairline reference` wrote.
@@ -48,6 +51,7 @@ impl Image {
             notes,
             is_complete,
             beauty: PyOnceLock::new(),
+            labels: PyOnceLock::new(),
         }
     }
 
@@ -223,6 +227,19 @@ impl Image {
         alpha.map(|alpha| Self::plane(slf, alpha)).transpose()
     }
 
+    /// Which scratches each pixel shows. None but for a picture that was rendered with `labels=True`.
+    #[getter]
+    fn labels(&self, py: Python<'_>) -> Option<Py<Labels>> {
+        self.labels.get(py).map(|labels| labels.clone_ref(py))
+    }
+
+    /// Adds the labels of the same picture.
+    fn _with_labels(slf: Bound<'_, Self>, labels: Py<Labels>) -> Bound<'_, Self> {
+        // Those that are there already are of the same picture.
+        let _ = slf.get().labels.set(slf.py(), labels);
+        slf
+    }
+
     /// Samples of each pixel of a reference: uint32, height x width. None for a picture of the closed forms.
     #[getter]
     fn samples<'py>(slf: &Bound<'py, Self>) -> PyResult<Option<Bound<'py, PyAny>>> {
@@ -296,6 +313,10 @@ impl Image {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        if slf.get().labels.get(slf.py()).is_some() {
+            let told = "a picture with labels cannot be pickled: render it without, and take those of Scene.labels()";
+            return Err(pyo3::exceptions::PyTypeError::new_err(told));
+        }
         let module = slf.py().import("hairline._hairline")?;
         let state = module.call_method1("picture_state", (slf,))?;
         Ok((module.getattr("picture_from_state")?, state))

@@ -2,28 +2,56 @@
 //! names, defaults and documentation; this part converts values and arrays to the libraries' types, and calls them.
 
 mod arrays;
+mod bsdf;
 mod compare;
 mod editing;
 mod errors;
 mod image;
+mod labels;
+mod laid;
 mod names;
 mod optics;
 mod scene;
+mod scene_bsdf;
 mod strips;
 mod values;
 mod watched;
 
 use pyo3::prelude::*;
 
+/// Has all that follows run on so many threads. It must come before any work.
+#[pyfunction]
+fn set_threads(count: usize) -> PyResult<()> {
+    let made = rayon::ThreadPoolBuilder::new()
+        .num_threads(count)
+        .build_global();
+    made.map_err(|_| {
+        let right = "must be set before any other work, or by RAYON_NUM_THREADS";
+        let running = rayon::current_num_threads();
+        errors::of_argument("threads", format!("found {running} at work already"), right)
+    })
+}
+
+/// Number of threads that work runs on.
+#[pyfunction]
+fn threads() -> usize {
+    rayon::current_num_threads()
+}
+
 #[pymodule]
 fn _hairline(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("DEFAULT_SAMPLES", hairline_scene::DEFAULT_SAMPLES)?;
     module.add_class::<arrays::MeshArray>()?;
+    module.add_class::<bsdf::Bsdf>()?;
     module.add_class::<arrays::ScratchArray>()?;
     module.add_class::<image::Image>()?;
+    module.add_class::<labels::Labels>()?;
     module.add_class::<scene::Builder>()?;
+    module.add_class::<scene_bsdf::SceneBsdf>()?;
     module.add_class::<scene::Built>()?;
+    module.add_function(wrap_pyfunction!(set_threads, module)?)?;
+    module.add_function(wrap_pyfunction!(threads, module)?)?;
     module.add_function(wrap_pyfunction!(scene::read, module)?)?;
     module.add_function(wrap_pyfunction!(scene::check, module)?)?;
     module.add_function(wrap_pyfunction!(scene::to_toml, module)?)?;

@@ -21,7 +21,10 @@ use pyo3::types::PyDict;
 
 use crate::errors;
 use crate::image::Image;
+use crate::labels::Labels;
+use crate::laid;
 use crate::names::named;
+use crate::scene_bsdf::SceneBsdf;
 use crate::values::Stock;
 use crate::watched::{self, WorkProgress};
 
@@ -219,6 +222,34 @@ impl Built {
     fn scratch_counts(&self) -> Vec<usize> {
         let objects = self.scene.objects.iter();
         objects.map(|object| object.scratches.len()).collect()
+    }
+
+    /// The straight pieces of an object's scratches, by name.
+    fn laid<'py>(&self, py: Python<'py>, object: &str) -> PyResult<Bound<'py, PyDict>> {
+        laid::laid(py, &self.scene, object)
+    }
+
+    /// The reflection of an object at any of its points.
+    fn bsdf(&self, py: Python<'_>, object: &str) -> PyResult<SceneBsdf> {
+        py.detach(|| SceneBsdf::new(&self.scene, object))
+    }
+
+    /// Labels of the picture; see `Scene.labels`.
+    fn labels(&self, host: &Bound<'_, PyAny>) -> PyResult<Labels> {
+        let ended = watched::run(host, |told| {
+            told.begin("labelling");
+            hairline_work::labels::labels(&self.scene, &|| told.is_cancelled())
+        })?;
+        match (ended.made, ended.interrupt) {
+            (_, Some(interrupt)) => Err(interrupt),
+            (Some(labels), None) => Ok(Labels::new(labels, self.scene.clone())),
+            (None, None) => Err(errors::internal()),
+        }
+    }
+
+    /// The corners of the box around all objects, metres.
+    fn bounds_m(&self) -> ([f32; 3], [f32; 3]) {
+        laid::bounds_m(&self.scene)
     }
 
     /// About how much memory its pictures take, and how much there is, bytes.

@@ -1,4 +1,4 @@
-"""Measures what docs/python.md says: `python crates/python/tests/figures.py [import memory arrays cluster]`."""
+"""Measures what docs/python.md says: `python crates/python/tests/figures.py [bsdf import memory arrays cluster]`."""
 
 import os
 import resource
@@ -110,7 +110,32 @@ def single():
     print(time.perf_counter() - start, processor_s([os.getpid()]) - processor)
 
 
+def bsdf():
+    """Pairs of directions a second, by the clock and of a processor."""
+    from hairline.bsdf import Layer, Scratched
+
+    layer = Layer(width_um=(2.0, 0.2), depth_nm=(160.0, 0.2), coverage=0.03)
+    material = Scratched("steel", roughness=0.3, layers=[layer])
+    random, count = np.random.default_rng(1), 10_000_000
+
+    def directions():
+        drawn = random.normal(size=(count, 3))
+        drawn[:, 2] = np.abs(drawn[:, 2])
+        return drawn / np.linalg.norm(drawn, axis=1)[:, None]
+
+    wi, wo, u = directions(), directions(), random.random((count, 3))
+    for name, work in {
+        "mean of the layer": lambda: material.eval(wi, wo, part="scratches"),
+        "with the base": lambda: material.eval(wi, wo),
+        "density": lambda: material.pdf(wi, wo),
+        "samples": lambda: material.sample(wo, u),
+    }.items():
+        start, processor = time.perf_counter(), time.process_time()
+        work()
+        print(f"{name}: {time.perf_counter() - start:.2f} s, of a processor {time.process_time() - processor:.2f} s for {count} rows")
+
+
 if __name__ == "__main__":
-    parts = {"import": import_time, "memory": memory, "arrays": arrays, "cluster": on_cluster, "single": single}
+    parts = {"bsdf": bsdf, "import": import_time, "memory": memory, "arrays": arrays, "cluster": on_cluster, "single": single}
     for name in sys.argv[1:] or ["import", "memory", "arrays", "cluster"]:
         parts[name]()

@@ -275,3 +275,26 @@ def test_nothing_is_said_of_a_display(tmp_path):
     code = "import hairline, conftest; hairline.Scene.from_dict(conftest.plate_table()).render(size=(8, 8))"
     run = subprocess.run([sys.executable, "-c", code], cwd=Path(__file__).parent, env=environment, capture_output=True, text=True)
     assert run.returncode == 0 and "XDG_RUNTIME_DIR" not in run.stderr, run.stderr
+
+
+def test_bounds_are_the_box_around_the_objects(scene):
+    least, most = scene.bounds
+    assert least == pytest.approx((-0.08, -0.08, 0), abs=1e-6) and most == pytest.approx((0.08, 0.08, 0), abs=1e-6)
+
+
+def test_notebooks_show_scenes(scene):
+    assert scene.thumbnail().size == (240, 160)
+    assert scene._repr_png_().startswith(b"\x89PNG")
+    with pytest.raises(hairline.SceneError, match="width: found 3; must be a whole number from 16 to 1024"):
+        scene.thumbnail(3)
+
+
+def test_threads_are_set_before_any_work():
+    code = "import hairline; hairline.set_threads(3); print(hairline.threads())"
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert told.stdout.split() == ["3"]
+    assert hairline.threads() >= 1
+    with pytest.raises(hairline.SceneError, match="at work already; must be set before any other work"):
+        hairline.set_threads(2)
+    with pytest.raises(hairline.SceneError, match="threads: found 0; must be a whole number from 1 to 1024"):
+        hairline.set_threads(0)

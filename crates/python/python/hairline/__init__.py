@@ -21,7 +21,8 @@ if sys.platform == "linux":
 
 from ._compare import Comparison, compare
 from ._errors import Error, InterruptedWarning, SceneError, WorkError
-from ._hairline import Image, __version__, read_image
+from ._hairline import Image, Labels, __version__, read_image, threads
+from ._host import set_threads
 from ._keys import (
     DiskLight,
     Environment,
@@ -41,7 +42,7 @@ from ._scene import Scene, load
 from ._tables import Camera, Object, Scratches
 
 if TYPE_CHECKING:
-    from . import cluster, editing, optics
+    from . import bsdf, cluster, editing, inspect, mitsuba, optics
 
 __all__ = [
     "Camera",
@@ -53,6 +54,7 @@ __all__ = [
     "Ground",
     "Image",
     "InterruptedWarning",
+    "Labels",
     "Light",
     "Material",
     "Object",
@@ -68,18 +70,23 @@ __all__ = [
     "TubeLight",
     "WorkError",
     "__version__",
+    "bsdf",
     "cluster",
     "compare",
     "editing",
+    "inspect",
     "load",
+    "mitsuba",
     "optics",
     "read_image",
+    "set_threads",
+    "threads",
 ]
 
 
 def __getattr__(name: str) -> Any:
     # Imported at the first use: the cluster needs a package that may be absent.
-    if name in ("cluster", "editing", "optics"):
+    if name in ("bsdf", "cluster", "editing", "inspect", "mitsuba", "optics"):
         import importlib
 
         return importlib.import_module(f"{__name__}.{name}")

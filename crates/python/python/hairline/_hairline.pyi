@@ -15,11 +15,16 @@ _Singles = npt.NDArray[np.float32]
 __all__ = [
     "__version__",
     "DEFAULT_SAMPLES",
+    "Bsdf",
     "MeshArray",
     "ScratchArray",
     "Image",
+    "Labels",
     "Builder",
+    "SceneBsdf",
     "Built",
+    "set_threads",
+    "threads",
     "read",
     "check",
     "to_toml",
@@ -53,6 +58,30 @@ __all__ = [
 
 __version__: str
 DEFAULT_SAMPLES: int
+
+@final
+class Bsdf:
+    def __new__(
+        cls,
+        metal: str,
+        n_k: Optional[list[list[float]]],
+        roughness: float,
+        coherence_um: float,
+        layers: list[tuple[float, float, float, tuple[tuple[float, float, float], ...]]],
+        gratings: list[tuple[float, float, float, list[float]]],
+        scratches: list[list[float]],
+        footprint_um2: list[float],
+    ) -> Bsdf: ...
+    def eval(self, wi: _Floats, wo: _Floats, wavelength_nm: Optional[_Floats], part: str) -> _Floats:
+        """Reflection of rows of directions: three numbers a row, or one where wavelengths are given."""
+
+    def pdf(self, wi: _Floats, wo: _Floats, wavelength_nm: Optional[_Floats]) -> _Floats:
+        """Density of `sample`, per steradian."""
+
+    def sample(
+        self, wo: _Floats, u: _Floats, wavelength_nm: Optional[_Floats]
+    ) -> tuple[_Floats, _Floats, _Floats]:
+        """Drawn directions, their densities and reflections; downwards and zeros where none was drawn."""
 
 @final
 class MeshArray:
@@ -119,6 +148,11 @@ class Image:
     def alpha(self) -> _Singles | None:
         """The share of each pixel that surfaces cover: float32, height x width, from 0 to 1. None but for a picture before a transparent background."""
     @property
+    def labels(self) -> Optional[Labels]:
+        """Which scratches each pixel shows. None but for a picture that was rendered with `labels=True`."""
+
+    def _with_labels(self, labels: Labels) -> Image: ...
+    @property
     def samples(self) -> npt.NDArray[np.uint32] | None:
         """Samples of each pixel of a reference: uint32, height x width. None for a picture of the closed forms."""
     def variance(
@@ -141,6 +175,18 @@ class Built:
 
     def scratch_counts(self) -> list[int]:
         """How many scratches each object has."""
+    def laid(self, object: str) -> dict[str, Any]:
+        """The straight pieces of an object's scratches, by name."""
+
+    def bsdf(self, object: str) -> SceneBsdf:
+        """The reflection of an object at any of its points."""
+
+    def labels(self, host: Host) -> Labels:
+        """Labels of the picture; see `Scene.labels`."""
+
+    def bounds_m(self) -> tuple[list[float], list[float]]:
+        """The corners of the box around all objects, metres."""
+
     def memory_bytes(self) -> tuple[float, Optional[float]]:
         """About how much memory its pictures take, and how much there is."""
     def render(
@@ -167,6 +213,71 @@ class Built:
     ) -> Image: ...
 
 @final
+class Labels:
+    """Labels of a picture: which scratches each pixel shows. What shows nothing is -1."""
+
+    RANKS: int = ...
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height, pixels."""
+
+    @property
+    def objects(self) -> list[str]:
+        """Names of the objects."""
+
+    @property
+    def object(self) -> npt.NDArray[np.int32]:
+        """Index of the object in `objects` that the middle of each pixel sees: int32, height x width."""
+
+    @property
+    def scratch(self) -> npt.NDArray[np.int32]:
+        """Scratches that cover most of each pixel, the strongest first, counted over all objects: int32, height x width x 6."""
+
+    @property
+    def coverage(self) -> _Singles:
+        """Share of the pixel, through its filter, that each of these covers: float32, height x width x 6."""
+
+    @property
+    def direction_rad(self) -> _Singles:
+        """Direction of each of these in the picture, radians counter-clockwise from the right: float32, height x width x 6."""
+
+    @property
+    def touched(self) -> npt.NDArray[np.uint32]:
+        """Pixels that scratches go through: uint32, n x 2, the index of the pixel row by row and that of the scratch."""
+
+    @property
+    def scratch_object(self) -> npt.NDArray[np.uint32]:
+        """Object of each scratch: uint32."""
+
+    @property
+    def scratch_layer(self) -> npt.NDArray[np.uint32]:
+        """Table of `scratches` that each scratch was laid by: uint32."""
+
+    @property
+    def scratch_width_um(self) -> _Singles:
+        """Width of each scratch: float32, micrometres."""
+
+    @property
+    def scratch_depth_nm(self) -> _Singles:
+        """Depth of each scratch: float32, nanometres."""
+
+    @property
+    def scratch_length_m(self) -> _Singles:
+        """Length of each scratch: float32, metres."""
+
+    def save(self, path: _Path) -> None:
+        """Writes an .exr by the convention of Cryptomatte: the whole file or none."""
+
+@final
+class SceneBsdf:
+    def eval_pdf(self, frames: _Floats, wi: _Floats, wo: _Floats) -> tuple[_Floats, _Floats]:
+        """Reflection and density of rows of points (a position and three axes each) and directions: three numbers and one."""
+
+    def sample(self, frames: _Floats, wo: _Floats, u: _Floats) -> tuple[_Floats, _Floats, _Floats]:
+        """Drawn directions, their densities and reflections; downwards and zeros where none was drawn."""
+
+@final
 class Builder:
     def build(
         self, table: dict[str, Any], folder: _Path, text: str | None, file: _Path, host: Host
@@ -177,6 +288,12 @@ class ScratchTable:
     def __new__(cls, name: str) -> ScratchTable: ...
     def at(self, u_um: _Floats, depth_nm: _Floats) -> _Floats: ...
     def total(self, depth_nm: _Floats) -> _Floats: ...
+
+def set_threads(count: int) -> None:
+    """Has all that follows run on so many threads. It must come before any work."""
+
+def threads() -> int:
+    """Number of threads that work runs on."""
 
 def read(path: _Path) -> tuple[dict[str, Any], str, list[str]]: ...
 def check(table: dict[str, Any], alone: bool = False) -> dict[str, Any]: ...

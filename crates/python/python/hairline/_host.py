@@ -8,6 +8,9 @@ import time
 import warnings
 from typing import Callable, Union
 
+from . import _hairline as core
+from ._errors import argument_error
+
 Progress = Union[bool, Callable[[str, float], object]]
 
 _log = logging.getLogger("hairline")
@@ -47,3 +50,10 @@ class Host:
         sys.stderr.write("\r" + line.ljust(self._length))
         sys.stderr.flush()
         self._length = len(line)
+
+
+def set_threads(count: int) -> None:
+    """Has all work of this process run on so many threads, before there is any. By itself it runs on all cores, or on ``RAYON_NUM_THREADS``."""
+    if isinstance(count, bool) or not hasattr(count, "__index__") or not 1 <= count.__index__() <= 1024:
+        raise argument_error("threads", f"found {count!r}", "must be a whole number from 1 to 1024")
+    core.set_threads(int(count))

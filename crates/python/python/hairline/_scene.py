@@ -11,7 +11,7 @@ from typing import Any, Optional, TypeVar, Union
 
 from . import _hairline as core
 from ._errors import InterruptedWarning, argument_error
-from ._hairline import Image
+from ._hairline import Image, Labels
 from ._host import Host, Progress
 from ._keys import Environment, Grating, Ground, Light, Material, Settings, Studio
 from ._table import Path, Table
@@ -235,6 +235,7 @@ class Scene:
         shadows: Optional[bool] = None,
         bounces: Optional[int] = None,
         transparent: bool = False,
+        labels: bool = False,
         progress: Progress = False,
     ) -> Image:
         """Renders the picture, the same bits as ``hairline render``.
@@ -245,6 +246,7 @@ class Scene:
         :param shadows: whether objects hide lights and the environment from one another. Default: as ``hairline render``.
         :param bounces: other objects that light may go by, with shadows, from 0 to 64. Default: as ``hairline render``.
         :param transparent: whether the picture has :attr:`Image.alpha`; the environment lights its surfaces and is not seen then.
+        :param labels: whether the picture has :attr:`Image.labels`, those of :meth:`labels`.
         :param progress: True for a bar on stderr, or a function of what is done and its share, from 0 to 1.
 
         Ctrl-C ends it: what there is by then is returned with :attr:`Image.is_complete` False and an
@@ -253,13 +255,35 @@ class Scene:
         arguments = render_arguments(
             backend=backend, samples=samples, shadows=shadows, bounces=bounces, transparent=transparent
         )
+        labels = _switch("labels", labels)
         host = Host(progress)
         built = self._built(size, host)
         try:
             image = built.render(*arguments, host)
+            if labels and image.is_complete:
+                image = image._with_labels(built.labels(host))
         finally:
             host.close()
         return _told(image)
+
+    def labels(self, *, size: Optional[tuple[int, int]] = None, progress: Progress = False) -> Labels:
+        """Which scratches each pixel of the picture shows, as ``hairline render --labels``: through the pinhole, whatever the lens.
+
+        :param size: width and height in pixels, in place of the scene's.
+        :param progress: as of :meth:`render`.
+        """
+        host = Host(progress)
+        built = self._built(size, host)
+        try:
+            return built.labels(host)
+        finally:
+            host.close()
+
+    @property
+    def bounds(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """The least and the greatest corner of the box around all objects, world space, metres."""
+        least, most = self.build().bounds_m()
+        return tuple(least), tuple(most)
 
     def reference(
         self,
@@ -335,6 +359,18 @@ class Scene:
     def __repr__(self) -> str:
         counts = ", ".join(f"{len(getattr(self, attribute))} {attribute}" for attribute, _, _ in _LISTS)
         return f"<hairline.Scene: {counts}>"
+
+    def thumbnail(self, width: int = 240) -> Image:
+        """A small picture, without shadows: what a notebook shows of the scene.
+
+        :param width: in pixels, from 16 to 1024; the height is that of the scene's shape.
+        """
+        width = _whole("width", width, 16, 1024)
+        across, down = self.settings.size_px
+        return self.render(size=(width, max(1, round(width * down / across))), samples=1, shadows=False)
+
+    def _repr_png_(self) -> bytes:
+        return self.thumbnail().png()
 
     def __getstate__(self) -> dict[str, Any]:
         return {"table": self.to_dict(), "folder": self.folder}

@@ -8,13 +8,15 @@ are between a direction and the normal.
 from __future__ import annotations
 
 from functools import lru_cache
+from pathlib import Path as FilePath
 from typing import Any, Callable, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
 from . import _hairline as core
 from ._arrays import ArrayLike, Floats, _numbers, floats
-from ._errors import argument_error
+from ._errors import WorkError, argument_error
+from ._table import Path
 
 __all__ = [
     "Spectrum",
@@ -28,6 +30,7 @@ __all__ = [
     "metal_rgb",
     "metals",
     "oblique_depth_nm",
+    "read_n_k",
     "phase_step_energy",
     "rgb_from_spectrum",
     "scratch_mean_energy",
@@ -89,6 +92,110 @@ def _over(
 def metals() -> tuple[str, ...]:
     """The names of metals whose n and k were measured, as scene files have them."""
     return tuple(core.metal_names())
+
+
+_MOST_ROWS = 4096
+
+
+def n_k_rows(key: str, rows: Any) -> Floats:
+    """Rows of a wavelength in nm, n and k, checked: m x 3."""
+    array = floats(key, rows, None, 3)
+    if not 1 <= len(array) <= _MOST_ROWS:
+        raise argument_error(key, f"found {len(array)} rows", f"must have from 1 to {_MOST_ROWS}")
+    nm, n, k = array.T
+    for what, values, wrong, right in (
+        ("wavelength", nm, ~((nm >= 100) & (nm <= 2000)), "must be from 100 to 2000 nm"),
+        ("n", n, ~((n > 0) & (n <= 100)), "must be above 0, up to 100"),
+        ("k", k, ~((k >= 0) & (k <= 100)), "must be from 0 to 100"),
+    ):
+        if wrong.any():
+            i = int(np.argmax(wrong))
+            raise argument_error(key, f"found the {what} {values[i]:g} in row {i}", right)
+    falls = np.diff(nm) <= 0
+    if falls.any():
+        i = int(np.argmax(falls)) + 1
+        raise argument_error(key, f"found the wavelength {nm[i]:g} in row {i} after {nm[i - 1]:g}", "must rise")
+    return array
+
+
+def read_n_k(path: Path) -> Floats:
+    """The refractive index in a file: rows of a wavelength in nm, n and k, shape (m, 3), as :class:`hairline.Material` takes them for ``n_k``.
+
+    Reads the records of refractiveindex.info (.yml, tabulated; ``pip install 'hairline[nk]'``), and tables (.csv) whose first line names
+    the columns ``wavelength_nm`` or ``wavelength_um`` (or ``wl``, in um), ``n`` and ``k``.
+    """
+    file = FilePath(path)
+    try:
+        text = file.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise WorkError(f"{file}: cannot be read: {error}") from None
+    if file.suffix.lower() in (".yml", ".yaml"):
+        rows = _of_yaml(file, text)
+    elif file.suffix.lower() in (".csv", ".txt"):
+        rows = _of_csv(file, text)
+    else:
+        raise argument_error(str(file), f"found the ending {file.suffix!r}", "must be .yml or .csv")
+    # Of all that was measured, what scenes take.
+    rows = rows[(rows[:, 0] >= 100) & (rows[:, 0] <= 2000)]
+    return n_k_rows(str(file), rows)
+
+
+def _numbers_of(file: FilePath, lines: Sequence[str], columns: int, first: int = 1) -> Floats:
+    rows = []
+    for i, line in enumerate(lines):
+        cells = line.replace(",", " ").split()
+        if not cells:
+            continue
+        try:
+            row = [float(cell) for cell in cells]
+        except ValueError:
+            row = []
+        if len(row) != columns:
+            raise argument_error(f"{file}:{first + i}", f"found {line.strip()!r}", f"must be {columns} numbers")
+        rows.append(row)
+    return np.array(rows, dtype=np.float64).reshape(-1, columns)
+
+
+def _of_yaml(file: FilePath, text: str) -> Floats:
+    try:
+        import yaml
+    except ImportError as missing:  # pragma: no cover
+        raise ImportError("records of refractiveindex.info need PyYAML: pip install 'hairline[nk]'") from missing
+    try:
+        record = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise argument_error(str(file), f"found no YAML: {str(error).splitlines()[0]}", "must be a record of refractiveindex.info") from None
+    parts = record.get("DATA") if isinstance(record, dict) else None
+    if not isinstance(parts, list):
+        raise argument_error(str(file), "found no DATA", "must be a record of refractiveindex.info")
+    tables = {}
+    for part in parts:
+        kind = str(part.get("type", "")) if isinstance(part, dict) else ""
+        if kind in ("tabulated nk", "tabulated n", "tabulated k"):
+            columns = 3 if kind.endswith("nk") else 2
+            tables[kind.split()[1]] = _numbers_of(file, str(part.get("data", "")).splitlines(), columns)
+    if "nk" in tables:
+        rows = tables["nk"]
+    elif "n" in tables and "k" in tables:
+        n, k = tables["n"], tables["k"]
+        rows = np.stack([n[:, 0], n[:, 1], np.interp(n[:, 0], k[:, 0], k[:, 1])], axis=1)
+    else:
+        found = ", ".join(str(part.get("type")) for part in parts if isinstance(part, dict)) or "nothing"
+        raise argument_error(str(file), f"found {found}", 'must have "tabulated nk", or "tabulated n" and "tabulated k": metals are not of a formula')
+    made: Floats = rows * np.array([1e3, 1, 1])
+    return made
+
+
+def _of_csv(file: FilePath, text: str) -> Floats:
+    lines = text.splitlines()
+    header = [name.strip().lower() for name in lines[0].split(",")] if lines else []
+    lengths = {"wavelength_nm": 1.0, "wavelength_um": 1e3, "wl": 1e3}
+    unit = next((name for name in lengths if name in header), None)
+    if unit is None or "n" not in header or "k" not in header:
+        raise argument_error(f"{file}:1", f"found the header {lines[0] if lines else ''!r}", "must name wavelength_nm, n and k")
+    rows = _numbers_of(file, lines[1:], len(header), first=2)
+    made: Floats = rows[:, [header.index(unit), header.index("n"), header.index("k")]] * np.array([lengths[unit], 1, 1])
+    return made
 
 
 def phase_step_energy(depth_nm: ArrayLike, wavelength_nm: ArrayLike) -> Floats:

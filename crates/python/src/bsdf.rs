@@ -1,0 +1,285 @@
+//! The reflection of a scratched metal by itself, over arrays of directions.
+
+use glam::{DMat2, DVec2, DVec3};
+use hairline_optics::bsdf::{
+    Conductor, GratingLobe, Groove, LayerLobe, PointScratch, Reflected, ScratchedBsdf, Seen,
+};
+use hairline_optics::footprint::{Footprint, ScratchShare, ends, scratch_share};
+use hairline_optics::grating::Grating;
+use hairline_optics::mask::depth_coherence;
+use hairline_scene::description;
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use crate::{errors, names};
+
+type Numbers<'py> = PyReadonlyArray1<'py, f64>;
+type Made<'py> = Bound<'py, PyArray1<f64>>;
+
+/// Directions below this number are not worth a thread.
+const FEWEST: usize = 1024;
+/// Largest error of the squared length of a direction.
+const UNIT: f64 = 1e-4;
+/// Smallest length of what stands for an endless scratch.
+const ENDLESS_UM: f64 = 1e9;
+
+/// Direction of a sample that none was drawn for: it has neither light nor density.
+pub(crate) const BELOW: [f64; 3] = [0.0, 0.0, -1.0];
+
+/// A layer: its share, direction and spread in radians, its grooves as (part, width, depth).
+type Layer = (f64, f64, f64, Vec<(f64, f64, f64)>);
+/// A grating: share, direction and spread in radians, then those of [`Grating`].
+type Row = (f64, f64, f64, [f64; 5]);
+/// A scratch: angle in radians, offset, start and end, width, depth.
+type Scratch = [f64; 6];
+
+/// A scratched metal.
+#[pyclass(frozen, module = "hairline._hairline")]
+pub(crate) struct Bsdf {
+    bsdf: ScratchedBsdf,
+}
+
+/// Parts of the reflection that are asked for.
+#[derive(Clone, Copy)]
+enum Part {
+    All,
+    Base,
+    Scratches,
+}
+
+impl Part {
+    fn eval(self, bsdf: &ScratchedBsdf, wi: DVec3, wo: DVec3, seen: Seen) -> DVec3 {
+        match self {
+            Self::All => all(bsdf.eval(wi, wo, seen)),
+            Self::Base => bsdf.eval(wi, wo, seen).base,
+            Self::Scratches => bsdf.eval_scratches(wi, wo, seen),
+        }
+    }
+}
+
+fn all(reflected: Reflected) -> DVec3 {
+    reflected.base + reflected.scratches
+}
+
+fn slice<'a>(array: &'a Numbers<'_>) -> PyResult<&'a [f64]> {
+    array.as_slice().map_err(|_| errors::internal())
+}
+
+/// Unit vectors of an array of their components.
+fn directions<'a>(key: &str, array: &'a Numbers<'_>) -> PyResult<&'a [[f64; 3]]> {
+    let (rows, _) = slice(array)?.as_chunks::<3>();
+    let is_unit = |row: &[f64; 3]| (DVec3::from(*row).length_squared() - 1.0).abs() < UNIT;
+    match rows.par_iter().position_first(|row| !is_unit(row)) {
+        None => Ok(rows),
+        Some(i) => {
+            let [x, y, z] = rows[i];
+            let found = format!("found ({x}, {y}, {z}) at {i}");
+            Err(errors::of_argument(key, found, "must be unit vectors"))
+        }
+    }
+}
+
+/// What each row is seen by.
+fn seen<'a>(wavelengths_nm: Option<&'a [f64]>) -> impl Fn(usize) -> Seen + Sync + 'a {
+    move |i| wavelengths_nm.map_or(Seen::Rgb, |nm| Seen::Wavelength(nm[i]))
+}
+
+#[pymethods]
+impl Bsdf {
+    /// `n_k` every 5 nm takes the place of a metal's name.
+    #[new]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "the wrapper in Python names them"
+    )]
+    fn new(
+        py: Python<'_>,
+        metal: &str,
+        n_k: Option<Vec<[f64; 2]>>,
+        roughness: f64,
+        coherence_um: f64,
+        layers: Vec<Layer>,
+        gratings: Vec<Row>,
+        scratches: Vec<Scratch>,
+        footprint_um2: [f64; 3],
+    ) -> PyResult<Self> {
+        let conductor = match n_k {
+            Some(n_k) => Conductor::new(n_k, roughness).ok_or_else(errors::internal)?,
+            None => {
+                let metal = names::named("metal", metal, description::metal_names())?;
+                Conductor::of_metal(metal, roughness)
+            }
+        };
+        let made = py.detach(|| {
+            let grooves = layers.iter().flat_map(|(share, .., grooves)| {
+                grooves
+                    .iter()
+                    .map(move |(part, _, depth)| (*depth, share * part))
+            });
+            let listed = scratches.iter().map(|it| (it[5], it[4]));
+            let depth_coherence = depth_coherence(grooves.chain(listed));
+            let layers = layers.iter().map(|(share, direction, spread, grooves)| {
+                let groove = |&(part, width_um, depth_nm): &(f64, f64, f64)| Groove {
+                    part,
+                    width_um,
+                    depth_nm,
+                };
+                let grooves = grooves.iter().map(groove).collect();
+                LayerLobe::new(
+                    &conductor,
+                    *share,
+                    grooves,
+                    *direction,
+                    *spread,
+                    coherence_um,
+                )
+            });
+            let gratings = gratings.iter().map(|(share, direction, spread, row)| {
+                let [pitch_um, width_um, depth_nm, depth_spread, jitter_um] = *row;
+                let row = Grating {
+                    pitch_um,
+                    width_um,
+                    depth_nm,
+                    depth_spread,
+                    jitter_um,
+                };
+                GratingLobe::new(&conductor, row, *share, *direction, *spread, coherence_um)
+            });
+            let points = scratches
+                .iter()
+                .map(|it| point_scratch(it, footprint_um2, coherence_um));
+            ScratchedBsdf {
+                layers: layers.collect(),
+                gratings: gratings.collect(),
+                points: points.collect(),
+                conductor: conductor.into(),
+                roughness,
+                coherence_um,
+                depth_coherence,
+            }
+        });
+        Ok(Self { bsdf: made })
+    }
+
+    /// Reflection of rows of directions: three numbers a row, or one where wavelengths are given.
+    fn eval<'py>(
+        &self,
+        py: Python<'py>,
+        wi: Numbers<'py>,
+        wo: Numbers<'py>,
+        wavelength_nm: Option<Numbers<'py>>,
+        part: &str,
+    ) -> PyResult<Made<'py>> {
+        let parts = [
+            ("all", Part::All),
+            ("base", Part::Base),
+            ("scratches", Part::Scratches),
+        ];
+        let part = names::named("part", part, &parts)?;
+        let (wi, wo) = (directions("wi", &wi)?, directions("wo", &wo)?);
+        let nm = wavelength_nm.as_ref().map(slice).transpose()?;
+        let values: Vec<f64> = py.detach(|| {
+            let seen = seen(nm);
+            let rows = (0..wi.len()).into_par_iter().with_min_len(FEWEST);
+            let value = |i: usize| part.eval(&self.bsdf, wi[i].into(), wo[i].into(), seen(i));
+            match nm {
+                Some(_) => rows.map(|i| value(i).x).collect(),
+                None => {
+                    let rgb = rows.map(|i| value(i).to_array());
+                    rgb.collect::<Vec<_>>().into_flattened()
+                }
+            }
+        });
+        Ok(values.into_pyarray(py))
+    }
+
+    /// Density of `sample`, per steradian.
+    fn pdf<'py>(
+        &self,
+        py: Python<'py>,
+        wi: Numbers<'py>,
+        wo: Numbers<'py>,
+        wavelength_nm: Option<Numbers<'py>>,
+    ) -> PyResult<Made<'py>> {
+        let (wi, wo) = (directions("wi", &wi)?, directions("wo", &wo)?);
+        let nm = wavelength_nm.as_ref().map(slice).transpose()?;
+        let values: Vec<f64> = py.detach(|| {
+            let seen = seen(nm);
+            let rows = (0..wi.len()).into_par_iter().with_min_len(FEWEST);
+            rows.map(|i| self.bsdf.pdf(wi[i].into(), wo[i].into(), seen(i)))
+                .collect()
+        });
+        Ok(values.into_pyarray(py))
+    }
+
+    /// Drawn directions, their densities and reflections; downwards and zeros where none was drawn.
+    fn sample<'py>(
+        &self,
+        py: Python<'py>,
+        wo: Numbers<'py>,
+        u: Numbers<'py>,
+        wavelength_nm: Option<Numbers<'py>>,
+    ) -> PyResult<(Made<'py>, Made<'py>, Made<'py>)> {
+        let wo = directions("wo", &wo)?;
+        let (u, _) = slice(&u)?.as_chunks::<3>();
+        let nm = wavelength_nm.as_ref().map(slice).transpose()?;
+        let (wi, (pdf, value)): (Vec<[f64; 3]>, (Vec<f64>, Vec<[f64; 3]>)) = py.detach(|| {
+            let seen = seen(nm);
+            let rows = (0..wo.len()).into_par_iter().with_min_len(FEWEST);
+            let drawn = rows.map(|i| {
+                let [pick, x, y] = u[i];
+                let at = DVec2::new(x, y);
+                match self.bsdf.sample(wo[i].into(), pick, at, seen(i)) {
+                    Some((wi, pdf, value)) => (wi.to_array(), (pdf, all(value).to_array())),
+                    None => (BELOW, (0.0, [0.0; 3])),
+                }
+            });
+            drawn.unzip()
+        });
+        let wi = wi.into_flattened();
+        let value = match nm {
+            Some(_) => value.iter().map(|rgb| rgb[0]).collect(),
+            None => value.into_flattened(),
+        };
+        Ok((
+            wi.into_pyarray(py),
+            pdf.into_pyarray(py),
+            value.into_pyarray(py),
+        ))
+    }
+}
+
+/// A scratch with its share of a footprint of the variances xx, xy and yy.
+fn point_scratch(
+    &[angle_rad, offset_um, start_um, end_um, width_um, depth_nm]: &Scratch,
+    [xx, xy, yy]: [f64; 3],
+    coherence_um: f64,
+) -> PointScratch {
+    let tangent = DVec2::from_angle(angle_rad);
+    let normal = tangent.perp();
+    let spread = DMat2::from_cols_array(&[xx, xy, xy, yy]);
+    let footprint = Footprint {
+        across_um2: normal.dot(spread * normal),
+        along_um2: tangent.dot(spread * tangent),
+        cross_um2: normal.dot(spread * tangent),
+    };
+    let (start_um, end_um) = (start_um.max(-ENDLESS_UM), end_um.min(ENDLESS_UM));
+    let ends = ends(end_um - start_um, coherence_um);
+    let (start_um, end_um) = (start_um + ends.shrink_um, end_um - ends.shrink_um);
+    let share: ScratchShare = scratch_share(
+        width_um,
+        offset_um,
+        start_um,
+        end_um,
+        ends.blur_um,
+        footprint,
+        coherence_um,
+    );
+    PointScratch {
+        tangent,
+        width_um,
+        depth_nm,
+        share,
+    }
+}
