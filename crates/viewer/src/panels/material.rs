@@ -148,7 +148,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     form.text(NAME, "What objects call it", &mut name);
     let mut kind = MaterialChoice::of(&material.kind);
     form.choice(
-        "MaterialChoice",
+        "Kind",
         "What the surface is made of",
         KINDS.map(|(kind, name)| (kind, name.to_owned())),
         &mut kind,
