@@ -38,7 +38,7 @@ from ._keys import (
     SunLight,
     TubeLight,
 )
-from ._scene import Scene, load
+from ._scene import Gradient, Scene, load
 from ._tables import Camera, Object, Scratches
 
 if TYPE_CHECKING:
@@ -50,6 +50,7 @@ __all__ = [
     "DiskLight",
     "Environment",
     "Error",
+    "Gradient",
     "Grating",
     "Ground",
     "Image",

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import warnings
 from collections.abc import Iterable, Mapping
 from pathlib import Path as FilePath
-from typing import Any, Optional, TypeVar, Union
+from typing import Any, NamedTuple, Optional, TypeVar, Union
 
 from . import _hairline as core
+from ._changes import changed, found
 from ._errors import InterruptedWarning, argument_error
 from ._hairline import Image, Labels
 from ._host import Host, Progress
@@ -71,6 +73,28 @@ def render_arguments(
         None if bounces is None else _whole("bounces", bounces, 0, 64),
         _switch("transparent", transparent),
     )
+
+
+_DRAWN = ("count", "density_per_m2", "seed", "length_m", "jitter_deg", "spread", "density_per_m")
+"""Keys whose change draws other scratches."""
+
+
+_LEAST_DEPTH_STEP_NM = 8.0
+"""Two rows of the tables that pictures are made with: between rows they are linear."""
+
+
+class Gradient(NamedTuple):
+    """The derivative of a picture by a number of its scene, for each unit of that: float64, height x width x 3."""
+
+    base: Any
+    """Of the light off the base."""
+    scratches: Any
+    """Of the light off the scratches."""
+
+    @property
+    def beauty(self) -> Any:
+        """Of all light."""
+        return self.base + self.scratches
 
 
 class Scene:
@@ -265,6 +289,64 @@ class Scene:
         finally:
             host.close()
         return _told(image)
+
+    def gradients(
+        self,
+        by: Iterable[str],
+        *,
+        size: Optional[tuple[int, int]] = None,
+        relative_step: float = 0.02,
+        progress: Progress = False,
+    ) -> dict[str, Gradient]:
+        """Pictures of derivatives of the closed forms, without shadows.
+
+        A closed form has no noise, and a seed lays the same scratches whatever their sizes: so differences of pictures are derivatives, here of
+        the fourth order. What bounds them are single precision, and for depths the tables that pictures are made with, linear between rows 4 nm
+        apart (docs/python.md has figures).
+
+        :param by: ways to numbers: ``"scratches[0].depth_nm"``, ``"scratches[0].width_um.mean"``, ``"light[0].center_m[2]"``,
+            ``"light[0].radiance"``, ``"material[0].roughness"``. Not those that draw other scratches: counts, densities and seeds.
+        :param relative_step: of each number; of its camera's distance from the target, for coordinates.
+        """
+        step = relative_step
+        if isinstance(step, bool) or not isinstance(step, (int, float)) or not 1e-4 <= step <= 0.2:
+            raise argument_error("relative_step", f"found {step!r}", "must be a number from 0.0001 to 0.2")
+        ways = [_name("by", way) for way in by]
+        table = self.to_dict()
+        away = math.dist(table["camera"]["position_m"], table["camera"]["target_m"])
+        made: dict[str, Gradient] = {}
+        host = Host(progress)
+        try:
+            for i, way in enumerate(ways):
+                last = re.sub(r"\[\d+\]", "", way).rsplit(".", 1)[-1]
+                value = found(table, way)
+                if isinstance(value, dict) and "mean" in value:
+                    way_to, value = f"{way}.mean", value["mean"]
+                else:
+                    way_to = way
+                if last in _DRAWN:
+                    raise argument_error(way, "found what other scratches are drawn by", "must be a size, a roughness or a part of a light")
+                if isinstance(value, bool) or not isinstance(value, (int, float)):
+                    raise argument_error(way, f"found {value!r}", "must lead to a number")
+                is_place = "[" in way_to.rsplit(".", 1)[-1]
+                h = step * (0.1 * away if is_place else abs(value))
+                if last == "depth_nm" or way_to.endswith("depth_nm.mean"):
+                    h = max(h, min(_LEAST_DEPTH_STEP_NM, 0.4 * abs(value)))
+                if h == 0:
+                    raise argument_error(way, "found 0, of which no step is a share", "must not be 0")
+                base: Any = 0.0
+                scratches: Any = 0.0
+                for at, weight in ((-2, 1), (-1, -8), (1, 8), (2, -1)):
+                    host.progress("rendering", (i + (at + 2) / 5) / len(ways))
+                    scene = Scene._of(core.check(changed(table, {way_to: value + at * h})), self.folder)
+                    scene._builder = self._builder
+                    image = scene.render(size=size, backend="cpu", shadows=False, samples=1)
+                    base = base + image.base.astype("f8") * (weight / (12 * h))
+                    scratches = scratches + image.scratches.astype("f8") * (weight / (12 * h))
+                made[way] = Gradient(base, scratches)
+        finally:
+            host.close()
+        return made
 
     def labels(self, *, size: Optional[tuple[int, int]] = None, progress: Progress = False) -> Labels:
         """Which scratches each pixel of the picture shows, as ``hairline render --labels``: through the pinhole, whatever the lens.

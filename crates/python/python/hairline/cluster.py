@@ -17,7 +17,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import re
 import tempfile
 import warnings
 from collections import OrderedDict
@@ -36,14 +35,13 @@ except ImportError as missing:  # pragma: no cover
 
 from . import _hairline as core
 from ._errors import WorkError, argument_error
+from ._changes import Change, changed
 from ._hairline import Image
 from ._host import Host, Progress
 from ._scene import Scene, render_arguments
 
 __all__ = ["local", "reference", "render", "render_files", "sweep"]
 
-Change = Mapping[str, Any]
-"""Values by the way to their keys: ``{"camera.position_m": (0, 0, 1), "light[0].radiance": 3}``."""
 Connection = Union[Client, str, None]
 
 
@@ -78,35 +76,6 @@ def _connected(client: Connection) -> Iterator[Client]:
         own.close()
         if client is None and cluster is not None:
             cluster.close()
-
-
-_STEP = re.compile(r"([a-z_0-9]+)((?:\[\d+\])*)$")
-
-
-def changed(table: Mapping[str, Any], change: Change) -> dict[str, Any]:
-    """A scene's table with other values. What is not on the way to them is shared."""
-    result: dict[str, Any] = dict(table)
-    for way, value in change.items():
-        at: Any = result
-        steps: list[Any] = []
-        for part in way.split("."):
-            match = _STEP.match(part)
-            if match is None:
-                raise argument_error(way, "found no way to a key", 'write it as in "light[0].radiance"')
-            steps += [match[1], *map(int, re.findall(r"\d+", match[2]))]
-        for step, after in zip(steps, steps[1:]):
-            known = step in at if isinstance(at, dict) else isinstance(at, list) and isinstance(step, int) and step < len(at)
-            if not known:
-                raise argument_error(way, "found no such key in the scene", "must be there before it can be changed")
-            below = at[step]
-            if not isinstance(below, dict if isinstance(after, str) else list):
-                raise argument_error(way, "found no such key in the scene", "must be there before it can be changed")
-            at[step] = below = below.copy()
-            at = below
-        if isinstance(steps[-1], int) and steps[-1] >= len(at):
-            raise argument_error(way, "found no such key in the scene", "must be there before it can be changed")
-        at[steps[-1]] = value
-    return result
 
 
 class _Parcel:
