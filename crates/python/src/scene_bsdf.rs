@@ -47,6 +47,13 @@ impl SceneBsdf {
                 "must be an object of kind = \"metal\"",
             ));
         };
+        let is_rectangle =
+            |scratch: &hairline_scene::Scratch| scratch.profile.section == Default::default();
+        if !of.scratches.iter().all(is_rectangle) {
+            let found = format!("found \"{}\", whose scratches have other profiles", of.name);
+            let right = "must be an object of rectangular grooves alone";
+            return Err(errors::of_argument("object", found, right));
+        }
         let bare = ScratchedBsdf {
             conductor: Conductor::of_metal(metal, material.roughness).into(),
             roughness: material.roughness,

@@ -247,6 +247,9 @@ class Scratched:
         built = scene.build()
         material = scene.materials.named(str(scene.objects.named(object).material))
         laid = built.laid(object)
+        if not laid["is_rectangle"].all():
+            found = f"found {object!r}, whose scratches have other profiles"
+            raise argument_error("object", found, "must be an object of rectangular grooves alone")
         along = laid["end_m"] - laid["start_m"]
         length = np.linalg.norm(along, axis=1)
         layers = []
