@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
-from scipy.ndimage import binary_dilation
 from skimage.feature import multiscale_basic_features
 from sklearn.ensemble import RandomForestClassifier
 
@@ -63,8 +62,7 @@ def features(path, is_coloured):
 
 
 def mask(folder, number):
-    """Pixels of gouges and those beside them: lines of a pixel are blurred by the pixel's filter."""
-    return binary_dilation(np.asarray(Image.open(folder / f"masks/{number:06d}.png")) > 0, np.ones((3, 3))).ravel()
+    return np.asarray(Image.open(folder / f"masks/{number:06d}.png")).ravel() > 0
 
 
 def figures(folder, is_coloured):
