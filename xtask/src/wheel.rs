@@ -33,7 +33,7 @@ const TOOLS: [&str; 8] = [
     "matplotlib",
 ];
 /// Packages that single tests need, which are skipped where there are none for the interpreter.
-const OF_SINGLE_TESTS: [&str; 2] = ["mitsuba", "pyyaml"];
+const OF_SINGLE_TESTS: [&str; 4] = ["mitsuba", "pyyaml", "scikit-image", "SurfaceTopography"];
 
 /// Imported modules are compiled at that time.
 const QUIETLY: [&str; 6] = [

@@ -42,7 +42,7 @@ from ._scene import Gradient, Scene, load
 from ._tables import Camera, Object, Scratches
 
 if TYPE_CHECKING:
-    from . import bsdf, cluster, editing, inspect, mitsuba, optics
+    from . import bsdf, cluster, editing, inspect, measured, mitsuba, optics
 
 __all__ = [
     "Camera",
@@ -77,6 +77,7 @@ __all__ = [
     "editing",
     "inspect",
     "load",
+    "measured",
     "mitsuba",
     "optics",
     "read_image",
@@ -87,7 +88,7 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     # Imported at the first use: the cluster needs a package that may be absent.
-    if name in ("bsdf", "cluster", "editing", "inspect", "mitsuba", "optics"):
+    if name in ("bsdf", "cluster", "editing", "inspect", "measured", "mitsuba", "optics"):
         import importlib
 
         return importlib.import_module(f"{__name__}.{name}")
