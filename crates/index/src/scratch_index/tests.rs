@@ -43,7 +43,8 @@ fn with_width(mut description: Description, layer: usize, width_um: f64) -> Desc
 
 /// Number of trees that are grown anew.
 fn grown(scene: &Scene, last: (&Scene, &ScratchIndex)) -> usize {
-    let plots = plots(scene, Some(last));
+    let shapes = GrooveShapes::new(scene);
+    let plots = plots(scene, &shapes, Some(last));
     let plots = plots.iter().flatten();
     plots
         .filter(|plot| matches!(plot, Plot::New { .. }))
