@@ -10,6 +10,7 @@ use crate::surface::SurfacePoint;
 use crate::visibility::center;
 use glam::{DVec2, DVec3, Vec3};
 use hairline_fixtures::SceneFile;
+use hairline_index::IndexedProfile;
 use hairline_optics::band::BandLine;
 use hairline_optics::footprint::{Footprint, scratch_share};
 use hairline_optics::gaussian::gaussian;
@@ -217,7 +218,9 @@ fn lanes_see_the_closed_forms_share() {
             index: 0,
         };
         let group = Group::new(&[at], &[Frame::new(&point)]);
-        let share = group.see(&segment, 0).and_then(|s| s.share(0, 3.0));
+        let share = group
+            .see(&segment, 0)
+            .and_then(|s| s.share(0, segment.profile));
         let share = share.map_or(0.0, |share| share.segment);
         seen += usize::from(share > 0.0);
         // Beyond the reach there is nothing: less than 5e-4 of the window's middle.
