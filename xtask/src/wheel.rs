@@ -22,7 +22,7 @@ pub struct Wheel {
 /// Package that builds it.
 pub const MATURIN: &str = "maturin>=1.9,<2";
 /// Packages that build and test it.
-const TOOLS: [&str; 8] = [
+const TOOLS: [&str; 10] = [
     MATURIN,
     "numpy",
     "pillow",
@@ -31,9 +31,11 @@ const TOOLS: [&str; 8] = [
     "typing_extensions",
     "distributed",
     "matplotlib",
+    "scikit-image",
+    "SurfaceTopography>=1.18; python_version >= '3.10'",
 ];
 /// Packages that single tests need, which are skipped where there are none for the interpreter.
-const OF_SINGLE_TESTS: [&str; 4] = ["mitsuba", "pyyaml", "scikit-image", "SurfaceTopography"];
+const OF_SINGLE_TESTS: [&str; 2] = ["mitsuba", "pyyaml"];
 
 /// Imported modules are compiled at that time.
 const QUIETLY: [&str; 6] = [
