@@ -151,7 +151,7 @@ Rectangles. A tenth of a groove's width in percent of the area is covered, 5 % a
 
 ";
 const PROFILES: &str = "
-For the whole field a groove is 24 strips of one depth each. Directions differ by 3° at most, so that few of them cross.
+For the whole field a groove is 24 strips of one depth each, or four on a micrometre. Directions differ by 3° at most, so that few of them cross.
 
 ";
 const COLUMNS: &str = "| grooves | closed / separable: scratches, mean | rms, % | base, mean | closed / full: scratches, mean | rms, % | base, mean |

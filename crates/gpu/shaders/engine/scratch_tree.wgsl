@@ -117,12 +117,12 @@ fn scratch_tree_piece(tree: texture_2d<u32>, walk: ScratchWalk, piece: u32) -> S
     let start = scratch_tree_texel(tree, at);
     let end = scratch_tree_texel(tree, at + 1u);
     let is_known = (end.w & 0xfffu) != SCRATCH_TREE_NO_NORMAL;
-    let of = profile_unpacked(start.w, end.w);
+    let unpacked = profile_unpacked(start.w, end.w);
     return ScratchPiece(
         bitcast<vec3f>(start.xyz),
         bitcast<vec3f>(end.xyz),
-        select(vec3f(0.0), of.normal, is_known),
-        of.profile,
-        of.blur_um,
+        select(vec3f(0.0), unpacked.normal, is_known),
+        unpacked.profile,
+        unpacked.blur_um,
     );
 }

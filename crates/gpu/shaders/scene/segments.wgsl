@@ -11,6 +11,6 @@ struct Segment {
 // Unpacks a segment: five parts in ten thousand of a width, a depth or a blur, four degrees of a normal that is only asked
 // which side of a sheet it is on.
 fn segment_from(packed: ScratchSegment) -> Segment {
-    let of = profile_unpacked(packed.width_depth, packed.more);
-    return Segment(packed.start_m, packed.end_m, of.normal, of.profile, of.blur_um);
+    let unpacked = profile_unpacked(packed.width_depth, packed.more);
+    return Segment(packed.start_m, packed.end_m, unpacked.normal, unpacked.profile, unpacked.blur_um);
 }

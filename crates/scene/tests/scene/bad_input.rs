@@ -32,6 +32,33 @@ fn light(rest: &str) -> String {
     message(&format!("{}[[light]]\n{rest}", disk()))
 }
 
+#[test]
+fn profiles_that_are_none() {
+    for (profile, expected) in [
+        (
+            "\"w\"",
+            ": found the text \"w\"; must be one of `rectangle`, `v`, `round`, `shoulders`, or an array of depths",
+        ),
+        (
+            "[1]",
+            ": found 1 depths; must be from 2 to 64, from the middle to the rim",
+        ),
+        ("[1, 2]", "[1]: found 2; must be from -1 to 1"),
+        (
+            "[0, 0]",
+            ": found no depth but 0; must have one that is not, such as `[1, 0.5, 0]`",
+        ),
+    ] {
+        let found = scratches(&format!(
+            "pattern = \"random\"\ncount = 1\nprofile = {profile}\n"
+        ));
+        assert_eq!(
+            found,
+            format!("plate.toml:19: scratches[0].profile{expected}")
+        );
+    }
+}
+
 /// Paths as Windows has them, in the quotes that TOML reads escapes in.
 #[test]
 fn paths_with_backslashes() {
@@ -222,22 +249,6 @@ fn sizes_that_are_negative_or_not_finite() {
         (
             "[[material]]\nname = \"a\"\nkind = \"mirror\"\nclearcoat = 1.5",
             "plate.toml:14: material[1].clearcoat: found 1.5; must be from 0 to 1",
-        ),
-        (
-            "[[scratches]]\nobject = \"o\"\npattern = \"random\"\ncount = 1\nprofile = \"w\"",
-            "plate.toml:15: scratches[0].profile: found the text \"w\"; must be one of `rectangle`, `v`, `round`, `shoulders`, or an array of depths",
-        ),
-        (
-            "[[scratches]]\nobject = \"o\"\npattern = \"random\"\ncount = 1\nprofile = [1]",
-            "plate.toml:15: scratches[0].profile: found 1 depths; must be from 2 to 64, from the middle to the rim",
-        ),
-        (
-            "[[scratches]]\nobject = \"o\"\npattern = \"random\"\ncount = 1\nprofile = [1, 2]",
-            "plate.toml:15: scratches[0].profile[1]: found 2; must be from -1 to 1",
-        ),
-        (
-            "[[scratches]]\nobject = \"o\"\npattern = \"random\"\ncount = 1\nprofile = [0, 0]",
-            "plate.toml:15: scratches[0].profile: found no depth but 0; must have one that is not, such as `[1, 0.5, 0]`",
         ),
         (
             "[[material]]\nname = \"a\"\nkind = \"metal\"\nmetal = \"gold\"\ncover = { ior = 0.9 }",
