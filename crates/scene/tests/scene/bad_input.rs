@@ -176,7 +176,7 @@ fn wrong_types() {
         ),
         (
             "[[material]]\nname = \"m\"\nkind = \"metal\"",
-            "plate.toml:11: material[1]: found neither `metal` nor `base_color`; must have exactly one of them",
+            "plate.toml:11: material[1]: found neither `metal` nor `base_color` nor `n_k`; must have exactly one of them",
         ),
         (
             "[[object]]\nname = \"it\"\nshape = { }\nmaterial = \"steel\"",
