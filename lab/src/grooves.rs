@@ -83,6 +83,7 @@ impl Grooves {
                 self.row(&mut text, &format!("{name}, {width_um} µm"), stage)?;
             }
         }
+        text.push_str(TAIL);
         if !self.quick {
             let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
             fs::write(root.join("docs/accuracy/grooves.md"), text).context("write the page")?;
@@ -147,7 +148,7 @@ random places within 20° of the plane of incidence, 150 nm deep and 1 mm long, 
 Made by `cargo lab grooves`. Ratios of means, and rms of the difference beyond noise over the rms of the reference, in percent.
 ";
 const WIDE: &str = "
-Rectangles. A tenth of a groove's width in percent of the area is covered, 5 % at least, 30 % at most.
+Rectangles. As many percent of the area are covered as a groove has micrometres, 5 at least and 30 at most.
 
 ";
 const PROFILES: &str = "
@@ -156,4 +157,9 @@ For the whole field a groove is 24 strips of one depth each, or four on a microm
 ";
 const COLUMNS: &str = "| grooves | closed / separable: scratches, mean | rms, % | base, mean | closed / full: scratches, mean | rms, % | base, mean |
 |---|---|---|---|---|---|---|
+";
+const TAIL: &str = "
+Alone on a mirror, seen in pixels of 40 µm under a light of 0.06 rad, the closed form against the whole field (test `profiles_and_wide_grooves_alone`): a V of 2 µm 1.1 % rms with a mean of 1.000, round of 3 µm 3.3 % and 1.007,
+with shoulders of 4 µm 3.6 % and 0.993; floors of 30 and 100 µm 0.0 ± 1.2 and 0.0 ± 0.7 % with means of 1.004 and 1.000; shoulders of 30 µm 9.1 % and 1.008, where two halves stand for slopes all along.
+So what the tables above have beyond that is of many grooves: those of 20 µm and more cover 20 to 30 % of the area here, and the whole field has one floor where they cross.
 ";
