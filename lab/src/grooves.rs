@@ -161,5 +161,6 @@ const COLUMNS: &str = "| grooves | closed / separable: scratches, mean | rms, % 
 const TAIL: &str = "
 Alone on a mirror, seen in pixels of 40 µm under a light of 0.06 rad, the closed form against the whole field (test `profiles_and_wide_grooves_alone`): a V of 2 µm 1.1 % rms with a mean of 1.000, round of 3 µm 3.3 % and 1.007,
 with shoulders of 4 µm 3.6 % and 0.993; floors of 30 and 100 µm 0.0 ± 1.2 and 0.0 ± 0.7 % with means of 1.004 and 1.000; shoulders of 30 µm 9.1 % and 1.008, where two halves stand for slopes all along.
-So what the tables above have beyond that is of many grooves: those of 20 µm and more cover 20 to 30 % of the area here, and the whole field has one floor where they cross.
+What the tables have beyond that comes with many grooves. Those of 20 µm and more cover 20 to 30 % of the area here, and
+the whole field has one floor where they cross; cover and width were not told apart.
 ";
