@@ -256,7 +256,7 @@ fn sizes_that_are_negative_or_not_finite() {
         ),
         (
             "[[material]]\nname = \"a\"\nkind = \"metal\"\nbase_color = [1, 1, 1]\ncover = {}",
-            "plate.toml:15: material[1].cover: found a plate over a metal that a colour stands for; belongs to `metal`, whose refractive index is known",
+            "plate.toml:15: material[1].cover: found a plate over a metal that a colour stands for; belongs to `metal` or `n_k`, whose refractive index is known",
         ),
         (
             "[[material]]\nname = \"a\"\nkind = \"metal\"\nmetal = \"gold\"\nclearcoat = 1\ncover = {}",
