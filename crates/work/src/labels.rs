@@ -463,10 +463,12 @@ mod tests {
             }
         }
         let found: std::collections::BTreeSet<_> = labels.touched.iter().copied().collect();
-        // Corners that a line cuts by less than a few samples may fall either way.
+        // Corners that a line cuts by less than a thousandth of a piece may fall either way. At the rim the middle of a pixel sees no surface.
         let missed = right
             .iter()
-            .filter(|(key, count)| **count > 3 && !found.contains(*key))
+            .filter(|(key, count)| {
+                **count > 20 && labels.object[key[0] as usize] == 0 && !found.contains(*key)
+            })
             .count();
         let added = found.iter().filter(|key| !right.contains_key(*key)).count();
         assert!(
