@@ -22,7 +22,10 @@ pub(crate) struct Grooves {
     quick: bool,
 }
 
-const SECTIONS: [(&str, fn() -> Section); 4] = [
+/// Makes a section.
+type MakeSection = fn() -> Section;
+
+const SECTIONS: [(&str, MakeSection); 4] = [
     ("rectangle", || Section::Rectangle),
     ("v", || Section::V),
     ("round", || Section::Round),

@@ -224,7 +224,7 @@ impl Bsdf {
         let wo = directions("wo", &wo)?;
         let (u, _) = slice(&u)?.as_chunks::<3>();
         let nm = wavelength_nm.as_ref().map(slice).transpose()?;
-        let (wi, (pdf, value)): (Vec<[f64; 3]>, (Vec<f64>, Vec<[f64; 3]>)) = py.detach(|| {
+        let (wi, (pdf, value)): (Vec<_>, (Vec<_>, Vec<_>)) = py.detach(|| {
             let seen = seen(nm);
             let rows = (0..wo.len()).into_par_iter().with_min_len(FEWEST);
             let drawn = rows.map(|i| {
