@@ -175,7 +175,6 @@ impl ScratchTables {
                 tables.push(shaped_table(*metal, shape));
             }
         }
-        let materials: Vec<MaterialOptics> = materials;
         let mut all = Self {
             tables: Vec::new(),
             grating_spectra: Vec::new(),
@@ -187,16 +186,7 @@ impl ScratchTables {
             reflectors,
             materials,
         };
-        for object in scene.objects.iter().filter(|o| !o.gratings.is_empty()) {
-            for material in object.mesh.materials() {
-                for grating in &object.gratings {
-                    let spectrum = all.spectrum(grating, material);
-                    if !all.grating_spectra.contains(&spectrum) {
-                        all.grating_spectra.push(spectrum);
-                    }
-                }
-            }
-        }
+        all.grating_spectra = all.spectra(scene);
         for of in &all.grating_spectra {
             let efficiencies = match &of.fine {
                 Some(fine) => Some(efficiencies(fine, cancelled)?),
@@ -210,6 +200,29 @@ impl ScratchTables {
             all.efficiencies.push(efficiencies);
         }
         Some(Self { tables, ..all })
+    }
+
+    /// Whether these are the tables of a scene.
+    pub fn are_of(&self, scene: &Scene) -> bool {
+        self.of == scene.materials
+            && self.shapes == GrooveShapes::new(scene)
+            && self.grating_spectra == self.spectra(scene)
+    }
+
+    /// Spectra of all gratings of a scene that has these materials, each once.
+    fn spectra(&self, scene: &Scene) -> Vec<GratingSpectrum> {
+        let mut spectra = Vec::new();
+        for object in scene.objects.iter().filter(|o| !o.gratings.is_empty()) {
+            for material in object.mesh.materials() {
+                for grating in &object.gratings {
+                    let spectrum = self.spectrum(grating, material);
+                    if !spectra.contains(&spectrum) {
+                        spectra.push(spectrum);
+                    }
+                }
+            }
+        }
+        spectra
     }
 
     fn spectrum(&self, grating: &Grating, material: usize) -> GratingSpectrum {

@@ -125,7 +125,7 @@ impl ViewBuilder {
         let segments: usize = scene.objects.iter().map(|o| o.segments.len()).sum();
         let index_done = Instant::now();
         let tables = match last {
-            Some(last) if has_same_optics(&last.scene, &scene) => Arc::clone(&last.tables),
+            Some(last) if last.tables.are_of(&scene) => Arc::clone(&last.tables),
             _ => Arc::new(ScratchTables::new(&scene)),
         };
         Some(Built {
@@ -190,7 +190,7 @@ impl ViewBuilder {
         };
         let index_done = Instant::now();
         let tables = match last {
-            Some(last) if has_same_optics(&last.scene, &scene) => Arc::clone(&last.tables),
+            Some(last) if last.tables.are_of(&scene) => Arc::clone(&last.tables),
             _ => match ScratchTables::unless(&scene, cancelled) {
                 Some(tables) => Arc::new(tables),
                 None => return Ok(None),
@@ -239,13 +239,27 @@ fn has_same_scratches(a: &Scene, b: &Scene) -> bool {
         && std::iter::zip(&a.materials, &b.materials).all(|(a, b)| a.coherence_um == b.coherence_um)
 }
 
-fn has_same_optics(a: &Scene, b: &Scene) -> bool {
-    let gratings = |scene: &Scene| {
-        scene
-            .objects
-            .iter()
-            .map(|o| o.gratings.clone())
-            .collect::<Vec<_>>()
-    };
-    a.materials == b.materials && gratings(a) == gratings(b)
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_fixtures::{DISK, SceneFile};
+
+    /// A wide scratch has a table of its own: pictures would look for it where the tables were of narrow ones.
+    #[test]
+    fn tables_are_those_of_the_scratches() {
+        let mut builder = ViewBuilder::default();
+        for (width_um, shapes) in [(2.0, 1), (30.0, 2), (2.0, 1)] {
+            let description = SceneFile::seen_from([0.0, -0.3, 0.3])
+                .metal("steel", "steel")
+                .object("plate", "steel", DISK)
+                .random("plate", 20)
+                .with(&format!("width_um = {width_um:?}"))
+                .description();
+            let now = Instant::now();
+            let built = builder.build(&|| false, 1, now, Arc::new(description), Path::new(""));
+            let built = built.unwrap().unwrap();
+            assert_eq!(built.tables.shapes.count(), shapes, "{width_um} um");
+            assert!(built.tables.are_of(&built.scene));
+        }
+    }
 }
