@@ -310,10 +310,11 @@ pub(crate) fn profile_words(segment: &IndexedSegment) -> [u32; 2] {
         true => -segment.blur_um,
         false => segment.blur_um,
     };
-    let shape = u32::from(profile.shape) << 12;
+    // The shape has the place of the last four digits of a half float's ten.
+    let blur = half_bits(blur_um) + 8 & 0xfff0;
     [
         half_bits(profile.width_um) | half_bits(profile.depth_nm) << 16,
-        octahedral(segment.normal) | shape | half_bits(blur_um) << 16,
+        octahedral(segment.normal) | (blur | u32::from(profile.shape)) << 16,
     ]
 }
 
@@ -321,7 +322,7 @@ fn half_bits(value: f32) -> u32 {
     u32::from(f16::from_f32(value).to_bits())
 }
 
-/// A unit vector as two signed numbers of six bits. Twin: `octahedral_normal` in scratch.wgsl.
+/// A unit vector as two signed bytes. Twin: `octahedral_normal` in scratch.wgsl.
 fn octahedral(normal: Vec3) -> u32 {
     let v = normal / (normal.x.abs() + normal.y.abs() + normal.z.abs()).max(1e-30);
     let folded = |value: f32, other: f32| {
@@ -331,8 +332,8 @@ fn octahedral(normal: Vec3) -> u32 {
             (1.0 - other.abs()).copysign(value)
         }
     };
-    let six_bits = |value: f32| u32::from((value * 31.0).round() as i8 as u8 & 63);
-    six_bits(folded(v.x, v.y)) | six_bits(folded(v.y, v.x)) << 6
+    let byte = |value: f32| u32::from((value * 127.0).round() as i8 as u8);
+    byte(folded(v.x, v.y)) | byte(folded(v.y, v.x)) << 8
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ const LEAF = 4;
 const FIRST_BITS = 28;
 /** Longer pieces are cut: the box of a long slanting one is mostly empty. */
 const LONGEST_M = 4e-3;
-const NO_NORMAL = 0x820;
+const NO_NORMAL = 0x8080;
 
 const bits = new Uint32Array(1);
 const floats = new Float32Array(bits.buffer);
@@ -31,14 +31,14 @@ function halfBits(value) {
   return sign | ((exponent << 10) + rounded(x & 0x7fffff, 13));
 }
 
-/** A unit vector as two signed numbers of six bits. */
+/** A unit vector as two signed bytes. */
 function octahedral(normal) {
   if (normal === null) return NO_NORMAL;
   const sum = Math.max(Math.abs(normal[0]) + Math.abs(normal[1]) + Math.abs(normal[2]), 1e-30);
   const v = normal.map((x) => x / sum);
   const folded = (x, other) => (v[2] >= 0 ? x : (1 - Math.abs(other)) * (x < 0 ? -1 : 1));
-  const sixBits = (x) => Math.round(x * 31) & 0x3f;
-  return sixBits(folded(v[0], v[1])) | (sixBits(folded(v[1], v[0])) << 6);
+  const byte = (x) => Math.round(x * 127) & 0xff;
+  return byte(folded(v[0], v[1])) | (byte(folded(v[1], v[0])) << 8);
 }
 
 function cut(pieces, longest) {
@@ -128,7 +128,7 @@ export function scratchTree({ pieces: given, coherenceUm, depthCoherence }, { me
     numbers.set(piece.start, at);
     texels[at + 3] = (halfBits(piece.widthUm) | (halfBits(piece.depthNm) << 16)) >>> 0;
     numbers.set(piece.end, at + 4);
-    texels[at + 7] = (octahedral(piece.normal) | (halfBits(piece.blurUm) << 16)) >>> 0;
+    texels[at + 7] = (octahedral(piece.normal) | ((halfBits(piece.blurUm) + 8 & 0xfff0) << 16)) >>> 0;
   });
   return { texels, width: WIDTH, height };
 }

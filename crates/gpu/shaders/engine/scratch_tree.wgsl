@@ -15,7 +15,7 @@ const SCRATCH_TREE_END: u32 = 0xffffffffu;
 // Pieces of a node within the footprint's reach that stand for all.
 const SCRATCH_TREE_MOST: u32 = 64u;
 // Word in the place of a normal: scratches from a list have none, and show on both sides of a sheet.
-const SCRATCH_TREE_NO_NORMAL: u32 = 0x820u;
+const SCRATCH_TREE_NO_NORMAL: u32 = 0x8080u;
 // A scratch shows at a point only if their normals agree at least this well: the far side of a sheet has the opposite one.
 const SCRATCH_TREE_FACING: f32 = 0.2;
 
@@ -116,7 +116,7 @@ fn scratch_tree_piece(tree: texture_2d<u32>, walk: ScratchWalk, piece: u32) -> S
     let at = 1u + 2u * walk.node_count + 2u * piece;
     let start = scratch_tree_texel(tree, at);
     let end = scratch_tree_texel(tree, at + 1u);
-    let is_known = (end.w & 0xfffu) != SCRATCH_TREE_NO_NORMAL;
+    let is_known = (end.w & 0xffffu) != SCRATCH_TREE_NO_NORMAL;
     let unpacked = profile_unpacked(start.w, end.w);
     return ScratchPiece(
         bitcast<vec3f>(start.xyz),

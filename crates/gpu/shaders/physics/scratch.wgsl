@@ -9,7 +9,7 @@ struct Profile {
 
 // Profile and more of a segment in two words. Twin: profile_words in src/host.rs.
 //   first   width and depth, half floats
-//   second  normal, two numbers of six bits of an octahedral map; table, four bits; blur, a half float, negative for a part of a wide groove
+//   second  normal, two bytes of an octahedral map; table, four bits; blur, twelve bits of a half float, negative for a part of a wide groove
 struct PackedProfile {
     profile: Profile,
     normal: vec3f,
@@ -18,10 +18,9 @@ struct PackedProfile {
 
 fn profile_unpacked(sizes: u32, more: u32) -> PackedProfile {
     let halves = unpack2x16float(sizes);
-    let shape = extractBits(more, 12u, 4u) | ((more >> 31u) << 4u);
-    let word = bitcast<i32>(more);
-    let octahedral = vec2f(vec2i(extractBits(word, 0u, 6u), extractBits(word, 6u, 6u))) * (1.0 / 31.0);
-    return PackedProfile(Profile(halves.x, halves.y, shape), octahedral_normal(octahedral), abs(unpack2x16float(more).y));
+    let shape = extractBits(more, 16u, 4u) | ((more >> 31u) << 4u);
+    let blur_um = abs(unpack2x16float(more & 0xfff00000u).y);
+    return PackedProfile(Profile(halves.x, halves.y, shape), octahedral_normal(unpack4x8snorm(more).xy), blur_um);
 }
 
 // Layer of the table of a groove, where those of a material begin at one.

@@ -8,8 +8,8 @@ struct Segment {
     blur_um: f32,
 }
 
-// Unpacks a segment: five parts in ten thousand of a width, a depth or a blur, four degrees of a normal that is only asked
-// which side of a sheet it is on.
+// Unpacks a segment: five parts in ten thousand of a width or a depth, eight in a thousand of a blur, a degree of a normal
+// that is only asked which side of a sheet it is on.
 fn segment_from(packed: ScratchSegment) -> Segment {
     let unpacked = profile_unpacked(packed.width_depth, packed.more);
     return Segment(packed.start_m, packed.end_m, unpacked.normal, unpacked.profile, unpacked.blur_um);
