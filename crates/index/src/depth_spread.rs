@@ -1,6 +1,7 @@
 //! Coherence of the phase steps of an object's scratches (docs/model.md, section 3), for millions of them.
 
 use hairline_optics::mask::depth_coherence;
+use hairline_optics::scratch::DEPTH_MAX_NM;
 use hairline_scene::{Object, Scratch, SectionId};
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -45,7 +46,7 @@ fn of_strips(object: &Object) -> f32 {
     for scratch in object.scratches.iter() {
         let area = f64::from(object.covered_um_m(scratch));
         let depth_nm = f64::from(scratch.profile.depth_nm.max(0.0));
-        let bin = (depth_nm / 2000.0 * SECTION_BINS as f64) as u32;
+        let bin = (depth_nm / DEPTH_MAX_NM * SECTION_BINS as f64) as u32;
         let sum = bins.entry((scratch.profile.section, bin)).or_default();
         sum[0] += area;
         sum[1] += area * depth_nm;

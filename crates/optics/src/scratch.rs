@@ -5,6 +5,9 @@ use crate::footprint::ScratchShare;
 use spec_math::cephes64::erf;
 use std::f64::consts::PI;
 
+/// Depth of the deepest groove. Tables end there and hold deeper ones; their colours have washed out to straw long before.
+pub const DEPTH_MAX_NM: f64 = 2000.0;
+
 /// |D|^2 = 4 sin^2(2 pi d / lambda): the energy of the phase step at the groove's floor. `depth_nm` is the groove's depth for
 /// light along the normal, else [`oblique_depth_nm`].
 pub fn phase_step_energy(depth_nm: f64, wavelength_nm: f64) -> f64 {

@@ -4,6 +4,8 @@
 //! transform of 1 - exp(-i 4 pi d s / lambda), as in S. Werner, Z. Velinov, W. Jakob and M. Hullin, *Scratch Iridescence* (2017). Depth and
 //! angle enter as d/lambda and u/lambda alone, so one grid over these two serves all wavelengths, metals, widths and depths.
 
+use crate::scratch::DEPTH_MAX_NM;
+use crate::spectrum::WAVELENGTH_MIN_NM;
 use rayon::prelude::*;
 use spec_math::cephes64::erfc;
 use std::f64::consts::{PI, SQRT_2};
@@ -178,7 +180,7 @@ pub fn width_class(windows: f64) -> u8 {
 }
 
 /// Depth over wavelength of the last row: the table's deepest groove in the shortest wavelength.
-const ROW_MAX: f64 = 2000.0 / 380.0;
+const ROW_MAX: f64 = DEPTH_MAX_NM / WAVELENGTH_MIN_NM;
 const ROWS: usize = 1025;
 /// Step of u over wavelength. All that varies along it has a period of 1 or longer.
 const STEP: f64 = 0.05;

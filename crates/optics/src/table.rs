@@ -7,6 +7,7 @@
 //! turns the light integral of any scratch into differences of two look-ups, whatever the number of wavelengths.
 //! R/F0 carries the correlation of the metal's colour with the scratch's; the caller multiplies by Fresnel in RGB.
 
+use crate::scratch::DEPTH_MAX_NM;
 use crate::section::{GrooveShape, GrooveSpectrum};
 use crate::{diffraction, scratch, spectrum};
 use rayon::prelude::*;
@@ -15,8 +16,6 @@ use rayon::prelude::*;
 pub const COLUMNS: usize = 1024;
 /// Rows, over depth.
 pub const ROWS: usize = 512;
-/// Largest depth: the last row. Deeper scratches are held there; their colours have washed out to straw long before.
-pub(crate) const DEPTH_MAX_NM: f64 = 2000.0;
 /// The u of the middle column. Columns are even in u/(u + U_HALF_UM), so that the last one lies at infinity: fine where
 /// the colours are (one fringe spans about 0.5 um of u), coarse where they have blurred into the tail.
 pub(crate) const U_HALF_UM: f64 = 2.0;

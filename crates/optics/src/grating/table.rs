@@ -4,9 +4,10 @@
 use super::Grating;
 use crate::diffraction::{sinc, sinc_squared_integral};
 use crate::gaussian::gaussian;
+use crate::scratch::DEPTH_MAX_NM;
 use crate::scratch::band_std;
 use crate::spectrum::{self, WAVELENGTH_MIN_NM, WAVELENGTH_STEP_NM};
-use crate::table::{COLUMNS, DEPTH_MAX_NM, ROWS, ScratchTable, U_HALF_UM, column_u_um};
+use crate::table::{COLUMNS, ROWS, ScratchTable, U_HALF_UM, column_u_um};
 use std::f64::consts::PI;
 
 /// Width of the scratch whose table layout a row uses: u = 2 um q. Columns are then 0.001 apart in q about the mirror's direction, 0.004 at q = 1.

@@ -1,5 +1,7 @@
 //! The keys of `[[grating]]`.
 
+use hairline_optics::scratch::DEPTH_MAX_NM;
+
 use super::key::{Bounds, Form, Key, LARGEST_M, linear, log};
 use super::scratches::{AXIS, CENTER_M as AXIS_CENTER_M, DIRECTION};
 use super::section::{Choice, Section};
@@ -44,7 +46,7 @@ pub static WIDTH_UM: Key = Key::new("width_um", Form::Number)
 pub static DEPTH_NM: Key = Key::new("depth_nm", Form::Sizes)
     .unit("nm")
     .number(120.0)
-    .within(0.0, 2000.0)
+    .within(0.0, DEPTH_MAX_NM)
     .range_words("mean 0 to 2000, spread 0 to 1")
     .means("Depth: how much light goes into orders, and which colours. Normal; the spread is a share of the mean.")
     .control("Depth", linear(20.0, 600.0), "Picks the overall tint, also close to the highlight: each depth favours some wavelengths and cancels others. Very shallow scratches are faint and bluish. Seen or lit aslant they act shallower, so tints shift as things turn.")

@@ -1,5 +1,7 @@
 //! The keys of `[[scratches]]`.
 
+use hairline_optics::scratch::DEPTH_MAX_NM;
+
 use super::key::{Bounds, Form, Initial, Key, LARGEST_M, linear, log};
 use super::section::{Choice, Section};
 
@@ -103,7 +105,7 @@ pub static WIDTH_UM: Key = Key::new("width_um", Form::Sizes)
 pub static DEPTH_NM: Key = Key::new("depth_nm", Form::Sizes)
     .unit("nm")
     .sizes(200.0, 0.2)
-    .above_0(2000.0)
+    .above_0(DEPTH_MAX_NM)
     .range_words("mean above 0, up to 2000; spread 0 to 3")
     .means("Depth of the groove: which colours it favours.")
     .control("Depth", linear(20.0, 600.0), "Picks the overall tint, also close to the highlight: each depth favours some wavelengths and cancels others. Very shallow scratches are faint and bluish. Seen or lit aslant they act shallower, so tints shift as things turn.")

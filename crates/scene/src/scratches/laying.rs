@@ -1,5 +1,7 @@
 //! Interface of all kinds of layers for laying a scratch.
 
+use hairline_optics::scratch::DEPTH_MAX_NM;
+
 use super::walk::{Course, MeshPoint, Walker};
 use crate::description::Distribution;
 use crate::error::Error;
@@ -9,7 +11,7 @@ use crate::section_id::SectionId;
 /// Range of widths: the spectral table's, and below the coherence windows of scenes.
 const WIDTHS_UM: (f64, f64) = (0.05, 100.0);
 /// Depths are kept within the spectral table's range.
-const DEPTHS_NM: (f64, f64) = (0.0, 2000.0);
+const DEPTHS_NM: (f64, f64) = (0.0, DEPTH_MAX_NM);
 
 /// Size of a groove that a list gives for each scratch.
 pub(crate) struct ListedSize {
