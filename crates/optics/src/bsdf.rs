@@ -7,13 +7,13 @@ mod conductor;
 mod grating;
 mod layer;
 mod point;
-mod seen;
+mod spectral_mode;
 
 pub use conductor::Conductor;
 pub use grating::GratingLobe;
 pub use layer::{Groove, LayerLobe};
 pub use point::PointScratch;
-pub use seen::Seen;
+pub use spectral_mode::SpectralMode;
 
 use std::sync::Arc;
 
@@ -58,7 +58,7 @@ const LEAST_PICK: f64 = 0.1;
 /// The material for one viewer: what does not depend on the light.
 struct View<'a> {
     of: &'a ScratchedBsdf,
-    seen: Seen,
+    mode: SpectralMode,
     wo: DVec3,
     alpha: f64,
     /// Factor on each scratch, and what the base loses.
@@ -71,7 +71,7 @@ struct View<'a> {
 }
 
 impl ScratchedBsdf {
-    fn view(&self, wo: DVec3, seen: Seen) -> View<'_> {
+    fn view(&self, wo: DVec3, mode: SpectralMode) -> View<'_> {
         let mut sums = ScratchSums::default();
         let energy = |depth: &dyn Fn() -> DVec3, share: ScratchShare, sums: &mut ScratchSums| {
             sums.add(share, depth().into(), [1.0; 3]);
@@ -81,12 +81,12 @@ impl ScratchedBsdf {
                 segment: layer.share(),
                 line: 0.0,
             };
-            energy(&|| layer.energy(wo.z, seen), share, &mut sums);
+            energy(&|| layer.energy(wo.z, mode), share, &mut sums);
         }
         for scratch in &self.points {
-            let at = || match seen {
-                Seen::Rgb => scratch.energy_rgb(&self.conductor, wo.z),
-                Seen::Wavelength(nm) => {
+            let at = || match mode {
+                SpectralMode::Rgb => scratch.energy_rgb(&self.conductor, wo.z),
+                SpectralMode::Wavelength(nm) => {
                     let depth_nm = oblique_depth_nm(scratch.depth_nm, wo.z, wo.z);
                     DVec3::splat(phase_step_energy(depth_nm, nm))
                 }
@@ -99,7 +99,7 @@ impl ScratchedBsdf {
             false => 1.0,
         };
         let left = DVec3::ONE - DVec3::from(taken);
-        let taken_by_gratings: DVec3 = self.gratings.iter().map(|it| it.taken(wo, seen)).sum();
+        let taken_by_gratings: DVec3 = self.gratings.iter().map(|it| it.taken(wo, mode)).sum();
         let left_by_gratings = (DVec3::ONE - taken_by_gratings).max(DVec3::ZERO);
         let bright = ((left * left_by_gratings).element_sum() / 3.0).max(0.0);
         let base_pick =
@@ -109,37 +109,37 @@ impl ScratchedBsdf {
             };
         View {
             of: self,
-            seen,
+            mode,
             wo,
             alpha: ggx_alpha(self.roughness),
             kept,
             left,
             left_by_gratings,
-            fresnel: self.conductor.reflectance(wo.z, seen),
+            fresnel: self.conductor.reflectance(wo.z, mode),
             base_pick,
         }
     }
 
     /// The reflection from `wi` to `wo`, the cosine of `wi` inside; nothing where either is at or below the horizon.
-    pub fn eval(&self, wi: DVec3, wo: DVec3, seen: Seen) -> Reflected {
+    pub fn eval(&self, wi: DVec3, wo: DVec3, mode: SpectralMode) -> Reflected {
         match wi.z > 0.0 && wo.z > 0.0 {
-            true => self.view(wo, seen).eval(wi),
+            true => self.view(wo, mode).eval(wi),
             false => Reflected::default(),
         }
     }
 
     /// The part of [`Self::eval`] that scratches and gratings send.
-    pub fn eval_scratches(&self, wi: DVec3, wo: DVec3, seen: Seen) -> DVec3 {
+    pub fn eval_scratches(&self, wi: DVec3, wo: DVec3, mode: SpectralMode) -> DVec3 {
         match wi.z > 0.0 && wo.z > 0.0 {
-            true => self.view(wo, seen).scratches(wi),
+            true => self.view(wo, mode).scratches(wi),
             false => DVec3::ZERO,
         }
     }
 
     /// The density of [`Self::sample`] at `wi`. Over the hemisphere it integrates to how often a sample is not None.
-    pub fn pdf(&self, wi: DVec3, wo: DVec3, seen: Seen) -> f64 {
+    pub fn pdf(&self, wi: DVec3, wo: DVec3, mode: SpectralMode) -> f64 {
         match wi.z > 0.0 && wo.z > 0.0 {
-            true => self.view(wo, seen).pdf(wi),
+            true => self.view(wo, mode).pdf(wi),
             false => 0.0,
         }
     }
@@ -151,12 +151,12 @@ impl ScratchedBsdf {
         wo: DVec3,
         pick: f64,
         u: DVec2,
-        seen: Seen,
+        mode: SpectralMode,
     ) -> Option<(DVec3, f64, Reflected)> {
         if !(wo.z > 0.0) {
             return None;
         }
-        let view = self.view(wo, seen);
+        let view = self.view(wo, mode);
         let wi = view.sample(pick, u).filter(|wi| wi.z > 0.0)?;
         let pdf = view.pdf(wi);
         (pdf > 0.0).then(|| (wi, pdf, view.eval(wi)))
@@ -166,7 +166,7 @@ impl ScratchedBsdf {
 impl View<'_> {
     fn eval(&self, wi: DVec3) -> Reflected {
         let h = (wi + self.wo).normalize_or(DVec3::Z);
-        let facet = self.of.conductor.facet(wi.dot(h), self.gain(), self.seen);
+        let facet = self.of.conductor.facet(wi.dot(h), self.gain(), self.mode);
         let base = facet * ggx_eval(wi, self.wo, self.alpha);
         Reflected {
             base: base * self.left * self.left_by_gratings,
@@ -180,19 +180,19 @@ impl View<'_> {
     }
 
     fn scratches(&self, wi: DVec3) -> DVec3 {
-        let (of, wo, seen) = (self.of, self.wo, self.seen);
+        let (of, wo, mode) = (self.of, self.wo, self.mode);
         let xi = (wi + wo).truncate();
         let depth_share = 0.5 * (wi.z + wo.z);
         let mut scratches = DVec3::ZERO;
         for layer in &of.layers {
-            scratches += layer.density(xi, depth_share, seen);
+            scratches += layer.density(xi, depth_share, mode);
         }
         for scratch in &of.points {
-            scratches += scratch.density(&of.conductor, xi, depth_share, of.coherence_um, seen);
+            scratches += scratch.density(&of.conductor, xi, depth_share, of.coherence_um, mode);
         }
         let mut rows = DVec3::ZERO;
         for row in &of.gratings {
-            rows += row.density(&of.conductor, xi, depth_share, seen);
+            rows += row.density(&of.conductor, xi, depth_share, mode);
         }
         // Densities are per d xi, which is the cosine of `wi` times the solid angle.
         self.fresnel * (scratches * self.kept + rows * self.left) * wi.z
@@ -221,7 +221,7 @@ impl View<'_> {
         let rows = of
             .gratings
             .iter()
-            .map(|it| it.share * it.pdf(xi, self.seen));
+            .map(|it| it.share * it.pdf(xi, self.mode));
         let drawn: f64 = layers.sum::<f64>() + points.sum::<f64>() + rows.sum::<f64>();
         base + (1.0 - self.base_pick) * drawn / all * wi.z
     }
@@ -246,7 +246,7 @@ impl View<'_> {
             } else if i < layers + points {
                 of.points[i - layers].sample(of.coherence_um, u)
             } else {
-                of.gratings[i - layers - points].sample(again, u, self.seen)
+                of.gratings[i - layers - points].sample(again, u, self.mode)
             };
             let at = xi - wo.truncate();
             let z2 = 1.0 - at.length_squared();

@@ -2,7 +2,7 @@
 
 use glam::{DMat2, DVec2, DVec3};
 use hairline_optics::bsdf::{
-    Conductor, GratingLobe, Groove, LayerLobe, PointScratch, Reflected, ScratchedBsdf, Seen,
+    Conductor, GratingLobe, Groove, LayerLobe, PointScratch, Reflected, ScratchedBsdf, SpectralMode,
 };
 use hairline_optics::footprint::{Footprint, ScratchShare, ends, scratch_share};
 use hairline_optics::grating::Grating;
@@ -49,11 +49,11 @@ enum Part {
 }
 
 impl Part {
-    fn eval(self, bsdf: &ScratchedBsdf, wi: DVec3, wo: DVec3, seen: Seen) -> DVec3 {
+    fn eval(self, bsdf: &ScratchedBsdf, wi: DVec3, wo: DVec3, mode: SpectralMode) -> DVec3 {
         match self {
-            Self::All => all(bsdf.eval(wi, wo, seen)),
-            Self::Base => bsdf.eval(wi, wo, seen).base,
-            Self::Scratches => bsdf.eval_scratches(wi, wo, seen),
+            Self::All => all(bsdf.eval(wi, wo, mode)),
+            Self::Base => bsdf.eval(wi, wo, mode).base,
+            Self::Scratches => bsdf.eval_scratches(wi, wo, mode),
         }
     }
 }
@@ -80,9 +80,9 @@ fn directions<'a>(key: &str, array: &'a Numbers<'_>) -> PyResult<&'a [[f64; 3]]>
     }
 }
 
-/// What each row is seen by.
-fn seen<'a>(wavelengths_nm: Option<&'a [f64]>) -> impl Fn(usize) -> Seen + Sync + 'a {
-    move |i| wavelengths_nm.map_or(Seen::Rgb, |nm| Seen::Wavelength(nm[i]))
+/// Spectral mode of each row.
+fn modes<'a>(wavelengths_nm: Option<&'a [f64]>) -> impl Fn(usize) -> SpectralMode + Sync + 'a {
+    move |i| wavelengths_nm.map_or(SpectralMode::Rgb, |nm| SpectralMode::Wavelength(nm[i]))
 }
 
 #[pymethods]
@@ -180,9 +180,9 @@ impl Bsdf {
         let (wi, wo) = (directions("wi", &wi)?, directions("wo", &wo)?);
         let nm = wavelength_nm.as_ref().map(slice).transpose()?;
         let values: Vec<f64> = py.detach(|| {
-            let seen = seen(nm);
+            let mode = modes(nm);
             let rows = (0..wi.len()).into_par_iter().with_min_len(FEWEST);
-            let value = |i: usize| part.eval(&self.bsdf, wi[i].into(), wo[i].into(), seen(i));
+            let value = |i: usize| part.eval(&self.bsdf, wi[i].into(), wo[i].into(), mode(i));
             match nm {
                 Some(_) => rows.map(|i| value(i).x).collect(),
                 None => {
@@ -205,9 +205,9 @@ impl Bsdf {
         let (wi, wo) = (directions("wi", &wi)?, directions("wo", &wo)?);
         let nm = wavelength_nm.as_ref().map(slice).transpose()?;
         let values: Vec<f64> = py.detach(|| {
-            let seen = seen(nm);
+            let mode = modes(nm);
             let rows = (0..wi.len()).into_par_iter().with_min_len(FEWEST);
-            rows.map(|i| self.bsdf.pdf(wi[i].into(), wo[i].into(), seen(i)))
+            rows.map(|i| self.bsdf.pdf(wi[i].into(), wo[i].into(), mode(i)))
                 .collect()
         });
         Ok(values.into_pyarray(py))
@@ -225,12 +225,12 @@ impl Bsdf {
         let (u, _) = slice(&u)?.as_chunks::<3>();
         let nm = wavelength_nm.as_ref().map(slice).transpose()?;
         let (wi, (pdf, value)): (Vec<_>, (Vec<_>, Vec<_>)) = py.detach(|| {
-            let seen = seen(nm);
+            let mode = modes(nm);
             let rows = (0..wo.len()).into_par_iter().with_min_len(FEWEST);
             let drawn = rows.map(|i| {
                 let [pick, x, y] = u[i];
                 let at = DVec2::new(x, y);
-                match self.bsdf.sample(wo[i].into(), pick, at, seen(i)) {
+                match self.bsdf.sample(wo[i].into(), pick, at, mode(i)) {
                     Some((wi, pdf, value)) => (wi.to_array(), (pdf, all(value).to_array())),
                     None => (BELOW, (0.0, [0.0; 3])),
                 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, Vec3};
 use hairline_index::{Groove, ScratchIndex, SegmentTree, groove_index};
-use hairline_optics::bsdf::{Conductor, PointScratch, ScratchedBsdf, Seen};
+use hairline_optics::bsdf::{Conductor, PointScratch, ScratchedBsdf, SpectralMode};
 use hairline_optics::scratch::piece_share;
 use hairline_scene::{Base, Scene};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
@@ -170,10 +170,10 @@ impl SceneBsdf {
                     return ([0.0; 3], 0.0);
                 }
                 let bsdf = self.at(&point(frames[i]));
-                let value = bsdf.eval(wi, wo, Seen::Rgb);
+                let value = bsdf.eval(wi, wo, SpectralMode::Rgb);
                 (
                     (value.base + value.scratches).to_array(),
-                    bsdf.pdf(wi, wo, Seen::Rgb),
+                    bsdf.pdf(wi, wo, SpectralMode::Rgb),
                 )
             });
             let (values, pdfs): (Vec<[f64; 3]>, Vec<f64>) = each.unzip();
@@ -198,7 +198,7 @@ impl SceneBsdf {
             let each = (0..wo.len()).into_par_iter().with_min_len(FEWEST).map(|i| {
                 let [pick, x, y] = u[i];
                 let bsdf = self.at(&point(frames[i]));
-                let drawn = bsdf.sample(wo[i].into(), pick, DVec2::new(x, y), Seen::Rgb);
+                let drawn = bsdf.sample(wo[i].into(), pick, DVec2::new(x, y), SpectralMode::Rgb);
                 drawn.map_or((BELOW, 0.0, [0.0; 3]), |(wi, pdf, it)| {
                     (wi.to_array(), pdf, (it.base + it.scratches).to_array())
                 })

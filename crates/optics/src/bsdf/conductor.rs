@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::seen::{Seen, rgb};
+use super::spectral_mode::{SpectralMode, rgb};
 use crate::fresnel;
 use crate::ggx::{ggx_albedo, ggx_alpha, unit_clamp};
 use crate::metal::Metal;
@@ -62,21 +62,21 @@ impl Conductor {
     }
 
     /// Reflectance of a flat surface.
-    pub(super) fn reflectance(&self, cos: f64, seen: Seen) -> DVec3 {
-        match seen {
-            Seen::Rgb => self.node(cos)[0],
-            Seen::Wavelength(nm) => DVec3::splat(reflectance(&self.n_k, cos, nm)),
+    pub(super) fn reflectance(&self, cos: f64, mode: SpectralMode) -> DVec3 {
+        match mode {
+            SpectralMode::Rgb => self.node(cos)[0],
+            SpectralMode::Wavelength(nm) => DVec3::splat(reflectance(&self.n_k, cos, nm)),
         }
     }
 
     /// Reflectance of a facet with what is scattered more than once, `gain` times as much on a white surface.
-    pub(super) fn facet(&self, cos: f64, gain: f64, seen: Seen) -> DVec3 {
-        match seen {
-            Seen::Rgb => {
+    pub(super) fn facet(&self, cos: f64, gain: f64, mode: SpectralMode) -> DVec3 {
+        match mode {
+            SpectralMode::Rgb => {
                 let [once, twice] = self.node(cos);
                 once + twice * gain
             }
-            Seen::Wavelength(nm) => {
+            SpectralMode::Wavelength(nm) => {
                 let straight = reflectance(&self.n_k, 1.0, nm);
                 DVec3::splat(reflectance(&self.n_k, cos, nm) * (1.0 + straight * gain))
             }

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 use super::conductor::Conductor;
-use super::seen::Seen;
+use super::spectral_mode::SpectralMode;
 use crate::grating::Grating;
 use crate::scratch::band_std;
 use crate::spectrum::{self, CHANNEL_MEAN_NM, WAVELENGTH_MEAN_NM, WAVELENGTH_MIN_NM};
@@ -132,11 +132,11 @@ impl GratingLobe {
     }
 
     /// Share of the base's light that the grating takes for a viewer.
-    pub(super) fn taken(&self, wo: DVec3, seen: Seen) -> DVec3 {
+    pub(super) fn taken(&self, wo: DVec3, mode: SpectralMode) -> DVec3 {
         let wo = self.in_frame(wo.truncate());
-        match seen {
-            Seen::Wavelength(nm) => DVec3::splat(self.share * self.taken_of(wo, nm)),
-            Seen::Rgb => {
+        match mode {
+            SpectralMode::Wavelength(nm) => DVec3::splat(self.share * self.taken_of(wo, nm)),
+            SpectralMode::Rgb => {
                 let at = (wo + 1.0) * (0.5 * (TAKEN_NODES - 1) as f64);
                 let low = at
                     .floor()
@@ -160,17 +160,17 @@ impl GratingLobe {
         conductor: &Conductor,
         xi: DVec2,
         depth_share: f64,
-        seen: Seen,
+        mode: SpectralMode,
     ) -> DVec3 {
         let at = self.in_frame(xi);
         let (t, q) = (at.x, at.y);
         let band = |nm: f64| normal(t, self.along_std(q, nm));
-        match seen {
-            Seen::Wavelength(nm) => {
+        match mode {
+            SpectralMode::Wavelength(nm) => {
                 let s = band_std(self.coherence_um, nm);
                 DVec3::splat(self.share * self.row.density(q, depth_share, nm, s) * band(nm))
             }
-            Seen::Rgb => {
+            SpectralMode::Rgb => {
                 let orders: DVec3 = self
                     .at_place(q)
                     .map(|(order, nm)| {
@@ -218,22 +218,22 @@ impl GratingLobe {
     }
 
     /// Standard deviation along the grooves that xi is drawn by.
-    fn drawn_std(&self, q: f64, seen: Seen) -> f64 {
-        match seen {
-            Seen::Wavelength(nm) => self.along_std(q, nm),
-            Seen::Rgb => self.along_std(q, WAVELENGTH_MEAN_NM),
+    fn drawn_std(&self, q: f64, mode: SpectralMode) -> f64 {
+        match mode {
+            SpectralMode::Wavelength(nm) => self.along_std(q, nm),
+            SpectralMode::Rgb => self.along_std(q, WAVELENGTH_MEAN_NM),
         }
     }
 
     /// The density of [`Self::sample`] for each unit of xi.
-    pub(super) fn pdf(&self, xi: DVec2, seen: Seen) -> f64 {
+    pub(super) fn pdf(&self, xi: DVec2, mode: SpectralMode) -> f64 {
         let at = self.in_frame(xi);
         let (t, q) = (at.x, at.y);
         let rest_pick = self.rest_pick();
         let half = DRAWN_UM / self.row.width_um;
         let rest = rest_pick * half / (PI * (half * half + q * q));
-        let orders: f64 = match seen {
-            Seen::Wavelength(nm) => {
+        let orders: f64 = match mode {
+            SpectralMode::Wavelength(nm) => {
                 let s = band_std(self.coherence_um, nm);
                 let each = self
                     .orders
@@ -241,7 +241,7 @@ impl GratingLobe {
                     .map(|(m, p, _)| p * normal(q - self.row.order_q(*m, nm), s));
                 each.sum()
             }
-            Seen::Rgb => {
+            SpectralMode::Rgb => {
                 let each = self.orders.iter().map(|(m, p, _)| {
                     let [low, high] =
                         [WAVELENGTH_MIN_NM, WAVELENGTH_MAX_NM].map(|nm| self.row.order_q(*m, nm));
@@ -251,11 +251,11 @@ impl GratingLobe {
                 each.sum()
             }
         };
-        (rest + (1.0 - rest_pick) * orders) * cauchy(t, self.drawn_std(q, seen))
+        (rest + (1.0 - rest_pick) * orders) * cauchy(t, self.drawn_std(q, mode))
     }
 
     /// Draws xi.
-    pub(super) fn sample(&self, pick: f64, u: DVec2, seen: Seen) -> DVec2 {
+    pub(super) fn sample(&self, pick: f64, u: DVec2, mode: SpectralMode) -> DVec2 {
         let rest_pick = self.rest_pick();
         let quantile = |half: f64, u: f64| half * (PI * (u - 0.5)).tan();
         let q = if pick < rest_pick {
@@ -268,19 +268,19 @@ impl GratingLobe {
                 .partition_point(|it| it.2 <= place)
                 .min(self.orders.len() - 1);
             let order = self.orders[i].0;
-            match seen {
-                Seen::Wavelength(nm) => {
+            match mode {
+                SpectralMode::Wavelength(nm) => {
                     let s = band_std(self.coherence_um, nm);
                     self.row.order_q(order, nm)
                         + s * spec_math::cephes64::ndtri(u.x.clamp(1e-12, 1.0 - 1e-12))
                 }
-                Seen::Rgb => self.row.order_q(
+                SpectralMode::Rgb => self.row.order_q(
                     order,
                     WAVELENGTH_MIN_NM + u.x * (WAVELENGTH_MAX_NM - WAVELENGTH_MIN_NM),
                 ),
             }
         };
-        let t = quantile(self.drawn_std(q, seen), u.y);
+        let t = quantile(self.drawn_std(q, mode), u.y);
         t * self.along + q * self.along.perp()
     }
 }

@@ -8,7 +8,7 @@ use spec_math::cephes64::{i0e, i1e};
 use std::f64::consts::PI;
 
 use super::conductor::Conductor;
-use super::seen::Seen;
+use super::spectral_mode::SpectralMode;
 use crate::diffraction::sinc;
 use crate::scratch::{band_std, phase_step_energy};
 use crate::spectrum::{self, CHANNEL_MEAN_NM, WAVELENGTH_MEAN_NM};
@@ -125,13 +125,13 @@ impl LayerLobe {
     }
 
     /// Mean of |D|^2 where both cosines are this.
-    pub(super) fn energy(&self, cos: f64, seen: Seen) -> DVec3 {
-        match seen {
-            Seen::Rgb => {
+    pub(super) fn energy(&self, cos: f64, mode: SpectralMode) -> DVec3 {
+        match mode {
+            SpectralMode::Rgb => {
                 let (row, share) = row_at(cos);
                 self.energies[row].lerp(self.energies[row + 1], share)
             }
-            Seen::Wavelength(nm) => {
+            SpectralMode::Wavelength(nm) => {
                 let energy = |it: &Groove| it.part * phase_step_energy(it.depth_nm * cos, nm);
                 DVec3::splat(self.grooves.iter().map(energy).sum())
             }
@@ -139,19 +139,19 @@ impl LayerLobe {
     }
 
     /// Light for each unit of xi, before the metal's own colour.
-    pub(super) fn density(&self, xi: DVec2, depth_share: f64, seen: Seen) -> DVec3 {
+    pub(super) fn density(&self, xi: DVec2, depth_share: f64, mode: SpectralMode) -> DVec3 {
         let xi2 = xi.length_squared();
         let along2 = xi.dot(self.along).powi(2);
         let band = |per_variance: f64, factor: f64| {
             factor * self.band_times_i0e(xi2, along2, per_variance)
         };
-        match seen {
-            Seen::Rgb => {
+        match mode {
+            SpectralMode::Rgb => {
                 let colour = self.colour(xi2.sqrt(), depth_share);
                 let bands = std::array::from_fn(|c| band(self.per_variance[c], self.band[c]));
                 self.share * colour * DVec3::from_array(bands)
             }
-            Seen::Wavelength(nm) => {
+            SpectralMode::Wavelength(nm) => {
                 let std = band_std(self.coherence_um, nm);
                 let factor = 1.0 / ((2.0 * PI).sqrt() * std * self.concentration_i0e);
                 let per_um = 1e3 / nm;
@@ -401,7 +401,7 @@ mod tests {
                     .sum::<f64>()
                     * PI
                     / f64::from(steps);
-                let found = layer.density(xi, 0.8, Seen::Wavelength(nm)).x / 0.02;
+                let found = layer.density(xi, 0.8, SpectralMode::Wavelength(nm)).x / 0.02;
                 assert!(
                     (found - mean).abs() < 4e-3 * mean + 1e-6,
                     "{spread} {length} {angle}: {found} {mean}"
@@ -423,11 +423,11 @@ mod tests {
             let sum: DVec3 = spectrum::samples()
                 .iter()
                 .map(|s| {
-                    let at = layer.density(xi, share, Seen::Wavelength(s.wavelength_nm));
+                    let at = layer.density(xi, share, SpectralMode::Wavelength(s.wavelength_nm));
                     DVec3::from(s.weight) * steel.shape(s.wavelength_nm) * at
                 })
                 .sum();
-            let off = layer.density(xi, share, Seen::Rgb) - sum;
+            let off = layer.density(xi, share, SpectralMode::Rgb) - sum;
             error += off * off;
             size += sum * sum;
         }

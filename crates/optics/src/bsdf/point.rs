@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 use super::conductor::Conductor;
-use super::seen::Seen;
+use super::spectral_mode::SpectralMode;
 use crate::diffraction::sinc;
 use crate::footprint::ScratchShare;
 use crate::scratch::{band_std, phase_step_energy};
@@ -44,7 +44,7 @@ impl PointScratch {
         xi: DVec2,
         depth_share: f64,
         coherence_um: f64,
-        seen: Seen,
+        mode: SpectralMode,
     ) -> DVec3 {
         let (t, q) = (xi.dot(self.tangent), self.tangent.perp_dot(xi));
         let across = |nm: f64| {
@@ -56,9 +56,11 @@ impl PointScratch {
             let s = band_std(coherence_um, nm);
             (-0.5 * t * t / (s * s)).exp() / ((2.0 * PI).sqrt() * s)
         };
-        match seen {
-            Seen::Wavelength(nm) => DVec3::splat(self.share.segment * across(nm) * band(nm)),
-            Seen::Rgb => {
+        match mode {
+            SpectralMode::Wavelength(nm) => {
+                DVec3::splat(self.share.segment * across(nm) * band(nm))
+            }
+            SpectralMode::Rgb => {
                 let bands = DVec3::from_array(CHANNEL_MEAN_NM.map(band));
                 if bands.max_element() <= 0.0 {
                     return DVec3::ZERO;

@@ -122,13 +122,13 @@ fn densities_are_those_of_the_draws() {
     for (name, material) in materials() {
         for wo in &views()[1..] {
             let wo = *wo;
-            for seen in [Seen::Rgb, Seen::Wavelength(550.0)] {
+            for mode in [SpectralMode::Rgb, SpectralMode::Wavelength(550.0)] {
                 let draws = 100_000;
                 let mut found = 0.0;
                 for i in 0..draws {
                     let (pick, u) = cube(i);
-                    if let Some((wi, pdf, _)) = material.sample(wo, pick, u, seen) {
-                        let own = material.pdf(wi, wo, seen);
+                    if let Some((wi, pdf, _)) = material.sample(wo, pick, u, mode) {
+                        let own = material.pdf(wi, wo, mode);
                         assert!((own / pdf - 1.0).abs() < 1e-12);
                         // A cap of directions about the viewer's mirror direction, weighted by how near.
                         let mirror = DVec3::new(-wo.x, -wo.y, wo.z);
@@ -157,7 +157,7 @@ fn densities_are_those_of_the_draws() {
                 right *= PI / f64::from(steps * steps);
                 assert!(
                     (found / right - 1.0).abs() < 0.03,
-                    "{name} {wo} {seen:?}: {found} {right}"
+                    "{name} {wo} {mode:?}: {found} {right}"
                 );
             }
         }
@@ -168,11 +168,11 @@ fn densities_are_those_of_the_draws() {
 #[test]
 fn scratches_keep_the_energy_of_the_metal() {
     let all = materials();
-    let albedo = |material: &ScratchedBsdf, wo: DVec3, seen| {
+    let albedo = |material: &ScratchedBsdf, wo: DVec3, mode| {
         let draws = 60_000;
         let each = (0..draws).map(|i| {
             let (pick, u) = cube(i);
-            let drawn = material.sample(wo, pick, u, seen);
+            let drawn = material.sample(wo, pick, u, mode);
             drawn.map_or(DVec3::ZERO, |(_, pdf, value)| {
                 (value.base + value.scratches) / pdf
             })
@@ -180,13 +180,13 @@ fn scratches_keep_the_energy_of_the_metal() {
         each.sum::<DVec3>() / f64::from(draws)
     };
     for wo in &views()[..2] {
-        for seen in [Seen::Rgb, Seen::Wavelength(550.0)] {
-            let bare = albedo(&all[0].1, *wo, seen);
+        for mode in [SpectralMode::Rgb, SpectralMode::Wavelength(550.0)] {
+            let bare = albedo(&all[0].1, *wo, mode);
             for (name, material) in &all[1..] {
-                let ratio = albedo(material, *wo, seen) / bare;
+                let ratio = albedo(material, *wo, mode) / bare;
                 assert!(
                     (ratio - 1.0).abs().max_element() < 0.02,
-                    "{name} {wo} {seen:?}: {ratio}"
+                    "{name} {wo} {mode:?}: {ratio}"
                 );
             }
         }
@@ -201,22 +201,22 @@ fn colours_are_sums_over_wavelengths() {
         let (mut error, mut size) = (DVec3::ZERO, DVec3::ZERO);
         for i in 0..2000 {
             let (pick, u) = cube(i);
-            let Some((wi, ..)) = material.sample(wo, pick, u, Seen::Rgb) else {
+            let Some((wi, ..)) = material.sample(wo, pick, u, SpectralMode::Rgb) else {
                 continue;
             };
-            let total = |seen| {
-                let it = material.eval(wi, wo, seen);
+            let total = |mode| {
+                let it = material.eval(wi, wo, mode);
                 it.base + it.scratches
             };
             // Every nm, since orders of gratings are narrower than 5 nm.
             let sum: DVec3 = (380..780)
                 .map(|nm| {
                     let nm = f64::from(nm) + 0.5;
-                    DVec3::from(spectrum::weight_per_nm(nm)) * total(Seen::Wavelength(nm))
+                    DVec3::from(spectrum::weight_per_nm(nm)) * total(SpectralMode::Wavelength(nm))
                 })
                 .sum();
             let size_of = sum.length().max(1e-9);
-            error += (total(Seen::Rgb) - sum).powf(2.0) / size_of;
+            error += (total(SpectralMode::Rgb) - sum).powf(2.0) / size_of;
             size += sum * sum / size_of;
         }
         let rms = (error / size).map(f64::sqrt);
@@ -236,11 +236,11 @@ fn scratches_are_reciprocal_but_for_fresnel_and_the_mask() {
         }];
         LayerLobe::new(&material.conductor, 1e-6, grooves, 0.3, 0.2, 20.0)
     };
-    let seen = Seen::Wavelength(550.0);
+    let mode = SpectralMode::Wavelength(550.0);
     let [_, a, b] = views();
     let one_way =
-        material.eval(a, b, seen).scratches.x / a.z / material.conductor.reflectance(b.z, seen).x;
+        material.eval(a, b, mode).scratches.x / a.z / material.conductor.reflectance(b.z, mode).x;
     let other =
-        material.eval(b, a, seen).scratches.x / b.z / material.conductor.reflectance(a.z, seen).x;
+        material.eval(b, a, mode).scratches.x / b.z / material.conductor.reflectance(a.z, mode).x;
     assert!((one_way / other - 1.0).abs() < 1e-5, "{one_way} {other}");
 }

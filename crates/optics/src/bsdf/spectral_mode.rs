@@ -6,7 +6,7 @@ use crate::spectrum;
 
 /// Colour, or one wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Seen {
+pub enum SpectralMode {
     /// Linear Rec.709 under D65.
     Rgb,
     /// Reflection at one wavelength, nm; the three numbers are equal.
