@@ -88,7 +88,7 @@ impl Stage {
         let text = format!(
             "[camera]\nposition_m = [0.0, {:?}, {:?}]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 1.0, 0.0]\n\
              fov_y_deg = {fov_y_deg:?}\n[render]\nsize_px = [{size}, {size}]\n\
-             [[light]]\nkind = \"sphere\"\ncenter_m = [0.0, 0.0, 9.0]\nradius_m = 0.1\nradiance = 1.0\n\
+             [studio]\nhidden = true\n\
              [[material]]\nname = \"mirror\"\nkind = \"mirror\"\nroughness = {:?}\ncoherence_um = {:?}\n\
              [[object]]\nname = \"plate\"\nmaterial = \"mirror\"\nshape = {{ plane = {{ size_m = [{plate_m:?}, {plate_m:?}] }} }}\n",
             camera.y,
@@ -98,9 +98,6 @@ impl Stage {
             size = self.size_px,
         );
         let mut scene = Scene::from_toml(&text, "the stage", ".").map_err(|e| anyhow!("{e}"))?;
-        // A file without a light would get a photographer's set.
-        scene.lights.clear();
-        scene.objects.truncate(1);
         match self.light() {
             Some(light) => scene.lights.push(light),
             None => scene.environment = Some(Environment::uniform([1.0; 3])),
