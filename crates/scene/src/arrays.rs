@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DVec3, Vec2};
+use hairline_model::surface::{Surface, Vertex};
 
 use crate::error::Error;
 use crate::scene::Profile;
 use crate::scratches::LISTED_SIZES;
-use hairline_model::surface::{Surface, Vertex};
 
 /// Meshes and lists of scratches by the names that a description has in the place of their files. A name must stand for the same
 /// numbers always: what was built from them is known by it.

@@ -11,6 +11,7 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
+use hairline_model::texture::texture_bytes;
 
 use crate::convert;
 use crate::description::{self, Description};
@@ -22,7 +23,6 @@ use crate::light_picture::LightPicture;
 use crate::loader::{Loader, Stage};
 use crate::scene::{Mesh, Object, Scene};
 use crate::studio::PhotoSet;
-use hairline_model::texture::texture_bytes;
 use kept::{BuildCache, KeptPicture, KeptSurface, MapKey, Stamp, SurfaceKey};
 use textures::NewTextures;
 

@@ -160,6 +160,15 @@ impl CameraFrame {
         }
     }
 
+    /// Place of a point in the picture, pixels from its upper left corner; none where the point is not before the camera.
+    pub fn pixel_of(&self, point_m: DVec3) -> Option<DVec2> {
+        let way = point_m - self.position_m;
+        let depth_m = way.dot(self.forward);
+        let along = |axis: DVec3| way.dot(axis) / (depth_m * axis.length_squared());
+        let offset = || DVec2::new(along(self.per_px_x), along(self.per_px_y));
+        (depth_m > 0.0).then(|| self.middle_px + offset())
+    }
+
     /// Direction of the ray through a point of the picture; its component along `forward` is one.
     pub fn camera_ray(&self, pixel: DVec2) -> DVec3 {
         let offset = pixel - self.middle_px;
@@ -229,13 +238,6 @@ mod tests {
         }
     }
 
-    /// Position of a point in the picture, in pixels.
-    fn projected(frame: &CameraFrame, point_m: DVec3) -> DVec2 {
-        let v = point_m - frame.position_m;
-        let at = |axis: DVec3| v.dot(axis) / (v.dot(frame.forward) * axis.length_squared());
-        frame.middle_px + DVec2::new(at(frame.per_px_x), at(frame.per_px_y))
-    }
-
     /// A point in focus stays; others move by the lens's radius times the distance of both depths, over both, on a disk whose points have the
     /// middle for their mean, and half its radius for the standard deviation of each axis.
     #[test]
@@ -257,7 +259,7 @@ mod tests {
             let frame = camera.frame_of_batch(size_px, batch);
             let at = |depth_m: f64, place: DVec2| {
                 let point_m = pinhole.position_m + depth_m * pinhole.camera_ray(place);
-                projected(&frame, point_m) - place
+                frame.pixel_of(point_m).unwrap() - place
             };
             for place in [DVec2::new(320.0, 240.0), DVec2::new(20.0, 400.0)] {
                 assert!(at(0.5, place).length() < 1e-9);

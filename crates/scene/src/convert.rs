@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use glam::{DMat4, DVec3};
+use hairline_model::surface::world_from_object;
 use hairline_optics::cover::Cover;
 use hairline_optics::grating::Grating as Row;
 use hairline_optics::metal::Metal;
@@ -18,7 +19,6 @@ use crate::error::Error;
 use crate::grating::{Bearing, Grating, GrooveField, GroovePicture, UvField};
 use crate::picture_lie::PictureLie;
 use crate::scene::{Base, Camera, GLTF_DIELECTRIC_F0, Material, RenderSettings, Scene, Specular};
-use hairline_model::surface::world_from_object;
 
 /// Converts the parts of a scene that take no time: camera, settings, materials, lights.
 pub(crate) fn without_surfaces(description: &Description) -> Scene {

@@ -3,8 +3,9 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::key_line::line_of_key;
 use hairline_model::text::{printable, said};
+
+use crate::key_line::line_of_key;
 
 /// An error of a scene: the key, what was found there, and what would be right.
 ///

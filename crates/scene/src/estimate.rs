@@ -4,12 +4,12 @@
 use std::path::Path;
 
 use hairline_memory::{costs, in_words};
+use hairline_model::mesh_file;
+use hairline_model::texture::texture_bytes;
 
 use crate::description::{Description, Map, Object, Shape, Surface};
 use crate::environment;
 use crate::error::Error;
-use hairline_model::mesh_file;
-use hairline_model::texture::texture_bytes;
 
 /// An item of the scene that takes memory.
 #[derive(Clone, Debug, PartialEq)]

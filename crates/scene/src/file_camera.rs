@@ -4,12 +4,12 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use glam::DVec3;
+use hairline_model::mesh_file::{self, FileCamera};
 
 use crate::description::{Camera, Description, Surface};
 use crate::error::Error;
 use crate::schema::SMALLEST_M;
 use crate::upright::vertical_axis;
-use hairline_model::mesh_file::{self, FileCamera};
 
 impl Description {
     /// Returns the description with the camera of a file in place of its own, if `of_file` names one.

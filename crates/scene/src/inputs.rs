@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::description::{Description, FileUse};
 use hairline_model::mesh_file;
 use hairline_model::text::shown;
+
+use crate::description::{Description, FileUse};
 
 /// A file that a scene is made from.
 #[derive(Clone, Debug, PartialEq, Eq)]

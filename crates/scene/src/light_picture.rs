@@ -4,10 +4,10 @@ use std::io;
 use std::path::Path;
 
 use hairline_image::Picture;
+use hairline_model::texture;
 
 use crate::environment;
 use crate::scene::Texture;
-use hairline_model::texture;
 
 /// A picture and the factor on its values. Those of .hdr and .exr are in eight bits, relative to the brightest.
 #[derive(Clone, Debug)]

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::description::{Description, Object, Surface};
 use hairline_model::mesh_file::{self, LeftOut, UsedContents};
 use hairline_model::text::shown;
+
+use crate::description::{Description, Object, Surface};
 
 impl Description {
     /// Lists, file by file and each once, the contents of the models that are not in the picture. Files are looked for in

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use glam::{DVec2, DVec3, Vec3};
+use hairline_model::mesh_file;
+use hairline_model::text::shown;
 
 use crate::camera::framing;
 use crate::description::{
@@ -16,8 +18,6 @@ use crate::scene::Mesh;
 use crate::scratch_studio::{DARK_GROUND, Subject};
 use crate::studio::PhotoSet;
 use crate::wear::Wear;
-use hairline_model::mesh_file;
-use hairline_model::text::shown;
 
 mod lights;
 

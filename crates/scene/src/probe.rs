@@ -4,13 +4,13 @@ use std::path::Path;
 
 use glam::{DMat4, DVec3, Vec3};
 use hairline_memory::budget_bytes;
+use hairline_model::mesh_file::{self, FileContents, Placing};
 
 use crate::description::Description;
 use crate::environment;
 use crate::error::Error;
 use crate::reading;
 use crate::scene::{Base, Material, Mesh, Texture};
-use hairline_model::mesh_file::{self, FileContents, Placing};
 
 /// Contents of a mesh file.
 #[derive(Clone, Debug, PartialEq)]

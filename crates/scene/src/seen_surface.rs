@@ -78,16 +78,11 @@ impl Projected {
     /// Projects a triangle; none where a corner is not before the camera.
     fn new(frame: &CameraFrame, corners_m: [DVec3; 3]) -> Option<Self> {
         let depths_m = corners_m.map(|corner| (corner - frame.position_m).dot(frame.forward));
-        if depths_m.iter().any(|depth_m| !(*depth_m > 0.0)) {
+        let [Some(a), Some(b), Some(c)] = corners_m.map(|corner| frame.pixel_of(corner)) else {
             return None;
-        }
-        let px = |k: usize| {
-            let off = (corners_m[k] - frame.position_m) / depths_m[k];
-            let along = |axis: DVec3| off.dot(axis) / axis.length_squared();
-            frame.middle_px + DVec2::new(along(frame.per_px_x), along(frame.per_px_y))
         };
         Some(Self {
-            corners_px: [px(0), px(1), px(2)],
+            corners_px: [a, b, c],
             depths_m,
         })
     }

@@ -9,9 +9,9 @@ mod tests;
 pub(crate) mod text;
 
 use glam::DVec2;
+use hairline_model::surface::Surface;
 
 use crate::description::Shape;
-use hairline_model::surface::Surface;
 use profile::{Profile, ROUNDING_FACETS, add_flat_disk, flat_vertex};
 
 /// Facets around a disk or a sphere.

@@ -53,7 +53,7 @@ impl Straight for Piece {
 
 /// A scratch in a pixel.
 #[derive(Clone, Copy)]
-struct Shown {
+struct ScratchInPixel {
     scratch: u32,
     coverage: f64,
     /// Coverage by the piece that covers most, and its direction.
@@ -66,7 +66,7 @@ struct Shown {
 #[derive(Clone)]
 struct Pixel {
     object: u32,
-    shown: Vec<Shown>,
+    shown: Vec<ScratchInPixel>,
 }
 
 /// The index of the first scratch of each object, counted over all objects, and that behind the last one.
@@ -170,7 +170,7 @@ fn labelled(
     // The filter, or the square of the pixel, whichever is wider. On a flat surface the box of both has no height, and rounding would miss it.
     let reach_m = |axes: [DVec3; 2]| axes.map(|axis| axis.length()).iter().sum::<f64>();
     let reach = DVec3::splat((REACH * reach_m(axes)).max(reach_m(px_m)));
-    let mut shown: Vec<Shown> = Vec::new();
+    let mut shown: Vec<ScratchInPixel> = Vec::new();
     pieces.gather(
         hit.object as usize,
         position_m.as_vec3(),
@@ -180,7 +180,8 @@ fn labelled(
             if piece.normal.dot(normal.as_vec3()) < FACING {
                 return;
             }
-            let Some(seen) = Seen::new(piece, frame, corner_px, position_m, axes, normal) else {
+            let Some(seen) = PieceInPixel::new(piece, frame, corner_px, position_m, axes, normal)
+            else {
                 return;
             };
             let at = shown.iter_mut().find(|it| it.scratch == piece.scratch);
@@ -192,7 +193,7 @@ fn labelled(
                         (it.most, it.direction_rad) = (seen.coverage, seen.direction_rad);
                     }
                 }
-                None => shown.push(Shown {
+                None => shown.push(ScratchInPixel {
                     scratch: piece.scratch,
                     coverage: seen.coverage,
                     most: seen.coverage,
@@ -230,13 +231,13 @@ fn smooth_normal(scene: &Scene, hit: &Hit, to_viewer: DVec3) -> DVec3 {
 }
 
 /// A piece in a pixel.
-struct Seen {
+struct PieceInPixel {
     coverage: f64,
     direction_rad: f64,
     is_touched: bool,
 }
 
-impl Seen {
+impl PieceInPixel {
     fn new(
         piece: &Piece,
         frame: &CameraFrame,
@@ -265,7 +266,7 @@ impl Seen {
         let ends = [start, end].map(|p| p.dot(tangent));
         let coverage =
             scratch_share(width_um, offset_um, ends[0], ends[1], 0.0, footprint, 0.0).segment;
-        let [from, to] = [piece.start_m, piece.end_m].map(|p| in_picture(frame, p.as_dvec3()));
+        let [from, to] = [piece.start_m, piece.end_m].map(|p| frame.pixel_of(p.as_dvec3()));
         let (from, to) = (from?, to?);
         let way = to - from;
         // The picture's y runs down.
@@ -286,15 +287,6 @@ impl Seen {
             is_touched: is_wide || crosses(corner_px, from, to),
         })
     }
-}
-
-/// Place of a point in the picture; none behind the camera.
-fn in_picture(frame: &CameraFrame, point_m: DVec3) -> Option<DVec2> {
-    let way = point_m - frame.position_m;
-    let depth = way.dot(frame.forward);
-    let [x, y] = [frame.per_px_x, frame.per_px_y]
-        .map(|axis| way.dot(axis) / (depth * axis.length_squared()));
-    (depth > 0.0).then(|| frame.middle_px + DVec2::new(x, y))
 }
 
 /// Whether a line crosses the square of one pixel: that of Y.-D. Liang and B. Barsky (1984).
@@ -424,8 +416,8 @@ mod tests {
                 let way = b - a;
                 let half =
                     0.5e-6 * f64::from(scratch.profile.width_um) * DVec3::Z.cross(way).normalize();
-                let corners = [a - half, a + half, b + half, b - half]
-                    .map(|p| in_picture(&frame, p).unwrap());
+                let corners =
+                    [a - half, a + half, b + half, b - half].map(|p| frame.pixel_of(p).unwrap());
                 let inside = corners
                     .iter()
                     .all(|c| c.x > 0.0 && c.y > 0.0 && c.x < 64.0 && c.y < 48.0);
@@ -455,7 +447,7 @@ mod tests {
                         .start_m
                         .as_dvec3()
                         .lerp(piece.end_m.as_dvec3(), f64::from(step) / 2e4);
-                    let px = in_picture(&frame, at).unwrap().floor();
+                    let px = frame.pixel_of(at).unwrap().floor();
                     *right
                         .entry([px.y as u32 * 64 + px.x as u32, i as u32])
                         .or_insert(0) += 1;

@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use hairline_model::texture::{self, Channels, Texels, texture_bytes};
+
 use super::Work;
 use super::kept::{GroovePictureKind, KeptGroovePicture, KeptSurface, Stamp};
 use super::textures::NewTextures;
@@ -11,7 +13,6 @@ use crate::description::{self, GroovePattern};
 use crate::error::Error;
 use crate::grey_map;
 use crate::scene::{Scene, Texture};
-use hairline_model::texture::{self, Channels, Texels, texture_bytes};
 
 impl Work<'_> {
     /// Converts the gratings of all objects that are not hidden.

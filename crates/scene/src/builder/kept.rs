@@ -6,6 +6,8 @@ use std::time::SystemTime;
 
 use glam::{DMat4, DVec3};
 use hairline_image::held;
+use hairline_model::mesh_file::{self, FileContents, Placing, UsedContents};
+use hairline_model::text::shown;
 use hairline_optics::section::Section;
 
 use super::parts::{OnPart, PartGround, Surroundings};
@@ -17,8 +19,6 @@ use crate::loader::Loader;
 use crate::scene::{Material, Mesh, NodeTriangles, Scratch, Segment, Texture};
 use crate::scratches::{self, Ground, Laid};
 use crate::{Environment, model_notes, shape};
-use hairline_model::mesh_file::{self, FileContents, Placing, UsedContents};
-use hairline_model::text::shown;
 
 /// Results of the last build.
 #[derive(Clone, Default)]

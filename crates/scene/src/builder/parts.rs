@@ -5,13 +5,13 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::DMat4;
+use hairline_model::text::shown;
 
 use crate::description::hint::nearest;
 use crate::description::{Override, Scratches};
 use crate::error::Error;
 use crate::scene::{Material, Mesh, NodeTriangles};
 use crate::scratches::{Ground, Laid};
-use hairline_model::text::shown;
 
 /// The keys `material` and `node` of a `[[scratches]]`.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hairline_model::text::printable;
 use hairline_optics::ggx::GGX_MIN_ALPHA;
 use toml::de::DeTable;
 
@@ -10,7 +11,6 @@ use super::{Description, Material, MaterialKind};
 use crate::error::Error;
 use crate::key_line::{line_of, line_of_key};
 use crate::reading::check_text;
-use hairline_model::text::printable;
 
 impl Description {
     /// Reads a scene file's text. `name` is what errors call the file.

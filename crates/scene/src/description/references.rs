@@ -1,9 +1,10 @@
 //! References: the names that tables call one another by.
 
+use hairline_model::text::shown;
+
 use super::Description;
 use super::hint::nearest;
 use crate::error::Error;
-use hairline_model::text::shown;
 
 impl Description {
     /// Refuses names of materials and objects that the scene does not have.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use hairline_model::text::shown;
 use hairline_optics::section::Section;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -11,7 +12,6 @@ use super::values::{Named, SECTIONS};
 use crate::error::Error;
 use crate::schema::scratches::PROFILES;
 use crate::schema::{self, Choice, Initial, Key};
-use hairline_model::text::shown;
 
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
 

@@ -2,11 +2,11 @@
 //! groove_ground.wgsl.
 
 use glam::{DVec2, DVec3};
+use hairline_model::texture_lookup::texture_footprint;
 
 use super::{GrooveCourse, GroovePicture, UvField};
 use crate::picture_lie::{PictureLie, three_sides};
 use crate::scene::{Mesh, Texture};
-use hairline_model::texture_lookup::texture_footprint;
 
 /// A triangle of an object.
 #[derive(Clone, Copy, Debug)]

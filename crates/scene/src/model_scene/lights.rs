@@ -3,10 +3,11 @@
 use glam::DVec3;
 use std::f64::consts::PI;
 
+use hairline_model::mesh_file::{Punctual, PunctualKind};
+
 use crate::description::{Cone, Light, LightKind};
 use crate::schema::light::{CONE_DEG, SUN_DEG};
 use crate::schema::{LARGEST_M, SMALLEST_M};
-use hairline_model::mesh_file::{Punctual, PunctualKind};
 
 /// Radius of a lamp over the extent of its model, small enough for scratches to show clear colours.
 const LAMP_RADIUS: f64 = 0.01;

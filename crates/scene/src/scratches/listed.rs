@@ -5,6 +5,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
+use hairline_model::reading::{self, FileKind};
+use hairline_model::text::shown;
 use rayon::prelude::*;
 
 use super::ground::Ground;
@@ -15,8 +17,6 @@ use crate::arrays::ScratchArrays;
 use crate::error::Error;
 use crate::loader::Loader;
 use crate::scene::{Object, Profile, Scratch, Segment};
-use hairline_model::reading::{self, FileKind};
-use hairline_model::text::shown;
 
 const ENDS: [&str; 6] = ["x0_m", "y0_m", "z0_m", "x1_m", "y1_m", "z1_m"];
 const COUNT: usize = ENDS.len() + LISTED_SIZES.len();

@@ -1,9 +1,9 @@
 //! A box whose edges and corners are parts of cylinders and spheres: all points within the rounding's radius of a smaller box.
 
 use glam::{DVec3, Vec2};
+use hairline_model::surface::{Surface, Vertex};
 
 use super::profile::ROUNDING_FACETS;
-use hairline_model::surface::{Surface, Vertex};
 
 /// Each side's directions of u and of up in its texture; their cross product is its outward normal.
 const SIDES: [[DVec3; 2]; 6] = [

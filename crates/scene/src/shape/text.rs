@@ -2,12 +2,12 @@
 
 use earcut::Earcut;
 use glam::{DVec2, DVec3, Vec2};
+use hairline_model::surface::{Surface, Vertex};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::{FontRef, MetadataProvider};
 
 use super::profile::{ROUNDED_BEND_COS, flat_vertex};
-use hairline_model::surface::{Surface, Vertex};
 
 /// Into so many straight pieces a curve of an outline is parted: one turns by a quarter at most, and by 11 degrees a piece.
 const CURVE_PIECES: u32 = 8;
