@@ -161,17 +161,11 @@ fn read_view(value: &Value) -> Option<Bookmark> {
     Some(Bookmark {
         name: table.get("name")?.as_str()?.to_owned(),
         camera: Camera {
-            of_file: None,
             position_m: vector("position_m")?,
             target_m: vector("target_m")?,
             up: vector("up")?,
             fov_y_deg: number(table.get("fov_y_deg")?).filter(|fov| (0.0..180.0).contains(fov))?,
-            exposure_ev: 0.0,
-            sensor_width_mm: None,
-            aperture_mm: None,
-            focus_distance_m: None,
-            shift: None,
-            world_up: None,
+            ..Camera::default()
         },
     })
 }
@@ -182,17 +176,11 @@ mod tests {
 
     fn camera(x: f64) -> Camera {
         Camera {
-            of_file: None,
             position_m: [x, -0.5, 0.25],
             target_m: [0.0, 0.1, 0.0],
             up: [0.0, 0.0, 1.0],
             fov_y_deg: 30.0,
-            exposure_ev: 0.0,
-            sensor_width_mm: None,
-            aperture_mm: None,
-            focus_distance_m: None,
-            shift: None,
-            world_up: None,
+            ..Camera::default()
         }
     }
 

@@ -3,7 +3,8 @@
 //! A [`Description`] comes from TOML ([`Description::from_toml`]) or from an editor, is turned into a
 //! [`Scene`](crate::Scene) by [`Scene::build`](crate::Scene::build), and is saved by [`Description::to_toml`]; what was
 //! saved loads again to an equal description. Reading is done by hand (`read`), not by serde, so that every mistake has
-//! its line and a hint; ranges are checked in `check`, so that they hold for descriptions that come from no file.
+//! its line and a hint; ranges are checked in `check`, so that they hold for descriptions that come from no file. What a key is when a file
+//! leaves it out is said in [`schema`] alone.
 
 mod check;
 mod files;
@@ -95,39 +96,69 @@ pub struct Description {
 /// `[camera]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Camera {
-    /// Camera of a model's file, used in place of this one: its name, that of its node, or its number. The exposure and the lens are of this
-    /// one. Default: none.
+    /// Camera of a model's file, used in place of this one: its name, that of its node, or its number. The exposure and the lens
+    /// are of this one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub of_file: Option<String>,
     /// The pinhole. Required without `of_file`.
     pub position_m: [f64; 3],
     /// The point in the centre of the picture. Required without `of_file`.
     pub target_m: [f64; 3],
-    /// The direction that is up in the picture. Default: `[0, 1, 0]`, as in glTF.
+    /// The direction that is up in the picture.
     pub up: [f64; 3],
-    /// Vertical field of view, above 0 and below 180. Default: 30. A file may give `focal_length_mm` and `sensor_width_mm` instead.
+    /// Vertical field of view, above 0 and below 180. A file may give `focal_length_mm` and `sensor_width_mm` instead.
     pub fov_y_deg: f64,
-    /// Width of the film, that is, of the picture; focal lengths and f-stops refer to it. Default: 36.
+    /// Width of the film, that is, of the picture; focal lengths and f-stops refer to it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sensor_width_mm: Option<f64>,
-    /// Radiances are multiplied by 2^exposure_ev before the tone map. Default: 0.
+    /// Radiances are multiplied by 2^exposure_ev before the tone map.
     pub exposure_ev: f64,
-    /// Diameter of the lens's opening. Default: a pinhole. A file may give `f_stop` beside `focal_length_mm` instead.
+    /// Diameter of the lens's opening. A file may give `f_stop` beside `focal_length_mm` instead.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub aperture_mm: Option<f64>,
-    /// With `aperture_mm`: the distance along the view at which the picture is sharp. Default: that of the target.
+    /// With `aperture_mm`: the distance along the view at which the picture is sharp.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub focus_distance_m: Option<f64>,
-    /// How far the picture is moved across what the lens shows, to the right and up, in heights of the picture; the target is off its centre
-    /// by as much the other way. Default: none.
+    /// How far the picture is moved across what the lens shows, to the right and up, in heights of the picture; the target is off
+    /// its centre by as much the other way.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shift: Option<[f64; 2]>,
-    /// The axis of the world that points up, for cameras that are rolled or look down. Default: the one that `up` tells.
+    /// The axis of the world that points up, for cameras that are rolled or look down.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub world_up: Option<Up>,
 }
 
+impl Default for Camera {
+    /// At the origin, looking nowhere yet; all other keys as a file that leaves them out.
+    fn default() -> Self {
+        Self {
+            of_file: None,
+            position_m: [0.0; 3],
+            target_m: [0.0; 3],
+            up: schema::camera::UP.initial(),
+            fov_y_deg: schema::camera::FOV_Y_DEG.initial(),
+            sensor_width_mm: None,
+            exposure_ev: schema::camera::EXPOSURE_EV.initial(),
+            aperture_mm: None,
+            focus_distance_m: None,
+            shift: None,
+            world_up: None,
+        }
+    }
+}
+
 impl Camera {
+    /// This camera, with its lens and its exposure, at the place of another one, with the other's target and field of view.
+    pub fn moved_to(&self, place: &Self) -> Self {
+        Self {
+            of_file: place.of_file.clone(),
+            position_m: place.position_m,
+            target_m: place.target_m,
+            fov_y_deg: place.fov_y_deg,
+            ..self.clone()
+        }
+    }
+
     /// The axis of the world that points up. Where the camera does not say it, the one nearest to `up`; where it looks straight down, that which
     /// it looks along.
     pub fn world_up(&self) -> DVec3 {
@@ -142,9 +173,9 @@ impl Camera {
 /// `[render]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Render {
-    /// Width and height. Default: `[1280, 720]`.
+    /// Width and height.
     pub size_px: [u32; 2],
-    /// Standard deviation of the pixel's Gaussian filter. Default: 0.5.
+    /// Standard deviation of the pixel's Gaussian filter.
     pub filter_std_px: f64,
     /// `"neutral"` (default), `"agx"`, `"aces"` or `"none"`.
     #[serde(serialize_with = "serialize_named")]
@@ -167,11 +198,11 @@ pub struct Environment {
     /// The map. Required.
     #[serde(flatten)]
     pub map: Map,
-    /// Turns the picture about the world's up axis. Default: 0.
+    /// Turns the picture about the world's up axis.
     pub rotation_deg: f64,
-    /// Factor on its radiance. Default: 1.
+    /// Factor on its radiance.
     pub intensity: f64,
-    /// Whether the camera sees it behind the objects. Default: true.
+    /// Whether the camera sees it behind the objects.
     pub visible: bool,
 }
 
@@ -204,17 +235,17 @@ pub struct Material {
     /// `kind` and the keys that belong to it.
     #[serde(flatten)]
     pub kind: MaterialKind,
-    /// Perceptual roughness, as in glTF: GGX's alpha is its square. In [0, 1]. Default: 0.1.
+    /// Perceptual roughness, as in glTF: GGX's alpha is its square. In [0, 1].
     pub roughness: f64,
-    /// Standard deviation of the Gaussian coherence window. From 1 to 1000. Default: 20.
+    /// Standard deviation of the Gaussian coherence window. From 1 to 1000.
     pub coherence_um: f64,
-    /// `clearcoat` and `clearcoat_roughness`: a clear layer over it, in which its scratches lie. Default: none.
+    /// `clearcoat` and `clearcoat_roughness`: a clear layer over it, in which its scratches lie.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub coat: Option<Coat>,
-    /// `anisotropy` and `anisotropy_direction_deg`: highlights that are drawn out one way, as on brushed metal. Default: none.
+    /// `anisotropy` and `anisotropy_direction_deg`: highlights that are drawn out one way, as on brushed metal.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub anisotropy: Option<Anisotropy>,
-    /// A clear plate over a measured metal, as discs have it over their tracks. Default: none.
+    /// A clear plate over a measured metal, as discs have it over their tracks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cover: Option<Cover>,
 }
@@ -222,11 +253,11 @@ pub struct Material {
 /// `cover` of a `[[material]]`: a clear plate with parallel faces.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Cover {
-    /// Refractive index, from 1 to 4. Default: 1.58, polycarbonate.
+    /// Refractive index, from 1 to 4.
     pub ior: f64,
-    /// How thick it is, from 0 to 100. Default: 1.2, as of compact discs.
+    /// How thick it is, from 0 to 100.
     pub thickness_mm: f64,
-    /// The light that a millimetre lets through, linear Rec.709, in [0, 1]. Default: all.
+    /// The light that a millimetre lets through, linear Rec.709, in [0, 1].
     pub color: [f64; 3],
 }
 
@@ -248,18 +279,18 @@ pub enum MaterialKind {
     Metal(MetalColor),
     /// `"dielectric"`: a clear coat over a diffuse body.
     Dielectric {
-        /// Refractive index, from 1 to 4. Default: 1.5.
+        /// Refractive index, from 1 to 4.
         ior: f64,
-        /// Albedo of the body, linear Rec.709, in [0, 1]. Default: `[0.5, 0.5, 0.5]`.
+        /// Albedo of the body, linear Rec.709, in [0, 1].
         base_color: [f64; 3],
     },
     /// `"metallic-roughness"`: the model of glTF 2.0.
     MetallicRoughness {
-        /// Linear Rec.709, in [0, 1]. Default: `[1, 1, 1]`.
+        /// Linear Rec.709, in [0, 1].
         base_color: [f64; 3],
-        /// Share of metal from 0, dielectric, to 1, metal. Default: 1.
+        /// Share of metal from 0, dielectric, to 1, metal.
         metallic: f64,
-        /// `specular` and `specular_color`: factors on the reflection of its part that is no metal. Default: 1 and white.
+        /// `specular` and `specular_color`: factors on the reflection of its part that is no metal.
         #[serde(flatten)]
         specular: Specular,
     },
@@ -290,35 +321,33 @@ pub struct Object {
     /// `shape` or `mesh`.
     #[serde(flatten)]
     pub surface: Surface,
-    /// The axis of a mesh's file that points up; it is turned to the axis of the world nearest to the camera's up. Default: `"y"`, as glTF has
-    /// it. Shapes have no such key, and stand on z.
+    /// The axis of a mesh's file that points up; it is turned to the axis of the world nearest to the camera's up. Shapes have no
+    /// such key, and stand on z.
     #[serde(skip_serializing_if = "is_default", serialize_with = "serialize_named")]
     pub up: Up,
-    /// The largest extent of a mesh along its axes before `scale`; it is scaled to that. Default: as large as its file says. Shapes
-    /// have no such key.
+    /// The largest extent of a mesh along its axes before `scale`; it is scaled to that. Shapes have no such key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fit_m: Option<f64>,
-    /// The time of an animation of a mesh, in seconds. Default: none, the model is at rest. Shapes have no such key.
+    /// The time of an animation of a mesh, in seconds. Shapes have no such key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
-    /// With `time_s`: the name of the animation, or its number from 0. Default: the first one. Shapes have no such key.
+    /// With `time_s`: the name of the animation, or its number from 0. Shapes have no such key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub animation: Option<String>,
     /// Name of a material. Required for a shape; a mesh that leaves it out keeps the materials of its file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
-    /// Factors that replace those of materials of its file, whose maps stay. Shapes, and meshes of a `material`, have no such key. Default:
-    /// none.
+    /// Factors that replace those of materials of its file, whose maps stay. Shapes, and meshes of a `material`, have no such key.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub overrides: Vec<Override>,
-    /// Moves the object, after it was scaled and rotated. Default: `[0, 0, 0]`.
+    /// Moves the object, after it was scaled and rotated.
     pub translation_m: [f64; 3],
-    /// Turns the object about the world's x axis, then y, then z. Default: `[0, 0, 0]`.
+    /// Turns the object about the world's x axis, then y, then z.
     pub rotation_deg: [f64; 3],
-    /// Factors along the object's own axes, or one number for all. None may be 0; negative ones mirror. Default: 1.
+    /// Factors along the object's own axes, or one number for all. None may be 0; negative ones mirror.
     #[serde(serialize_with = "serialize_scale")]
     pub scale: [f64; 3],
-    /// Whether the scene is as if the object were not there, nor what lies on it. Default: `false`.
+    /// Whether the scene is as if the object were not there, nor what lies on it.
     #[serde(skip_serializing_if = "is_default")]
     pub hidden: bool,
 }

@@ -101,11 +101,6 @@ fn camera(seen: &FileCamera, before: &Camera, world_up: DVec3) -> Result<Camera,
         target_m: (seen.position + seen.forward * distance_m).into(),
         up: up.into(),
         fov_y_deg: seen.fov_y_rad.to_degrees(),
-        exposure_ev: before.exposure_ev,
-        sensor_width_mm: before.sensor_width_mm,
-        aperture_mm: before.aperture_mm,
-        focus_distance_m: before.focus_distance_m,
-        shift: before.shift,
-        world_up: before.world_up,
+        ..before.clone()
     })
 }

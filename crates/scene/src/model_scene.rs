@@ -207,16 +207,10 @@ fn camera(points_m: &[DVec3], [width, height]: [u32; 2]) -> Camera {
     let tan = DVec2::new(tan_y * f64::from(width) / f64::from(height), tan_y);
     let view = framing(points_m, [right, right.cross(forward), forward], tan);
     Camera {
-        of_file: None,
         position_m: view.position_m.into(),
         target_m: view.target_m.into(),
         up: [0.0, 0.0, 1.0],
         fov_y_deg: FOV_Y_DEG,
-        exposure_ev: 0.0,
-        sensor_width_mm: None,
-        aperture_mm: None,
-        focus_distance_m: None,
-        shift: None,
-        world_up: None,
+        ..Default::default()
     }
 }

@@ -121,17 +121,11 @@ mod tests {
 
     fn camera() -> description::Camera {
         description::Camera {
-            of_file: None,
             position_m: [0.1, -0.3, 0.2],
             target_m: [0.1, 0.0, 0.0],
             up: [0.0, 0.0, 1.0],
             fov_y_deg: 30.0,
-            exposure_ev: 0.0,
-            sensor_width_mm: None,
-            aperture_mm: None,
-            focus_distance_m: None,
-            shift: None,
-            world_up: None,
+            ..Default::default()
         }
     }
 

@@ -14,17 +14,11 @@ fn camera() -> impl Strategy<Value = Camera> {
     let point = move || [coordinate(), coordinate(), coordinate()];
     (point(), point(), point(), 5.0..80.0)
         .prop_map(|(position_m, target_m, up, fov_y_deg)| Camera {
-            of_file: None,
             position_m,
             target_m,
             up,
             fov_y_deg,
-            exposure_ev: 0.0,
-            sensor_width_mm: None,
-            aperture_mm: None,
-            focus_distance_m: None,
-            shift: None,
-            world_up: None,
+            ..Camera::default()
         })
         .prop_filter("a view that is not along its up", |c| {
             let view = DVec3::from(c.target_m) - DVec3::from(c.position_m);
@@ -183,17 +177,11 @@ proptest! {
 #[test]
 fn the_surface_follows_the_pointer() {
     let mut camera = Camera {
-        of_file: None,
         position_m: [0.0, 0.0, 1.0],
         target_m: [0.0; 3],
         up: [0.0, 2.0, 0.0],
         fov_y_deg: 30.0,
-        exposure_ev: 0.0,
-        sensor_width_mm: None,
-        aperture_mm: None,
-        focus_distance_m: None,
-        shift: None,
-        world_up: None,
+        ..Camera::default()
     };
     let near = DVec3::new(0.0, 0.0, 0.1);
     orbit(&mut camera, DVec2::new(20.0, 10.0), SIZE_PX);
@@ -209,17 +197,11 @@ fn the_surface_follows_the_pointer() {
 #[test]
 fn a_point_is_centred() {
     let mut camera = Camera {
-        of_file: None,
         position_m: [0.0, 0.0, 1.0],
         target_m: [0.0; 3],
         up: [0.0, 1.0, 0.0],
         fov_y_deg: 30.0,
-        exposure_ev: 0.0,
-        sensor_width_mm: None,
-        aperture_mm: None,
-        focus_distance_m: None,
-        shift: None,
-        world_up: None,
+        ..Camera::default()
     };
     let point = DVec3::new(0.2, 0.1, 0.0);
     frame_points(&mut camera, &[point], 1.5);

@@ -18,10 +18,10 @@ use crate::schema::{grating, scratches};
 pub struct Grating {
     /// The name of the object that they cover. Required.
     pub object: String,
-    /// Free text, for lists that people read. Default: none.
+    /// Free text, for lists that people read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Laid nowhere. Default: false.
+    /// Laid nowhere.
     #[serde(skip_serializing_if = "is_false")]
     pub hidden: bool,
     /// `pattern` and the keys that belong to it.
@@ -29,30 +29,30 @@ pub struct Grating {
     pub pattern: GroovePattern,
     /// Distance from one groove to the next. From 0.3 to 50. Required.
     pub pitch_um: f64,
-    /// Width of a groove, at most the pitch. Default: 0.4 of the pitch.
+    /// Width of a groove, at most the pitch.
     pub width_um: f64,
-    /// Normal; the spread is a share of the mean. Default: mean 120, spread 0.
+    /// Normal; the spread is a share of the mean.
     pub depth_nm: Distribution,
-    /// Standard deviation of how far a groove is off its place. At most the pitch. Default: 0.
+    /// Standard deviation of how far a groove is off its place. At most the pitch.
     pub jitter_um: f64,
-    /// How bright the orders of a pitch below 4 um are. Default: `"rigorous"`.
+    /// How bright the orders of a pitch below 4 um are.
     #[serde(serialize_with = "serialize_named", skip_serializing_if = "is_default")]
     pub theory: GratingTheory,
-    /// Seed of the displacements of single grooves from their places. Default: 1.
+    /// Seed of the displacements of single grooves from their places.
     pub seed: u64,
-    /// The share of the surface that the grooves cover. In [0, 1]. Default: 1.
+    /// The share of the surface that the grooves cover. In [0, 1].
     pub coverage: f64,
-    /// A picture whose values, from 0 (black) to 1 (white), are factors on the coverage. `.png`, `.jpg` or `.webp`, relative to the scene file.
-    /// Default: 1 everywhere.
+    /// A picture whose values, from 0 (black) to 1 (white), are factors on the coverage. `.png`, `.jpg` or `.webp`, relative to the
+    /// scene file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mask: Option<PathBuf>,
-    /// The mask is laid on the object from its three sides, so wide, in its own frame. Default: it lies by its texture coordinates.
+    /// The mask is laid on the object from its three sides, so wide, in its own frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tile_m: Option<f64>,
-    /// The least and the greatest distance from the pattern's axis; for patterns without one, from `center_m`. Default: everywhere.
+    /// The least and the greatest distance from the pattern's axis; for patterns without one, from `center_m`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<[f64; 2]>,
-    /// For patterns without an axis the point from which `radius_m` is measured, in the object's frame. Default: its origin.
+    /// For patterns without an axis the point from which `radius_m` is measured, in the object's frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center_m: Option<[f64; 3]>,
 }
@@ -64,9 +64,9 @@ pub struct Grating {
 pub enum GroovePattern {
     /// `"parallel"`: all along one direction.
     Parallel {
-        /// Default: `[1, 0, 0]`.
+        /// Direction of the grooves, in the frame of the object.
         direction: [f64; 3],
-        /// Default: 0.
+        /// Standard deviation of a groove's angle to the pattern.
         jitter_deg: f64,
     },
     /// `"circular"`: around an axis.
@@ -78,7 +78,7 @@ pub enum GroovePattern {
         /// The axis.
         #[serde(flatten)]
         around: Around,
-        /// One over their radius. Default: 20.
+        /// One over their radius.
         curvature_per_m: f64,
     },
     /// `"swirl"`: around the middles of spots in rows, each over those before it, as a spinning peg leaves them: engine turning, perlage.
@@ -86,19 +86,19 @@ pub enum GroovePattern {
         /// Axis along which the spots are pressed into the surface. It passes through the middle of one of them.
         #[serde(flatten)]
         around: Around,
-        /// Distance of neighbouring spots in a row, and of neighbouring rows. Default: 0.004.
+        /// Distance of neighbouring spots in a row, and of neighbouring rows.
         spacing_m: f64,
     },
     /// `"uv"`: along the texture coordinates of the surface.
     Uv {
-        /// Texture coordinate along which the grooves run. Default: `"u"`.
+        /// Texture coordinate along which the grooves run.
         #[serde(serialize_with = "serialize_named", skip_serializing_if = "is_default")]
         along: UvAxis,
-        /// A picture that turns them, as anisotropy textures of glTF do: red and green are the parts along u and up across it, from -1 (black) to
-        /// 1. `.png`, `.jpg` or `.webp`, relative to the scene file. Default: none.
+        /// A picture that turns them, as anisotropy textures of glTF do: red and green are the parts along u and up across it, from
+        /// -1 (black) to 1. `.png`, `.jpg` or `.webp`, relative to the scene file.
         #[serde(skip_serializing_if = "Option::is_none")]
         directions: Option<PathBuf>,
-        /// Default: 0.
+        /// Standard deviation of a groove's angle to the pattern.
         jitter_deg: f64,
     },
 }

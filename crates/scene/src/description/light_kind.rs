@@ -31,7 +31,7 @@ pub enum LightKind {
         target_m: [f64; 3],
         /// Required.
         radius_m: f64,
-        /// Whether the other side shines too. Default: false.
+        /// Whether the other side shines too.
         #[serde(skip_serializing_if = "is_false")]
         two_sided: bool,
     },
@@ -45,10 +45,10 @@ pub enum LightKind {
         width_m: f64,
         /// Height along the direction in its plane that is nearest to y, or to z where it faces along y. Required.
         height_m: f64,
-        /// Turns it about its axis, counter-clockwise as seen from the target. Default: 0.
+        /// Turns it about its axis, counter-clockwise as seen from the target.
         #[serde(skip_serializing_if = "is_zero")]
         rotation_deg: f64,
-        /// Whether the other side shines too. Default: false.
+        /// Whether the other side shines too.
         #[serde(skip_serializing_if = "is_false")]
         two_sided: bool,
     },
@@ -56,7 +56,7 @@ pub enum LightKind {
     Polygon {
         /// Corners, at least three. Required.
         vertices_m: Vec<[f64; 3]>,
-        /// Whether the other side shines too. Default: false.
+        /// Whether the other side shines too.
         two_sided: bool,
     },
     /// `"tube"`: all within a radius of a line; its ends are half spheres.
@@ -70,9 +70,9 @@ pub enum LightKind {
     Sun {
         /// The way that its light goes, of any length. Required.
         direction: [f64; 3],
-        /// The angle that it spans as seen from the scene, across. Default: that of the sun, 0.53.
+        /// The angle that it spans as seen from the scene, across.
         angle_deg: f64,
-        /// Irradiance of a surface that faces it, W m^-2 in effect; not negative. It takes the place of a radiance. Default: 1.
+        /// Irradiance of a surface that faces it, W m^-2 in effect; not negative. It takes the place of a radiance.
         irradiance: f64,
     },
 }

@@ -17,39 +17,39 @@ use crate::schema::light;
 /// `[[light]]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Light {
-    /// Free text, for lists that people read. Default: none.
+    /// Free text, for lists that people read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Lights nothing, as if it were not there. Default: false.
+    /// Lights nothing, as if it were not there.
     #[serde(skip_serializing_if = "is_false")]
     pub hidden: bool,
-    /// Whether the camera sees its shape. Default: false.
+    /// Whether the camera sees its shape.
     #[serde(skip_serializing_if = "is_false")]
     pub visible: bool,
     /// `kind` and the keys that belong to it.
     #[serde(flatten)]
     pub kind: LightKind,
-    /// W sr^-1 m^-2 in effect; not negative. Of a sun 1: its irradiance tells. Default: 1.
+    /// W sr^-1 m^-2 in effect; not negative. Of a sun 1: its irradiance tells.
     #[serde(skip_serializing_if = "is_one")]
     pub radiance: f64,
-    /// Stops: the radiance is multiplied by 2^`exposure_ev`. Default: 0.
+    /// Stops: the radiance is multiplied by 2^`exposure_ev`.
     #[serde(skip_serializing_if = "is_zero")]
     pub exposure_ev: f64,
-    /// Temperature, K, of a black body that the light is, with the luminance that the light has without this key. `color` is a filter before it.
-    /// Default: none.
+    /// Temperature, K, of a black body that the light is, with the luminance that the light has without this key. `color` is a
+    /// filter before it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub temperature_k: Option<f64>,
-    /// Factor on the radiance, linear Rec.709, not negative; `[1, 1, 1]` has the spectrum of D65. Default: `[1, 1, 1]`.
+    /// Factor on the radiance, linear Rec.709, not negative; `[1, 1, 1]` has the spectrum of D65.
     pub color: [f64; 3],
-    /// Directions into which the light shines. Default: all.
+    /// Directions into which the light shines.
     #[serde(flatten)]
     pub cone: Option<Cone>,
-    /// For a disk or a rectangle: the angles between its axis and flaps that end its light, to the left, to the right, above and below as seen from
-    /// its target. 90 is open. Default: no flaps.
+    /// For a disk or a rectangle: the angles between its axis and flaps that end its light, to the left, to the right, above and
+    /// below as seen from its target. 90 is open.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub barn_doors_deg: Option<[f64; 4]>,
-    /// For a rectangle: a picture on it, upright as seen from its target, relative to the scene file. Its linear values are factors on the
-    /// radiance. Default: none.
+    /// For a rectangle: a picture on it, upright as seen from its target, relative to the scene file. Its linear values are factors
+    /// on the radiance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub picture: Option<PathBuf>,
 }
@@ -59,7 +59,7 @@ pub struct Light {
 pub struct Cone {
     /// Full angle of the cone from rim to rim. Required.
     pub cone_deg: f64,
-    /// The part of the way from rim to axis in which light falls off. Default: 0.1.
+    /// The part of the way from rim to axis in which light falls off.
     pub cone_softness: f64,
     /// Target of the cone of a sphere or a tube; required there. Others have their own axis.
     #[serde(skip_serializing_if = "Option::is_none")]

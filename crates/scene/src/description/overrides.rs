@@ -15,16 +15,16 @@ use crate::schema::overrides;
 pub struct Override {
     /// The material's name in the file. Required.
     pub material: String,
-    /// Factor on its roughness map, or its roughness. In [0, 1]. Default: as in the file.
+    /// Factor on its roughness map, or its roughness. In [0, 1].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roughness: Option<f64>,
-    /// Factor on its metallic map, or how metallic it is. In [0, 1]. Default: as in the file.
+    /// Factor on its metallic map, or how metallic it is. In [0, 1].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub metallic: Option<f64>,
-    /// Factor on its base colour map, or its base colour, linear Rec.709. In [0, 1] each. Default: as in the file.
+    /// Factor on its base colour map, or its base colour, linear Rec.709. In [0, 1] each.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub base_color: Option<[f64; 3]>,
-    /// A measured metal: its colour in the place of `base_color`, and metallic unless `metallic` says otherwise. Default: none.
+    /// A measured metal: its colour in the place of `base_color`, and metallic unless `metallic` says otherwise.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "name_of")]
     pub metal: Option<Metal>,
 }

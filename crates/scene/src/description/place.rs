@@ -12,29 +12,27 @@ use crate::schema::place;
 /// `where`: places of an object, and how thickly they are scratched.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct LayerPlaces {
-    /// A picture: scratches lie where it is lighter than half of white, and end where it is darker. `.png`, `.jpg` or `.webp`, relative
-    /// to the scene file. Default: everywhere.
+    /// A picture: scratches lie where it is lighter than half of white, and end where it is darker. `.png`, `.jpg` or `.webp`,
+    /// relative to the scene file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mask: Option<PathBuf>,
-    /// A picture: a scratch is laid with the probability that the picture has at its middle, from 0 (black) to 1 (white). Default: 1.
+    /// A picture: a scratch is laid with the probability that the picture has at its middle, from 0 (black) to 1 (white).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<PathBuf>,
-    /// The pictures are laid on the object from its three sides, each so wide, in its own frame. Default: they lie by its texture
-    /// coordinates.
+    /// The pictures are laid on the object from its three sides, each so wide, in its own frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tile_m: Option<f64>,
     /// Preference for edges, from 0, where scratches come alike on edges and on flat parts, to 1, where they come on convex edges
-    /// alone. Default: 0.
+    /// alone.
     #[serde(skip_serializing_if = "is_default")]
     pub edges: f64,
-    /// With `edges`: the distance from an edge up to which there are scratches, in the world's metres. Default: a fiftieth of the
-    /// object's diagonal.
+    /// With `edges`: the distance from an edge up to which there are scratches, in the world's metres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub edge_width_m: Option<f64>,
-    /// The least and the greatest distance from `center_m`, in the world's metres: scratches end there. Default: everywhere.
+    /// The least and the greatest distance from `center_m`, in the world's metres: scratches end there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<[f64; 2]>,
-    /// With `radius_m`: the point from which it is measured, in the object's own frame. Default: its origin.
+    /// With `radius_m`: the point from which it is measured, in the object's own frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center_m: Option<[f64; 3]>,
 }

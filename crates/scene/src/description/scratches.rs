@@ -13,25 +13,25 @@ use crate::schema::scratches;
 pub struct Scratches {
     /// Name of the object on which the scratches lie. Required.
     pub object: String,
-    /// The name of a material of the object's file: they lie on its triangles, and end where it ends. Default: on all of the object.
+    /// The name of a material of the object's file: they lie on its triangles, and end where it ends.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
-    /// The name of a node of the object's file: they lie on it and on the nodes below it. Default: on all of the object.
+    /// The name of a node of the object's file: they lie on it and on the nodes below it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<String>,
-    /// `where`: on which places they lie, and how thickly. Default: everywhere alike.
+    /// `where`: on which places they lie, and how thickly.
     #[serde(rename = "where", skip_serializing_if = "LayerPlaces::is_everywhere")]
     pub place: LayerPlaces,
-    /// Free text, for lists that people read. Default: none.
+    /// Free text, for lists that people read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Laid nowhere. Other layers' scratches stay as they are. Default: false.
+    /// Laid nowhere. Other layers' scratches stay as they are.
     #[serde(skip_serializing_if = "super::values::is_false")]
     pub hidden: bool,
-    /// Whether the layer is solo: if any layer of the scene is, only solo ones that are not hidden are laid. Default: false.
+    /// Whether the layer is solo: if any layer of the scene is, only solo ones that are not hidden are laid.
     #[serde(skip_serializing_if = "super::values::is_false")]
     pub solo: bool,
-    /// Cross section of their grooves. Default: a rectangle.
+    /// Cross section of their grooves.
     #[serde(
         serialize_with = "super::values::serialize_section",
         skip_serializing_if = "super::values::is_default"
@@ -40,7 +40,7 @@ pub struct Scratches {
     /// Pattern of the scratches.
     #[serde(flatten)]
     pub layer: Layer,
-    /// Strokes of a brush, in this order; the pattern's own scratches come before all strokes. Default: none.
+    /// Strokes of a brush, in this order; the pattern's own scratches come before all strokes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub strokes: Vec<Stroke>,
 }
@@ -108,9 +108,9 @@ impl Layer {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "pattern", rename = "drawn")]
 pub struct Brushed {
-    /// Standard deviation of a scratch's angle to its stroke. Default: 0.
+    /// Standard deviation of a scratch's angle to its stroke.
     pub jitter_deg: f64,
-    /// See [`Laid::seed`]. Default: 1.
+    /// See [`Laid::seed`].
     pub seed: u64,
     /// See [`Laid::length_m`].
     pub length_m: Distribution,
@@ -151,9 +151,9 @@ pub enum Brush {
         /// Scratches on each metre of the stroke. A stroke has at least one, and a dab as many as a stroke of its width.
         /// Required.
         density_per_m: f64,
-        /// Factor on the layer's widths. Default: 1.
+        /// Factor on the layer's widths.
         width: f64,
-        /// Factor on the layer's depths. Default: 1.
+        /// Factor on the layer's depths.
         depth: f64,
     },
     /// `erase = true`: takes away the scratches that the layer laid before, as far as they come within the radius, exactly at the
@@ -206,14 +206,13 @@ pub struct Laid {
     pub amount: Amount,
     /// Seed of the random numbers: the same one gives the same scratches, and a higher count keeps the first ones. Layers of
     /// different seeds do not depend on one another, nor on their order. Of layers of one object that have the same seed, hidden
-    /// ones included, the second draws other numbers than the first, and so on. Default: 1.
+    /// ones included, the second draws other numbers than the first, and so on.
     pub seed: u64,
     /// Log-normal, measured along the surface; draws are kept from 1e-5 to a hundred times the object's diagonal.
-    /// Default: mean 0.02, spread 0.5.
     pub length_m: Distribution,
-    /// Log-normal; draws are kept from 0.05 to 100. Default: mean 1.5, spread 0.3.
+    /// Log-normal; draws are kept from 0.05 to 100.
     pub width_um: Distribution,
-    /// Log-normal; draws are kept from 0 to 2000. Default: mean 200, spread 0.2.
+    /// Log-normal; draws are kept from 0 to 2000.
     pub depth_nm: Distribution,
 }
 
@@ -235,14 +234,14 @@ pub enum Amount {
 pub enum Pattern {
     /// `"random"`: every place and every direction alike. Daily wear: cutlery in a drawer, a phone in a pocket.
     Random {
-        /// Normal. Default: mean 0, spread 0: straight.
+        /// Normal.
         curvature_per_m: Distribution,
     },
     /// `"parallel"`: all along one direction. A brushed panel.
     Parallel {
-        /// Default: `[1, 0, 0]`.
+        /// Direction of the scratches, in the frame of the object.
         direction: [f64; 3],
-        /// Standard deviation of a scratch's angle to the pattern. Default: 0.
+        /// Standard deviation of a scratch's angle to the pattern.
         jitter_deg: f64,
     },
     /// `"circular"`: around an axis. A turned pan, a lathe's marks, a plate wiped in circles.
@@ -255,14 +254,13 @@ pub enum Pattern {
         /// The axis.
         #[serde(flatten)]
         around: Around,
-        /// One over the radius of the tool; normal. Default: mean 20, spread 0.
+        /// One over the radius of the tool; normal.
         curvature_per_m: Distribution,
     },
     /// `"swirl"`: arcs around many centres strewn over the surface. A polished or machine-washed car: the cobweb around
     /// each highlight.
     Swirl {
         /// One over the distance to the centres, which a scratch follows as closely as they allow; normal.
-        /// Default: mean 25, spread 8.
         curvature_per_m: Distribution,
     },
 }
@@ -284,11 +282,11 @@ impl Pattern {
 /// An axis that a pattern turns about.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Around {
-    /// Direction of the axis. Default: `[0, 0, 1]`.
+    /// Direction of the axis.
     pub axis: [f64; 3],
-    /// A point on it. Default: `[0, 0, 0]`.
+    /// A point on it.
     pub center_m: [f64; 3],
-    /// Standard deviation of a scratch's angle to the pattern. Default: 0.
+    /// Standard deviation of a scratch's angle to the pattern.
     pub jitter_deg: f64,
 }
 

@@ -31,7 +31,7 @@ pub enum Shape {
     Box {
         /// Edge lengths along x, y and z. Required.
         size_m: [f64; 3],
-        /// Radius of the rounded edges and corners, at most half of the shortest edge. Default: 0, sharp.
+        /// Radius of the rounded edges and corners, at most half of the shortest edge.
         rounding_m: f64,
     },
     /// A cylinder about the z axis with its middle in the origin, closed at both ends.
@@ -40,7 +40,7 @@ pub enum Shape {
         radius_m: f64,
         /// Height from end to end. Required.
         height_m: f64,
-        /// Radius of the rounded rims, at most the cylinder's radius and half of its height. Default: 0, sharp.
+        /// Radius of the rounded rims, at most the cylinder's radius and half of its height.
         rounding_m: f64,
     },
     /// A ring of round section about the z axis.
@@ -63,7 +63,7 @@ pub enum Shape {
         size_m: [f64; 2],
         /// Height of the wall over the floor. Required.
         height_m: f64,
-        /// Radius of the turn between them, at most `height_m` and the floor's extent along y. Default: half of the smaller of these.
+        /// Radius of the turn between them, at most `height_m` and the floor's extent along y.
         rounding_m: f64,
     },
     /// A line of letters that stand on the xy plane, read from +z, with its middle over the origin: a logo.
@@ -81,9 +81,9 @@ pub enum Shape {
         /// to the right and z up: a plate's upper side runs from the axis outwards, a cup's outside runs downwards.
         /// A profile that ends where it starts is closed, as for a ring. Required.
         profile_m: Vec<[f64; 2]>,
-        /// Facets around, from 3 to 4096. Default: 256.
+        /// Facets around, from 3 to 4096.
         segments: u32,
-        /// Whether the profile is rounded where it bends by less than 40 degrees; sharper corners stay. Default: true.
+        /// Whether the profile is rounded where it bends by less than 40 degrees; sharper corners stay.
         smooth: bool,
     },
 }

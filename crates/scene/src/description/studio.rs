@@ -13,13 +13,13 @@ use crate::schema::{ground, studio};
 /// that they do not name, with a ground.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Studio {
-    /// Lights nothing, as if it were not there. Default: false.
+    /// Lights nothing, as if it were not there.
     #[serde(skip_serializing_if = "is_false")]
     pub hidden: bool,
-    /// Factor on its radiances. Default: 1.
+    /// Factor on its radiances.
     #[serde(skip_serializing_if = "is_one")]
     pub intensity: f64,
-    /// Turns it about the world's up axis. Default: 0, as it suits the camera.
+    /// Turns it about the world's up axis.
     #[serde(skip_serializing_if = "is_zero")]
     pub rotation_deg: f64,
 }
@@ -55,16 +55,16 @@ impl Studio {
 /// `[ground]`: a wide floor under all objects.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ground {
-    /// Whether the ground is left out. Default: false.
+    /// Whether the ground is left out.
     #[serde(skip_serializing_if = "is_false")]
     pub hidden: bool,
-    /// Albedo, linear Rec.709, in [0, 1]. Default: a dark grey.
+    /// Albedo, linear Rec.709, in [0, 1].
     #[serde(skip_serializing_if = "is_dark_grey")]
     pub color: [f64; 3],
-    /// Roughness of the ground's gloss, as that of a material. Default: 0.55.
+    /// Roughness of the ground's gloss, as that of a material.
     #[serde(skip_serializing_if = "is_satin")]
     pub roughness: f64,
-    /// Height along the world's up axis. Default: under the lowest point of all objects.
+    /// Height along the world's up axis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
 }

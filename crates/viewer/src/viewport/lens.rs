@@ -119,17 +119,11 @@ mod tests {
 
     fn camera() -> Camera {
         Camera {
-            of_file: None,
             position_m: [0.1, -0.5, 0.3],
             target_m: [0.0, 0.02, 0.01],
             up: [0.0, 0.0, 1.0],
             fov_y_deg: 40.0,
-            exposure_ev: 0.0,
-            sensor_width_mm: None,
-            aperture_mm: None,
-            focus_distance_m: None,
-            shift: None,
-            world_up: None,
+            ..Camera::default()
         }
     }
 

@@ -17,14 +17,8 @@ impl Workspace {
         match &self.free_view.camera {
             None => scene.clone(),
             Some(free) => Camera {
-                up: scene.up,
-                exposure_ev: scene.exposure_ev,
-                sensor_width_mm: scene.sensor_width_mm,
-                aperture_mm: scene.aperture_mm,
                 focus_distance_m: self.free_focus_m(free),
-                shift: scene.shift,
-                world_up: scene.world_up,
-                ..free.clone()
+                ..scene.moved_to(free)
             },
         }
     }
@@ -141,16 +135,7 @@ impl Workspace {
             let camera = bookmark.camera.clone();
             let label = format!("Go to {}", bookmark.name);
             self.move_view(&label, None, |view| {
-                *view = Camera {
-                    up: view.up,
-                    exposure_ev: view.exposure_ev,
-                    sensor_width_mm: view.sensor_width_mm,
-                    aperture_mm: view.aperture_mm,
-                    focus_distance_m: view.focus_distance_m,
-                    shift: view.shift,
-                    world_up: view.world_up,
-                    ..camera
-                };
+                *view = view.moved_to(&camera);
             });
         }
     }
