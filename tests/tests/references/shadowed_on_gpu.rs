@@ -70,7 +70,8 @@ fn rays_come_to_the_cpus_shadows() {
 /// Rays change nothing where nothing is in the way. Without them the device adds up the layers, with them the host does: the last bits may differ.
 #[test]
 fn nothing_in_the_way_changes_nothing_on_the_gpu() {
-    for (name, mut scene) in scenes() {
+    // Half of the scenes: each has shaders of its own, which take seconds to compile.
+    for (name, mut scene) in scenes().into_iter().step_by(2) {
         scene.objects.truncate(1);
         let Some(open) = on_gpu(&scene, 3, None) else {
             return;

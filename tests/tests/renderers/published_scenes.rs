@@ -84,7 +84,7 @@ fn difference(a: &Image, b: &Image) -> f64 {
     largest
 }
 
-/// A plate, whose pixels are far wider than the coherence window, and a closeup, whose pixels are finer.
+/// A plate, whose pixels are far wider than the coherence window, and a closeup, whose pixels are finer, where footprints alone differ.
 #[test]
 fn each_switch() {
     let usual = PublishedMethod::default();
@@ -94,6 +94,11 @@ fn each_switch() {
             return;
         };
         let published = both.check(usual, Mask::Density);
+        let point = both.check(POINT, Mask::Density);
+        assert!(difference(&point, &published) > SEEN);
+        if name == "closeup" {
+            continue;
+        }
         let exact = PublishedMethod {
             si: SineIntegral::Exact,
             ..usual
@@ -102,8 +107,6 @@ fn each_switch() {
         for mask in [Mask::Energy, Mask::Linear] {
             assert!(difference(&both.check(usual, mask), &published) > SEEN);
         }
-        let point = both.check(POINT, Mask::Density);
-        assert!(difference(&point, &published) > SEEN);
     }
 }
 
