@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3, Vec3};
 use hairline_index::{Groove, ScratchIndex, SegmentTree, groove_index};
 use hairline_optics::bsdf::{Conductor, PointScratch, ScratchedBsdf, SpectralMode};
 use hairline_optics::scratch::piece_share;
+use hairline_optics::section::NARROW;
 use hairline_scene::{Base, Scene};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -52,6 +53,23 @@ impl SceneBsdf {
         if !of.scratches.iter().all(is_rectangle) {
             let found = format!("found \"{}\", whose scratches have other profiles", of.name);
             let right = "must be an object of rectangular grooves alone";
+            return Err(errors::of_argument("object", found, right));
+        }
+        let is_narrow = |scratch: &hairline_scene::Scratch| {
+            f64::from(scratch.profile.width_um) <= NARROW * material.coherence_um
+        };
+        let left_out = [
+            (material.coat.is_some(), "a clearcoat"),
+            (material.anisotropy.is_some(), "anisotropy"),
+            (!of.gratings.is_empty(), "gratings"),
+            (
+                !of.scratches.iter().all(is_narrow),
+                "scratches wider than 0.4 of coherence_um",
+            ),
+        ];
+        if let Some((_, what)) = left_out.iter().find(|it| it.0) {
+            let found = format!("found \"{}\", which has {what}", of.name);
+            let right = "must be bare metal with narrow scratches alone";
             return Err(errors::of_argument("object", found, right));
         }
         let bare = ScratchedBsdf {

@@ -18,6 +18,7 @@ MATERIALS = {
     "all ways": Scratched("steel", roughness=0.3, layers=[LAYER]),
     "one way": Scratched("gold", roughness=0.3, layers=[Layer(2.0, 150.0, 0.04, direction_deg=20, spread_deg=3)]),
     "row": Scratched("steel", roughness=0.3, gratings=[ROW]),
+    "row without orders": Scratched("steel", roughness=0.3, gratings=[Grating(10.0, 3.0, 200.0, coverage=0.3, jitter_um=20.0)]),
     "point": Scratched("steel", roughness=0.3, scratches=POINT),
     "together": Scratched("steel", roughness=0.3, layers=[LAYER], gratings=[ROW], scratches=POINT),
 }
@@ -175,6 +176,12 @@ def test_arrays_are_broadcast():
     np.testing.assert_array_equal(again.eval(wi, wo), material.eval(wi, wo))
 
 
+def test_the_share_of_a_layer_is_that_of_its_grooves():
+    layer = Layer(density_per_m2=1e6, length_m=0.01, grooves=((0.5, 10, 200), (0.5, 5, 200)))
+    # Half of the area by each: twice as many of 5 um as of 10 um.
+    assert layer.share == pytest.approx(1e6 * 0.01 * (10 + 2 * 5) / 3 * 1e-6)
+
+
 @pytest.mark.parametrize(
     "call, message",
     [
@@ -197,6 +204,13 @@ def test_arrays_are_broadcast():
         (lambda m: Layer(width_um=0.0, coverage=0.1), "width_um: found 0.0; must be a number from 0.05 to 100"),
         (lambda m: Layer(), "coverage: found coverage=None"),
         (lambda m: Layer(coverage=0.1, length_m=0.1), "coverage: found coverage=0.1"),
+        (lambda m: Layer(coverage=0.1, spread_deg=10.0), "spread_deg: found 10 without direction_deg"),
+        (lambda m: Layer(coverage=0.1, grooves=()), "grooves: found parts that add up to 0; must add up to 1"),
+        (lambda m: Layer(coverage=0.1, grooves=((1, 0, 100),)), "grooves[0].width_um: found 0; must be a number from"),
+        (lambda m: Layer(coverage=0.1, grooves=((1, 2, math.nan),)), "grooves[0].depth_nm: found nan"),
+        (lambda m: Scratched(layers=[Layer(30.0, 100.0, 0.1)]), "width_um: found 30; must be 8 at most, 0.4 of coherence_um"),
+        (lambda m: Scratched(scratches=[[0, 0, -math.inf, math.inf, 2, math.inf]]), "scratches: found NaN or an infinite number"),
+        (lambda m: Scratched([[550, 1.0, 0.0]]), "metal: found n = 1 and k = 0 in all rows, which is air"),
         (lambda m: Grating(1.6, 2.0, 100), "width_um: found 2.0; must be a number from 0.01 to 1.6"),
     ],
 )

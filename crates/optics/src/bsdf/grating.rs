@@ -55,10 +55,15 @@ impl GratingLobe {
         let weights = (1..=most).flat_map(|m| [m, -m]);
         let weights: Vec<_> = weights.map(|m| (m, row.order_weight(m))).collect();
         let all: f64 = weights.iter().map(|(_, w)| w).sum();
-        let least = 0.02 / weights.len() as f64;
+        // Rows whose light goes nowhere in orders draw all of them alike.
+        let (by_weight, evenly) = match all > 1e-30 {
+            true => (0.98 / all, 0.02),
+            false => (0.0, 1.0),
+        };
+        let least = evenly / weights.len() as f64;
         let mut sum = 0.0;
         let orders = weights.into_iter().map(|(m, weight)| {
-            let probability = 0.98 * weight / all.max(1e-30) + least;
+            let probability = by_weight * weight + least;
             sum += probability;
             (m, probability, sum)
         });

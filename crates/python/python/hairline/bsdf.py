@@ -36,6 +36,8 @@ _Grooves = tuple[tuple[float, float, float], ...]
 _WAVELENGTHS_NM = (380.0, 780.0)
 _WIDTHS_UM = (0.05, 100.0)
 _DEPTHS_NM = (0.0, 2000.0)
+_NARROW = 0.4
+"""Widths up to this share of ``coherence_um`` reflect as wholes; wider ones only at their edges, which is not part of this model."""
 _NODES = 5
 """Of the rule over a spread of widths or depths."""
 
@@ -70,7 +72,8 @@ class Layer:
 
     :param width_um: width of the grooves, from 0.05 to 100: a number, or a mean and a spread.
     :param depth_nm: their depth, from 0 to 2000, likewise.
-    :param coverage: width times length of all of them over the area that they lie on. In its place ``density_per_m2`` and ``length_m``.
+    :param coverage: width times length of all of them over the area that they lie on; overlaps count each time, so it may exceed 1. In its
+        place ``density_per_m2`` and ``length_m``.
     :param direction_deg: mean direction, from the x axis. None: all directions are as frequent.
     :param spread_deg: standard deviation of the directions.
     """
@@ -93,20 +96,39 @@ class Layer:
             found = f"found coverage={self.coverage}, density_per_m2={both[0]}, length_m={both[1]}"
             raise argument_error("coverage", found, "must be coverage, or density_per_m2 and length_m")
         if self.coverage is not None:
-            _number("coverage", self.coverage, 0, 1)
+            _number("coverage", self.coverage, 0, 1000)
         else:
             _number("density_per_m2", self.density_per_m2, 0, 1e15)
             _number("length_m", self.length_m, 0, 1000)
         if self.direction_deg is not None:
             _number("direction_deg", self.direction_deg, -360, 360)
         _number("spread_deg", self.spread_deg, 0, 90)
+        if self.direction_deg is None and self.spread_deg != 0:
+            raise argument_error("spread_deg", f"found {self.spread_deg:g} without direction_deg", "needs a direction to spread about")
+        if self.grooves is not None:
+            self._check_grooves(self.grooves)
+
+    @staticmethod
+    def _check_grooves(grooves: _Grooves) -> None:
+        for i, (part, width, depth) in enumerate(grooves):
+            _number(f"grooves[{i}].part", part, 0, 1)
+            # Laid and measured ones may be narrower than what is asked for by width_um.
+            _number(f"grooves[{i}].width_um", width, 1e-6, _WIDTHS_UM[1])
+            _number(f"grooves[{i}].depth_nm", depth, *_DEPTHS_NM)
+        parts = sum(groove[0] for groove in grooves)
+        if abs(parts - 1) > 1e-6:
+            raise argument_error("grooves", f"found parts that add up to {parts:g}", "must add up to 1")
 
     @property
     def share(self) -> float:
         """The coverage, whichever way it was given."""
         if self.coverage is not None:
             return self.coverage
-        mean, _ = _size("width_um", self.width_um, *_WIDTHS_UM)
+        if self.grooves is None:
+            mean, _ = _size("width_um", self.width_um, *_WIDTHS_UM)
+        else:
+            # Parts are those of areas: the mean width by number.
+            mean = 1 / sum(part / width for part, width, _ in self.grooves)
         assert self.density_per_m2 is not None and self.length_m is not None
         return self.density_per_m2 * self.length_m * mean * 1e-6
 
@@ -214,12 +236,18 @@ class Scratched:
         if covered > 1 + 1e-9:
             raise argument_error("gratings", f"found coverages that add up to {covered:g}", "must add up to 1 at most")
         listed = np.zeros((0, 6)) if scratches is None else floats("scratches", scratches, None, 6)
-        if np.isnan(listed).any():
-            raise argument_error("scratches", "found NaN", "must be numbers")
+        if np.isnan(listed).any() or not np.isfinite(listed[:, [0, 1, 4, 5]]).all():
+            raise argument_error("scratches", "found NaN or an infinite number", "must be numbers; only starts and ends may be infinite")
         if not ((listed[:, 4] > 0) & (listed[:, 5] >= 0) & (listed[:, 2] < listed[:, 3])).all():
             right = "must have a width above 0, a depth of 0 or more, and an end behind the start"
             raise argument_error("scratches", "found a scratch that is none", right)
         self.scratches = listed
+        widest = _NARROW * self.coherence_um
+        wide = [width for layer in self.layers for _, width, _ in layer._row()[3] if width > widest]
+        wide += listed[listed[:, 4] > widest, 4].tolist()
+        if wide:
+            right = f"must be {widest:g} at most, 0.4 of coherence_um: wider grooves are lit at their edges, which is not part of this model"
+            raise argument_error("width_um", f"found {max(wide):.4g}", right)
 
         @lru_cache(maxsize=8)
         def made(footprint: tuple[float, float, float]) -> core.Bsdf:
@@ -244,8 +272,16 @@ class Scratched:
         Directions are those in the world's x and y of a surface that faces z: of a plate. On other surfaces take layers without a direction. The
         material's metal and roughness are those of the object's; gratings stay out.
         """
+        if object not in [str(one.name) for one in scene.objects]:
+            raise argument_error("object", f"found {object!r}", "must be the name of an object of the scene")
+        name = scene.objects.named(object).material
+        if name is None:
+            raise argument_error("object", f"found {object!r}, which has materials of its file", "must be an object of a material of the scene")
+        material = scene.materials.named(str(name))
+        for key in ("clearcoat", "anisotropy", "cover"):
+            if getattr(material, key, None):
+                raise argument_error("object", f"found {object!r}, whose material has {key}", "must be bare metal")
         built = scene.build()
-        material = scene.materials.named(str(scene.objects.named(object).material))
         laid = built.laid(object)
         if not laid["is_rectangle"].all():
             found = f"found {object!r}, whose scratches have other profiles"
@@ -258,9 +294,9 @@ class Scratched:
             width, depth = laid["width_um"][own], laid["depth_nm"][own]
             area = width * length[own]
             doubled = np.sum(area * np.exp(2j * np.arctan2(along[own, 1], along[own, 0]))) / area.sum()
-            # Of directions without a mean, what chance leaves of one.
+            # Random directions agree by about 1 / sqrt(n) by chance.
             agreement = min(abs(doubled), 1 - 1e-15)
-            is_one_way = agreement > 4 / math.sqrt(len(np.unique(laid["scratch"][own])) + 1)
+            is_one_way = agreement > min(4 / math.sqrt(len(np.unique(laid["scratch"][own])) + 1), 0.95)
             layers.append(
                 Layer(
                     coverage=float(1e-6 * area.sum() / laid["area_m2"]),

@@ -148,13 +148,11 @@ def _class() -> Any:
             (to_viewer, to_light), frames, usable = self._lanes(si, wo)
             above = usable & (to_viewer[:, 2] > 0) & (to_light[:, 2] > 0)
             values, pdf = [], np.zeros(len(above))
-            for nm in self._wavelengths(si, len(above)):
-                value, pdf = self._of.eval_pdf(frames.reshape(-1), to_light.reshape(-1), to_viewer.reshape(-1), nm)
+            for i, nm in enumerate(self._wavelengths(si, len(above))):
+                value, density = self._of.eval_pdf(frames.reshape(-1), to_light.reshape(-1), to_viewer.reshape(-1), nm)
                 values.append(value * above[:, None])
-            # Of a path of several wavelengths the directions are those of the first.
-            if len(values) > 1:
-                first = self._wavelengths(si, len(above))[0]
-                pdf = self._of.eval_pdf(frames.reshape(-1), to_light.reshape(-1), to_viewer.reshape(-1), first)[1]
+                # Of a path of several wavelengths the directions are those of the first.
+                pdf = density if i == 0 else pdf
             return _where(active, self._spectrum(values)), _where(active, self._number(pdf * above))
 
         def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:

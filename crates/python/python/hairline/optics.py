@@ -115,6 +115,8 @@ def n_k_rows(key: str, rows: Any) -> Floats:
     if falls.any():
         i = int(np.argmax(falls)) + 1
         raise argument_error(key, f"found the wavelength {nm[i]:g} in row {i} after {nm[i - 1]:g}", "must rise")
+    if ((n == 1) & (k == 0)).all():
+        raise argument_error(key, "found n = 1 and k = 0 in all rows, which is air", "must reflect some light")
     return array
 
 

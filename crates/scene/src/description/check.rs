@@ -366,6 +366,14 @@ fn check_n_k(key: &str, rows: &[[f64; 3]]) -> Result<(), Error> {
             return at(2, k, "must be from 0 to 100");
         }
     }
+    if rows.iter().all(|row| row[1..] == [1.0, 0.0]) {
+        let found = "found n = 1 and k = 0 in all rows, which is air";
+        return Err(Error::new(
+            format!("{key}.n_k"),
+            found,
+            "must reflect some light",
+        ));
+    }
     Ok(())
 }
 
