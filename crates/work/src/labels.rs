@@ -7,6 +7,7 @@ use hairline_image::cryptomatte::{self, Matte, NOTHING};
 use hairline_index::segment_tree::{SegmentTree, Straight};
 use hairline_index::{Hit, TriangleIndex};
 use hairline_optics::footprint::{Footprint, scratch_share};
+use hairline_optics::gaussian::gaussian;
 use hairline_scene::{CameraFrame, Object, Scene};
 use rayon::prelude::*;
 
@@ -84,6 +85,7 @@ pub fn labels(scene: &Scene, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<La
     let objects = scene.objects.iter().zip(&first);
     let pieces = SegmentTree::build(objects.map(|(object, first)| pieces(object, *first)));
     let triangles = TriangleIndex::build(scene);
+    let half_widths_m: Vec<f64> = scene.objects.iter().map(half_widest_m).collect();
     let frame = scene.camera.frame(scene.render.size_px);
     let [width, height] = scene.render.size_px;
     let rows = (0..height).into_par_iter().map(|y| {
@@ -96,6 +98,7 @@ pub fn labels(scene: &Scene, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<La
                 &frame,
                 &triangles,
                 &pieces,
+                &half_widths_m,
                 DVec2::new(f64::from(x), f64::from(y)),
             )
         };
@@ -126,6 +129,12 @@ pub fn labels(scene: &Scene, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<La
     Some(labels)
 }
 
+/// Half of the width of an object's widest scratch.
+fn half_widest_m(object: &Object) -> f64 {
+    let widths_um = object.scratches.iter().map(|it| it.profile.width_um);
+    0.5e-6 * f64::from(widths_um.fold(0.0, f32::max))
+}
+
 fn pieces(object: &Object, first: u32) -> Vec<Piece> {
     let scratches = object.scratches.iter().zip(first..);
     let pieces = scratches.flat_map(|(scratch, number)| {
@@ -149,6 +158,7 @@ fn labelled(
     frame: &CameraFrame,
     triangles: &TriangleIndex,
     pieces: &SegmentTree<Piece>,
+    half_widths_m: &[f64],
     corner_px: DVec2,
 ) -> Pixel {
     let ray = frame.camera_ray(corner_px + 0.5);
@@ -169,7 +179,8 @@ fn labelled(
     let axes = px_m.map(|axis| axis * scene.render.filter_std_px);
     // The filter, or the square of the pixel, whichever is wider. On a flat surface the box of both has no height, and rounding would miss it.
     let reach_m = |axes: [DVec3; 2]| axes.map(|axis| axis.length()).iter().sum::<f64>();
-    let reach = DVec3::splat((REACH * reach_m(axes)).max(reach_m(px_m)));
+    let reach_m = (REACH * reach_m(axes)).max(reach_m(px_m));
+    let reach = DVec3::splat(reach_m + half_widths_m[hit.object as usize]);
     let mut shown: Vec<ScratchInPixel> = Vec::new();
     pieces.gather(
         hit.object as usize,
@@ -184,25 +195,28 @@ fn labelled(
             else {
                 return;
             };
-            let at = shown.iter_mut().find(|it| it.scratch == piece.scratch);
-            match at {
-                Some(it) => {
-                    it.coverage += seen.coverage;
-                    it.is_touched |= seen.is_touched;
-                    if seen.coverage > it.most {
-                        (it.most, it.direction_rad) = (seen.coverage, seen.direction_rad);
-                    }
-                }
-                None => shown.push(ScratchInPixel {
-                    scratch: piece.scratch,
-                    coverage: seen.coverage,
-                    most: seen.coverage,
-                    direction_rad: seen.direction_rad,
-                    is_touched: seen.is_touched,
-                }),
-            }
+            shown.push(ScratchInPixel {
+                scratch: piece.scratch,
+                coverage: seen.coverage,
+                most: seen.coverage,
+                direction_rad: seen.direction_rad,
+                is_touched: seen.is_touched,
+            });
         },
     );
+    // Stable, so that sums are added up in the order of the pieces.
+    shown.sort_by_key(|it| it.scratch);
+    shown.dedup_by(|next, it| {
+        let is_same = next.scratch == it.scratch;
+        if is_same {
+            it.coverage += next.coverage;
+            it.is_touched |= next.is_touched;
+            if next.most > it.most {
+                (it.most, it.direction_rad) = (next.most, next.direction_rad);
+            }
+        }
+        is_same
+    });
     shown.retain(|it| it.coverage > 1e-9 || it.is_touched);
     // Equal coverage falls to the scratch that was laid first.
     shown.sort_by(|a, b| {
@@ -210,6 +224,13 @@ fn labelled(
             .total_cmp(&a.coverage)
             .then(a.scratch.cmp(&b.scratch))
     });
+    // Thousands of scratches may lie in a pixel: all of them for all pixels would not fit into memory.
+    let mut rank = 0;
+    shown.retain(|it| {
+        rank += 1;
+        rank <= RANKS || it.is_touched
+    });
+    shown.shrink_to_fit();
     Pixel {
         object: hit.object,
         shown,
@@ -264,10 +285,16 @@ impl PieceInPixel {
         let width_um = f64::from(piece.width_um);
         let offset_um = 0.5 * (start + end).dot(across);
         let ends = [start, end].map(|p| p.dot(tangent));
-        let coverage =
-            scratch_share(width_um, offset_um, ends[0], ends[1], 0.0, footprint, 0.0).segment;
-        let [from, to] = [piece.start_m, piece.end_m].map(|p| frame.pixel_of(p.as_dvec3()));
-        let (from, to) = (from?, to?);
+        let per_std = 1.0 / footprint.across_um2.sqrt().max(1e-9);
+        let across = gaussian().between(
+            (offset_um - 0.5 * width_um) * per_std,
+            (offset_um + 0.5 * width_um) * per_std,
+        );
+        // Share along the scratch, on the line of it that is nearest to the pixel's middle.
+        let nearest_um = offset_um.signum() * (offset_um.abs() - 0.5 * width_um).max(0.0);
+        let line = scratch_share(1.0, nearest_um, ends[0], ends[1], 0.0, footprint, 0.0);
+        let coverage = across * line.segment / line.line.max(1e-300);
+        let (from, to) = in_picture(frame, piece, position_m)?;
         let way = to - from;
         // The picture's y runs down.
         let direction = (-way.y).atan2(way.x);
@@ -287,6 +314,21 @@ impl PieceInPixel {
             is_touched: is_wide || crosses(corner_px, from, to),
         })
     }
+}
+
+/// Ends of a piece in the picture. What of it lies behind the camera or beside it is cut off.
+fn in_picture(frame: &CameraFrame, piece: &Piece, seen_m: DVec3) -> Option<(DVec2, DVec2)> {
+    let depth_m = |p: DVec3| (p - frame.position_m).dot(frame.forward);
+    let (mut from, mut to) = (piece.start_m.as_dvec3(), piece.end_m.as_dvec3());
+    let (first_m, last_m, nearest_m) = (depth_m(from), depth_m(to), 1e-3 * depth_m(seen_m));
+    let cut = || from.lerp(to, (nearest_m - first_m) / (last_m - first_m));
+    match [first_m < nearest_m, last_m < nearest_m] {
+        [true, true] => return None,
+        [true, false] => from = cut(),
+        [false, true] => to = cut(),
+        [false, false] => {}
+    }
+    Some((frame.pixel_of(from)?, frame.pixel_of(to)?))
 }
 
 /// Whether a line crosses the square of one pixel: that of Y.-D. Liang and B. Barsky (1984).
@@ -428,6 +470,22 @@ mod tests {
         }
         let found: f64 = labels.coverage.iter().map(|c| f64::from(*c)).sum();
         assert!((found / area_px - 1.0).abs() < 0.02, "{found} {area_px}");
+    }
+
+    /// A scratch many pixels wide covers pixels beside its middle line wholly, and none by more than one.
+    #[test]
+    fn wide_scratches_cover_whole_pixels() {
+        let mut scene = plate();
+        let mut one = scene.objects[0].scratches[0].clone();
+        one.profile.width_um = 12_000.0;
+        scene.objects[0].scratches = vec![one].into();
+        let labels = labels(&scene, &|| false).unwrap();
+        assert!(labels.coverage.iter().all(|c| *c <= 1.0 + 1e-4));
+        let whole = labels.coverage.iter().filter(|c| **c > 0.999).count();
+        let touched = labels.touched.len();
+        // 3 cm by 1.2 cm in pixels of 2.2 mm, without three standard deviations of half a pixel at each edge: 11 by 2.
+        assert!((15..30).contains(&whole), "{whole}");
+        assert!(touched >= whole, "{touched}");
     }
 
     /// Pixels of a scratch are those that samples of its line fall into.
