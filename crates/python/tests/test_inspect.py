@@ -221,6 +221,20 @@ def test_wrong_defects_and_variations_are_told():
         assert message in str(raised.value)
 
 
+def test_rectangles_turn_with_the_other_lights():
+    before = {"center_m": [0.3, 0.5, 0.2], "target_m": [0.0, 0.0, 0.0], "rotation_deg": 20.0}
+    for turn in (0.4, 1.7, -2.5):
+        around = inspect._turn(turn, np.array([0.0, 0.0, 1.0]))
+        after = {key: (around @ np.array(before[key])).tolist() for key in ("center_m", "target_m")}
+        angle = math.radians(inspect._rotation_deg(before, after, around))
+
+        def width_of(light, angle):
+            x, y = inspect._plane(light)
+            return math.cos(angle) * x + math.sin(angle) * y
+
+        np.testing.assert_allclose(width_of(after, angle), around @ width_of(before, math.radians(20.0)), atol=1e-12)
+
+
 def test_another_scene_is_not_mixed_in(scene, tmp_path):
     made(scene, tmp_path / "set", count=1)
     scene.materials[0].roughness = 0.3

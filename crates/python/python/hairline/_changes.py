@@ -42,9 +42,9 @@ def changed(table: Mapping[str, Any], change: Change) -> dict[str, Any]:
             if not _has(at, step):
                 raise missing
             below = at[step]
-            if not isinstance(below, dict if isinstance(after, str) else list):
+            if not isinstance(below, dict if isinstance(after, str) else (list, tuple)):
                 raise missing
-            at[step] = below = below.copy()
+            at[step] = below = dict(below) if isinstance(below, dict) else list(below)
             at = below
         if isinstance(steps[-1], int) and not _has(at, steps[-1]):
             raise missing

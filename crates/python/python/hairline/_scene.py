@@ -18,6 +18,7 @@ from ._host import Host, Progress
 from ._keys import Environment, Grating, Ground, Light, Material, Settings, Studio
 from ._table import Path, Table
 from ._tables import Camera, Object, Scratches, Tables, table_of
+from ._whole_file import write_whole
 
 T = TypeVar("T", bound=Table)
 
@@ -221,10 +222,7 @@ class Scene:
 
     def save(self, path: Path) -> None:
         """Writes the scene file. Files that it names are not copied: write it where they are."""
-        text = self.to_toml()
-        temporary = FilePath(f"{os.fspath(path)}.part")
-        temporary.write_text(text, encoding="utf-8")
-        os.replace(temporary, path)
+        write_whole(path, self.to_toml().encode())
 
     def build(self, *, size: Optional[tuple[int, int]] = None, progress: Progress = False) -> core.Built:
         """Reads the files, builds the meshes and lays the scratches. :meth:`render` does it by itself, and what has not changed

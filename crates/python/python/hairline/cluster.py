@@ -38,6 +38,7 @@ from ._errors import WorkError, argument_error
 from ._changes import Change, changed
 from ._hairline import Image
 from ._host import Host, Progress
+from ._whole_file import write_whole
 from ._scene import Scene, render_arguments
 
 __all__ = ["local", "reference", "render", "render_files", "sweep"]
@@ -252,10 +253,7 @@ def render_files(
         ]
         numbers = {future.key: i for i, future in zip(due, futures)}
         for future, contents in _results(futures, host, "rendering"):
-            path = paths[numbers[future.key]]
-            temporary = path.with_name(f".{path.name}.part")
-            temporary.write_bytes(contents)
-            os.replace(temporary, path)
+            write_whole(paths[numbers[future.key]], contents)
     return paths
 
 

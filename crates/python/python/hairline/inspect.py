@@ -15,7 +15,6 @@ from __future__ import annotations
 import io
 import json
 import math
-import os
 import struct
 import zlib
 from collections.abc import Iterable, Mapping
@@ -32,6 +31,7 @@ from ._host import Host, Progress
 from ._scene import Scene, _switch, _whole
 from ._table import Path
 from ._tables import Scratches
+from ._whole_file import write_whole
 
 if TYPE_CHECKING:
     from .cluster import Connection
@@ -63,7 +63,7 @@ class Defect:
     :param count: least and greatest number in a picture.
     :param length_m: range of lengths, drawn evenly in their logarithm, as the sizes below.
     :param width_um: from 0.05 to 100.
-    :param depth_nm: from 0 to 2000.
+    :param depth_nm: from 1 to 2000.
     """
 
     name: str
@@ -104,7 +104,8 @@ class Variation:
     :param camera_turn_deg: of the camera about the vertical through its target.
     :param camera_tilt_deg: of the camera up and down.
     :param camera_distance: factor on its distance, from one over this to this.
-    :param light_turn_deg: of all lights together about the vertical through the camera's target.
+    :param light_turn_deg: of all lights together about the vertical through the camera's target. Where surfaces face the camera, keep it below
+        90: lights behind a surface do not light it.
     :param light_stops: on each light's radiance.
     :param wear: range of a factor on the number of scratches of each layer of the scene.
     """
@@ -138,6 +139,28 @@ def _turn(angle_rad: float, axis: npt.NDArray[np.float64]) -> npt.NDArray[np.flo
     return turn
 
 
+_UPS = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+"""Axes that ``world_up`` names."""
+
+
+def _plane(light: dict[str, Any]) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """The axes of a rectangle's width and height before its rotation, as scene files have them."""
+    axis = np.array(light["target_m"], dtype=float) - np.array(light["center_m"], dtype=float)
+    axis /= np.linalg.norm(axis)
+    up = np.array([0.0, 1.0, 0.0] if math.hypot(axis[0], axis[2]) > 1e-3 else [0.0, 0.0, 1.0])
+    x = np.cross(up, axis)
+    x /= np.linalg.norm(x)
+    return x, np.cross(axis, x)
+
+
+def _rotation_deg(before: dict[str, Any], after: dict[str, Any], around: npt.NDArray[np.float64]) -> float:
+    """The rotation by which a rectangle that was moved keeps its sides."""
+    (x, y), turn = _plane(before), math.radians(before.get("rotation_deg", 0.0))
+    across = around @ (math.cos(turn) * x + math.sin(turn) * y)
+    x, y = _plane(after)
+    return math.degrees(math.atan2(float(across @ y), float(across @ x)))
+
+
 def drawn(
     scene: Scene, number: int, *, seed: int = 1, defects: Iterable[Defect] = (), variation: Optional[Variation] = None
 ) -> tuple[Scene, dict[str, Any]]:
@@ -146,8 +169,11 @@ def drawn(
     random = np.random.default_rng([seed, number])
     table = scene.to_dict()
     camera = dict(table["camera"])
+    if camera.get("of_file") is not None:
+        found = f"found {camera['of_file']!r}"
+        raise argument_error("camera.of_file", found, "must be left out: a camera that is varied has position_m and target_m")
     target = np.array(camera["target_m"], dtype=float)
-    up = np.array(camera.get("up", (0, 1, 0)), dtype=float)
+    up = np.array(_UPS.get(camera.get("world_up"), camera.get("up", (0, 1, 0))), dtype=float)
     up /= np.linalg.norm(up)
     even = random.uniform(-1, 1, 5)
     told: dict[str, Any] = {
@@ -168,11 +194,14 @@ def drawn(
     lights, stops = [], []
     for light in table.get("light", []):
         light = dict(light)
+        before = dict(light)
         for key in ("center_m", "target_m", "vertices_m", "ends_m"):
             if key in light:
                 light[key] = ((np.array(light[key]) - target) @ around.T + target).tolist()
         if "direction" in light:
             light["direction"] = (around @ np.array(light["direction"])).tolist()
+        if light.get("kind") == "rectangle":
+            light["rotation_deg"] = _rotation_deg(before, light, around)
         stops.append(float(vary.light_stops * random.uniform(-1, 1)))
         light["exposure_ev"] = light.get("exposure_ev", 0.0) + stops[-1]
         lights.append(light)
@@ -350,9 +379,7 @@ def _on_worker(parcel: Any, number: int, recipe: _Recipe) -> dict[str, bytes]:
 def _write(folder: FilePath, name: str, contents: bytes) -> None:
     path = folder / name
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.part")
-    temporary.write_bytes(contents)
-    os.replace(temporary, path)
+    write_whole(path, contents)
 
 
 def dataset(
@@ -407,6 +434,7 @@ def dataset(
         "size": list(recipe.size),
         "defects": [asdict(defect) for defect in listed],
         "variation": asdict(vary),
+        "exr": recipe.exr,
         "render": dict(render),
     }
     head = json.loads(json.dumps(head))

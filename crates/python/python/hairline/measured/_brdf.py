@@ -8,6 +8,7 @@ Electroacoust. 15, 70, 1967) is the BRDF, with the scale of equation (1) of docs
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Optional
 
 import numpy as np
@@ -56,17 +57,11 @@ class Brdf:
 def brdf(grid: Grid, wavelength_nm: float, metal: Optional[str], coherence_um: float, cos_sum: float) -> Brdf:
     """See ``HeightMap.brdf``."""
     fft = scipy("fft")
-    wavelength = _checked("wavelength_nm", wavelength_nm, 10, 1e6)
-    coherence = _checked("coherence_um", coherence_um, 1e-3, 1e6)
-    cosines = _checked("cos_sum", cos_sum, 0.01, 2)
+    wavelength = checked("wavelength_nm", wavelength_nm, 10, 1e6)
+    cosines = checked("cos_sum", cos_sum, 0.01, 2)
     steps = grid.spacing_um
     sizes = [side * step for side, step in zip(grid.heights_nm.shape[::-1], steps)]
-    least = min(size - 2 * step for size, step in zip(sizes, steps))
-    if least < 2 * _REACH * coherence:
-        right = f"must be {least / (2 * _REACH):.3g} at most, an eighth of the map"
-        raise argument_error("coherence_um", f"found {coherence:g} for a map of {sizes[0]:.4g} x {sizes[1]:.4g} um", right)
-    if coherence < 2 * max(steps):
-        raise argument_error("coherence_um", f"found {coherence:g}", f"must be {2 * max(steps):.3g} at least, two points of the grid")
+    coherence = checked_window(sizes, steps, coherence_um)
     reflectance = 1.0 if metal is None else float(optics.fresnel_metal(metal, 0.5 * cosines, wavelength))
     half = [int(np.floor(_REACH * coherence / step)) for step in steps]
     over = [np.arange(-n, n + 1) * step for n, step in zip(half, steps)]
@@ -116,7 +111,19 @@ def attention(side: int, step_um: float, coherence_um: float, at_um: Floats) -> 
     return made
 
 
-def _checked(key: str, value: object, least: float, most: float) -> float:
+def checked_window(sizes_um: Sequence[float], steps_um: Sequence[float], coherence_um: object) -> float:
+    """The standard deviation of a window that fits into a map, and that its grid resolves."""
+    coherence = checked("coherence_um", coherence_um, 1e-3, 1e6)
+    least = min(size - 2 * step for size, step in zip(sizes_um, steps_um))
+    if least < 2 * _REACH * coherence:
+        right = f"must be {least / (2 * _REACH):.3g} at most, an eighth of the map"
+        raise argument_error("coherence_um", f"found {coherence:g} for a map of {sizes_um[0]:.4g} x {sizes_um[1]:.4g} um", right)
+    if coherence < 2 * max(steps_um):
+        raise argument_error("coherence_um", f"found {coherence:g}", f"must be {2 * max(steps_um):.3g} at least, two points of the grid")
+    return coherence
+
+
+def checked(key: str, value: object, least: float, most: float) -> float:
     array = _numbers(key, value)
     if array.ndim or not least <= float(array) <= most:
         raise argument_error(key, f"found {value!r}", f"must be a number from {least:g} to {most:g}")

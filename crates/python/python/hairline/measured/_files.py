@@ -81,7 +81,7 @@ def _cut(file: Path, error: Exception) -> SceneError:
 def _numpy(file: Path) -> Any:
     try:
         # Mapped, so that nothing is read before its shape is known.
-        array = np.load(file, mmap_mode="r", allow_pickle=False)
+        array = np.lib.format.open_memmap(file, mode="r")
     except (ValueError, EOFError, OSError) as error:
         raise _cut(file, error) from None
     checked_sides("heights_m", array.shape)

@@ -13,10 +13,11 @@ from .._arrays import ArrayLike, Floats, _numbers
 from .._errors import WorkError, argument_error
 from .._keys import Grating
 from .._tables import Scratches
+from .._whole_file import write_whole
 from ..bsdf import Layer, _binned
-from ._brdf import attention
+from ._brdf import attention, checked_window
 
-# Of the resultant of all directions, above which they are one direction with some scatter.
+# Directions count as one, with some scatter, if their mean vector is longer than this.
 _ALONG_ONE = 0.5
 
 
@@ -99,9 +100,9 @@ class Found(Sequence[Scratch]):
             f"{a[0]:.9g},{a[1]:.9g},0,{b[0]:.9g},{b[1]:.9g},0,{one.width_um:.6g},{one.depth_nm:.6g}"
             for one, (a, b) in zip(self, self.ends_m)
         ]
+        text = "\n".join(["x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm", *rows, ""])
         try:
-            with open(path, "w", encoding="utf-8") as file:
-                file.write("\n".join(["x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm", *rows, ""]))
+            write_whole(path, text.encode())
         except OSError as error:
             raise WorkError(f"{os.fspath(path)}: cannot be written: {error.strerror}") from None
 
@@ -193,6 +194,8 @@ class Found(Sequence[Scratch]):
         :param coherence_um: scratches count by how much the windows of :meth:`HeightMap.sent` see of them, which stay within the map.
         """
         wavelengths = np.asarray(_numbers("wavelength_nm", wavelength_nm), dtype=np.float64)
+        step_um = 1e6 * self._step_m
+        coherence_um = checked_window([1e6 * size for size in self.size_m], [step_um, step_um], coherence_um)
         made = np.zeros(wavelengths.shape)
         for one in self:
             deep = optics.oblique_depth_nm(one.depth_nm, 0.5 * cos_sum, 0.5 * cos_sum)

@@ -30,8 +30,11 @@ class Grid(NamedTuple):
         if max(across, down) < 1.0001 * step:
             return self
         rows, columns = self.heights_nm.shape
+        made = (round(rows * down / step), round(columns * across / step))
+        if max(made) > MOST_SIDE:
+            found = f"found steps that make {made[1]} x {made[0]} heights of the finer one"
+            raise argument_error("spacing_m", found, f"must make {MOST_SIDE} a side at most: crop the map")
         finer = scipy("ndimage").zoom(self.heights_nm, (down / step, across / step), order=1, mode="nearest", grid_mode=True)
-        checked_sides("heights_m", finer.shape)
         return Grid(finer, (columns * across / finer.shape[1], rows * down / finer.shape[0]))
 
     def xy_um(self, points: Floats) -> Floats:

@@ -13,10 +13,10 @@ from ._grid import Grid
 from ._packages import scipy
 from ._profile import fitted
 
-# Waves that the map has fewer of are form.
+# Waves that fit into the map fewer than this often count as form.
 _LEAST_WAVES = 10
 _BINS = 64
-# Of the power at a row's wave over the median of waves of other lengths beside it. Brushed lines, which lie at random, have peaks of ten.
+# A row's peak is at least this many times the median power of waves of similar length. Brushed lines, which lie at random, reach ten.
 _LEAST_PEAK = 40.0
 
 
