@@ -7,6 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairline_image::{FPS_MAX, Layer, ToneMap};
 use hairline_scene::DEFAULT_SAMPLES;
+use hairline_scene::schema::camera::EXPOSURE_EV;
 use hairline_scene::schema::object::TIME_S;
 
 use crate::compare::limits::{self, Limit};
@@ -101,7 +102,7 @@ pub struct View {
     #[arg(long, value_enum)]
     pub shadows: Option<Switch>,
     /// Objects that light may go by on its way besides the one that is seen, with shadows. [default: 1]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=8))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=8))]
     pub bounces: Option<u32>,
 }
 
@@ -123,14 +124,14 @@ pub struct Render {
     pub size: Option<[u32; 2]>,
     /// Samples for each pixel that has an edge or a crease in it; elsewhere one is enough. With shadows also the rays to each light from every
     /// pixel: they add up, and Ctrl-C ends with the picture of those that are done. More than 4 are rounded up to multiples of 4.
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_SAMPLES, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_SAMPLES, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub samples: u32,
     /// Whether objects hide lights and the environment from one another: as many rays to each light as there are samples.
     /// [default: on; the published method has none]
     #[arg(long, value_enum)]
     pub shadows: Option<Switch>,
     /// Objects that light may go by on its way besides the one that is seen, with shadows. [default: 1]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub bounces: Option<u32>,
     /// Whether the light that rays found, shadows and other objects' light, is filtered over each surface: less grain. Scratches, textures and
     /// highlights stay as sharp as they are, and more samples leave less to filter.
@@ -159,7 +160,7 @@ pub struct Render {
     pub tone_map: Option<ToneMap>,
     /// The time of the models' animations, seconds, in place of the scene's. With --frames also A:B: from A in the first frame to
     /// B in the last one, by equal steps.
-    #[arg(long, value_name = "A[:B]", value_parser = parse_times)]
+    #[arg(long, value_name = "A[:B]", allow_negative_numbers = true, value_parser = parse_times)]
     pub time: Option<[f64; 2]>,
     /// See by this camera of a model's file: its name, or its number from 0.
     #[arg(long, value_name = "CAMERA")]
@@ -189,7 +190,7 @@ pub struct Render {
 pub struct SequenceFlags {
     /// Number of pictures, NAME-0001.png and on for -o NAME.png (or .exr), on the path that --turntable and --zoom give, or through the times of
     /// --time A:B. For -o NAME.apng one animation.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: Option<u32>,
     /// Turn the camera about its target, around its `up`, by so many degrees in all, counter-clockwise seen from above.
     /// The step after the last frame completes them: a full turn of 360 shows no view twice.
@@ -203,7 +204,7 @@ pub struct SequenceFlags {
     #[arg(long, value_name = "FILE")]
     pub animation: Option<PathBuf>,
     /// Frames of the animation in a second. [default: 30]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(FPS_MAX)))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=i64::from(FPS_MAX)))]
     pub fps: Option<u16>,
     /// Render the frames with 64 samples in every pixel as well, and print how steady both sequences are: mean FLIP between
     /// each frame and the one before it, moved to where its surfaces are now. Takes 64 times as long.
@@ -261,7 +262,7 @@ pub struct Reference {
     #[arg(long, value_enum, default_value_t = Model::Separable)]
     pub model: Model,
     /// Samples for each pixel, rounded up to whole batches. Without it 1024, or with --time as many as fit.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16_777_216))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=16_777_216))]
     pub spp: Option<u32>,
     /// Stop sampling after this time: seconds, or with units as in 5m or 1h30m.
     #[arg(long, value_name = "DURATION", value_parser = parse_duration)]
@@ -270,7 +271,7 @@ pub struct Reference {
     #[arg(long)]
     pub resume: bool,
     /// Surfaces that light may meet on its way besides the one that is seen. 0: direct light, as the closed forms.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=64))]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub bounces: u32,
     /// Whether objects hide lights from one another.
     #[arg(long, value_enum, default_value_t = Switch::Off)]
@@ -323,7 +324,7 @@ pub struct Bench {
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
     /// Scratches of the bench's own scene. [default: 10000, the talk's]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub scratches: Option<u32>,
     /// A quarter of the pixels, few repetitions, short references, fewer places along each curve: a first impression in a minute or so.
     #[arg(long)]
@@ -332,7 +333,7 @@ pub struct Bench {
     #[arg(long, value_enum, value_name = "PART")]
     pub part: Vec<BenchPart>,
     /// Repetitions of each cell, in place of as many as fit the time.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub repetitions: Option<u32>,
     /// Write the bench's scene to a file and measure nothing.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "json", "output", "part"])]
@@ -441,8 +442,11 @@ fn parse_turn(text: &str) -> Result<f64, String> {
 fn parse_exposure(text: &str) -> Result<f64, String> {
     text.parse::<f64>()
         .ok()
-        .filter(|ev| ev.abs() <= 100.0)
-        .ok_or_else(|| "write a number of stops from -100 to 100, as in -1.5".to_owned())
+        .filter(|ev| EXPOSURE_EV.bounds.ends().contains(ev))
+        .ok_or_else(|| {
+            let (least, most) = EXPOSURE_EV.bounds.ends().into_inner();
+            format!("write a number of stops from {least} to {most}, as in -1.5")
+        })
 }
 
 /// One time stands for both ends.

@@ -104,7 +104,7 @@ fn refuse_the_incomparable(a: &Side, b: &Side, comparison: &Comparison) -> Resul
                 a[1]
             ),
             Problem::NothingInCommon => anyhow!(
-                "{a_name} and {b_name} have no such layer in common: the first has {}, the second {}",
+                "{a_name} and {b_name} have no such layer in common: the first has {}, the second {}; layers are in .exr files alone",
                 names(&a.layers),
                 names(&b.layers)
             ),

@@ -129,6 +129,9 @@ fn labels_goal(arguments: &cli::Render, target: &Target<'_>) -> Result<Option<Ou
         ));
     }
     let output = Output::check(path)?;
+    if target.paths().contains(&output.path()) {
+        return Err(refused("-o names the same file; give the labels another"));
+    }
     match output.format() {
         Format::Exr => Ok(Some(output)),
         Format::Png => Err(refused("labels need an .exr")),

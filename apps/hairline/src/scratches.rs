@@ -39,7 +39,7 @@ pub fn run(arguments: &cli::Scratches) -> Result<(), Failure> {
         Ok(())
     };
     write()
-        .with_context(|| format!("{} cannot be written", output.display()))
+        .with_context(|| format!("{}: cannot write", output.display()))
         .map_err(Failure::Work)?;
     tell(format_args!(
         "{}: scratches of \"{}\": {}",
