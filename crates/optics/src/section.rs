@@ -138,8 +138,8 @@ impl GrooveShape {
         }
     }
 
-    /// Width of the groove over that of the share of a part. What a floor takes from the mirror's direction does not grow with its width beyond
-    /// the window's: the parts' shares are this, so that they weaken others as much.
+    /// Width of the groove over the width that one part counts as. What a floor takes from the mirror's direction stops growing once it is wider
+    /// than the window, and the parts add up to that.
     pub(crate) fn widths_of_part(&self) -> f64 {
         let windows = self.width_in_windows();
         if windows == 0.0 {

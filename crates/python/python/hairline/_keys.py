@@ -24,7 +24,7 @@ class CameraKeys(Table):
     target_m: Vector
     """The point in the centre of the picture. Unit: m. Range: ±1000 each, not the position."""
     up: Vector = _default()
-    """The direction that is up in the picture; any length. Write ``[0, 0, 1]`` for a z-up scene. A camera that looks exactly down along Y or Z sees the top of the world: its ``up`` is of the picture alone then, unless it is +Y or +Z, which say the axis that points up. ``up = [0, 1, -0.1]`` looks down on a y-up scene as well, with -Z up in the picture. Default: ``[0, 1, 0]``. Range: not zero, not along the view."""
+    """The direction that is up in the picture; any length. Write ``[0, 0, 1]`` for a z-up scene. If the camera looks straight down along Y or Z, ``up`` only turns the picture, unless it is +Y or +Z, which also say the axis of the world that points up. ``up = [0, 1, -0.1]`` looks down on a y-up scene as well, with -Z up in the picture. Default: ``[0, 1, 0]``. Range: not zero, not along the view."""
     fov_y_deg: Optional[float] = _default()
     """Vertical field of view. Unit: °. Default: 30. Range: 0.001 to 179."""
     focal_length_mm: Optional[float] = _default()
@@ -263,7 +263,7 @@ class Grating(Table):
     jitter_um: float = _default()
     """Standard deviation of how far a groove is off its place. A tenth of the pitch leaves the first order two thirds of its light; a quarter turns rows into so many single scratches. Unit: µm. Default: 0. Range: 0 to the pitch."""
     theory: str = _default()
-    """How bright the orders of a pitch below 4 µm are. ``"rigorous"`` solves the whole field in the grooves, of both polarisations, by the refractive index of the metal (of aluminium where a colour stands for one) or of the plastic. That takes about ten seconds for a grating, once: the result is kept in the user's folder for caches. ``"scalar"`` is the simpler theory that wider grooves have, to compare with. Mirrors and what lies in a clear coat are scalar always. Default: ``"rigorous"``. Range: ``"rigorous"``, ``"scalar"``."""
+    """How bright the orders of a pitch below 4 µm are. ``"rigorous"`` solves Maxwell's equations in the grooves for both polarisations, by the refractive index of the metal (of aluminium where a colour stands for one) or of the plastic. That takes about ten seconds for a grating, once: the result is kept in the user's folder for caches. ``"scalar"`` is the simpler theory that wider grooves have, to compare with. Mirrors and what lies in a clear coat are scalar always. Default: ``"rigorous"``. Range: ``"rigorous"``, ``"scalar"``."""
     seed: int = _default()
     """Which groove is off its place by how much, where grooves are seen one by one. Default: 1. Range: whole, below 2^63."""
     coverage: float = _default()

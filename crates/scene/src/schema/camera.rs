@@ -46,7 +46,7 @@ pub static UP: Key = Key::new("up", Form::Numbers(3))
     .is(Initial::Numbers(&[0.0, 1.0, 0.0]))
     .direction()
     .range_words("not zero, not along the view")
-    .means("The direction that is up in the picture; any length. Write `[0, 0, 1]` for a z-up scene. A camera that looks exactly down along Y or Z sees the top of the world: its `up` is of the picture alone then, unless it is +Y or +Z, which say the axis that points up. `up = [0, 1, -0.1]` looks down on a y-up scene as well, with -Z up in the picture.")
+    .means("The direction that is up in the picture; any length. Write `[0, 0, 1]` for a z-up scene. If the camera looks straight down along Y or Z, `up` only turns the picture, unless it is +Y or +Z, which also say the axis of the world that points up. `up = [0, 1, -0.1]` looks down on a y-up scene as well, with -Z up in the picture.")
     .control("Up", linear(-1.0, 1.0), "The direction that is up in the picture. Tilt it to roll the camera.");
 
 pub static FOV_Y_DEG: Key = Key::new("fov_y_deg", Form::Number)

@@ -62,7 +62,7 @@ pub static JITTER_UM: Key = Key::new("jitter_um", Form::Number)
 
 pub static THEORY: Key = Key::new("theory", Form::Name(&["rigorous", "scalar"]))
     .text("rigorous")
-    .means("How bright the orders of a pitch below 4 µm are. `\"rigorous\"` solves the whole field in the grooves, of both polarisations, by the refractive index of the metal (of aluminium where a colour stands for one) or of the plastic. That takes about ten seconds for a grating, once: the result is kept in the user's folder for caches. `\"scalar\"` is the simpler theory that wider grooves have, to compare with. Mirrors and what lies in a clear coat are scalar always.");
+    .means("How bright the orders of a pitch below 4 µm are. `\"rigorous\"` solves Maxwell's equations in the grooves for both polarisations, by the refractive index of the metal (of aluminium where a colour stands for one) or of the plastic. That takes about ten seconds for a grating, once: the result is kept in the user's folder for caches. `\"scalar\"` is the simpler theory that wider grooves have, to compare with. Mirrors and what lies in a clear coat are scalar always.");
 
 pub static JITTER_DEG: Key = Key::new("jitter_deg", Form::Number)
     .unit("°")
