@@ -34,9 +34,13 @@ pub struct Draft {
 
 impl Draft {
     /// Takes one of every `step` scratches of each layer, or all of them where they are few. `layer` describes a layer by its number.
-    pub fn new(scene: &Scene, step: usize, layer: &dyn Fn(u32) -> DraftLayer) -> Self {
+    pub fn new(
+        scene: &Scene,
+        shapes: &GrooveShapes,
+        step: usize,
+        layer: &dyn Fn(u32) -> DraftLayer,
+    ) -> Self {
         let mut draft = Self::default();
-        let shapes = GrooveShapes::new(scene);
         for object in &scene.objects {
             let first = draft.segments.len();
             for scratches in object.scratches.chunk_by(|a, b| a.layer == b.layer) {
@@ -44,10 +48,10 @@ impl Draft {
                 let DraftLayer { weight, is_random } = layer(scratches[0].layer);
                 let kept = (all / step.max(1)).max(FEWEST).min(all);
                 let pieces = if is_random || kept == all {
-                    ScratchIndex::pieces(scene, &shapes, object, &scratches[..kept])
+                    ScratchIndex::pieces(scene, shapes, object, &scratches[..kept])
                 } else {
                     let chosen = (0..kept).map(|i| scratches[i * all / kept].clone());
-                    ScratchIndex::pieces(scene, &shapes, object, &chosen.collect::<Vec<_>>())
+                    ScratchIndex::pieces(scene, shapes, object, &chosen.collect::<Vec<_>>())
                 };
                 let weight = weight * all as f64 / kept as f64;
                 let end = draft.segments.len() + pieces.len();

@@ -2,7 +2,7 @@
 //! editor can reuse it.
 
 use hairline_optics::footprint;
-use hairline_optics::section::{Parts, width_class};
+use hairline_optics::section::Parts;
 use hairline_scene::{GrooveShapes, Object, Scene, Scratch, Segment};
 use rayon::prelude::*;
 
@@ -110,8 +110,7 @@ impl<'a> LayerRun<'a> {
     }
 
     fn is_wide(&self, scratch: &Scratch) -> bool {
-        let coherence_um = self.coherence_um(scratch).unwrap_or(f64::INFINITY);
-        width_class(f64::from(scratch.profile.width_um) / coherence_um) > 0
+        self.shapes.is_wide(self.scene, self.object, scratch)
     }
 
     fn pieces(&self, scratch: &Scratch) -> &'a [Segment] {

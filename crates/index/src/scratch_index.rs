@@ -17,6 +17,8 @@ pub struct ScratchIndex {
     pub tree: SegmentTree<IndexedSegment>,
     /// Coherence of the phase steps of each object's scratches (docs/model.md, section 3).
     pub depth_coherence: Vec<f32>,
+    /// Shapes of the scene's grooves, whose numbers the pieces hold.
+    shapes: GrooveShapes,
     /// Largest coherence length of the materials of each object.
     coherence_max_um: Vec<f32>,
 }
@@ -45,8 +47,7 @@ impl ScratchIndex {
     /// As [`Self::build`].
     pub fn rebuild(scene: &Scene, last: Option<(&Scene, &Self)>, watch: &Watch) -> Option<Self> {
         let shapes = GrooveShapes::new(scene);
-        // Pieces hold numbers of shapes.
-        let kept = last.filter(|(scene, _)| GrooveShapes::new(scene) == shapes);
+        let kept = last.filter(|(_, index)| index.shapes == shapes);
         let plots = plots(scene, &shapes, kept);
         let (tree, depth_coherence) = rayon::join(
             || plant(plots, last.map(|(_, index)| &index.tree), watch),
@@ -56,6 +57,7 @@ impl ScratchIndex {
             tree: tree?,
             depth_coherence,
             coherence_max_um: coherences_max_um(scene),
+            shapes,
         })
     }
 
@@ -71,6 +73,7 @@ impl ScratchIndex {
             },
             depth_coherence: Self::depth_coherence(scene),
             coherence_max_um: coherences_max_um(scene),
+            shapes: GrooveShapes::default(),
         }
     }
 
@@ -104,14 +107,13 @@ impl ScratchIndex {
     }
 
     /// The layers of the scene that this was built of, with their trees.
-    fn groups<'s>(
-        &self,
-        scene: &'s Scene,
-        shapes: &'s GrooveShapes,
-    ) -> Vec<(Vec<LayerRun<'s>>, &Tree)> {
+    fn groups<'s>(&'s self, scene: &'s Scene) -> Vec<(Vec<LayerRun<'s>>, &'s Tree)> {
         let objects = scene.objects.iter().zip(&self.tree.trees);
         objects
-            .flat_map(|(object, trees)| groups(scene, shapes, object).into_iter().zip(trees))
+            .flat_map(|(object, trees)| {
+                let groups = groups(scene, &self.shapes, object);
+                groups.into_iter().zip(trees)
+            })
             .collect()
     }
 }
@@ -120,9 +122,9 @@ impl ScratchIndex {
 fn plots<'a>(
     scene: &'a Scene,
     shapes: &'a GrooveShapes,
-    last: Option<(&Scene, &ScratchIndex)>,
+    last: Option<(&'a Scene, &'a ScratchIndex)>,
 ) -> Vec<Vec<Plot<'a, IndexedSegment>>> {
-    let kept = last.map_or_else(Vec::new, |(scene, index)| index.groups(scene, shapes));
+    let kept = last.map_or_else(Vec::new, |(scene, index)| index.groups(scene));
     let plot = |group: Vec<LayerRun<'a>>| {
         let is_like = |before: &[LayerRun]| {
             let mut pairs = before.iter().zip(&group);

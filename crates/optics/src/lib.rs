@@ -35,6 +35,7 @@ pub mod fresnel;
 pub mod gaussian;
 pub mod ggx;
 pub mod grating;
+pub mod groove_spectrum;
 pub mod irradiance;
 pub mod lobe_table;
 pub mod ltc;

@@ -7,8 +7,10 @@
 //! turns the light integral of any scratch into differences of two look-ups, whatever the number of wavelengths.
 //! R/F0 carries the correlation of the metal's colour with the scratch's; the caller multiplies by Fresnel in RGB.
 
+use crate::groove_spectrum::{GrooveSpectrum, Places, add_times};
 use crate::scratch::DEPTH_MAX_NM;
-use crate::section::{GrooveShape, GrooveSpectrum};
+use crate::section::GrooveShape;
+use crate::vectors::with_widest;
 use crate::{diffraction, scratch, spectrum};
 use rayon::prelude::*;
 
@@ -99,33 +101,51 @@ impl ScratchTable {
 
     /// The table of grooves of a shape. Wide ones are looked up by the width of a [part](crate::section::Section::parts).
     pub fn of_shape(shape: &GrooveShape, reflectance: impl Fn(f64) -> f64 + Sync) -> Self {
-        if *shape == GrooveShape::default() {
-            return Self::new(reflectance);
+        match *shape == GrooveShape::default() {
+            true => Self::new(reflectance),
+            false => Self::of_spectrum(&GrooveSpectrum::new(shape), reflectance),
         }
-        let grid = GrooveSpectrum::new(shape);
-        let widths = shape.widths_of_part();
-        let part_count = shape.part_count() as f64;
+    }
+
+    /// The table of the grooves of a spectrum, as [`Self::of_shape`] makes it.
+    pub fn of_spectrum(grid: &GrooveSpectrum, reflectance: impl Fn(f64) -> f64 + Sync) -> Self {
+        let widths = grid.shape.widths_of_part();
+        let part_count = grid.shape.part_count() as f64;
         let samples = spectrum::samples();
         let f0 = spectrum::rgb_from_reflectance(&reflectance);
+        let per_um = |nm: f64| widths * 1e3 / nm;
+        let columns_um: [f64; COLUMNS] = std::array::from_fn(|column| column_u_um(column as f64));
+        let places: Vec<Places> = samples
+            .iter()
+            .map(|sample| Places::new(&columns_um.map(|u_um| per_um(sample.wavelength_nm) * u_um)))
+            .collect();
         Self::from_rows(|row, sums| {
             let depth_nm = row as f64 * DEPTH_MAX_NM / (ROWS - 1) as f64;
-            for sample in samples {
-                let reflected = reflectance(sample.wavelength_nm);
-                let weight: [f64; 3] = std::array::from_fn(|c| {
-                    sample.weight[c] * reflected / f0[c] * widths / part_count
-                });
-                let per_um = widths * 1e3 / sample.wavelength_nm;
-                let of_row = grid.at_depth(depth_nm / sample.wavelength_nm);
-                for (column, sum) in sums.iter_mut().enumerate() {
-                    let u_um = column_u_um(column as f64);
-                    let [density, integral] = of_row.at(per_um * u_um);
-                    let slope = match column == COLUMNS - 1 {
-                        true => of_row.tail() / (per_um * U_HALF_UM * (COLUMNS - 1) as f64),
-                        false => density * per_um * column_step_um(u_um),
-                    };
-                    for c in 0..3 {
-                        sum[c] += weight[c] * integral;
-                        sum[3 + c] += weight[c] * slope;
+            let [mut densities, mut integrals] = [[0.0; COLUMNS]; 2];
+            // T in each channel, then its derivatives by u.
+            let mut channels = [[0.0; COLUMNS]; 6];
+            with_widest(|| {
+                for (sample, places) in samples.iter().zip(&places) {
+                    let nm = sample.wavelength_nm;
+                    let reflected = reflectance(nm) * widths / part_count;
+                    let of_row = grid.at_depth(depth_nm / nm);
+                    of_row.at_all(places, &mut densities, &mut integrals);
+                    for (c, weight) in sample.weight.iter().enumerate() {
+                        let weight = weight * reflected / f0[c];
+                        add_times(&mut channels[c], weight, &integrals);
+                        add_times(&mut channels[3 + c], weight * per_um(nm), &densities);
+                        // Density and step have a product at infinity.
+                        let slope = of_row.tail() / (per_um(nm) * U_HALF_UM * (COLUMNS - 1) as f64);
+                        sums[COLUMNS - 1][3 + c] += weight * slope;
+                    }
+                }
+            });
+            for (column, sum) in sums.iter_mut().enumerate() {
+                let u_um = columns_um[column];
+                for c in 0..3 {
+                    sum[c] = channels[c][column];
+                    if u_um.is_finite() {
+                        sum[3 + c] = channels[3 + c][column] * column_step_um(u_um);
                     }
                 }
             }

@@ -13,8 +13,8 @@ use glam::{DVec2, DVec3};
 use hairline_cpu::surface::{SurfacePoint, surface_point};
 use hairline_index::Hit;
 use hairline_optics::ggx::{GGX_MIN_ALPHA, ggx_alpha};
+use hairline_optics::groove_spectrum::GrooveSpectrum;
 use hairline_optics::mask::ScratchSums;
-use hairline_optics::section::GrooveSpectrum;
 use std::f64::consts::PI;
 
 /// Light that a sample adds to the film.

@@ -10,8 +10,8 @@ use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::band::BandFrame;
 use hairline_optics::diffraction::sinc;
 use hairline_optics::grating::{Grating as Row, RigorousGrating};
+use hairline_optics::groove_spectrum::GrooveSpectrum;
 use hairline_optics::scratch::{band_std, phase_step_energy};
-use hairline_optics::section::GrooveSpectrum;
 use std::f64::consts::PI;
 
 /// Weight by which rigorous orders are drawn at least, of all light.

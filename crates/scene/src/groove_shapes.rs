@@ -2,7 +2,7 @@
 
 use crate::scene::{Object, Scene, Scratch};
 use crate::section_id::SectionId;
-use hairline_optics::section::GrooveShape;
+use hairline_optics::section::{GrooveShape, NARROW};
 use rayon::prelude::*;
 
 /// Number of shapes that a scene may have: renderers keep one in four bits.
@@ -16,13 +16,32 @@ pub struct GrooveShapes {
     keys: Vec<(SectionId, u8)>,
 }
 
+/// Narrow rectangles alone.
+impl Default for GrooveShapes {
+    fn default() -> Self {
+        Self {
+            keys: vec![(SectionId::default(), 0)],
+        }
+    }
+}
+
 impl GrooveShapes {
     /// Finds the shapes of all scratches.
     pub fn new(scene: &Scene) -> Self {
-        let mut keys = vec![(SectionId::default(), 0)];
+        let coherences_um = scene.materials.iter().map(|material| material.coherence_um);
+        // Most scenes have nothing else, which the scratches tell by themselves.
+        let narrow_um = NARROW * coherences_um.fold(f64::INFINITY, f64::min);
+        let is_plain = |scratch: &Scratch| {
+            let profile = scratch.profile;
+            profile.section == SectionId::default() && f64::from(profile.width_um) <= narrow_um
+        };
+        let Self { mut keys } = Self::default();
         for object in &scene.objects {
             let tasks = object.scratches.par_chunks(TASK).map(|scratches| {
                 let mut keys = Vec::new();
+                if scratches.iter().all(is_plain) {
+                    return keys;
+                }
                 for scratch in scratches {
                     let key = scene.shape_key(object, scratch);
                     if !keys.contains(&key) {
@@ -54,8 +73,16 @@ impl GrooveShapes {
         self.keys.len()
     }
 
+    /// Whether a scratch of the scene is wide: its halves lie apart.
+    pub fn is_wide(&self, scene: &Scene, object: &Object, scratch: &Scratch) -> bool {
+        self.keys.len() > 1 && scene.shape_key(object, scratch).1 > 0
+    }
+
     /// Index of the shape of a scratch of the scene. Of shapes beyond the last the nearest one.
     pub fn index(&self, scene: &Scene, object: &Object, scratch: &Scratch) -> u8 {
+        if self.keys.len() == 1 {
+            return 0;
+        }
         let key = scene.shape_key(object, scratch);
         let at = self.keys.partition_point(|it| *it < key);
         at.min(self.keys.len().min(MOST_SHAPES) - 1) as u8

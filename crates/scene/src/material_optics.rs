@@ -7,11 +7,13 @@ use crate::scene::{Base, COAT_IOR, Material, Scene};
 use hairline_optics::cover::Cover;
 use hairline_optics::fresnel::FresnelCurve;
 use hairline_optics::grating::{Grating as Row, RigorousGrating};
+use hairline_optics::groove_spectrum::GrooveSpectrum;
 use hairline_optics::metal::Metal;
 use hairline_optics::published::spectrum::PublishedSpectrum;
 use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
 use hairline_optics::section::GrooveShape;
 use hairline_optics::table::ScratchTable;
+use std::cell::OnceCell;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -166,15 +168,15 @@ impl ScratchTables {
                 }
             })
             .collect();
-        let mut tables: Vec<Arc<ScratchTable>> = Vec::new();
-        for metal in &metals {
-            for shape in shapes.shapes() {
-                if cancelled() {
-                    return None;
-                }
-                tables.push(shaped_table(*metal, shape));
+        let mut of_shapes = Vec::new();
+        for shape in shapes.shapes() {
+            if cancelled() {
+                return None;
             }
+            of_shapes.push(shaped_tables(&metals, &shape));
         }
+        let of_metal = |i: usize| of_shapes.iter().map(move |tables| Arc::clone(&tables[i]));
+        let mut tables: Vec<_> = (0..metals.len()).flat_map(of_metal).collect();
         let mut all = Self {
             tables: Vec::new(),
             grating_spectra: Vec::new(),
@@ -281,8 +283,9 @@ impl ScratchTables {
 fn scratch_table(metal: Option<Metal>) -> Arc<ScratchTable> {
     static MADE: [OnceLock<Arc<ScratchTable>>; Metal::ALL.len() + 1] =
         [const { OnceLock::new() }; Metal::ALL.len() + 1];
+    let make = || ScratchTable::new(|nm| reflectance(metal, nm));
     let at = match metal {
-        Some(Metal::Own(_)) => return kept_table(metal, GrooveShape::default()),
+        Some(Metal::Own(_)) => return kept_table(metal, &GrooveShape::default(), make),
         Some(measured) => Metal::ALL
             .iter()
             .position(|it| *it == measured)
@@ -293,37 +296,42 @@ fn scratch_table(metal: Option<Metal>) -> Arc<ScratchTable> {
     if let Some(made) = MADE[at].get() {
         return Arc::clone(made);
     }
-    let made = Arc::new(ScratchTable::new(|nm| reflectance(metal, nm)));
+    let made = Arc::new(make());
     Arc::clone(MADE[at].get_or_init(|| made))
 }
 
 /// Tables of further shapes that the process keeps: 8 MB each.
 const KEPT_TABLES: usize = 24;
 
-/// The table of grooves of a shape in a metal.
-fn shaped_table(metal: Option<Metal>, shape: GrooveShape) -> Arc<ScratchTable> {
-    match shape == GrooveShape::default() {
-        true => scratch_table(metal),
-        false => kept_table(metal, shape),
-    }
+/// The tables of grooves of a shape in metals. What the shape sends is computed once for all of them.
+fn shaped_tables(metals: &[Option<Metal>], shape: &GrooveShape) -> Vec<Arc<ScratchTable>> {
+    let grid = OnceCell::new();
+    let table = |metal: &Option<Metal>| match *shape == GrooveShape::default() {
+        true => scratch_table(*metal),
+        false => kept_table(*metal, shape, || {
+            let grid = grid.get_or_init(|| GrooveSpectrum::new(shape));
+            ScratchTable::of_spectrum(grid, |nm| reflectance(*metal, nm))
+        }),
+    };
+    metals.iter().map(table).collect()
 }
 
 /// One of the last tables of shapes, and of metals that scenes bring.
-fn kept_table(metal: Option<Metal>, shape: GrooveShape) -> Arc<ScratchTable> {
+fn kept_table(
+    metal: Option<Metal>,
+    shape: &GrooveShape,
+    make: impl FnOnce() -> ScratchTable,
+) -> Arc<ScratchTable> {
     type Kept = VecDeque<(Option<Metal>, GrooveShape, Arc<ScratchTable>)>;
     static KEPT: Mutex<Kept> = Mutex::new(VecDeque::new());
     // Not locked while a table is made, as above.
     let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((.., made)) = kept().iter().find(|it| (it.0, &it.1) == (metal, &shape)) {
+    if let Some((.., made)) = kept().iter().find(|it| (it.0, &it.1) == (metal, shape)) {
         return Arc::clone(made);
     }
-    let reflectance = |nm| reflectance(metal, nm);
-    let made = Arc::new(match shape == GrooveShape::default() {
-        true => ScratchTable::new(reflectance),
-        false => ScratchTable::of_shape(&shape, reflectance),
-    });
+    let made = Arc::new(make());
     let mut kept = kept();
-    kept.push_back((metal, shape, Arc::clone(&made)));
+    kept.push_back((metal, shape.clone(), Arc::clone(&made)));
     if kept.len() > KEPT_TABLES {
         kept.pop_front();
     }

@@ -42,7 +42,7 @@ fn a_few_scratches_are_as_bright_as_all() {
     let all = mean(&picture(&scene, None));
     for is_random in [true, false] {
         let layer = DraftLayer { is_random, ..WHOLE };
-        let draft = Draft::new(&scene, 8, &|_| layer);
+        let draft = Draft::new(&scene, &GrooveShapes::new(&scene), 8, &|_| layer);
         assert!(draft.len() < 6000 * 3, "{} pieces", draft.len());
         let few = mean(&picture(&scene, Some(draft)));
         assert!((few / all - 1.0).abs() < 0.05, "{few} for {all}");
@@ -52,7 +52,7 @@ fn a_few_scratches_are_as_bright_as_all() {
 #[test]
 fn a_small_layer_is_kept_whole() {
     let scene = scene();
-    let draft = Draft::new(&scene, 1000, &|_| WHOLE);
+    let draft = Draft::new(&scene, &GrooveShapes::new(&scene), 1000, &|_| WHOLE);
     let whole = draft.weights.iter().filter(|&&weight| weight == 1.0);
     assert!(whole.count() >= 7);
     assert!(draft.weights.iter().any(|&weight| weight > 100.0));
@@ -78,7 +78,9 @@ fn what_rays_meet_in_a_draft_has_no_scratches() {
         bounces: 1,
         ..RenderOptions::default()
     };
-    let draft = Arc::new(Draft::new(&scene, 8, &|_| WHOLE));
+    let draft = Arc::new(Draft::new(&scene, &GrooveShapes::new(&scene), 8, &|_| {
+        WHOLE
+    }));
     let prepared = Prepared::new(&scene).with_draft(draft);
     let asked = AtomicUsize::new(0);
     let count = || {

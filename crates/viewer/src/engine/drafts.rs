@@ -40,7 +40,12 @@ impl Drafts {
                 is_random: table.is_some_and(|table| matches!(table.layer, Layer::Laid(_))),
             }
         };
-        let draft = Arc::new(Draft::new(&built.scene, step.round() as usize, &layer));
+        let draft = Arc::new(Draft::new(
+            &built.scene,
+            &built.tables.shapes,
+            step.round() as usize,
+            &layer,
+        ));
         self.drafts.push((thin, Arc::clone(&draft)));
         draft
     }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::coherent::{GroovePiece, base_amplitude, groove_overlap, scratch_amplitude};
-use crate::diffraction::sinc;
+use crate::section::CLASSES;
 use crate::spectrum;
 use crate::table::ScratchTable;
 use glam::DVec2;
