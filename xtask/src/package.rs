@@ -85,6 +85,7 @@ impl Package {
 
         if self.test {
             tables::write_tree_twin(&self.output)?;
+            tables::write_shapes_twin(&self.output)?;
             node(&by_hand.join("test"), &["check.mjs"], &self.output)?;
         }
         if self.pictures {

@@ -23,11 +23,16 @@ export function loadTables(url?: string | URL): Promise<Tables>;
 /** `curve` of FresnelRgb; null: Schlick's. */
 export function curveOf(metal: Metal | null): number;
 
+/** Cross section of grooves: a name, or 2 to 64 depths over the deepest one, from the middle to the rim. */
+export type GrooveProfile = 'rectangle' | 'v' | 'round' | 'shoulders' | number[];
+/** Grooves of one table: a cross section, and a class of widths over the coherence length, 0 for narrow ones. */
+export interface GrooveShape { profile: GrooveProfile; widthClass: number }
+
 export const tableSize: { columns: number; rows: number };
-/** Texels of T(u, d), four numbers each, rgba32uint; null: a metal given by its colour. */
-export function scratchTable(metal: Metal | null): Uint32Array;
-/** The same by a pass: a texture of a layer for each metal. */
-export function makeScratchTable(device: GPUDevice, metal: Metal | null | (Metal | null)[]): GPUTexture;
+/** Texels of T(u, d), four numbers each, rgba32uint; null: a metal given by its colour. Without a shape: narrow rectangles. */
+export function scratchTable(metal: Metal | null, shape?: GrooveShape): Uint32Array;
+/** The same by a pass: a texture of a layer for each shape of each metal. */
+export function makeScratchTable(device: GPUDevice, metal: Metal | null | (Metal | null)[], shapes?: GrooveShape[]): GPUTexture;
 
 /** Straight pieces of scratches, in an object's own frame. */
 export interface ScratchArrays {
@@ -40,6 +45,8 @@ export interface ScratchArrays {
   scratch: Uint32Array;
   /** The surface's, three numbers for each piece; null: not known, so that scratches show on both sides of a sheet. */
   normals?: Float64Array | null;
+  /** The cross section of each piece; null: rectangles. */
+  profiles?: GrooveProfile[] | null;
 }
 export class Scratches implements ScratchArrays {
   constructor(arrays: ScratchArrays);
@@ -49,14 +56,15 @@ export class Scratches implements ScratchArrays {
   readonly depthsNm: Float64Array;
   readonly scratch: Uint32Array;
   readonly normals: Float64Array | null;
+  readonly profiles: GrooveProfile[] | null;
   readonly count: number;
   /** By a matrix of 16 numbers, column by column. */
   transformed(matrix: ArrayLike<number>): Scratches;
   /** These and `other`, which lie on the same mesh: both with normals, or neither. */
   joined(other: Scratches): Scratches;
 }
-/** Reads a list (CSV). `name` is what errors call it. */
-export function readScratches(text: string, name?: string): Scratches;
+/** Reads a list (CSV). `name` is what errors call it; `profile` the cross section of all of them. */
+export function readScratches(text: string, name?: string, options?: { profile?: GrooveProfile }): Scratches;
 /** By how much free ends move inwards, and what smooths them. */
 export function scratchEnds(lengthUm: number, coherenceUm: number): { shrinkUm: number; blurUm: number };
 /** How alike depths are: pairs of a depth in nm and a weight. */
@@ -70,11 +78,21 @@ export interface PreparedPiece {
   widthUm: number;
   depthNm: number;
   blurUm: number;
+  /** Index in the shapes. */
+  shape?: number;
+  /** Whether it is a part of a wide groove. */
+  isPart?: boolean;
 }
-export interface Prepared { pieces: PreparedPiece[]; coherenceUm: number; depthCoherence: number }
+export interface Prepared {
+  pieces: PreparedPiece[];
+  /** Shapes of the grooves; the first one is of narrow rectangles. */
+  shapes: GrooveShape[];
+  coherenceUm: number;
+  depthCoherence: number;
+}
 export function preparedPieces(scratches: Scratches, options?: { coherenceUm?: number; metresPerUnit?: number }): Prepared;
 /** Texels of an rgba32uint texture. */
-export function scratchTree(prepared: Prepared, options?: { metresPerUnit?: number }): { texels: Uint32Array; width: number; height: number };
+export function scratchTree(prepared: Omit<Prepared, 'shapes'>, options?: { metresPerUnit?: number }): { texels: Uint32Array; width: number; height: number };
 
 /** Alike for all, or drawn: log-normal, of curvatures normal. */
 export type Size = number | { mean: number; spread?: number };
@@ -85,6 +103,7 @@ export interface PatternOptions {
   lengthM?: Size;
   widthUm?: Size;
   depthNm?: Size;
+  profile?: GrooveProfile;
   /** Of 'random'. */
   curvaturePerM?: Size;
   jitterDeg?: number;

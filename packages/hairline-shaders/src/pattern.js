@@ -1,6 +1,6 @@
 // Scratches in patterns, laid on a mesh: from a seed both ways along a direction, across edges, until their length is used up, the surface
 // ends or an edge bends by more than 60 degrees. As crates/scene/src/scratches does; other random numbers, so other scratches.
-import { Scratches } from './scratches.js';
+import { Scratches, profilesOf } from './scratches.js';
 
 const TURN_BACK_COS = 0.5;
 const STEPS_MAX = 100000;
@@ -112,7 +112,7 @@ const isSize = (size) => typeof size === 'number' || (typeof size === 'object' &
  */
 export function layScratches(mesh, {
   pattern = 'random', count, seed = 1, lengthM = { mean: 0.02, spread: 0.5 }, widthUm = { mean: 1.5, spread: 0.3 },
-  depthNm = { mean: 200, spread: 0.2 }, curvaturePerM = { mean: 0, spread: 0 }, jitterDeg = 0, axis = [0, 0, 1], centerM = [0, 0, 0],
+  depthNm = { mean: 200, spread: 0.2 }, profile = 'rectangle', curvaturePerM = { mean: 0, spread: 0 }, jitterDeg = 0, axis = [0, 0, 1], centerM = [0, 0, 0],
   direction = [1, 0, 0], metresPerUnit = 1,
 } = {}) {
   if (!Number.isInteger(count) || count < 0) throw new Error(`count: found ${count}; must be a whole number, 0 or more`);
@@ -220,5 +220,6 @@ export function layScratches(mesh, {
   return new Scratches({
     starts: Float64Array.from(out.starts), ends: Float64Array.from(out.ends), widthsUm: Float64Array.from(out.widthsUm),
     depthsNm: Float64Array.from(out.depthsNm), scratch: Uint32Array.from(out.scratch), normals: Float64Array.from(out.normals),
+    profiles: profilesOf(profile, out.scratch.length),
   });
 }

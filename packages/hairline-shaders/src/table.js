@@ -1,6 +1,8 @@
 // The table T(u, d) of a metal, which scratch_table.wgsl looks up: by the processor, or by a pass on a GPU. Twin: crates/optics/src/table.rs.
 import { checkMetal, phaseStepEnergy, reflectance, metalColor, samples } from './spectrum.js';
 import { COLUMNS, ROWS } from './data.js';
+import { grooveSpectrum } from './groove_spectrum.js';
+import { checkProfile, isSameShape, narrowRectangle, partCount, widthsOfPart } from './section.js';
 import { makeScratchTableWgsl } from './wgsl.js';
 
 const DEPTH_MAX_NM = 2000;
@@ -93,20 +95,71 @@ function packSlopes(r, g, b) {
   return (mantissa(r) | (mantissa(g) << 9) | (mantissa(b) << 18) | (exponent << 27)) >>> 0;
 }
 
-/**
- * The texels of a metal's table, by the processor (about 0.1 s). `metal` null: a metal given by its colour.
- * Four numbers a texel: T in three channels as bits of f32, and their slopes, packed.
- */
-export function scratchTable(metal) {
-  checkMetal(metal);
-  const { chords, energies } = factors();
-  const weight = weights(metal);
-  const count = samples.length;
+/** Texels of rows, each of which `fill` adds up: six numbers a column, T in three channels and their slopes. */
+function texelsOf(fill) {
   const texels = new Uint32Array(4 * COLUMNS * ROWS);
   const floats = new Float32Array(texels.buffer);
   const sums = new Float64Array(6 * COLUMNS);
   for (let row = 0; row < ROWS; row += 1) {
     sums.fill(0);
+    fill(row, sums);
+    for (let column = 0; column < COLUMNS; column += 1) {
+      const texel = 4 * (row * COLUMNS + column);
+      const sum = 6 * column;
+      for (let c = 0; c < 3; c += 1) floats[texel + c] = sums[sum + c];
+      texels[texel + 3] = packSlopes(sums[sum + 3], sums[sum + 4], sums[sum + 5]);
+    }
+  }
+  return texels;
+}
+
+const spectra = new WeakMap();
+
+/** The spectrum of a shape, made once for all metals. */
+function spectrumOf(shape) {
+  if (!spectra.has(shape)) spectra.set(shape, grooveSpectrum(shape));
+  return spectra.get(shape);
+}
+
+/** The table of grooves of a shape: sums over wavelengths of their spectrum. */
+function shapedTable(metal, shape) {
+  const widths = widthsOfPart(shape);
+  const parts = partCount(shape);
+  const weight = weights(metal).map((w) => (w * widths) / parts);
+  const spectrum = spectrumOf(shape);
+  const columns = Float64Array.from({ length: COLUMNS }, (_, column) => columnUm(column));
+  const lit = new Float64Array(2);
+  return texelsOf((row, sums) => {
+    samples.forEach(({ nm }, s) => {
+      const perUm = (widths * 1e3) / nm;
+      const ofRow = spectrum(rowNm(row) / nm);
+      for (let column = 0; column < COLUMNS; column += 1) {
+        const u = columns[column];
+        ofRow.at(perUm * u, lit);
+        const slope = column === COLUMNS - 1
+          ? ofRow.tail / (perUm * U_HALF_UM * (COLUMNS - 1))
+          : (lit[0] * perUm * (u + U_HALF_UM) ** 2) / (U_HALF_UM * (COLUMNS - 1));
+        for (let c = 0; c < 3; c += 1) {
+          sums[6 * column + c] += weight[4 * s + c] * lit[1];
+          sums[6 * column + 3 + c] += weight[4 * s + c] * slope;
+        }
+      }
+    });
+  });
+}
+
+/**
+ * The texels of a metal's table, by the processor (about 0.1 s; 0.8 s for grooves of another shape, one of those that preparedPieces() returns).
+ * `metal` null: a metal given by its colour. Four numbers a texel: T in three channels as bits of f32, and their slopes, packed.
+ */
+export function scratchTable(metal, shape = narrowRectangle) {
+  checkMetal(metal);
+  checkProfile(shape.profile);
+  if (!isSameShape(shape, narrowRectangle)) return shapedTable(metal, shape);
+  const { chords, energies } = factors();
+  const weight = weights(metal);
+  const count = samples.length;
+  return texelsOf((row, sums) => {
     for (let s = 0; s < count; s += 1) {
       const energy = energies[row * count + s];
       const [r, g, b] = [weight[4 * s] * energy, weight[4 * s + 1] * energy, weight[4 * s + 2] * energy];
@@ -122,25 +175,22 @@ export function scratchTable(metal) {
         sums[sum + 5] += b * slope;
       }
     }
-    for (let column = 0; column < COLUMNS; column += 1) {
-      const texel = 4 * (row * COLUMNS + column);
-      const sum = 6 * column;
-      for (let c = 0; c < 3; c += 1) floats[texel + c] = sums[sum + c];
-      texels[texel + 3] = packSlopes(sums[sum + 3], sums[sum + 4], sums[sum + 5]);
-    }
-  }
-  return texels;
+  });
 }
 
-/** The same by a pass on a GPU: a texture_2d_array<u32> with a layer for each metal. The pass has been submitted when it returns. */
-export function makeScratchTable(device, metal) {
+/**
+ * The same by a pass on a GPU: a texture_2d_array<u32> with a layer for each metal, or for each shape of its grooves one after the other, which
+ * the processor makes but for narrow rectangles. The pass has been submitted when it returns.
+ */
+export function makeScratchTable(device, metal, shapes = [narrowRectangle]) {
   const list = Array.isArray(metal) ? metal : [metal];
   list.forEach(checkMetal);
+  const layers = list.flatMap((each) => shapes.map((shape) => ({ metal: each, shape })));
   const texture = device.createTexture({
     label: 'scratch tables',
-    size: [COLUMNS, ROWS, list.length],
+    size: [COLUMNS, ROWS, layers.length],
     format: 'rgba32uint',
-    usage: GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.STORAGE_BINDING | GPUTextureUsage.COPY_SRC,
+    usage: GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.STORAGE_BINDING | GPUTextureUsage.COPY_SRC | GPUTextureUsage.COPY_DST,
   });
   const { chords, energies } = factors();
   const buffer = (data, usage) => {
@@ -155,7 +205,12 @@ export function makeScratchTable(device, metal) {
   const pipeline = device.createComputePipeline({ layout: 'auto', compute: { module, entryPoint: 'make_scratch_table' } });
   const encoder = device.createCommandEncoder();
   const view = texture.createView({ dimension: '2d-array' });
-  list.forEach((each, layer) => {
+  layers.forEach(({ metal: each, shape }, layer) => {
+    if (!isSameShape(shape, narrowRectangle)) {
+      const to = { texture, origin: [0, 0, layer] };
+      device.queue.writeTexture(to, scratchTable(each, shape), { bytesPerRow: 16 * COLUMNS }, [COLUMNS, ROWS, 1]);
+      return;
+    }
     const spectrum = new ArrayBuffer(16 + 16 * samples.length);
     new Uint32Array(spectrum, 0, 2).set([samples.length, layer]);
     new Float32Array(spectrum, 16).set(weights(each));

@@ -14,6 +14,7 @@ import {
 } from 'three/tsl';
 import { Scratches, preparedPieces, readScratches } from './scratches.js';
 import { layScratches } from './pattern.js';
+import { narrowRectangle } from './section.js';
 import { scratchTree } from './tree.js';
 import { scratchTable, tableSize } from './table.js';
 import { curveOf } from './tables.js';
@@ -181,20 +182,25 @@ function texturesOf(tables) {
   return shared.get(tables);
 }
 
-function tableTexture(tables, metal) {
+/** The tables of a metal: a layer for each shape of grooves. */
+function tableTexture(tables, metal, shapes) {
   const { metals } = texturesOf(tables);
-  if (!metals.has(metal)) {
-    const made = new DataArrayTexture(scratchTable(metal), tableSize.columns, tableSize.rows, 1);
+  const key = JSON.stringify([metal, shapes]);
+  if (!metals.has(key)) {
+    const layers = shapes.map((shape) => scratchTable(metal, shape));
+    const texels = new Uint32Array(layers.length * layers[0].length);
+    layers.forEach((layer, i) => texels.set(layer, i * layer.length));
+    const made = new DataArrayTexture(texels, tableSize.columns, tableSize.rows, layers.length);
     made.format = RGBAIntegerFormat;
     made.type = UnsignedIntType;
     made.needsUpdate = true;
-    metals.set(metal, made);
+    metals.set(key, made);
   }
-  return metals.get(metal);
+  return metals.get(key);
 }
 
-function treeTexture(scratches, { coherenceUm, metresPerUnit }) {
-  const { texels, width, height } = scratchTree(preparedPieces(scratches, { coherenceUm, metresPerUnit }), { metresPerUnit });
+function treeTexture(prepared, metresPerUnit) {
+  const { texels, width, height } = scratchTree(prepared, { metresPerUnit });
   const made = new DataTexture(texels, width, height, RGBAIntegerFormat, UnsignedIntType);
   made.needsUpdate = true;
   return made;
@@ -220,10 +226,12 @@ export class ScratchedNodeMaterial extends MeshStandardNodeMaterial {
     Object.assign(this, { tables, metal, coherenceUm, metresPerUnit, lightRadius });
     const { shapes, albedo, curves } = texturesOf(tables);
     this.scratches = scratches;
-    const tree = scratches && texture(treeTexture(scratches, this));
+    const prepared = scratches && preparedPieces(scratches, { coherenceUm, metresPerUnit });
+    const tree = prepared && texture(treeTexture(prepared, metresPerUnit));
+    const table = tableTexture(tables, metal, prepared?.shapes ?? [narrowRectangle]);
     Object.defineProperty(this, 'hairlineNodes', {
       value: {
-        shapes: texture(shapes), albedo: texture(albedo), curves: texture(curves), table: texture(tableTexture(tables, metal)), tree,
+        shapes: texture(shapes), albedo: texture(albedo), curves: texture(curves), table: texture(table), tree,
         curve: uniform(curveOf(metal)),
       },
     });

@@ -128,7 +128,9 @@ export function scratchTree({ pieces: given, coherenceUm, depthCoherence }, { me
     numbers.set(piece.start, at);
     texels[at + 3] = (halfBits(piece.widthUm) | (halfBits(piece.depthNm) << 16)) >>> 0;
     numbers.set(piece.end, at + 4);
-    texels[at + 7] = (octahedral(piece.normal) | ((halfBits(piece.blurUm) + 8 & 0xfff0) << 16)) >>> 0;
+    // The shape has the place of the last four digits of a half float's ten.
+    const blur = (halfBits(piece.isPart ? -piece.blurUm : piece.blurUm) + 8) & 0xfff0;
+    texels[at + 7] = (octahedral(piece.normal) | ((blur | (piece.shape ?? 0)) << 16)) >>> 0;
   });
   return { texels, width: WIDTH, height };
 }

@@ -97,6 +97,24 @@ for (const step of [5, 0.5, 0.05, 0.004]) {
 }
 assert.equal(columnUm(0), 0);
 
+// Tables of other shapes of grooves, against Rust's.
+for (const { chords, ...shape } of JSON.parse(read('test/shapes.json').toString('utf8'))) {
+  const began = performance.now();
+  const table = hairline.scratchTable('gold', shape);
+  const took = performance.now() - began;
+  let [off, all] = [0, 0];
+  for (const [u, depth, right] of chords) {
+    const [a, b] = [lookUp(table, u, depth), lookUp(table, u + 0.5, depth)];
+    for (let c = 0; c < 3; c += 1) {
+      off += (b[c] - a[c] - right[c]) ** 2;
+      all += right[c] ** 2;
+    }
+  }
+  const error = Math.sqrt(off / all);
+  console.log(`table of ${JSON.stringify(shape)}: ${took.toFixed(0)} ms, relative rms error ${(100 * error).toFixed(2)} %`);
+  assert.ok(error < 6e-3);
+}
+
 /** The pieces that scratch_tree.wgsl comes to, by their numbers, each with what it stands for. */
 function walk(texels, position, reach, most = Infinity) {
   const numbers = new Float32Array(texels.buffer, texels.byteOffset, texels.length);
@@ -181,6 +199,23 @@ const both = few.joined(more);
 assert.deepEqual([both.count, both.starts.length], [few.count + more.count, few.starts.length + more.starts.length]);
 assert.equal(new Set(both.scratch).size, 50);
 assert.throws(() => few.joined(new hairline.Scratches({ ...more, normals: null })), /must be all or none/);
+
+// Wide grooves are parts side by side, each of half of what is lit; narrow ones are as they were.
+{
+  const piece = (widthUm, normals) => new hairline.Scratches({
+    starts: [0, 0, 0], ends: [1e-3, 0, 0], widthsUm: [widthUm], depthsNm: [150], scratch: [0], normals: normals && Float64Array.from(normals), profiles: ['v'],
+  });
+  const narrow = hairline.preparedPieces(piece(4, null));
+  assert.deepEqual([narrow.pieces.length, narrow.pieces[0].shape, narrow.pieces[0].isPart, narrow.shapes.length], [1, 1, false, 2]);
+  const wide = hairline.preparedPieces(piece(12, [0, 0, 1]));
+  assert.deepEqual(wide.pieces.map(({ start, isPart }) => [start[1], isPart]), [[Math.fround(-3e-6), true], [Math.fround(3e-6), true]]);
+  const unknown = hairline.preparedPieces(piece(12, null));
+  assert.deepEqual(unknown.pieces.map(({ start, widthUm }) => [start[1], widthUm]), [0, 0].map((y) => [y, wide.pieces[0].widthUm]));
+  const { texels } = hairline.scratchTree(wide);
+  const word = texels[4 * (1 + 2 * texels[0]) + 7];
+  assert.deepEqual([(word >>> 16) & 15, word >>> 31], [1, 1]);
+}
+assert.throws(() => hairline.layScratches(square, { count: 1, profile: 'w' }), /profile: found "w"; must be one of rectangle, v, round/);
 
 const header = 'x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm';
 for (const [list, message] of [

@@ -48,7 +48,7 @@ async function draw(renderer, name, tables) {
   const get = async (file, as) => (await fetch(`/pages/${name}/${file}`))[as]();
   const page = await get('scene.json', 'json');
   const geometry = geometryOf(await get('mesh.bin', 'arrayBuffer'), page);
-  const scratches = readScratches(await get('scratches.csv', 'text'));
+  const scratches = readScratches(await get('scratches.csv', 'text'), 'scratches.csv', { profile: page.profile });
   // The picture is the same for an instance of a mesh that is turned back, under spots.
   const turn = new THREE.Matrix4().makeRotationZ(0.5).setPosition(0.01, 0.02, 0);
   const { position, target, up, fov } = page.camera;

@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::{Context, ensure};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_image::{Image, Layer};
+use hairline_optics::section::Section;
 use hairline_scene::{Base, LightShape, Scene, write_scratches};
 use serde_json::{Value, json};
 
@@ -12,7 +13,7 @@ use super::browser::{Folders, answers};
 use super::files::{install, write};
 
 /// The scenes in packages/hairline-shaders/test.
-const SCENES: [&str; 2] = ["plate", "dome"];
+const SCENES: [&str; 3] = ["plate", "dome", "grooves"];
 /// The most that a picture may be off, as rms over that of the picture.
 const LIMIT: f64 = 0.005;
 
@@ -128,6 +129,17 @@ fn write_page(folder: &Path, scene: &Scene) -> anyhow::Result<()> {
         } => json!({ "color": base_color, "metalness": metallic }),
         _ => anyhow::bail!("the test page knows steel and metallic-roughness"),
     };
+    let profile = match object
+        .scratches
+        .first()
+        .map(|it| it.profile.section.section())
+    {
+        None | Some(Section::Rectangle) => json!("rectangle"),
+        Some(Section::V) => json!("v"),
+        Some(Section::Round) => json!("round"),
+        Some(Section::Shoulders) => json!("shoulders"),
+        Some(Section::Listed(depths)) => json!(depths.to_vec()),
+    };
     let lights: anyhow::Result<Vec<Value>> = scene
         .lights
         .iter()
@@ -150,7 +162,7 @@ fn write_page(folder: &Path, scene: &Scene) -> anyhow::Result<()> {
             "up": camera.up.to_array(), "fov": camera.fov_y_rad.to_degrees(),
         },
         "vertices": mesh.positions_m.len(), "triangles": mesh.triangles.len(),
-        "surface": surface, "roughness": material.roughness, "lights": lights?,
+        "surface": surface, "roughness": material.roughness, "profile": profile, "lights": lights?,
     });
     write(&folder.join("scene.json"), &serde_json::to_vec(&page)?)
 }

@@ -7,7 +7,11 @@ use anyhow::{Context, ensure};
 use hairline_gpu::engine_tables::{self, IOR};
 use hairline_gpu::scratch_tree;
 use hairline_index::ScratchIndex;
+use hairline_optics::metal::Metal;
+use hairline_optics::section::{GrooveShape, Section};
+use hairline_optics::table::ScratchTable;
 use hairline_scene::Scene;
+use serde_json::{Value, json};
 
 use super::files::write;
 use super::modules::TABLE_SIZE;
@@ -93,4 +97,40 @@ pub(super) fn write_tree_twin(output: &Path) -> anyhow::Result<()> {
         .flat_map(|x| x.to_le_bytes())
         .collect();
     write(&output.join("test/tree_texels.bin"), &bytes)
+}
+
+/// What Rust finds in the tables of some shapes of grooves in gold: each a shape and rows of a chord from u on, a depth, and three channels.
+pub(super) fn write_shapes_twin(output: &Path) -> anyhow::Result<()> {
+    let listed = [1.0, 0.7, 0.0, -0.3, 0.0];
+    let shapes = [
+        (Section::V, json!("v"), 0),
+        (Section::Round, json!("round"), 2),
+        (Section::Shoulders, json!("shoulders"), 5),
+        (Section::Rectangle, json!("rectangle"), 4),
+        (Section::Listed(listed.into()), json!(listed), 1),
+    ];
+    let twin = |(section, profile, width_class): (Section, Value, u8)| {
+        let shape = GrooveShape {
+            section,
+            width_class,
+        };
+        let table = ScratchTable::of_shape(&shape, |nm| Metal::Gold.reflectance(1.0, nm));
+        let rows = (0..200).map(|i| {
+            let u = 8.0 * (0.618_033_988_749_895 * f64::from(i)).fract();
+            let depth = 1000.0 * (0.414_213_562_373_095 * f64::from(i)).fract();
+            let row = table.at_depth(depth);
+            let (low, high) = (row.at(u), row.at(u + 0.5));
+            json!([
+                u,
+                depth,
+                std::array::from_fn::<_, 3, _>(|c| high[c] - low[c])
+            ])
+        });
+        json!({ "profile": profile, "widthClass": width_class, "chords": rows.collect::<Vec<_>>() })
+    };
+    let shapes: Vec<_> = shapes.into_iter().map(twin).collect();
+    write(
+        &output.join("test/shapes.json"),
+        &serde_json::to_vec(&shapes)?,
+    )
 }
