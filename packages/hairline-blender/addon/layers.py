@@ -75,6 +75,8 @@ class Worn:
         for flag in ("hidden", "solo"):
             if getattr(layer, flag):
                 table[flag] = True
+        if layer.profile != "rectangle":
+            table["profile"] = layer.profile
         unused = "density_per_m2" if layer.amount == "COUNT" else "count"
         for row in rows.rows_of("scratches", layer.pattern):
             if row.key != unused:
@@ -171,6 +173,10 @@ def fill(group, kind, table):
     left_out = []
     known = {"object", "name", "pattern", "hidden", "solo", "material"}
     table = dict(table)
+    if isinstance(table.get("profile"), str) and hasattr(group, "profile"):
+        # Depths of a file's own have no property.
+        group.profile = table["profile"]
+        known.add("profile")
     for key in ("name", "pattern", "hidden", "solo", "along"):
         if table.get(key) is not None and hasattr(group, key):
             try:

@@ -110,6 +110,7 @@ class _Scratches(_Surface):
     def draw_rows(self, column, layer, owner):
         column.prop(layer, "solo")
         column.prop(layer, "pattern")
+        column.prop(layer, "profile")
         if layer.pattern == "drawn":
             column.prop(layer, "strokes")
             for row in rows.STROKES:

@@ -48,6 +48,7 @@ HairlineLayer = _group(
     rows.SCRATCHES + rows.PLACE + rows.STROKES,
     "A layer of scratches.",
     pattern=_choice(rows.PATTERNS, "Pattern"),
+    profile=_choice(rows.PROFILES, "Profile"),
     amount=EnumProperty(
         name="How many",
         items=[

@@ -156,6 +156,12 @@ PATTERNS = {
     "swirl": "Arcs around many centres: the cobweb on a polished car",
     "drawn": "Along curves or strokes of a grease pencil",
 }
+PROFILES = {
+    "rectangle": "A flat floor, which shows the purest colours",
+    "v": "Two straight flanks, of a sharp point",
+    "round": "Of a grain or a stylus",
+    "shoulders": "Round with ridges beside it, which a blunt point pushes up in soft metal",
+}
 GRATING_PATTERNS = {
     "parallel": PATTERNS["parallel"],
     "circular": PATTERNS["circular"],

@@ -145,7 +145,7 @@ def test_an_animation_writes_its_frames():
 def test_import_lays_what_export_wrote():
     item = plate()
     layer = add(item, preset="Worn cutlery")
-    layer.edges, layer.edge_width_m = 0.5, 0.01
+    layer.edges, layer.edge_width_m, layer.profile = 0.5, 0.01, "round"
     add(item, preset="Brushed steel", owner="material")
     add(item, "grating", "Engine turning").has_ring = True
     path = exported("again")
