@@ -15,10 +15,10 @@ use glam::DVec3;
 use hairline_optics::ggx::{ggx_albedo, ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
 use hairline_optics::lobe_table::{
     LOBE_MIN_COS, LOBE_TABLE_SIZE, LobeTable, albedo_table, environment_table, lobe_table_node,
-    ltc_table, sptd_table,
+    ltc_table,
 };
 use hairline_optics::ltc::{LtcLobe, LtcShape};
-use hairline_optics::sptd::{SptdLobe, SptdShape};
+use hairline_published::sptd::{SptdLobe, SptdShape, sptd_table};
 use rayon::prelude::*;
 use search::{SAMPLES, cosine_direction, grid, nelder_mead, uniform_direction};
 
@@ -52,14 +52,22 @@ impl FitLobes {
         let table =
             |texel: fn(&Node) -> [f32; 4]| LobeTable::new(nodes.iter().map(texel).collect());
         let tables = [
-            ("lobe_albedo.bin", table(|n| n.albedo), albedo_table()),
-            ("lobe_ltc.bin", table(|n| n.ltc), ltc_table()),
-            ("lobe_sptd.bin", table(|n| n.sptd), sptd_table()),
+            (
+                "optics/data/lobe_albedo.bin",
+                table(|n| n.albedo),
+                albedo_table(),
+            ),
+            ("optics/data/lobe_ltc.bin", table(|n| n.ltc), ltc_table()),
+            (
+                "published/data/lobe_sptd.bin",
+                table(|n| n.sptd),
+                sptd_table(),
+            ),
         ];
         let taps = environment::fit();
         environment::report(&taps);
         let looked_up = environment::tables(&taps);
-        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../crates/optics/data");
+        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../crates");
         for (name, fitted, committed) in &tables {
             let change = largest_difference(fitted, committed);
             println!("{name}: largest change {change:.2e}");
@@ -81,7 +89,7 @@ impl FitLobes {
             );
         }
         if !self.check {
-            let path = folder.join("lobe_environment.bin");
+            let path = folder.join("optics/data/lobe_environment.bin");
             let bytes: Vec<u8> = looked_up.iter().flat_map(LobeTable::to_bytes).collect();
             std::fs::write(&path, bytes)
                 .with_context(|| format!("cannot write {}", path.display()))?;

@@ -4,7 +4,7 @@ use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask;
-use hairline_optics::published::sine_integral::SineIntegral;
+use hairline_published::sine_integral::SineIntegral;
 
 use crate::switch::Switch;
 use hairline_work::failure::Failure;

@@ -16,9 +16,9 @@ use hairline_index::{Hit, IndexedSegment};
 use hairline_optics::band::TUBE_CORNERS;
 use hairline_optics::ltc::{LobeFresnel, LtcLobe};
 use hairline_optics::mask::{Mask, Masked, ScratchSums};
-use hairline_optics::published::polygon::triangulate;
-use hairline_optics::published::spectrum::{PUBLISHED_WAVELENGTHS, PublishedSpectrum};
-use hairline_optics::sptd::{sptd_lobe, sptd_sphere_published};
+use hairline_published::polygon::triangulate;
+use hairline_published::spectrum::{PUBLISHED_WAVELENGTHS, PublishedSpectrum};
+use hairline_published::sptd::{sptd_lobe, sptd_sphere_published};
 use hairline_scene::{Light, LightShape};
 
 /// A scene made ready for the published method.

@@ -3,8 +3,8 @@
 
 use hairline_index::TriangleLists;
 use hairline_index::method::Structure;
-use hairline_optics::published::polygon::triangulate;
-use hairline_optics::published::spectrum::PUBLISHED_WAVELENGTHS;
+use hairline_published::polygon::triangulate;
+use hairline_published::spectrum::PUBLISHED_WAVELENGTHS;
 use hairline_scene::{Light, LightShape, Scene};
 use wgpu::TextureFormat;
 

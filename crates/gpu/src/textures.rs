@@ -78,7 +78,7 @@ impl SceneTextures {
                 lobe(
                     transfer,
                     "sphere lobe table",
-                    lobe_table::sptd_table().texels(),
+                    hairline_published::sptd::sptd_table().texels(),
                 )
                 .await?,
             ],

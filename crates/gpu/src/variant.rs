@@ -2,7 +2,7 @@
 
 use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
-use hairline_optics::published::sine_integral::SineIntegral;
+use hairline_published::sine_integral::SineIntegral;
 use hairline_scene::{Bearing, Grating, GrooveField, Material, Object, Scene, ScratchTables};
 
 use crate::lights::{self, Kinds, LightKind};

@@ -1,7 +1,7 @@
-//! The method by which scratches are rendered: Hairline's own, or the method of 2018 with its switches ([`hairline_optics::published`]).
+//! The method by which scratches are rendered: Hairline's own, or the method of 2018 with its switches ([`hairline_published`]).
 
 use hairline_optics::mask::Mask;
-use hairline_optics::published::sine_integral::SineIntegral;
+use hairline_published::sine_integral::SineIntegral;
 
 /// The method by which scratches are rendered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -21,7 +21,7 @@ impl Method {
 }
 
 /// The switches of the talk's table. The rest of the method is fixed: eight wavelengths
-/// ([`PUBLISHED_WAVELENGTHS`](hairline_optics::published::spectrum::PUBLISHED_WAVELENGTHS)), the steps that find a light's chords on the
+/// ([`PUBLISHED_WAVELENGTHS`](hairline_published::spectrum::PUBLISHED_WAVELENGTHS)), the steps that find a light's chords on the
 /// middle line of the band, and the pivot transform for spheres on the base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct PublishedMethod {

@@ -37,7 +37,8 @@ impl LobeTable {
         Self { texels }
     }
 
-    fn from_bytes(bytes: &[u8]) -> Self {
+    /// A table from the bytes of [`Self::to_bytes`].
+    pub fn from_bytes(bytes: &[u8]) -> Self {
         let (texels, _) = bytes.as_chunks::<16>();
         let channel = |texel: &[u8; 16], i: usize| {
             f32::from_le_bytes([
@@ -105,13 +106,6 @@ pub fn albedo_table() -> &'static LobeTable {
 pub fn ltc_table() -> &'static LobeTable {
     static TABLE: LazyLock<LobeTable> =
         LazyLock::new(|| LobeTable::from_bytes(include_bytes!("../data/lobe_ltc.bin")));
-    &TABLE
-}
-
-/// Pivot of the cap-preserving lobe: (width, lean), see [`crate::sptd::SptdShape`].
-pub fn sptd_table() -> &'static LobeTable {
-    static TABLE: LazyLock<LobeTable> =
-        LazyLock::new(|| LobeTable::from_bytes(include_bytes!("../data/lobe_sptd.bin")));
     &TABLE
 }
 

@@ -193,7 +193,7 @@ impl<'a> LobeFresnel<'a> {
 }
 
 /// Viewer's frame, for any `wo`: its x axis in the local frame, and sine and cosine of the viewer's angle to the normal.
-pub(crate) fn viewer_frame(wo: DVec3) -> (DVec2, DVec2) {
+pub fn viewer_frame(wo: DVec3) -> (DVec2, DVec2) {
     let sine = wo.truncate().length();
     let x_axis = if sine > 1e-9 {
         wo.truncate() / sine

@@ -8,11 +8,11 @@
 use std::sync::LazyLock;
 
 /// Spacing of the tabulated wavelengths.
-pub(crate) const WAVELENGTH_STEP_NM: f64 = 5.0;
+pub const WAVELENGTH_STEP_NM: f64 = 5.0;
 /// Shortest tabulated wavelength.
-pub(crate) const WAVELENGTH_MIN_NM: f64 = 380.0;
+pub const WAVELENGTH_MIN_NM: f64 = 380.0;
 /// Number of tabulated wavelengths: 380 to 780 nm.
-pub(crate) const WAVELENGTH_COUNT: usize = 81;
+pub const WAVELENGTH_COUNT: usize = 81;
 /// The wavelength that stands for the visible where one must: near the eye's greatest sensitivity under D65.
 pub(crate) const WAVELENGTH_MEAN_NM: f64 = 555.0;
 /// Mean wavelength of each colour channel by its weights. Red's negative lobe lies at short wavelengths and pushes it out.

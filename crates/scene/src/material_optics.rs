@@ -9,11 +9,11 @@ use hairline_optics::fresnel::FresnelCurve;
 use hairline_optics::grating::{Grating as Row, RigorousGrating};
 use hairline_optics::groove_spectrum::GrooveSpectrum;
 use hairline_optics::metal::Metal;
-use hairline_optics::published::spectrum::PublishedSpectrum;
 use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
 use hairline_optics::section::GrooveShape;
 use hairline_optics::table::ScratchTable;
 use std::cell::OnceCell;
+use hairline_published::spectrum::PublishedSpectrum;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 

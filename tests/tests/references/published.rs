@@ -8,7 +8,7 @@ use hairline_image::{Image, Layer, Layers};
 use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
-use hairline_optics::published::sine_integral::SineIntegral;
+use hairline_published::sine_integral::SineIntegral;
 use hairline_scene::{Base, Light, LightShape, Scene};
 use std::sync::Arc;
 

@@ -9,7 +9,7 @@ use hairline_image::metrics::layer_difference;
 use hairline_image::{Image, Layer, Picture};
 use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
-use hairline_optics::published::sine_integral::SineIntegral;
+use hairline_published::sine_integral::SineIntegral;
 use hairline_scene::{Environment, Scene};
 
 /// A difference between methods that two renderers of one method, 0.12 % apart at most, could not be taken for.

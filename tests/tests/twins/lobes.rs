@@ -15,7 +15,7 @@ use hairline_optics::irradiance::*;
 use hairline_optics::lobe_table::*;
 use hairline_optics::ltc::*;
 use hairline_optics::metal::Metal;
-use hairline_optics::sptd::*;
+use hairline_published::sptd::*;
 
 fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)

@@ -6,14 +6,14 @@ use hairline_gpu::call::Call;
 use hairline_gpu::{headless, shaders};
 use hairline_optics::band::Cap;
 use hairline_optics::diffraction;
-use hairline_optics::published::footprint::{PixelFootprint, PublishedShare, published_share};
-use hairline_optics::published::polygon::{bitonic_sort, clip_triangle, triangle_segments};
-use hairline_optics::published::segments::BandSegments;
-use hairline_optics::published::sine_integral::{SineIntegral, sine_integral_fast};
-use hairline_optics::published::spectrum::{
+use hairline_published::footprint::{PixelFootprint, PublishedShare, published_share};
+use hairline_published::polygon::{bitonic_sort, clip_triangle, triangle_segments};
+use hairline_published::segments::BandSegments;
+use hairline_published::sine_integral::{SineIntegral, sine_integral_fast};
+use hairline_published::spectrum::{
     PublishedWavelength, published_chord_integral, published_radiance,
 };
-use hairline_optics::published::sphere::sphere_segments;
+use hairline_published::sphere::sphere_segments;
 
 fn si(fast: f64) -> SineIntegral {
     if fast > 0.5 {

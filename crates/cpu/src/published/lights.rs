@@ -7,10 +7,10 @@ use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hairline_optics::band::BandLine;
 use hairline_optics::band_environment::environment_band;
-use hairline_optics::published::polygon::{clip_triangle, triangle_segments};
-use hairline_optics::published::segments::BandSegments;
-use hairline_optics::published::spectrum::PublishedSpectrum;
-use hairline_optics::published::sphere::sphere_segments;
+use hairline_published::polygon::{clip_triangle, triangle_segments};
+use hairline_published::segments::BandSegments;
+use hairline_published::spectrum::PublishedSpectrum;
+use hairline_published::sphere::sphere_segments;
 
 impl Published<'_> {
     /// Radiance of a scratch for a share of 1, without Fresnel's factor.

@@ -6,7 +6,7 @@ use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_index::{IndexedProfile, IndexedSegment};
 use hairline_optics::band::BandFrame;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
-use hairline_optics::published::footprint::{PixelFootprint, published_share};
+use hairline_published::footprint::{PixelFootprint, published_share};
 
 /// A segment as seen from a point.
 pub(super) struct SegmentView {

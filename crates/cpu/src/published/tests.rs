@@ -2,7 +2,7 @@ use super::*;
 use crate::surface::surface_point;
 use glam::DVec3;
 use hairline_fixtures::SceneFile;
-use hairline_optics::published::sine_integral::SineIntegral;
+use hairline_published::sine_integral::SineIntegral;
 use hairline_scene::Scene;
 
 /// A parallel brushed plate under a panel and a sphere.

@@ -13,7 +13,7 @@ use hairline_optics::ggx::{ggx_alpha, ggx_eval};
 use hairline_optics::lobe_table::albedo_lookup;
 use hairline_optics::ltc::{polygon_light, sphere_light};
 use hairline_optics::metal::Metal;
-use hairline_optics::sptd::{sptd_lobe, sptd_sphere, sptd_sphere_published};
+use hairline_published::sptd::{sptd_lobe, sptd_sphere, sptd_sphere_published};
 use rayon::prelude::*;
 
 use super::cubature::{Cap, Peak, integrate, integrate_polygon};

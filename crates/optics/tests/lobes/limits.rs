@@ -12,7 +12,7 @@ use hairline_optics::ggx::{
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
 use hairline_optics::lobe_table::albedo_lookup;
 use hairline_optics::ltc::{ltc_lobe, polygon_light, sphere_light};
-use hairline_optics::sptd::{
+use hairline_published::sptd::{
     SphericalCap, sptd_cap_intersection, sptd_lobe, sptd_sphere_light, sptd_sphere_published,
     sptd_transform_cap,
 };

@@ -6,18 +6,27 @@
 //! closed form. That is [`sptd_sphere_published`], kept to be compared with.
 //!
 //! The pivot's lobe is symmetric about its axis, which GGX at grazing views is not. [`sptd_sphere`] puts back what the fit
-//! misses as [`crate::ltc`] does: the integral is multiplied by the mean of GGX over the fit at a few directions spread
+//! misses as [`hairline_optics::ltc`] does: the integral is multiplied by the mean of GGX over the fit at a few directions spread
 //! over the visible part of the light, where that is small against the lobe. The default for spheres is
-//! [`crate::ltc::sphere_light`], whose fit is closer.
+//! [`hairline_optics::ltc::sphere_light`], whose fit is closer.
 
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 use glam::{DVec2, DVec3};
 
-use crate::ggx::{ggx_alpha, ggx_eval};
-use crate::irradiance::{irradiance_angle, irradiance_basis};
-use crate::lobe_table::{LOBE_MIN_COS, albedo_lookup, sptd_table};
-use crate::ltc::viewer_frame;
+use hairline_optics::ggx::{ggx_alpha, ggx_eval};
+use hairline_optics::irradiance::{irradiance_angle, irradiance_basis};
+use hairline_optics::lobe_table::{LOBE_MIN_COS, LobeTable, albedo_lookup};
+use hairline_optics::ltc::viewer_frame;
+
+/// Pivot over (roughness, viewer's cosine): the width and the lean of [`SptdShape`]. Committed under `data/`, and made again by
+/// `cargo lab fit-lobes`.
+pub fn sptd_table() -> &'static LobeTable {
+    static TABLE: LazyLock<LobeTable> =
+        LazyLock::new(|| LobeTable::from_bytes(include_bytes!("../data/lobe_sptd.bin")));
+    &TABLE
+}
 
 /// The fitted parameters of one (roughness, angle).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -248,7 +257,7 @@ fn sptd_lens(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
 }
 
 /// The integral of the lobe (F = 1, cosine inside) over a sphere, cut by the horizon: as
-/// [`crate::ltc::sphere_light`], by a pivot.
+/// [`hairline_optics::ltc::sphere_light`], by a pivot.
 pub fn sptd_sphere_light(wo: DVec3, roughness: f64, axis: DVec3, sin2: f64) -> f64 {
     sptd_sphere(&sptd_lobe(wo, roughness), axis, sin2)
 }

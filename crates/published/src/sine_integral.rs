@@ -9,7 +9,7 @@
 //! that the tail of sinc^2 keeps its height). What freedom is left makes the error of sinc^2 itself, of which small lights
 //! see nothing else, least.
 
-use crate::diffraction;
+use hairline_optics::diffraction;
 use std::f64::consts::PI;
 
 /// The sine integral that a renderer evaluates.
@@ -56,7 +56,7 @@ pub fn sine_integral_fast(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diffraction::{sinc, sine_integral};
+    use hairline_optics::diffraction::{sinc, sine_integral};
 
     /// The claims of the doc comment, and that they are not idle: a coefficient off by a tenth breaks them.
     #[test]

@@ -7,18 +7,18 @@ use glam::{DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::polygon::*;
-use super::sphere::sphere_segments;
-use crate::band::{
+use crate::polygon::*;
+use crate::sphere::sphere_segments;
+use hairline_optics::band::{
     BandFrame, BandLine, Cap, PolygonView, polygon_facing, sphere_cap, sphere_chord,
 };
-use crate::diffraction::chord_integral;
+use hairline_optics::diffraction::sinc_squared_integral;
 
 const WIDTH_UM: f64 = 2.0;
 const WAVELENGTH_UM: f64 = 0.555;
 
 fn antiderivative(q: f64) -> f64 {
-    chord_integral(q, WIDTH_UM, WAVELENGTH_UM)
+    sinc_squared_integral(WIDTH_UM * q, WAVELENGTH_UM) / WIDTH_UM
 }
 
 fn direction(random: &mut Pcg64Mcg, lowest_z: f64) -> DVec3 {

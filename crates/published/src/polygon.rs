@@ -1,14 +1,14 @@
 //! Polygonal lights on the band's middle line, triangle by triangle in the talk's six steps (the sixth, to evaluate, is
-//! [`super::spectrum::published_radiance`]).
+//! [`crate::spectrum::published_radiance`]).
 //!
 //! Seen from above, in direction cosines, the hemisphere is the unit disk, the line xi_t = 0 is straight, x = -wo_t, and the
 //! edge of a triangle is an arc of an ellipse about the disk's centre. A light that does not face the point
-//! ([`crate::band::polygon_facing`] 0) is left out before; here both sides are alike.
+//! ([`hairline_optics::band::polygon_facing`] 0) is left out before; here both sides are alike.
 
 use earcut::Earcut;
 use glam::DVec3;
 
-use super::segments::BandSegments;
+use crate::segments::BandSegments;
 
 /// Distance outside an edge, in direction cosines, at which a point still counts as on it: the rounding of single precision.
 /// A corner on the line is thus found twice rather than not at all.

@@ -1,13 +1,13 @@
 //! Spherical lights on the band's middle line, in the talk's six steps (the sixth, to evaluate, is
-//! [`super::spectrum::published_radiance`]).
+//! [`crate::spectrum::published_radiance`]).
 //!
 //! Seen from above, in direction cosines, the hemisphere is the unit disk, the line xi_t = 0 is straight, x = -wo_t, and the
 //! rim of a spherical light is an ellipse. The disk's edge is the horizon.
 
 use glam::DVec3;
 
-use super::segments::BandSegments;
-use crate::band::Cap;
+use crate::segments::BandSegments;
+use hairline_optics::band::Cap;
 
 /// Finds the segments of the line xi_t = 0 that a sphere covers; `wo` and `cap` are in the frame of the scratch.
 pub fn sphere_segments(wo: DVec3, cap: Cap) -> BandSegments {

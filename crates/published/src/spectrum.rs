@@ -6,9 +6,9 @@
 
 use std::f64::consts::PI;
 
-use super::segments::BandSegments;
-use super::sine_integral::SineIntegral;
-use crate::{scratch, spectrum};
+use crate::segments::BandSegments;
+use crate::sine_integral::SineIntegral;
+use hairline_optics::{scratch, spectrum};
 
 /// Default number of wavelengths.
 pub const PUBLISHED_WAVELENGTHS: usize = 8;
@@ -128,8 +128,8 @@ pub fn published_radiance(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diffraction;
-    use crate::metal::Metal;
+    use hairline_optics::diffraction::sinc_squared_integral;
+    use hairline_optics::metal::Metal;
 
     fn gold(nm: f64) -> f64 {
         Metal::Gold.reflectance(1.0, nm)
@@ -157,7 +157,8 @@ mod tests {
         let f0 = spectrum::rgb_from_reflectance(gold);
         let sum = spectrum::rgb_from_reflectance(|nm| {
             let lambda_um = 1e-3 * nm;
-            let chord = segments.integral(|q| diffraction::chord_integral(q, width_um, lambda_um));
+            let chord =
+                segments.integral(|q| sinc_squared_integral(width_um * q, lambda_um) / width_um);
             gold(nm) * scratch::phase_step_energy(depth_nm, nm) * width_um / lambda_um * chord
         });
         std::array::from_fn(|c| sum[c] / f0[c])

@@ -4,10 +4,10 @@
 //! length, and (1 - a) A_phi |eta_s|^2, with a = min(A_phi/(2 A_c), 1). Both are integrals over the pixel, in um^4: the
 //! first where the pixel is far larger than the window (an endless scratch has 2 pi^1.5 sigma^3 per unit of length), the
 //! second where it is far smaller. What shading needs is the mean over the pixel. So here both are divided by A_phi, and
-//! by 2 pi^1.5 sigma^3 / W to become the share rho of [`crate::scratch::window_share`].
+//! by 2 pi^1.5 sigma^3 / W to become the share rho of [`hairline_optics::scratch::window_share`].
 //!
 //! A_c, the coherence area, is taken to be pi sigma^2, the integral of the window's square by which the talk normalises
-//! its BRDF. Off, no footprint at all, is [`crate::footprint::scratch_share`] under a footprint of zero.
+//! its BRDF. Off, no footprint at all, is [`hairline_optics::footprint::scratch_share`] under a footprint of zero.
 
 use std::f64::consts::PI;
 
@@ -73,7 +73,7 @@ const SLOPE_MIN_UM: f64 = 1e-9;
 /// Smaller pixels have this area where it divides.
 const AREA_MIN_UM2: f64 = 1e-6;
 
-/// The talk's blend for one segment. `blur_um` smooths its ends as in [`crate::footprint::scratch_share`], which keeps
+/// The talk's blend for one segment. `blur_um` smooths its ends as in [`hairline_optics::footprint::scratch_share`], which keeps
 /// joints between straight pieces of one scratch invisible; the talk's own |eta_s|^2 knows whole scratches only.
 pub fn published_share(
     width_um: f64,
@@ -103,9 +103,9 @@ pub fn published_share(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::footprint::{Footprint, SmoothInterval, ends, scratch_share};
-    use crate::scratch::{window_overlap_um2, window_share};
     use glam::DMat2;
+    use hairline_optics::footprint::{Footprint, SmoothInterval, ends, scratch_share};
+    use hairline_optics::scratch::{window_overlap_um2, window_share};
     use rand::{RngExt, SeedableRng};
     use rand_pcg::Pcg64Mcg;
     use rayon::prelude::*;
