@@ -6,10 +6,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
-use hairline_gpu::{Gpu, GpuScene, RenderOptions, Renderer, headless, steps};
+use hairline_gpu::{Gpu, GpuScene, Method, RenderOptions, Renderer, headless, steps};
 use hairline_image::Display;
 use hairline_index::ScratchIndex;
-use hairline_index::method::Method;
 use hairline_scene::description::Description;
 use hairline_scene::{
     DEFAULT_SAMPLES, DEFAULT_TRANSPORT, Loader, Scene, SceneBuilder, ScratchTables,

@@ -2,10 +2,9 @@
 
 use glam::DVec2;
 use hairline_cpu::closed_form;
-use hairline_gpu::{Renderer, headless};
+use hairline_gpu::{Method, Renderer, headless};
 use hairline_image::metrics::{away_from_silhouettes, layer_difference};
 use hairline_image::{Image, Layer};
-use hairline_index::method::Method;
 use hairline_index::{ScratchIndex, TriangleIndex};
 use hairline_scene::{Scene, ScratchTables};
 use std::sync::Arc;

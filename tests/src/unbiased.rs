@@ -4,7 +4,6 @@ use glam::DVec2;
 use hairline_image::metrics::ZTest;
 use hairline_image::{Image, Layer, Layers, Noise};
 use hairline_index::TriangleIndex;
-use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
 use hairline_reference::{BATCH_SAMPLES, Integrator, SceneIndex, Settings};
 use hairline_scene::{Scene, Transport};
@@ -80,10 +79,8 @@ pub fn rendered(
     transport: Transport,
 ) -> Result<Image, Failure> {
     let task = Task {
-        method: Method {
-            mask: MASK,
-            ..Method::default()
-        },
+        mask: MASK,
+        method: None,
         backend,
         samples,
         transport,

@@ -5,7 +5,10 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use anyhow::Context;
-use hairline_gpu::{pipeline_variants, shaders};
+use hairline_gpu::{Method, pipeline_variants, shaders};
+use hairline_optics::mask::Mask;
+use hairline_published::sine_integral::SineIntegral;
+use hairline_published::{PublishedMethod, Structure};
 use serde::Serialize;
 
 /// The command's arguments.
@@ -41,19 +44,19 @@ impl Shaders {
     /// Writes the file.
     pub fn run(&self) -> anyhow::Result<()> {
         let (mut modules, mut passes) = (Vec::new(), Vec::new());
-        for module in shaders::ALL {
+        let methods = methods();
+        let published = hairline_published::shaders::ALL;
+        for module in shaders::ALL.iter().chain(published) {
             let text = shaders::compose(&[module]);
             for entry in entries(module.source) {
-                passes.extend(
-                    pipeline_variants(&text)
-                        .into_iter()
-                        .map(|(variant, constants)| Pass {
-                            name: format!("{}, {variant}", module.name),
-                            text: text.clone(),
-                            entry: entry.clone(),
-                            constants: constants.into_iter().collect(),
-                        }),
-                );
+                passes.extend(pipeline_variants(&text, &methods).into_iter().map(
+                    |(variant, constants)| Pass {
+                        name: format!("{}, {variant}", module.name),
+                        text: text.clone(),
+                        entry: entry.clone(),
+                        constants: constants.into_iter().collect(),
+                    },
+                ));
             }
             let name = module.name;
             modules.push(Module { name, text });
@@ -62,6 +65,24 @@ impl Shaders {
         let file = self.file.display();
         std::fs::write(&self.file, json).with_context(|| format!("{file} cannot be written"))
     }
+}
+
+/// Hairline's own method and that of 2018, among them all masks and switches.
+fn methods() -> [(&'static str, Method); 3] {
+    let lists = PublishedMethod {
+        structure: Structure::TriangleLists,
+        anti_aliasing: false,
+        si: SineIntegral::Exact,
+    };
+    let by_lists = hairline_published::Method {
+        published: Some(lists),
+        mask: Mask::Linear,
+    };
+    [
+        ("default", Method::default()),
+        ("published", hairline_published::Method::PUBLISHED.on_gpu()),
+        ("published by lists, linear mask", by_lists.on_gpu()),
+    ]
 }
 
 /// The compute entry points of a file: the functions that follow `@compute`.

@@ -2,9 +2,9 @@
 
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
-use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask;
 use hairline_published::sine_integral::SineIntegral;
+use hairline_published::{Method, PublishedMethod, Structure};
 
 use crate::switch::Switch;
 use hairline_work::failure::Failure;

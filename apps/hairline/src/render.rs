@@ -10,7 +10,7 @@ use std::path::Path;
 use anyhow::anyhow;
 use hairline_image::exr_file::Notes;
 use hairline_image::{Animation, Display, Format, Image, Output};
-use hairline_index::method::Method;
+use hairline_published::Method;
 use hairline_scene::{Scene, Transport};
 
 use crate::console::tell;
@@ -20,7 +20,7 @@ use crate::scene_file::{self, Overrides};
 use crate::switch::Switch;
 use crate::{cli, method_flags};
 use goals::Goals;
-use hairline_work::backend::{self, Painter, Refusal, Rendered, Task};
+use hairline_work::backend::{self, BouncesWithoutShadows, Painter, Rendered, Task};
 use hairline_work::failure::Failure;
 use hairline_work::labels;
 use motion::Motion;
@@ -29,7 +29,8 @@ use motion::Motion;
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     let method = arguments.method.method()?;
     let task = Task {
-        method,
+        mask: method.mask,
+        method: plugged(&method),
         backend: arguments.backend.into(),
         samples: arguments.samples,
         transport: transport(arguments.shadows, arguments.bounces, &method)?,
@@ -61,7 +62,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         exposure_ev: loaded.scene.camera.exposure_ev,
         tone_map: loaded.scene.render.tone_map,
     };
-    let notes = notes(&task);
+    let notes = notes(&task, &method);
     let write = |output: &Output, image: &Image, notes: &Notes| -> Result<(), Failure> {
         Ok(output.write_image_with_notes(image, &display, notes)?)
     };
@@ -69,8 +70,9 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     match target {
         Target::One(output) => {
             let scene = &loaded.scene;
+            let shadows = task.transport.shadows;
             let mut painter = Painter::open(scene, task, &terminal)?;
-            let interrupt = match task.transport.shadows {
+            let interrupt = match shadows {
                 true => Interrupt::listen().map_err(cannot_listen)?,
                 false => Interrupt::default(),
             };
@@ -204,27 +206,33 @@ pub fn transport(
     bounces: Option<u32>,
     method: &Method,
 ) -> Result<Transport, Failure> {
-    let shadows = shadows.map(|switch| switch == Switch::On);
-    backend::transport(method, shadows, bounces).map_err(|refusal| refused(bounces, refusal))
+    let mut shadows = shadows.map(|switch| switch == Switch::On);
+    if method.published.is_some() && shadows.replace(false) == Some(true) {
+        return Err(Failure::Input(anyhow!(
+            "--shadows on: the published method has no shadows; leave out --method published"
+        )));
+    }
+    backend::transport(shadows, bounces).map_err(|BouncesWithoutShadows| {
+        let bounces = bounces.unwrap_or(0);
+        Failure::Input(anyhow!(
+            "--bounces {bounces}: without shadows the light that an object hides would be counted beside its own; add --shadows on"
+        ))
+    })
 }
 
-fn refused(bounces: Option<u32>, refusal: Refusal) -> Failure {
-    let bounces = bounces.unwrap_or(0);
-    Failure::Input(match refusal {
-        Refusal::BouncesWithoutShadows => anyhow!(
-            "--bounces {bounces}: without shadows the light that an object hides would be counted beside its own; add --shadows on"
-        ),
-        Refusal::ShadowsOfPublished => anyhow!(
-            "--shadows on: the published method has no shadows; leave out --method published"
-        ),
+/// The method for both renderers, unless it is Hairline's own.
+fn plugged(method: &Method) -> Option<backend::Method> {
+    Some(backend::Method {
+        on_cpu: method.on_cpu()?,
+        on_gpu: method.on_gpu().other?,
     })
 }
 
 /// Notes on the settings of a picture that are not the default.
-fn notes(task: &Task) -> Notes {
+fn notes(task: &Task, method: &Method) -> Notes {
     let mut notes = task.notes();
-    if task.method != Method::default() {
-        notes.insert("method".to_owned(), method_flags::flags_of(&task.method));
+    if *method != Method::default() {
+        notes.insert("method".to_owned(), method_flags::flags_of(method));
     }
     notes
 }

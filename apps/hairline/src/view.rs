@@ -5,7 +5,7 @@ mod window;
 use std::path::Path;
 
 use anyhow::anyhow;
-use hairline_index::method::Method;
+use hairline_published::Method;
 use hairline_scene::{Description, probe};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::window::{Error, Renderer};

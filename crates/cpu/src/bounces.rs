@@ -83,7 +83,7 @@ impl<'a> Shadows<'a> {
         }
         light.gratings = has_gratings.then(|| self.gratings(&onwards, picks, rooms));
         let coherence = self.prepared.depth_coherence(hit.object);
-        let kept = kept(&sums, self.options.method.mask, coherence);
+        let kept = kept(&sums, self.options.mask, coherence);
         let sample = Sample::surface(&point, hit.object, &kept, light, 0.0);
         let [base, scratches] = sample.found().light().map(|rgb| Vec3::from(rgb).as_dvec3());
         (base + scratches).max(DVec3::ZERO)

@@ -5,7 +5,6 @@
 
 use crate::bin::TileLists;
 use crate::project::project;
-use crate::published::Published;
 use crate::shadows::Shadows;
 use crate::tile::{Picture, PictureMethod};
 use crate::visibility::Visibility;
@@ -109,7 +108,7 @@ impl Prepared<'_> {
         let size_px = scene.render.size_px;
         let camera = scene.camera.frame_of_batch(size_px, options.batch());
         let mut counts = Counts::default();
-        let by = match options.method.published {
+        let by = match &options.method {
             None => {
                 let projection = project(self, &camera, &rows, options.samples, cancelled);
                 counts.segments = projection.looked_at;
@@ -117,14 +116,12 @@ impl Prepared<'_> {
                 counts.entries = lists.len() as u64;
                 PictureMethod::Tiles(lists)
             }
-            Some(published) => {
-                PictureMethod::Published(Published::new(self, published, options.method.mask))
-            }
+            Some(method) => PictureMethod::Other(method.prepare(self, options.mask)),
         };
         let picture = Picture {
             prepared: self,
             camera,
-            options: *options,
+            options: options.clone(),
             rows: rows.start as usize..rows.end as usize,
             only_edges: false,
             visibility: Visibility::new(&self.triangles, &camera, size_px, &rows, options.samples),

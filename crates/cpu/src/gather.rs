@@ -6,12 +6,7 @@ use glam::DVec3;
 use hairline_index::scratch_index::REACH_STD;
 
 /// Calls `visit` with the index of every segment of an object that may have a share at the point, and of some others.
-pub(crate) fn gather(
-    prepared: &Prepared,
-    object: u32,
-    point: &SurfacePoint,
-    visit: impl FnMut(usize),
-) {
+pub fn gather(prepared: &Prepared, object: u32, point: &SurfacePoint, visit: impl FnMut(usize)) {
     let (center_m, reach_m) = (point.position_m.as_vec3(), reach_m(point).as_vec3());
     let tree = &prepared.scratches.tree;
     tree.gather(object as usize, center_m, reach_m, visit);

@@ -12,33 +12,42 @@ use std::ops::Range;
 
 /// One light from a point.
 #[derive(Clone, Debug)]
-pub(crate) enum LightView {
+pub enum LightView {
     /// A sphere, as the cap of directions that it covers.
-    Sphere { cap: Cap, radiance: DVec3 },
-    /// A polygon, or the outline of a tube; `vertices` index [`LightViews::vertices`], [`LightViews::directions`] and [`LightViews::edges`].
+    Sphere {
+        /// Directions to it.
+        cap: Cap,
+        /// Radiance towards the point.
+        radiance: DVec3,
+    },
+    /// A polygon, or the outline of a tube; `vertices` index [`LightViews::vertices`], and the directions and edges there.
     Polygon {
         /// Index into the scene's lights.
         light: usize,
+        /// Places of its vertices.
         vertices: Range<usize>,
+        /// Normal of its plane, away from the point.
         away: DVec3,
+        /// Sense in which it is seen: [`polygon_facing`].
         facing: f64,
         /// Whether one of the corners lies below the horizon.
         sets: bool,
         /// Holds the whole polygon.
         bound: Cap,
+        /// Radiance towards the point.
         radiance: DVec3,
     },
 }
 
 impl LightView {
-    pub fn radiance(&self) -> DVec3 {
+    pub(crate) fn radiance(&self) -> DVec3 {
         match self {
             Self::Sphere { radiance, .. } | Self::Polygon { radiance, .. } => *radiance,
         }
     }
 
     /// Direction inside the light that lies as far above the horizon as possible.
-    pub fn highest(&self, views: &LightViews) -> DVec3 {
+    pub(crate) fn highest(&self, views: &LightViews) -> DVec3 {
         match self {
             Self::Sphere { cap, .. } if cap.cos_radius <= 0.0 => DVec3::Z,
             Self::Sphere { cap, .. } => {
@@ -58,7 +67,7 @@ impl LightView {
     }
 
     /// About how large it looks, steradians: of a polygon as if it were small.
-    pub fn solid_angle_sr(&self, views: &LightViews) -> f64 {
+    pub(crate) fn solid_angle_sr(&self, views: &LightViews) -> f64 {
         match self {
             Self::Sphere { cap, .. } => 2.0 * PI * (1.0 - cap.cos_radius),
             Self::Polygon { vertices, .. } => {
@@ -73,7 +82,7 @@ impl LightView {
     }
 
     /// A cap of directions that holds it.
-    pub fn bound(&self) -> &Cap {
+    pub(crate) fn bound(&self) -> &Cap {
         match self {
             Self::Sphere { cap, .. } => cap,
             Self::Polygon { bound, .. } => bound,
@@ -83,33 +92,35 @@ impl LightView {
 
 /// All lights of a scene from a point: first those that shine on everything, then those that shine on scratches alone. One for each thread,
 /// filled anew for every point without allocating.
-pub(crate) struct LightViews<'a> {
+pub struct LightViews<'a> {
     lights: Vec<&'a Light>,
     textures: &'a [Texture],
     /// Number of `lights` that shine on the base too.
     on_base: usize,
+    /// Lights that the point sees.
     pub views: Vec<LightView>,
     /// Index in `views` of each light of the scene; `u32::MAX` if it is left out.
     places: Vec<u32>,
     /// Index among the scene's lights of each of `views`.
     in_scene: Vec<usize>,
     /// Distance from the point to the middle of each light, held at its radius or above.
-    pub distances_m: Vec<f64>,
+    pub(crate) distances_m: Vec<f64>,
     /// Movement of xi towards each light over one standard deviation of the pixel's filter, to the right and down: `band_moves`. For scratches, see
     /// [`LightViews::ready_for_scratches`].
-    pub moves: Vec<[DVec2; 2]>,
+    pub(crate) moves: Vec<[DVec2; 2]>,
     /// Polygon vertices relative to the point, metres.
     pub vertices: Vec<DVec3>,
     /// Unit directions to them.
-    pub directions: Vec<DVec3>,
+    pub(crate) directions: Vec<DVec3>,
     /// Edges from one direction to the next, for scratches.
-    pub edges: Vec<OutlineEdge>,
+    pub(crate) edges: Vec<OutlineEdge>,
     /// Views in the frame of the surface under the coat: made with the first point that has one, and valid where the last point has one.
     under_coat: Option<Box<Self>>,
     has_own_under_coat: bool,
 }
 
 impl<'a> LightViews<'a> {
+    /// Room for the lights of a scene.
     pub fn new(scene: &'a Scene) -> Self {
         let lights = scene.scratch_lights().collect();
         Self::of(lights, &scene.textures, scene.all_lights().count())
@@ -237,24 +248,24 @@ impl<'a> LightViews<'a> {
     }
 
     /// Lights of the scene.
-    pub fn light_count(&self) -> usize {
+    pub(crate) fn light_count(&self) -> usize {
         self.lights.len()
     }
 
     /// The place in `views` of a light of the scene; none if it is left out.
     #[inline]
-    pub fn view_of(&self, light: u32) -> Option<usize> {
+    pub(crate) fn view_of(&self, light: u32) -> Option<usize> {
         let place = self.places[light as usize];
         (place != u32::MAX).then_some(place as usize)
     }
 
     /// The scene's light of a place in `views`; none beyond the last.
-    pub fn light_of(&self, view: usize) -> Option<usize> {
+    pub(crate) fn light_of(&self, view: usize) -> Option<usize> {
         self.in_scene.get(view).copied()
     }
 
     /// The picture on one of `views`, if it has one.
-    pub fn picture(&self, view: &LightView) -> Option<PictureView<'a>> {
+    pub(crate) fn picture(&self, view: &LightView) -> Option<PictureView<'a>> {
         let LightView::Polygon {
             light, vertices, ..
         } = view
@@ -277,13 +288,13 @@ impl<'a> LightViews<'a> {
     }
 
     /// Views in the frame of the surface under the coat.
-    pub fn under_coat(&self) -> &Self {
+    pub(crate) fn under_coat(&self) -> &Self {
         let own = self.under_coat.as_deref();
         own.filter(|_| self.has_own_under_coat).unwrap_or(self)
     }
 
     /// Lights of the scene that shine on the base too, seen by the coat or by the surface under it.
-    pub fn on_base(&self) -> impl Iterator<Item = u32> {
+    pub(crate) fn on_base(&self) -> impl Iterator<Item = u32> {
         let under_coat = self.under_coat();
         (0..self.on_base as u32).filter(move |light| {
             [self, under_coat]
@@ -293,12 +304,12 @@ impl<'a> LightViews<'a> {
     }
 
     /// View of a light of the scene; none if it is left out.
-    pub fn light(&self, light: u32) -> Option<&LightView> {
+    pub(crate) fn light(&self, light: u32) -> Option<&LightView> {
         self.view_of(light).map(|place| &self.views[place])
     }
 
     /// Computes the values that all scratches at the point share; only once there are any.
-    pub fn ready_for_scratches(&mut self, point: &SurfacePoint) {
+    pub(crate) fn ready_for_scratches(&mut self, point: &SurfacePoint) {
         let axes_m = point
             .footprint_axes_m
             .map(|step| point.surface_from_world(step));
@@ -317,7 +328,7 @@ impl<'a> LightViews<'a> {
     }
 
     /// A polygon made ready for many scratches.
-    pub fn outline(
+    pub(crate) fn outline(
         &self,
         vertices: &Range<usize>,
         away: DVec3,

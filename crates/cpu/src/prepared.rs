@@ -2,9 +2,7 @@
 
 use crate::draft::Draft;
 use crate::sampling::environment::EnvironmentSampler;
-use hairline_index::{
-    Hit, IndexedProfile, IndexedSegment, ScratchIndex, TriangleIndex, TriangleLists, Watch,
-};
+use hairline_index::{Hit, IndexedProfile, IndexedSegment, ScratchIndex, TriangleIndex, Watch};
 use hairline_optics::table::ScratchTable;
 use hairline_scene::{Scene, ScratchTables};
 use std::sync::{Arc, OnceLock};
@@ -17,12 +15,8 @@ pub struct Prepared<'a> {
     pub(crate) tables: Arc<ScratchTables>,
     /// Stands for the scratches in a picture that need not be exact.
     pub(crate) draft: Option<Arc<Draft>>,
-    /// Lists for methods that look scratches up by triangle.
-    lists: OnceLock<TriangleLists>,
     /// Sampler of rays to the environment.
     sampler: OnceLock<EnvironmentSampler>,
-    /// Index of the first triangle of each object, counted over the whole scene.
-    first_triangles: Vec<usize>,
 }
 
 impl<'a> Prepared<'a> {
@@ -60,17 +54,7 @@ impl<'a> Prepared<'a> {
             scratches,
             tables,
             draft: None,
-            lists: OnceLock::new(),
             sampler: OnceLock::new(),
-            first_triangles: scene
-                .objects
-                .iter()
-                .scan(0, |next, object| {
-                    let first = *next;
-                    *next += object.mesh.triangles.len();
-                    Some(first)
-                })
-                .collect(),
         }
     }
 
@@ -82,17 +66,20 @@ impl<'a> Prepared<'a> {
             scratches: self.scratches.clone(),
             tables: self.tables.clone(),
             draft: self.draft.clone(),
-            lists: self.lists.clone(),
             sampler: OnceLock::new(),
-            first_triangles: self.first_triangles.clone(),
         }
     }
 
-    /// Replaces the scratches by a few of them, each of which stands for many. For Hairline's own method; that of 2018 takes all. There is no
+    /// Replaces the scratches by a few of them, each of which stands for many. For Hairline's own method; others take all. There is no
     /// tree over them: where light comes from other objects, these have no scratches.
     pub fn with_draft(mut self, draft: Arc<Draft>) -> Self {
         self.draft = Some(draft);
         self
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &'a Scene {
+        self.scene
     }
 
     /// The tree over the triangles.
@@ -105,22 +92,11 @@ impl<'a> Prepared<'a> {
         &self.scratches
     }
 
-    /// The scratches that each triangle's points may see without a footprint; built when first asked for.
-    pub fn triangle_lists(&self) -> &TriangleLists {
-        self.lists
-            .get_or_init(|| TriangleLists::build(self.scene, &self.scratches))
-    }
-
     /// Sampler of directions to the environment, if there is one. It is built at the first call, and not for each part of a picture.
     pub(crate) fn environment_sampler(&self) -> Option<&EnvironmentSampler> {
         let environment = self.scene.environment.as_ref()?;
         let sampler = || EnvironmentSampler::new(environment);
         Some(self.sampler.get_or_init(sampler))
-    }
-
-    pub(crate) fn triangle_list(&self, hit: &Hit) -> &[u32] {
-        let first = self.first_triangles[hit.object as usize];
-        self.triangle_lists().of(first + hit.triangle as usize)
     }
 
     /// Whether the object has any scratches.

@@ -291,7 +291,7 @@ impl<'p, 'a> Base<'p, 'a> {
 }
 
 /// A sphere as a lobe sees it.
-pub(crate) struct SphereOnLobe {
+pub struct SphereOnLobe {
     /// The unit direction to its centre, in the local frame.
     pub axis: DVec3,
     /// The squared sine of its angular radius.

@@ -158,7 +158,7 @@ impl<'a> Shadows<'a> {
             lights: AreaLights::with_textures(scene.scratch_lights(), &scene.textures),
             environment: prepared.environment_sampler(),
             extent_m: positions.map(|p| f64::from(p.length())).fold(0.0, f64::max),
-            options: *options,
+            options: options.clone(),
         }
     }
 

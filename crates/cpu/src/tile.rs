@@ -4,9 +4,9 @@ use crate::bin::{TILE_PX, TileLists};
 use crate::camera_beam::CameraBeam;
 use crate::counts::Counts;
 use crate::light_view::LightViews;
+use crate::method::PointShader;
 use crate::options::RenderOptions;
 use crate::prepared::Prepared;
-use crate::published::Published;
 use crate::resolve::{Pixel, PointLight, Sample, kept};
 use crate::sample_point::{SamplePoint, SampleView, Shared};
 use crate::shade_base::{Base, transformed_sphere};
@@ -51,8 +51,8 @@ pub(crate) struct Picture<'a> {
 pub(crate) enum PictureMethod<'a> {
     /// Hairline's own.
     Tiles(TileLists),
-    /// The method of 2018, pixel by pixel.
-    Published(Published<'a>),
+    /// One of others, point by point.
+    Other(Box<dyn PointShader + 'a>),
 }
 
 /// The room that a thread needs for a tile, filled anew for each.
@@ -272,7 +272,7 @@ impl<'a> Tile<'a> {
             }
         }
         let environment = prepared.scene.environment.as_ref();
-        let mask = self.picture.options.method.mask;
+        let mask = self.picture.options.mask;
         for i in 0..self.batch.len() {
             if self.picture.shadows.is_some() && self.gives_up() {
                 return;
@@ -333,10 +333,12 @@ impl<'a> Tile<'a> {
                             light.scratches = light.scratches.times(DVec3::splat(samples));
                             (kept(&sums, mask, coherence), light)
                         }
-                        (PictureMethod::Published(published), _) => {
-                            let masked = published.scratches(at, hit, views);
+                        (PictureMethod::Other(method), _) => {
+                            let masked = method.scratches(at, hit, views);
                             let base = Base::new(at);
-                            let base = base.radiance(environment, views, Published::base_sphere);
+                            let base = base.radiance(environment, views, |lobe, of, sphere| {
+                                method.base_sphere(lobe, of, sphere)
+                            });
                             sums.radiance = masked.scratches;
                             let kept = Masked {
                                 scratches: [1.0; 3],

@@ -1,27 +1,26 @@
 //! Bindings of the passes, group by group. Twin: `shaders/scene/bindings.wgsl`.
 //!
 //! Group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures; group 3 is each pass's own. Of the 16 sampled
-//! textures of a WebGPU stage 15 are taken, one more by passes that read visibility; of the 8 storage buffers 2.
+//! textures of a WebGPU stage 11 are taken, and some by passes; of the 8 storage buffers 2.
 
 use wgpu::{ShaderStages, TextureViewDimension};
 
 use crate::device::Gpu;
 
 /// Names of the scene's arrays in the order of their bindings.
-pub(crate) const SCENE_BUFFERS: [&str; 6] = [
+pub(crate) const SCENE_BUFFERS: [&str; 5] = [
     "triangles",
     "objects",
     "materials",
     "lights",
     "scratch segments",
-    "scratch tree",
 ];
 
 /// Index of the first array of the scene that lies in a texture; those before it are buffers.
 const FIRST_ROWS: u32 = 2;
 const MATERIALS: u32 = 2;
 /// Index of the materials' textures among the scene's tables and textures.
-const TEXTURES: u32 = 6;
+const TEXTURES: u32 = 5;
 
 /// The layouts that the passes share.
 pub(crate) struct Layouts {
@@ -49,12 +48,9 @@ impl Layouts {
             texture(wgpu::TextureSampleType::Uint, TextureViewDimension::D2Array),
             numbers(d2, false),
             numbers(d2, false),
-            numbers(d2, false),
             numbers(d2, true),
             numbers(d2, true),
             numbers(TextureViewDimension::D2Array, true),
-            numbers(d2, false),
-            integers(),
             numbers(d2, false),
             numbers(d2, true),
         ];
@@ -139,7 +135,7 @@ fn texture(
     }
 }
 
-fn numbers(view_dimension: TextureViewDimension, filterable: bool) -> wgpu::BindingType {
+pub(crate) fn numbers(view_dimension: TextureViewDimension, filterable: bool) -> wgpu::BindingType {
     texture(
         wgpu::TextureSampleType::Float { filterable },
         view_dimension,

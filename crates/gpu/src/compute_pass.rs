@@ -67,15 +67,18 @@ impl ComputePass {
     /// # Panics
     /// If neither has a resource that the shader names.
     pub(crate) fn bind(&self, recording: &Recording, resources: &Resources) -> wgpu::BindGroup {
-        let of_scene = |name: &str| match name {
-            "gratings" => recording.scene.buffers.gratings().as_entire_binding(),
-            "range" => BindingResource::Buffer(wgpu::BufferBinding {
-                buffer: &recording.scene.light_ranges.buffer,
-                offset: 0,
-                size: wgpu::BufferSize::new(size_of::<LightRange>() as u64),
-            }),
-            _ => unreachable!("nobody gives `{name}` to the pass {}", self.name),
-        };
+        let of_scene =
+            |name: &str| match name {
+                "gratings" => recording.scene.buffers.gratings().as_entire_binding(),
+                "range" => BindingResource::Buffer(wgpu::BufferBinding {
+                    buffer: &recording.scene.light_ranges.buffer,
+                    offset: 0,
+                    size: wgpu::BufferSize::new(size_of::<LightRange>() as u64),
+                }),
+                _ => recording.scene.method_tables.get(name).unwrap_or_else(|| {
+                    unreachable!("nobody gives `{name}` to the pass {}", self.name)
+                }),
+            };
         let entries: Vec<_> = self
             .bindings
             .iter()

@@ -9,11 +9,11 @@ use std::task::{Context, Poll, Waker};
 
 use hairline_image::Image;
 use hairline_index::ScratchIndex;
-use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 
 use crate::device::{AdapterRequest, Gpu};
 use crate::error::Error;
+use crate::method::Method;
 use crate::renderer::{RenderOptions, Renderer};
 
 impl Gpu {

@@ -311,7 +311,7 @@ pub(crate) fn profile_words(segment: &IndexedSegment) -> [u32; 2] {
         false => segment.blur_um,
     };
     // The shape has the place of the last four digits of a half float's ten.
-    let blur = half_bits(blur_um) + 8 & 0xfff0;
+    let blur = (half_bits(blur_um) + 8) & 0xfff0;
     [
         half_bits(profile.width_um) | half_bits(profile.depth_nm) << 16,
         octahedral(segment.normal) | (blur | u32::from(profile.shape)) << 16,

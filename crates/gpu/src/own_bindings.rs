@@ -1,8 +1,8 @@
 //! Bindings of group 3, which each pass has for itself: those that its shader declares. Nothing else names their kinds and their order.
 
-use wgpu::BindingType;
+use wgpu::{BindingType, TextureViewDimension};
 
-use crate::bindings::{dynamic_uniform, integers, storage, uniform};
+use crate::bindings::{dynamic_uniform, integers, numbers, storage, uniform};
 use crate::shaders::Module;
 
 /// Name of the uniform whose part each dispatch chooses.
@@ -22,6 +22,7 @@ enum BindingKind {
     Storage { is_read_only: bool },
     Uniform,
     Integers,
+    Numbers,
 }
 
 impl OwnBinding {
@@ -40,6 +41,7 @@ impl OwnBinding {
             .strip_prefix("@group(3) @binding(")?
             .split_once(") var")?;
         let (kind, rest) = match variable.strip_prefix('<') {
+            None if variable.ends_with("<f32>;") => (BindingKind::Numbers, variable),
             None => (BindingKind::Integers, variable),
             Some(space) => {
                 let (space, rest) = space.split_once('>')?;
@@ -68,6 +70,7 @@ impl OwnBinding {
             BindingKind::Uniform if self.is_dynamic() => dynamic_uniform(),
             BindingKind::Uniform => uniform(),
             BindingKind::Integers => integers(),
+            BindingKind::Numbers => numbers(TextureViewDimension::D2, false),
         }
     }
 }

@@ -29,8 +29,8 @@ pub(crate) enum Shade {
         /// Pass for gratings; none where the scene has none.
         gratings: Option<KindPasses>,
     },
-    /// The method of 2018.
-    Published(ComputePass),
+    /// One of others, which does without tile lists.
+    Other(ComputePass),
 }
 
 pub(crate) struct ScratchPasses {
@@ -44,7 +44,7 @@ impl ScenePasses {
     pub(crate) fn scratches(&self) -> Option<&ScratchPasses> {
         match &self.shade {
             Shade::Own { scratches, .. } => scratches.as_deref(),
-            Shade::Published(_) => None,
+            Shade::Other(_) => None,
         }
     }
 
@@ -66,9 +66,10 @@ impl ScenePasses {
     ) -> Result<Self, Error> {
         let mut orders = Orders::new(gpu, layouts, variant);
         let module = &shaders::SHARE_SCRATCHES;
-        let shade = if variant.method.published.is_some() {
-            let module = &shaders::SHADE_PUBLISHED;
-            Shade::Published(orders.pass("published", module, "shade_published"))
+        let shade = if let Some(other) = &variant.method.other {
+            let module = other.module();
+            let name = module.name.rsplit('/').next().unwrap_or(module.name);
+            Shade::Other(orders.pass(name, module, name))
         } else {
             Shade::Own {
                 base: orders.pass("base", &shaders::SHADE_BASE, "shade_base"),

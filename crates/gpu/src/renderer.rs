@@ -7,7 +7,6 @@ use std::sync::Arc;
 
 use hairline_image::{Batch, Display, Image};
 use hairline_index::ScratchIndex;
-use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 
 use crate::bindings::Layouts;
@@ -18,6 +17,7 @@ use crate::error::Error;
 use crate::film::Film;
 use crate::filter::FilterPasses;
 use crate::frame::{SAMPLES_AT_ONCE, View};
+use crate::method::Method;
 use crate::source::Source;
 use crate::strip::StripRoom;
 use crate::strip_shader::StripShader;

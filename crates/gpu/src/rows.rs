@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::transfer::{TexturePosition, Transfer};
 
 /// Texels to a row. Twin: texels.wgsl.
-pub(crate) const ROW_TEXELS: u32 = 1 << 12;
+pub const ROW_TEXELS: u32 = 1 << 12;
 const TEXEL_BYTES: usize = 16;
 
 /// Bytes of a texture that holds `count` elements of `stride` bytes, and the largest number of bytes that the

@@ -28,9 +28,6 @@ pub(crate) struct SceneBuffers {
     lights: Small<[u32; 4], wgpu::TextureView>,
     index: Arc<ScratchIndex>,
     segments: wgpu::TextureView,
-    /// Whether the tree is there, or a texel in its place.
-    has_nodes: bool,
-    nodes: wgpu::TextureView,
 }
 
 impl SceneBuffers {
@@ -63,7 +60,7 @@ impl SceneBuffers {
             tables,
             ..
         } = *source;
-        let [triangles, objects, materials, light_rows, segments, nodes] = SCENE_BUFFERS;
+        let [triangles, objects, materials, light_rows, segments] = SCENE_BUFFERS;
         let last_vertices = last.map(|last| &last.vertices);
         let vertices = Vertices::upload(transfer, triangles, scene, last_vertices).await?;
         let origin_m = vertices.origin_m;
@@ -92,23 +89,14 @@ impl SceneBuffers {
             async |elements| rows::upload(transfer, light_rows, elements).await,
         );
         let lights = lights.await?;
-        // Hairline's own method does not traverse the tree.
-        let has_nodes = source.method.published.is_some();
         let last_scratches = last
             .filter(|last| Arc::ptr_eq(&last.index, index) && last.vertices.origin_m == origin_m);
         let segments = match last_scratches {
             Some(last) => last.segments.clone(),
             None => rows::upload(transfer, segments, &host::segments(index, origin_m)).await?,
         };
-        let nodes = match last_scratches.filter(|last| last.has_nodes == has_nodes) {
-            Some(last) => last.nodes.clone(),
-            None if has_nodes => {
-                rows::upload(transfer, nodes, &host::nodes(index, origin_m)).await?
-            }
-            None => rows::upload(transfer, nodes, &[] as &[ScratchNode]).await?,
-        };
         let buffers = [&vertices.buffer, &objects.there];
-        let rows = [&materials.there, &lights.there, &segments, &nodes];
+        let rows = [&materials.there, &lights.there, &segments];
         let resources: Vec<_> = buffers
             .into_iter()
             .map(wgpu::Buffer::as_entire_binding)
@@ -123,8 +111,6 @@ impl SceneBuffers {
             lights,
             index: Arc::clone(index),
             segments,
-            has_nodes,
-            nodes,
         })
     }
 }
@@ -166,12 +152,7 @@ async fn storage_buffer<T: Pod>(
 
 /// Refuses arrays that no binding of the device can hold, before memory is spent on them.
 pub(crate) fn check_size(gpu: &Gpu, source: &Source<'_>) -> Result<(), Error> {
-    let Source {
-        scene,
-        index,
-        method,
-        ..
-    } = source;
+    let Source { scene, index, .. } = source;
     let triangles: usize = scene
         .objects
         .iter()
@@ -185,10 +166,6 @@ pub(crate) fn check_size(gpu: &Gpu, source: &Source<'_>) -> Result<(), Error> {
         (scene.materials.len(), size_of::<Material>()),
         (lights::texels(scene), size_of::<[u32; 4]>()),
         (index.tree.segments.len(), size_of::<ScratchSegment>()),
-        (
-            method.published.map_or(0, |_| index.tree.nodes.len()),
-            size_of::<ScratchNode>(),
-        ),
     ];
     let limits = gpu.limits();
     let buffer_max = limits

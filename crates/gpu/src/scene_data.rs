@@ -9,6 +9,8 @@ use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::light_ranges::LightRanges;
+use crate::method_tables;
+use crate::resources::Resources;
 use crate::scene_buffers::{SceneBuffers, check_size};
 use crate::source::Source;
 use crate::texture_array::TextureArray;
@@ -23,6 +25,8 @@ pub(crate) struct SceneData {
     /// Number of lights that do not shine on scratches alone: they come first.
     pub base_light_count: u32,
     pub light_ranges: LightRanges,
+    /// Tables of a method that is not Hairline's own.
+    pub method_tables: Resources,
     /// The first of the objects that are the shapes of lights.
     pub lamps: u32,
     /// Whether each object has a cutout.
@@ -71,6 +75,8 @@ impl SceneData {
         let textures =
             SceneTextures::upload(&mut transfer, layouts, source, &array, last_textures).await?;
         let light_ranges = LightRanges::upload(gpu, source.scene).await?;
+        let origin_m = buffers.vertices.origin_m;
+        let method_tables = method_tables::upload(&mut transfer, source, origin_m).await?;
         gpu.check()?;
         Ok(Self {
             buffers,
@@ -78,6 +84,7 @@ impl SceneData {
             light_count: source.scene.scratch_lights().count() as u32,
             base_light_count: source.scene.all_lights().count() as u32,
             light_ranges,
+            method_tables,
             lamps: source
                 .scene
                 .objects

@@ -1,8 +1,8 @@
 //! The shader modules, and how they are joined.
 //!
-//! Modules lie in five folders. `physics` has no binding and no entry point: its data comes by arguments, so that another engine can
+//! Modules lie in four folders. `physics` has no binding and no entry point: its data comes by arguments, so that another engine can
 //! lift it. `engine` is what only other engines call: `cargo xtask package` packs it with the physics. `scene` reads what is bound.
-//! `passes` has the entry points. `published` is the method of 2018, all of it.
+//! `passes` has the entry points. A [method](crate::method) of others brings its own.
 //!
 //! Modules are joined by concatenation, what a module needs before it, each once; their module-level names are therefore unique
 //! over all modules.
@@ -93,26 +93,12 @@ modules! {
     BRUSHED_LOBE = "physics/brushed_lobe" needs [FACETS, FILTERED_LOBE];
     /// The GGX lobe over an environment, by round lobes in a row.
     ENVIRONMENT_LOBE = "physics/environment_lobe" needs [LTC];
-    /// The GGX lobe over a sphere, by a pivot transform.
-    SPTD = "physics/sptd" needs [LTC];
     /// A shading point and its frame.
     SURFACE_POINT = "physics/surface_point" needs [];
     /// Light from all around: look-ups in the maps.
     ENVIRONMENT = "physics/environment" needs [];
     /// Tone curves, from linear radiance to the display.
     TONE_MAP = "physics/tone_map" needs [];
-    /// The method of 2018: segments of the band's middle line.
-    PUBLISHED_SEGMENTS = "published/published_segments" needs [];
-    /// The method of 2018: the sine integral, exact and approximated.
-    PUBLISHED_SINE_INTEGRAL = "published/published_sine_integral" needs [];
-    /// The method of 2018: a scratch's light by wavelength.
-    PUBLISHED_SPECTRUM = "published/published_spectrum" needs [PUBLISHED_SEGMENTS, PUBLISHED_SINE_INTEGRAL];
-    /// The method of 2018: spherical lights.
-    PUBLISHED_SPHERE = "published/published_sphere" needs [BAND, PUBLISHED_SEGMENTS];
-    /// The method of 2018: triangular lights.
-    PUBLISHED_POLYGON = "published/published_polygon" needs [PUBLISHED_SEGMENTS];
-    /// The method of 2018: the pixel's footprint.
-    PUBLISHED_FOOTPRINT = "published/published_footprint" needs [GAUSSIAN];
     /// Light that one scratch sends to the viewer: the module for other engines.
     SCRATCH_LIGHT = "physics/scratch_light" needs [FOUR_EDGES, BAND_ENVIRONMENT, INCIDENCE_TABLE, MASK, ENVIRONMENT];
     /// Light that the grooves of a grating send.
@@ -141,14 +127,12 @@ modules! {
     TRIANGLE_TREE = "scene/triangle_tree" needs [TEXELS, SURFACE_POINT];
     /// Contents of a scene, for which pipelines are compiled.
     CONTENTS = "scene/contents" needs [];
-    /// The switches of the method of 2018 and the mask: pipelines are compiled for them.
+    /// The mask of the method: pipelines are compiled for it.
     METHOD = "scene/method" needs [];
     /// Look-ups in the bindings of the scene.
     SCENE = "scene/scene" needs [ROWS, CONTENTS, ENVIRONMENT, TONE_MAP];
     /// The segments of scratches, unpacked.
     SEGMENTS = "scene/segments" needs [LAYOUT, SCRATCH];
-    /// The scratches of each triangle.
-    TRIANGLE_LISTS = "published/triangle_lists" needs [ROWS];
     /// Places of pixels in the arrays of a strip and in the film.
     FILM = "scene/film" needs [BINDINGS];
     /// Surface points as they lie in memory.
@@ -181,14 +165,6 @@ modules! {
     BASE = "scene/base" needs [
         SCENE, LIGHTS, PICTURE_LIGHT, FILTERED_LOBE, ENVIRONMENT_LOBE, BRUSHED_LOBE, COAT
     ];
-    /// The method of 2018: a scratch under lights and environment.
-    PUBLISHED_LIGHTS = "published/published_lights" needs [
-        SCENE, LIGHTS, PICTURE_LIGHT, SEGMENTS, METHOD, BAND_ENVIRONMENT, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE, PUBLISHED_POLYGON
-    ];
-    /// The method of 2018: the scratches under a pixel.
-    PUBLISHED_GATHER = "published/published_gather" needs [PUBLISHED_LIGHTS, PUBLISHED_FOOTPRINT, TRIANGLE_LISTS, MASK];
-    /// The method of 2018: the base.
-    PUBLISHED_BASE = "published/published_base" needs [BASE, SPTD];
     /// Pass: triangle and object of each pixel.
     VISIBILITY = "passes/visibility" needs [BINDINGS];
     /// Pass: the same of objects that are cut out.
@@ -283,8 +259,6 @@ modules! {
     BOUNCE_GATHER = "passes/bounce_gather" needs [ROWS, FILM, PIXEL_POINT];
     /// Pass: light from there, added to samples.
     BOUNCE_LIGHT = "passes/bounce_light" needs [FOUND, FILM];
-    /// Pass: base and scratches by the method of 2018.
-    SHADE_PUBLISHED = "published/shade_published" needs [PUBLISHED_GATHER, PUBLISHED_BASE, FILM, PIXEL_POINT];
     /// Pass: a pixel's contribution to the film.
     RESOLVE = "passes/resolve" needs [SCENE, SUMS, PIXEL_POINT];
     /// Passes: the filter of the light that rays found.
@@ -386,16 +360,6 @@ mod tests {
                     module.name
                 );
             }
-        }
-    }
-
-    /// No module but one of the method of 2018 needs another one of it.
-    #[test]
-    fn the_published_method_is_a_guest() {
-        let is_published = |module: &Module| module.name.starts_with("published/");
-        for module in ALL.iter().filter(|module| !is_published(module)) {
-            let guest = module.needs.iter().find(|need| is_published(need));
-            assert!(guest.is_none(), "{} needs {guest:?}", module.name);
         }
     }
 

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use hairline_index::ScratchIndex;
-use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables};
+
+use crate::method::Method;
 
 /// A scene, its index, its tables, and the method that they are to be rendered by.
 #[derive(Clone, Copy)]

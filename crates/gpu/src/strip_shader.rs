@@ -165,7 +165,7 @@ impl StripShader {
         }
         let shadows = match &passes.shade {
             Shade::Own { .. } => view.shadows(),
-            Shade::Published(_) => None,
+            Shade::Other(_) => None,
         };
         self.submit(view, |recording| {
             let resources = room.resources().and(film.resources());
@@ -183,9 +183,7 @@ impl StripShader {
                         gratings.run(recording, &resources, in_a_row(groups));
                     }
                 }
-                Shade::Published(published) => {
-                    published.run(recording, &resources, in_a_row(groups));
-                }
+                Shade::Other(pass) => pass.run(recording, &resources, in_a_row(groups)),
             }
             if shadows.is_none() {
                 passes.resolve.run(recording, &resources, room.tiles(rows));

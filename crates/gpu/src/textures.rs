@@ -17,7 +17,6 @@ use wgpu::TextureFormat;
 
 use crate::bindings::{Layouts, bind};
 use crate::error::Error;
-use crate::published::Published;
 use crate::source::Source;
 use crate::texture_array::{TextureArray, array_view};
 use crate::transfer::{TexturePosition, Transfer};
@@ -34,12 +33,11 @@ pub(crate) struct SceneTextures {
     /// Reflector of each curve.
     reflectors: Vec<Reflector>,
     curves: wgpu::TextureView,
-    lobes: [wgpu::TextureView; 3],
+    lobes: [wgpu::TextureView; 2],
     environment: Option<Environment>,
     maps: [wgpu::TextureView; 3],
     textures: Arc<Vec<Texture>>,
     array: wgpu::TextureView,
-    published: Published,
 }
 
 impl SceneTextures {
@@ -75,12 +73,6 @@ impl SceneTextures {
                 )
                 .await?,
                 lobe(transfer, "lobe shapes", lobe_table::shape_texels()).await?,
-                lobe(
-                    transfer,
-                    "sphere lobe table",
-                    hairline_published::sptd::sptd_table().texels(),
-                )
-                .await?,
             ],
         };
         let environment = scene.environment.as_ref();
@@ -93,20 +85,15 @@ impl SceneTextures {
             Some(last) => last.array.clone(),
             None => array.upload(transfer, &scene.textures).await?,
         };
-        let last_published = last.map(|last| &last.published);
-        let published = Published::upload(transfer, source, last_published).await?;
-        let [albedo, ltc, sptd] = &lobes;
+        let [albedo, ltc] = &lobes;
         let [background, levels, beside_windows] = &maps;
         let resources = [
             &scratch_tables,
             albedo,
             ltc,
-            sptd,
             background,
             levels,
             &array,
-            &published.wavelengths,
-            &published.triangle_lists,
             &curves,
             beside_windows,
         ]
@@ -124,7 +111,6 @@ impl SceneTextures {
             maps,
             textures: Arc::clone(&scene.textures),
             array,
-            published,
         })
     }
 }

@@ -41,7 +41,7 @@ impl GpuScene {
         last: Option<&Self>,
     ) -> Result<Self, Error> {
         let variant = ShadeVariant {
-            method: *source.method,
+            method: source.method.clone(),
             has: Contents::of(source.scene, source.tables, source.method),
         };
         let passes = ScenePasses::new(gpu, layouts, &variant).await?;

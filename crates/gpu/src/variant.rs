@@ -1,14 +1,13 @@
 //! Variants of the shaders: a method and a scene's contents.
 
-use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
-use hairline_published::sine_integral::SineIntegral;
 use hairline_scene::{Bearing, Grating, GrooveField, Material, Object, Scene, ScratchTables};
 
 use crate::lights::{self, Kinds, LightKind};
+use crate::method::Method;
 
 /// Method and contents for which a pipeline is specialised.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug)]
 pub(crate) struct ShadeVariant {
     pub method: Method,
     /// Contents of the scene: code for what it lacks is left out, so that it costs nothing.
@@ -19,7 +18,7 @@ pub(crate) struct ShadeVariant {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Contents {
     pub scratches: bool,
-    /// Gratings; the method of 2018 leaves them out.
+    /// Gratings; methods of others leave them out.
     pub gratings: bool,
     /// Gratings whose grooves could be seen one by one.
     pub single_grooves: bool,
@@ -54,7 +53,7 @@ pub(crate) struct Contents {
 
 impl Contents {
     pub(crate) fn of(scene: &Scene, tables: &ScratchTables, method: &Method) -> Self {
-        let gratings = method.published.is_none();
+        let gratings = method.other.is_none();
         let single_grooves =
             gratings && scene.objects.iter().any(|o| shows_single_grooves(scene, o));
         let any = |is: fn(&Grating) -> bool| {
@@ -149,9 +148,12 @@ impl Way {
     pub(crate) const ALL: [Self; 3] = [Self::Base, Self::Scratches, Self::Gratings];
 }
 
-/// Returns the values of the overrides in a shader's text, for a scene with everything and for one with nothing, by both methods and all
-/// masks: each set has a name. For compilers other than the device's own.
-pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> {
+/// Returns the values of the overrides in a shader's text, for a scene with everything and for one with nothing, by each of some named
+/// methods: each set has a name. For compilers other than the device's own.
+pub fn pipeline_variants(
+    text: &str,
+    methods: &[(&str, Method)],
+) -> Vec<(String, Vec<(&'static str, f64)>)> {
     let everything = Contents {
         scratches: true,
         gratings: true,
@@ -173,25 +175,10 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         coats: Some(0),
         coat_normals: true,
     };
-    let lists = PublishedMethod {
-        structure: Structure::TriangleLists,
-        anti_aliasing: false,
-        si: SineIntegral::Exact,
-    };
-    let methods = [
-        ("default", Method::default()),
-        ("published", Method::PUBLISHED),
-        (
-            "published by lists, linear mask",
-            Method {
-                published: Some(lists),
-                mask: Mask::Linear,
-            },
-        ),
-    ];
     let mut variants: Vec<(String, Vec<Constant>)> = Vec::new();
     for (name, method) in methods {
         for (scene, has) in [("everything", everything), ("nothing", Contents::default())] {
+            let method = method.clone();
             let constants = ShadeVariant { method, has }.constants(text);
             let kinds = if text.contains("override SCRATCH_LIGHTS:") {
                 0..LightKind::ALL.len() + 1
@@ -223,7 +210,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
 }
 
 impl ShadeVariant {
-    /// The constants that a shader declares, by the names of contents.wgsl and method.wgsl; others would be refused.
+    /// The constants that a shader declares, by the names of contents.wgsl, method.wgsl and another method; others would be refused.
     pub(crate) fn constants(&self, text: &str) -> Vec<Constant> {
         let Self { method, has } = self;
         let mask = match method.mask {
@@ -231,7 +218,6 @@ impl ShadeVariant {
             Mask::Linear => 1,
             Mask::Density => 2,
         };
-        let published = method.published.unwrap_or_default();
         let mut constants = vec![
             ("HAS_SCRATCHES", has.scratches.into()),
             ("HAS_GRATINGS", has.gratings.into()),
@@ -252,17 +238,9 @@ impl ShadeVariant {
             ("HAS_COAT_NORMALS", has.coat_normals.into()),
             ("COAT_CURVE", has.coats.unwrap_or(0).into()),
             ("METHOD_MASK", mask.into()),
-            (
-                "PUBLISHED_LISTS",
-                (published.structure == Structure::TriangleLists).into(),
-            ),
-            ("PUBLISHED_ANTI_ALIASING", published.anti_aliasing.into()),
-            (
-                "PUBLISHED_FAST_SI",
-                (published.si == SineIntegral::Fast).into(),
-            ),
         ];
         constants.extend(has.lights.constants(has.base_lights));
+        constants.extend(method.other.iter().flat_map(|other| other.constants()));
         constants.retain(|(name, _)| text.contains(&format!("override {name}:")));
         constants
     }

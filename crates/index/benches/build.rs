@@ -1,8 +1,7 @@
-//! Building of the structures that find the scratches under a pixel: trees, and lists for each triangle of a
-//! finely cut mesh.
+//! Building of the trees that find the scratches under a pixel.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use hairline_index::{ScratchIndex, TriangleLists};
+use hairline_index::ScratchIndex;
 use hairline_scene::Scene;
 
 fn scene(shape: &str, count: u32) -> Scene {
@@ -25,11 +24,6 @@ fn build(c: &mut Criterion) {
         let disk = scene("disk = { radius_m = 0.08 }", count);
         group.bench_function("ScratchIndex::build, disk", |b| {
             b.iter(|| ScratchIndex::build(&disk))
-        });
-        let sphere = scene("sphere = { radius_m = 0.05 }", count);
-        let index = ScratchIndex::build(&sphere);
-        group.bench_function("TriangleLists::build, sphere", |b| {
-            b.iter(|| TriangleLists::build(&sphere, &index))
         });
     }
 }

@@ -56,7 +56,7 @@ impl<S: Straight> SegmentTree<S> {
 
     /// Calls `visit` with the indices of every leaf of an object that touches the box from `lower` to `upper`.
     #[inline]
-    pub(crate) fn walk(
+    pub fn walk(
         &self,
         object: usize,
         lower: Vec3,

@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 use crate::segments::BandSegments;
 use crate::sine_integral::SineIntegral;
 use hairline_optics::{scratch, spectrum};
+use hairline_scene::ScratchTables;
 
 /// Default number of wavelengths.
 pub const PUBLISHED_WAVELENGTHS: usize = 8;
@@ -89,6 +90,16 @@ impl PublishedSpectrum {
             std::array::from_fn(|c| sum[c] + w.weight[c] * energy)
         })
     }
+}
+
+/// Spectra in the place of each of a scene's tables for scratches. The method knows no shape but the rectangle.
+pub(crate) fn published_spectra(tables: &ScratchTables) -> Vec<PublishedSpectrum> {
+    let spectra = tables.metals.iter().flat_map(|metal| {
+        let reflectance = |nm| metal.map_or(1.0, |metal| metal.reflectance(1.0, nm));
+        let spectrum = PublishedSpectrum::new(PUBLISHED_WAVELENGTHS, reflectance);
+        std::iter::repeat_n(spectrum, tables.shapes.shapes().len())
+    });
+    spectra.collect()
 }
 
 /// N(q) of the talk, 2 Si(kWq)/(kW) - 4 sin^2(kWq/2)/(k^2 W^2 q): the integral of sinc^2(k W q'/2) over q' from 0 to q.

@@ -6,14 +6,13 @@ use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 use hairline_image::Display;
-use hairline_index::method::Method;
 use hairline_memory::{available_bytes, budget_bytes};
 use hairline_optics::mask::Mask;
 use hairline_reference::{Integrator, Model, SceneIndex, Settings};
 use hairline_scene::estimate::{Estimate, scratches_bytes, textures_bytes};
 use hairline_scene::{Description, Error, Loader, Scene, SceneBuilder, Stage, reading};
 use hairline_work::Listener;
-use hairline_work::backend::{self, Backend, Painter, Refusal, Rendered, Task};
+use hairline_work::backend::{self, Backend, BouncesWithoutShadows, Painter, Rendered, Task};
 use hairline_work::failure::Failure;
 use hairline_work::reference::{self, Limits, identity};
 use pyo3::prelude::*;
@@ -277,11 +276,11 @@ impl Built {
         host: &Bound<'_, PyAny>,
     ) -> PyResult<Image> {
         let py = host.py();
-        let method = Method::default();
-        let transport = backend::transport(&method, shadows, bounces)
-            .map_err(|refusal| refused(bounces, refusal))?;
+        let transport = backend::transport(shadows, bounces)
+            .map_err(|BouncesWithoutShadows| refused(bounces))?;
         let task = Task {
-            method,
+            mask: Mask::default(),
+            method: None,
             backend: named(
                 "backend",
                 backend,
@@ -296,6 +295,7 @@ impl Built {
             is_filtered: true,
             is_transparent: transparent,
         };
+        let notes = task.notes();
         let ended = watched::run(host, |told| {
             let mut painter = Painter::open(&self.scene, task, told)?;
             told.begin("rendering");
@@ -316,7 +316,7 @@ impl Built {
             || image.base.iter().flatten().any(|value| *value > 0.0);
         match ended.interrupt {
             Some(interrupt) if !is_whole && !has_some => Err(interrupt),
-            _ => Ok(Image::new(image, self.display(), task.notes(), is_whole)),
+            _ => Ok(Image::new(image, self.display(), notes, is_whole)),
         }
     }
 
@@ -420,14 +420,10 @@ impl Built {
     }
 }
 
-fn refused(bounces: Option<u32>, refusal: Refusal) -> PyErr {
-    let found = format!("found {}", bounces.unwrap_or(0));
-    match refusal {
-        Refusal::BouncesWithoutShadows => errors::of_argument(
-            "bounces",
-            found,
-            "add shadows=True: without them the light that an object hides would be counted beside its own",
-        ),
-        Refusal::ShadowsOfPublished => errors::internal(),
-    }
+fn refused(bounces: Option<u32>) -> PyErr {
+    errors::of_argument(
+        "bounces",
+        format!("found {}", bounces.unwrap_or(0)),
+        "add shadows=True: without them the light that an object hides would be counted beside its own",
+    )
 }

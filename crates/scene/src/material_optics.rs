@@ -13,7 +13,6 @@ use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
 use hairline_optics::section::GrooveShape;
 use hairline_optics::table::ScratchTable;
 use std::cell::OnceCell;
-use hairline_published::spectrum::PublishedSpectrum;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -266,15 +265,6 @@ impl ScratchTables {
     pub fn rigorous(&self, table: usize) -> Option<RigorousGrating<'_>> {
         let at = table - self.grating_tables_at();
         self.grating_spectra[at].rigorous(self.efficiencies[at].as_ref()?)
-    }
-
-    /// Spectra of `count` wavelengths that the method of 2018 uses in the place of each table. It knows no shape but the rectangle.
-    pub fn published_spectra(&self, count: usize) -> Vec<PublishedSpectrum> {
-        let spectra = self.metals.iter().flat_map(|metal| {
-            let spectrum = PublishedSpectrum::new(count, |nm| reflectance(*metal, nm));
-            std::iter::repeat_n(spectrum, self.shape_count())
-        });
-        spectra.collect()
     }
 }
 

@@ -11,8 +11,8 @@ use anyhow::anyhow;
 use hairline_cpu::closed_form::{self, Prepared};
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
 use hairline_image::{Batch, Image, Notes, filter_found};
-use hairline_index::method::{Method, Structure};
 use hairline_index::{ScratchIndex, TriangleIndex, Watch};
+use hairline_optics::mask::Mask;
 use hairline_scene::{DEFAULT_TRANSPORT, Scene, ScratchTables, Transport};
 
 use crate::failure::Failure;
@@ -32,11 +32,22 @@ pub enum Backend {
     Cpu,
 }
 
+/// A method in the place of Hairline's own, on both renderers.
+#[derive(Clone)]
+pub struct Method {
+    /// The method on the CPU.
+    pub on_cpu: Arc<dyn hairline_cpu::method::ShadingMethod>,
+    /// The method on the GPU.
+    pub on_gpu: Arc<dyn hairline_gpu::method::ShadingMethod>,
+}
+
 /// Settings of a rendering.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone)]
 pub struct Task {
-    /// Method by which scratches are rendered.
-    pub method: Method,
+    /// Energy that the base loses to the scratches.
+    pub mask: Mask,
+    /// A method in the place of Hairline's own.
+    pub method: Option<Method>,
     /// Choice of the renderer.
     pub backend: Backend,
     /// Samples of each pixel on an edge.
@@ -59,32 +70,22 @@ pub struct Rendered {
     pub wanted: u32,
 }
 
-/// Reason why a [`Task`] cannot be done.
+/// Bounces are asked for without shadows: the light that an object hides would be counted beside its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refusal {
-    /// Bounces without shadows: the light that an object hides would be counted beside its own.
-    BouncesWithoutShadows,
-    /// The published method has none.
-    ShadowsOfPublished,
-}
+pub struct BouncesWithoutShadows;
 
-/// Transport of light from the user's choices, with the method's defaults for those that are left open.
+/// Transport of light from the user's choices, with defaults for those that are left open.
 ///
 /// # Errors
-/// Why no renderer does what is asked for.
+/// [`BouncesWithoutShadows`].
 pub fn transport(
-    method: &Method,
     shadows: Option<bool>,
     bounces: Option<u32>,
-) -> Result<Transport, Refusal> {
-    let is_published = method.published.is_some();
-    if is_published && shadows == Some(true) {
-        return Err(Refusal::ShadowsOfPublished);
-    }
-    if !shadows.unwrap_or(DEFAULT_TRANSPORT.shadows && !is_published) {
+) -> Result<Transport, BouncesWithoutShadows> {
+    if !shadows.unwrap_or(DEFAULT_TRANSPORT.shadows) {
         return match bounces {
             None | Some(0) => Ok(Transport::DIRECT),
-            Some(_) => Err(Refusal::BouncesWithoutShadows),
+            Some(_) => Err(BouncesWithoutShadows),
         };
     }
     Ok(Transport {
@@ -101,7 +102,15 @@ impl Task {
             batch,
             shadows,
             bounces,
-            method: self.method,
+            mask: self.mask,
+            method: self.method.as_ref().map(|it| it.on_cpu.clone()),
+        }
+    }
+
+    fn method_on_gpu(&self) -> hairline_gpu::Method {
+        hairline_gpu::Method {
+            mask: self.mask,
+            other: self.method.as_ref().map(|it| it.on_gpu.clone()),
         }
     }
 
@@ -142,7 +151,7 @@ impl<'a> Painter<'a> {
     /// [`Failure::Work`] where the GPU that was asked for fails.
     pub fn open(scene: &'a Scene, task: Task, listener: &'a dyn Listener) -> Result<Self, Failure> {
         let on = match task.backend {
-            Backend::Cpu => OpenRenderer::on_cpu(scene, &task.method, "as asked", listener),
+            Backend::Cpu => OpenRenderer::on_cpu(scene, "as asked", listener),
             Backend::Gpu => {
                 let gpu = open().map_err(advise)?;
                 announce_gpu(&gpu, "as asked", listener);
@@ -318,8 +327,7 @@ impl<'a> Painter<'a> {
                 Err(error) if self.task.backend == Backend::Gpu => return Err(advise(error)),
                 Err(error) => {
                     warn_of(ready.gpu(), &error, self.listener);
-                    self.on =
-                        OpenRenderer::Cpu(prepared(self.scene, &self.task.method, self.listener));
+                    self.on = OpenRenderer::Cpu(prepared(self.scene, self.listener));
                 }
             }
         }
@@ -331,9 +339,9 @@ impl<'a> Painter<'a> {
 }
 
 impl<'a> OpenRenderer<'a> {
-    fn on_cpu(scene: &'a Scene, method: &Method, why: &str, listener: &dyn Listener) -> Self {
+    fn on_cpu(scene: &'a Scene, why: &str, listener: &dyn Listener) -> Self {
         announce_cpu(why, listener);
-        Self::Cpu(prepared(scene, method, listener))
+        Self::Cpu(prepared(scene, listener))
     }
 
     fn on_gpu(
@@ -350,7 +358,7 @@ impl<'a> OpenRenderer<'a> {
             scene,
             &scratches,
             &tables,
-            &task.method,
+            &task.method_on_gpu(),
             task.transport,
         )?;
         Ok(Self::Gpu(Box::new(on)))
@@ -358,34 +366,26 @@ impl<'a> OpenRenderer<'a> {
 
     /// A GPU if there is one, else the CPU renderer.
     fn best(scene: &'a Scene, task: &Task, listener: &dyn Listener) -> Self {
-        let method = &task.method;
         match open() {
-            Err(error) => Self::on_cpu(scene, method, &error.to_string(), listener),
+            Err(error) => Self::on_cpu(scene, &error.to_string(), listener),
             Ok(gpu) if gpu.adapter.kind == AdapterKind::Software => {
                 let why = format!("no GPU; {} is a software driver", gpu.adapter.name);
-                Self::on_cpu(scene, method, &why, listener)
+                Self::on_cpu(scene, &why, listener)
             }
             Ok(gpu) => {
                 announce_gpu(&gpu, "a GPU is there", listener);
                 Self::on_gpu(&gpu, scene, task, listener).unwrap_or_else(|error| {
                     warn_of(&gpu, &error, listener);
-                    Self::Cpu(prepared(scene, method, listener))
+                    Self::Cpu(prepared(scene, listener))
                 })
             }
         }
     }
 }
 
-/// Builds trees and tables, also those that only some methods use: once, and not again for each picture.
-fn prepared<'a>(scene: &'a Scene, method: &Method, listener: &dyn Listener) -> Box<Prepared<'a>> {
-    let prepared = sorted(listener, |watch| Prepared::watched(scene, watch));
-    if method
-        .published
-        .is_some_and(|it| it.structure == Structure::TriangleLists)
-    {
-        prepared.triangle_lists();
-    }
-    Box::new(prepared)
+/// Builds trees and tables.
+fn prepared<'a>(scene: &'a Scene, listener: &dyn Listener) -> Box<Prepared<'a>> {
+    Box::new(sorted(listener, |watch| Prepared::watched(scene, watch)))
 }
 
 /// Runs `sort` and returns its result. Nobody cancels it except by ending the process.

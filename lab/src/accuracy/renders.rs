@@ -10,7 +10,6 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::{Display, Image, Layer, Output, exr_file};
-use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
 use hairline_reference::{Integrator, Settings};
 use hairline_scene::Scene;
@@ -122,15 +121,11 @@ impl Renders {
 
 /// The closed form's picture.
 pub fn closed_form(scene: &Scene, samples: u32, mask: Mask) -> Image {
-    let method = Method {
-        mask,
-        ..Method::default()
-    };
     closed_form::render(
         scene,
         &RenderOptions {
             samples,
-            method,
+            mask,
             ..RenderOptions::default()
         },
         &|_| {},

@@ -5,9 +5,8 @@ use super::scenes::{View, plate, scratch, sphere};
 use conformance::two_renderers::compare_pixels;
 use glam::DVec2;
 use hairline_cpu::closed_form::{self, RenderOptions};
-use hairline_gpu::headless;
+use hairline_gpu::{Method, headless};
 use hairline_image::{Batch, Batches, Image, Layer};
-use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
 use hairline_scene::{Base, Lens, Scene};
@@ -17,10 +16,7 @@ fn options(samples: u32, batch: Batch) -> RenderOptions {
     RenderOptions {
         samples,
         batch: Some(batch),
-        method: Method {
-            mask: Mask::Linear,
-            ..Method::default()
-        },
+        mask: Mask::Linear,
         ..RenderOptions::default()
     }
 }
@@ -134,6 +130,10 @@ fn scratches_out_of_focus() {
         without_shadows: true,
         ..Default::default()
     };
-    let gpu = headless::render(gpu, &scene, &options(64, batch).method, &on_gpu, &|_| {}).unwrap();
+    let method = Method {
+        mask: options(64, batch).mask,
+        ..Method::default()
+    };
+    let gpu = headless::render(gpu, &scene, &method, &on_gpu, &|_| {}).unwrap();
     compare_pixels("through one point", &gpu, &one, None).unwrap();
 }

@@ -3,7 +3,6 @@
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::metrics::{BeyondNoise, ZTest};
 use hairline_image::{Image, Layer, Layers, Noise};
-use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
 use hairline_reference::{Integrator, Settings};
 use hairline_scene::Scene;
@@ -31,10 +30,7 @@ pub fn sampled(scene: &Scene, settings: Settings, batches: u32) -> Image {
 pub fn closed(scene: &Scene) -> Image {
     let options = RenderOptions {
         samples: 1,
-        method: Method {
-            mask: Mask::Linear,
-            ..Method::default()
-        },
+        mask: Mask::Linear,
         ..RenderOptions::default()
     };
     closed_form::render(scene, &options, &|_| {})

@@ -5,17 +5,18 @@ use super::scenes::{View, panel, plate, scratch, sphere};
 use glam::DVec3;
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::{Image, Layer, Layers};
-use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
 use hairline_published::sine_integral::SineIntegral;
+use hairline_published::{Method, PublishedMethod, Structure};
 use hairline_scene::{Base, Light, LightShape, Scene};
 use std::sync::Arc;
 
 fn by(scene: &Scene, method: Method) -> Image {
     let options = RenderOptions {
         samples: 1,
-        method,
+        mask: method.mask,
+        method: method.on_cpu(),
         ..RenderOptions::default()
     };
     closed_form::render(scene, &options, &|_| {})

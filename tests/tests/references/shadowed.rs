@@ -6,7 +6,6 @@ use super::scenes::{View, add_quad, leaning, off_the_mirror, panel, plate, scrat
 use glam::{DVec3, Vec3};
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::{Image, Layer};
-use hairline_index::method::Method;
 use hairline_optics::grating::Grating as Row;
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
@@ -41,10 +40,8 @@ pub(super) fn bounced(scene: &Scene, samples: u32, shadows: bool, bounces: u32) 
         batch: None,
         shadows,
         bounces,
-        method: Method {
-            mask: Mask::Linear,
-            ..Method::default()
-        },
+        mask: Mask::Linear,
+        method: None,
     };
     closed_form::render(scene, &options, &|_| {})
 }

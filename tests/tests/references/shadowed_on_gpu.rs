@@ -4,8 +4,8 @@ use super::pictures::LINEAR;
 use super::shadowed::{bounced, closed, in_a_studio, luminance, scenes};
 use conformance::middle_of;
 use conformance::two_renderers::on_the_gpu_by;
+use hairline_gpu::Method;
 use hairline_image::{Found, FoundLight, FoundPixel, Image, Layer};
-use hairline_index::method::Method;
 use hairline_scene::Scene;
 use std::path::Path;
 

@@ -6,9 +6,9 @@ use conformance::square;
 use conformance::two_renderers::{compare_pixels, on_the_cpu, on_the_gpu, on_the_gpu_by};
 use glam::DVec3;
 use hairline_cpu::closed_form;
+use hairline_gpu::Method;
 use hairline_image::{Image, Layer};
 use hairline_index::TriangleIndex;
-use hairline_index::method::Method;
 use hairline_reference::{Integrator, Model, Settings};
 use hairline_scene::{
     AlphaRule, Base, Cutout, Light, LightShape, Material, Sampling, Scene, Texture,

@@ -3,8 +3,8 @@
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu, on_the_gpu_by};
 use hairline_cpu::closed_form::{RenderOptions, render};
 use hairline_fixtures::SceneFile;
+use hairline_gpu::Method;
 use hairline_image::{Display, Image, Picture, png};
-use hairline_index::method::Method;
 use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
 use hairline_scene::Scene;
 use std::ops::ControlFlow;

@@ -7,10 +7,10 @@ use conformance::{Sequence, square};
 use glam::{DVec3, Vec2, Vec3, Vec4, vec2};
 use hairline_cpu::closed_form;
 use hairline_fixtures::SceneFile;
+use hairline_gpu::Method;
 use hairline_image::Image;
 use hairline_image::tone_map::linear_from_srgb;
 use hairline_index::TriangleIndex;
-use hairline_index::method::Method;
 use hairline_scene::{
     AlphaRule, Anisotropy, Base, Coat, Cutout, Light, LightShape, Mesh, Sampling, Scene, Specular,
     Texture, Wrap,

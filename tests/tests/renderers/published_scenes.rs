@@ -7,9 +7,9 @@ use hairline_fixtures::SceneFile;
 use hairline_gpu::{Renderer, headless};
 use hairline_image::metrics::layer_difference;
 use hairline_image::{Image, Layer, Picture};
-use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
 use hairline_published::sine_integral::SineIntegral;
+use hairline_published::{Method, PublishedMethod, Structure};
 use hairline_scene::{Environment, Scene};
 
 /// A difference between methods that two renderers of one method, 0.12 % apart at most, could not be taken for.
@@ -57,6 +57,7 @@ impl<'a> Both<'a> {
         let gpu = renderer.gpu().clone();
         let picture = gpu.block_on(async {
             let (index, tables) = (prepared.scratches(), prepared.tables());
+            let method = method.on_gpu();
             let uploaded = renderer.upload(scene, index, tables, &method).await?;
             let options = Default::default();
             renderer.render(scene, &uploaded, &options, &|_| {}).await
@@ -64,7 +65,8 @@ impl<'a> Both<'a> {
         let picture = picture.unwrap_or_else(|error: hairline_gpu::Error| panic!("{error}"));
         let options = closed_form::RenderOptions {
             samples: 1,
-            method,
+            mask,
+            method: method.on_cpu(),
             ..Default::default()
         };
         let cpu = prepared.render(&options, &|_| {});
@@ -168,4 +170,32 @@ fn under_a_map() {
         return;
     };
     both.check(PublishedMethod::default(), Mask::Density);
+}
+
+/// Its tables are all that a change of the method writes.
+#[test]
+fn a_change_of_method_writes_its_tables_alone() {
+    let scene = middle("plate.toml", 256, [32; 2]);
+    let Some(mut both) = Both::new("plate", &scene) else {
+        return;
+    };
+    let (prepared, renderer) = (&both.prepared, &mut both.renderer);
+    let (index, tables) = (prepared.scratches(), prepared.tables());
+    let gpu = renderer.gpu().clone();
+    let written = gpu.block_on(async {
+        let own = Method::default().on_gpu();
+        let mut uploaded = renderer.upload(&scene, index, tables, &own).await?;
+        let published = Method::PUBLISHED.on_gpu();
+        let update = renderer.update(&mut uploaded, &scene, index, tables, &published);
+        update.await?;
+        Ok::<_, hairline_gpu::Error>(uploaded.written().to_vec())
+    });
+    let names: Vec<_> = written.unwrap().iter().map(|it| it.what).collect();
+    let tables = [
+        "wavelengths",
+        "triangle lists",
+        "scratch tree",
+        "sphere lobe table",
+    ];
+    assert_eq!(names, tables);
 }

@@ -7,11 +7,10 @@ use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use conformance::{Sequence, lay, middle, sphere_light, square};
 use glam::{DVec3, Vec3};
 use hairline_cpu::closed_form;
-use hairline_gpu::{RenderOptions, Renderer, headless};
+use hairline_gpu::{Method, RenderOptions, Renderer, headless};
 use hairline_image::metrics::layer_difference;
 use hairline_image::{Image, Layer};
 use hairline_index::ScratchIndex;
-use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
 use hairline_scene::{Base, Light, Scene, ScratchTables};
 
@@ -176,7 +175,7 @@ fn masks_for_comparison() {
         };
         let options = closed_form::RenderOptions {
             samples: 1,
-            method,
+            mask,
             ..Default::default()
         };
         let cpu = closed_form::render(&scene, &options, &|_| {});

@@ -527,7 +527,7 @@ fn pivots() {
     let tables = tables();
     let mut twin = Twin {
         name: "sptd_sphere_published",
-        modules: &[&shaders::SPTD],
+        modules: &[&hairline_published::shaders::SPTD],
         snippet: "let axis = vec3f(x[4], x[5], x[6]);
             let lobe = sptd_lobe(vec3f(x[0], x[1], x[2]), x[3], table_2, table_1);
             y[0] = sptd_sphere_published(lobe, axis, x[7]) / x[8];",
@@ -751,7 +751,7 @@ fn never_nan_in_the_shader() {
     };
     let tables = tables();
     let call = Call {
-        modules: &[&shaders::SPTD],
+        modules: &[&hairline_published::shaders::SPTD],
         snippet: "let wo = vec3f(x[0], x[1], x[2]);
             let lobe = ltc_lobe(wo, x[3], table_0, table_1);
             let pivot = sptd_lobe(wo, x[3], table_2, table_1);

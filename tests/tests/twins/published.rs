@@ -3,12 +3,13 @@
 use super::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec2, DVec3};
 use hairline_gpu::call::Call;
-use hairline_gpu::{headless, shaders};
+use hairline_gpu::headless;
 use hairline_optics::band::Cap;
 use hairline_optics::diffraction;
 use hairline_published::footprint::{PixelFootprint, PublishedShare, published_share};
 use hairline_published::polygon::{bitonic_sort, clip_triangle, triangle_segments};
 use hairline_published::segments::BandSegments;
+use hairline_published::shaders;
 use hairline_published::sine_integral::{SineIntegral, sine_integral_fast};
 use hairline_published::spectrum::{
     PublishedWavelength, published_chord_integral, published_radiance,

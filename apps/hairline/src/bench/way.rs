@@ -1,7 +1,7 @@
 //! Methods that are compared.
 
-use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_published::sine_integral::SineIntegral;
+use hairline_published::{Method, PublishedMethod, Structure};
 use serde::Serialize;
 
 /// A method with its switches: the talk's columns, the talk's exact sine integral, and ours.

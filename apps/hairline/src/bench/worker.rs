@@ -5,10 +5,10 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
-use hairline_cpu::closed_form::{self, Prepared};
+use hairline_cpu::closed_form::{self, Prepared, RenderOptions};
 use hairline_gpu::{Adapter, Canvas, Error, Gpu, GpuScene, PassTime, Renderer, headless};
 use hairline_image::Image;
-use hairline_index::method::Method;
+use hairline_published::Method;
 use hairline_scene::Scene;
 
 use super::counts::Counts;
@@ -34,18 +34,14 @@ pub struct GpuWorker {
 
 /// A scene that is ready to be rendered by a method.
 pub struct Ready {
-    pub method: Method,
+    options: RenderOptions,
     uploaded: Option<GpuScene>,
 }
 
 /// Counts of the work that `way` does for a picture, on the CPU; none for the published method.
 pub fn counted(scene: &Scene, prepared: &Prepared, way: BenchMethod) -> Option<Counts> {
-    let options = closed_form::RenderOptions {
-        samples: 1,
-        method: way.method(),
-        ..Default::default()
-    };
     (way == BenchMethod::Ours).then(|| {
+        let options = RenderOptions::default();
         let rows = 0..scene.render.size_px[1];
         prepared.render_counted(&options, rows, &|_| {}).1.into()
     })
@@ -106,13 +102,19 @@ impl Worker {
         let uploaded = match self {
             Self::Gpu(worker) => {
                 let (index, tables) = (prepared.scratches(), prepared.tables());
-                let upload = worker.renderer.upload(scene, index, tables, method);
+                let method = method.on_gpu();
+                let upload = worker.renderer.upload(scene, index, tables, &method);
                 Some(worker.gpu.block_on(upload)?)
             }
             Self::Cpu => None,
         };
         Ok(Ready {
-            method: *method,
+            options: RenderOptions {
+                samples: 1,
+                mask: method.mask,
+                method: method.on_cpu(),
+                ..Default::default()
+            },
             uploaded,
         })
     }
@@ -128,13 +130,13 @@ impl Worker {
         match (self, &ready.uploaded) {
             (Self::Gpu(worker), Some(uploaded)) => worker.time(scene, uploaded, rows),
             _ => {
-                let options = options(ready);
+                let options = &ready.options;
                 let start = Instant::now();
                 match rows {
-                    PictureRows::Whole => drop(prepared.render(&options, &|_| {})),
+                    PictureRows::Whole => drop(prepared.render(options, &|_| {})),
                     PictureRows::Strips(strips) => {
                         for rows in strips {
-                            drop(prepared.render_rows(&options, rows.clone(), &|_| {}));
+                            drop(prepared.render_rows(options, rows.clone(), &|_| {}));
                         }
                     }
                 }
@@ -161,21 +163,13 @@ impl Worker {
                 worker.gpu.block_on(picture)
             }
             _ => {
-                let options = options(ready);
+                let options = &ready.options;
                 Ok(match prepared {
-                    Some(prepared) => prepared.render(&options, &|_| {}),
-                    None => closed_form::render(scene, &options, &|_| {}),
+                    Some(prepared) => prepared.render(options, &|_| {}),
+                    None => closed_form::render(scene, options, &|_| {}),
                 })
             }
         }
-    }
-}
-
-fn options(ready: &Ready) -> closed_form::RenderOptions {
-    closed_form::RenderOptions {
-        samples: 1,
-        method: ready.method,
-        ..Default::default()
     }
 }
 

@@ -52,7 +52,7 @@ pub fn run(
     let place = |frame: usize| motion.position_m(&camera, frame as u32);
     if motion.time_s(0).is_none() {
         let mut moved = loaded.scene.clone();
-        let mut painter = Painter::open(&loaded.scene, task, terminal)?;
+        let mut painter = Painter::open(&loaded.scene, task.clone(), terminal)?;
         for frame in 0..motion.frames as usize {
             moved.camera.position_m = place(frame);
             frames.add(frame, &moved, &mut painter)?;
@@ -66,7 +66,7 @@ pub fn run(
         loaded.scene.camera.position_m = place(frame);
         // The renderer is reported once.
         let listener: &dyn Listener = if frame == 0 { terminal } else { &Quiet };
-        let mut painter = Painter::open(&loaded.scene, task, listener)?;
+        let mut painter = Painter::open(&loaded.scene, task.clone(), listener)?;
         frames.add(frame, &loaded.scene, &mut painter)?;
     }
     frames.finish()

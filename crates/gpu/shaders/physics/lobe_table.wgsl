@@ -1,5 +1,5 @@
 // Look-ups in the fitted tables: rgba32float, x = sqrt(viewer's cosine), y = roughness, both from 0 to 1 across the nodes.
-// albedo: E0. shapes: width_x, width_y, lean of the transformed cosine; in the tables under it what environment_lobe looks up. sptd: width, lean.
+// albedo: E0. shapes: width_x, width_y, lean of the transformed cosine; in the tables under it what environment_lobe looks up.
 // Twin: optics::lobe_table.
 
 const LOBE_MIN_COS: f32 = 1e-3;

@@ -51,12 +51,3 @@ fn picture_part_at(picture: vec2u, look: PictureLook, i: u32) -> vec3f {
 fn picture_mean(picture: vec2u) -> vec3f {
     return scene_texture_level(picture, scene_texture_levels(picture) - 1u, vec2f(0.5), 0.0).rgb;
 }
-
-// The radiance of a light towards a point for the method of 2018, which takes a picture for its mean.
-fn published_light_radiance(light: Light, to_m: vec3f) -> vec3f {
-    var radiance = light_radiance(light, to_m);
-    if HAS_PICTURES && (light.extras & LIGHT_PICTURE) != 0u {
-        radiance *= picture_mean(light_picture(light));
-    }
-    return radiance;
-}

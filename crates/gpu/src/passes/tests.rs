@@ -1,8 +1,8 @@
-use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
 
 use super::*;
 use crate::headless;
+use crate::method::Method;
 use crate::variant::Contents;
 
 #[test]

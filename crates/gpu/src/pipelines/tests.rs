@@ -1,8 +1,8 @@
 use super::*;
 use crate::headless;
+use crate::method::Method;
 use crate::pipeline_cache::PipelineCache;
 use crate::variant::Contents;
-use hairline_index::method::Method;
 
 /// A refused pipeline is reported, whichever thread it was compiled on.
 #[test]

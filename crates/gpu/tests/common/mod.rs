@@ -6,10 +6,9 @@ use std::sync::Arc;
 
 use hairline_fixtures::{DISK, SceneFile};
 use hairline_gpu::headless::{self, test_gpu};
-use hairline_gpu::{AdapterRequest, Canvas, Error, Gpu, GpuScene, RenderOptions, Renderer};
+use hairline_gpu::{AdapterRequest, Canvas, Error, Gpu, GpuScene, Method, RenderOptions, Renderer};
 use hairline_image::Image;
 use hairline_index::ScratchIndex;
-use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 
 /// The rim of a plate with scratches on a table, under a lamp and a tube; so near that no pixel sees many scratches.

@@ -9,7 +9,6 @@ use hairline_gpu::headless::test_gpu;
 use hairline_gpu::{Error, GpuScene, Renderer};
 use hairline_image::{Image, Picture};
 use hairline_index::ScratchIndex;
-use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::metal::Metal;
 use hairline_scene::{Base, Environment, LightShape, Sampling, Scene, ScratchTables, Texture};
 use rand::{Rng, RngExt, SeedableRng};
@@ -232,25 +231,6 @@ fn only_what_changed_is_written() {
     let names = found.keys().copied().filter(|name| *name != "objects");
     let names: Vec<_> = names.collect();
     assert_eq!(names, ["scratch segments", "triangles"]);
-    // The published method looks up something else.
-    let published = Method {
-        published: Some(PublishedMethod {
-            structure: Structure::TriangleLists,
-            anti_aliasing: false,
-            ..Default::default()
-        }),
-        ..Method::default()
-    };
-    let Stage {
-        renderer,
-        made,
-        uploaded,
-        ..
-    } = &mut stage;
-    gpu.block_on(renderer.update(uploaded, &made.scene, &made.index, &made.tables, &published))
-        .unwrap();
-    let names: Vec<_> = written(uploaded).keys().copied().collect();
-    assert_eq!(names, ["scratch tree", "triangle lists", "wavelengths"]);
 }
 
 #[test]

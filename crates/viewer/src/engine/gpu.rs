@@ -5,9 +5,8 @@ use std::time::Duration;
 
 use egui::ColorImage;
 use hairline_gpu::canvas::Canvas;
-use hairline_gpu::{AdapterKind, Error, Gpu, GpuScene, PassTime, RenderOptions, Renderer};
+use hairline_gpu::{AdapterKind, Error, Gpu, GpuScene, Method, PassTime, RenderOptions, Renderer};
 use hairline_image::{Batch, Image, filter_found};
-use hairline_index::method::Method;
 use hairline_scene::{DEFAULT_SAMPLES, Transport};
 use web_time::Instant;
 

@@ -5,9 +5,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use hairline_cpu::closed_form::TILE_PX;
 use hairline_editor::navigate;
-use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
+use hairline_gpu::{AdapterKind, Gpu, GpuScene, Method, RenderOptions, Renderer};
 use hairline_image::{Animation, Batches, Display, Image, Output, filter_found};
-use hairline_index::method::Method;
 use hairline_scene::{Camera, Description, Scene, Transport};
 
 use crate::engine::{Backend, Built, Wake, bands};

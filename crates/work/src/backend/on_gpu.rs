@@ -3,10 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use hairline_gpu::{Error, Gpu, GpuScene, RenderOptions, Renderer};
+use hairline_gpu::{Error, Gpu, GpuScene, Method, RenderOptions, Renderer};
 use hairline_image::{Batch, Image};
 use hairline_index::ScratchIndex;
-use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables, Transport};
 
 /// A renderer with its shaders compiled and the scene uploaded.

@@ -1,7 +1,5 @@
 // The scratches under a pixel by the method of 2018: each pixel traverses the BVH by its skip pointers, or goes through a list of its
-// triangle. Twin: cpu/src/published.rs.
-
-// Needs, beside its modules: scratch_nodes, scratch_segments, lights, triangle_lists.
+// triangle. Twin: src/cpu.rs.
 
 const REACH_STD: f32 = 3.5;
 const FACING_MIN_COS: f32 = 0.2;

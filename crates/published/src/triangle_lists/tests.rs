@@ -1,6 +1,6 @@
 use super::*;
-use crate::scratch_index::FACING_MIN_COS;
 use hairline_fixtures::SceneFile;
+use hairline_index::scratch_index::FACING_MIN_COS;
 use hairline_optics::footprint::{Footprint, scratch_share};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;

@@ -1,5 +1,5 @@
 // The method of 2018, kept to be compared with: the segments of q that a light covers on the band's middle line. Twin:
-// optics/src/published/segments.rs.
+// src/segments.rs.
 
 // Low and high q of each segment.
 struct BandSegments {

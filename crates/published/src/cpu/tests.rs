@@ -1,8 +1,8 @@
 use super::*;
-use crate::surface::surface_point;
+use crate::sine_integral::SineIntegral;
 use glam::DVec3;
+use hairline_cpu::surface::surface_point;
 use hairline_fixtures::SceneFile;
-use hairline_published::sine_integral::SineIntegral;
 use hairline_scene::Scene;
 
 /// A parallel brushed plate under a panel and a sphere.
@@ -27,16 +27,16 @@ fn scene() -> Scene {
 
 /// Light of the plate's middle, by a method that `change` may have spoilt.
 fn middle(prepared: &Prepared, si: SineIntegral, change: impl Fn(&mut Published)) -> Masked {
-    let scene = prepared.scene;
+    let scene = prepared.scene();
     let to_camera = scene.camera.position_m;
     let direction = -to_camera.normalize();
     let hit = prepared
-        .triangles
+        .triangles()
         .intersect(to_camera + DVec3::splat(1e-5), direction)
         .unwrap();
     let footprint = |_| [DVec3::X * 4e-5, DVec3::Y * 4e-5];
     let position_m = to_camera + direction * hit.distance_m;
-    let tables = &prepared.tables;
+    let tables = prepared.tables();
     let point = surface_point(scene, tables, position_m, -direction, footprint, &hit);
     let mut views = LightViews::new(scene);
     views.look_from(&point);

@@ -1,5 +1,5 @@
 // The method of 2018, kept to be compared with: a blend of the pixel's two limits, and the density that masks the base.
-// Twin: optics/src/published/footprint.rs, which explains it.
+// Twin: src/footprint.rs, which explains it.
 
 // Step on the surface from one pixel to the next, right and down; x along the scratch, y across it.
 struct PixelFootprint {

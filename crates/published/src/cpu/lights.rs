@@ -2,15 +2,15 @@
 
 use super::Published;
 use super::segment::SegmentView;
-use crate::light_view::{LightView, LightViews};
-use crate::surface::SurfacePoint;
+use crate::polygon::{clip_triangle, triangle_segments};
+use crate::segments::BandSegments;
+use crate::spectrum::PublishedSpectrum;
+use crate::sphere::sphere_segments;
 use glam::DVec3;
+use hairline_cpu::method::{LightView, LightViews};
+use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::band::BandLine;
 use hairline_optics::band_environment::environment_band;
-use hairline_published::polygon::{clip_triangle, triangle_segments};
-use hairline_published::segments::BandSegments;
-use hairline_published::spectrum::PublishedSpectrum;
-use hairline_published::sphere::sphere_segments;
 
 impl Published<'_> {
     /// Radiance of a scratch for a share of 1, without Fresnel's factor.
@@ -53,7 +53,7 @@ impl Published<'_> {
                 }
             }
         }
-        if let Some(environment) = &self.prepared.scene.environment {
+        if let Some(environment) = &self.prepared.scene().environment {
             sum += environment_band(
                 BandLine::new(view.wo, 0.0),
                 width_um,

@@ -1,5 +1,5 @@
 // The sine integral, in full and as the method of 2018 may have approximated it. Twins: optics/src/diffraction.rs
-// (sine_integral) and optics/src/published/sine_integral.rs (sine_integral_fast), which explains it.
+// (sine_integral) and src/sine_integral.rs (sine_integral_fast), which explains it.
 // Si(x) = pi/2 - f(x) cos x - g(x) sin x for x > 0.
 
 // Beyond this Si is pi/2 to 1e-6.

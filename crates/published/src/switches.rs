@@ -1,27 +1,9 @@
-//! The method by which scratches are rendered: Hairline's own, or the method of 2018 with its switches ([`hairline_published`]).
+//! The switches of the method.
 
-use hairline_optics::mask::Mask;
-use hairline_published::sine_integral::SineIntegral;
-
-/// The method by which scratches are rendered.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Method {
-    /// The method of 2018 with its switches; `None` is Hairline's own.
-    pub published: Option<PublishedMethod>,
-    /// Energy that the base loses to the scratches.
-    pub mask: Mask,
-}
-
-impl Method {
-    /// The published method: BVH, anti-aliasing, the fast sine integral, the density mask.
-    pub const PUBLISHED: Self = Self {
-        published: Some(PublishedMethod::DEFAULT),
-        mask: Mask::Density,
-    };
-}
+use crate::sine_integral::SineIntegral;
 
 /// The switches of the talk's table. The rest of the method is fixed: eight wavelengths
-/// ([`PUBLISHED_WAVELENGTHS`](hairline_published::spectrum::PUBLISHED_WAVELENGTHS)), the steps that find a light's chords on the
+/// ([`crate::spectrum::PUBLISHED_WAVELENGTHS`]), the steps that find a light's chords on the
 /// middle line of the band, and the pivot transform for spheres on the base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct PublishedMethod {
@@ -34,7 +16,7 @@ pub struct PublishedMethod {
 }
 
 impl PublishedMethod {
-    const DEFAULT: Self = Self {
+    pub(crate) const DEFAULT: Self = Self {
         structure: Structure::Bvh,
         anti_aliasing: true,
         si: SineIntegral::Fast,

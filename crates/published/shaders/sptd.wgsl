@@ -1,5 +1,5 @@
 // The GGX lobe over a sphere by a pivot transform, as published and with what the fit misses put back (ltc_sphere is the default).
-// Needs ggx, irradiance, lobe_table, ltc. Twin: optics::sptd, which explains the method and names the paper.
+// Needs ggx, irradiance, lobe_table, ltc. Twin: src/sptd.rs, which explains the method and names the paper.
 
 struct SptdLobe {
     wo: vec3f,

@@ -1,5 +1,4 @@
-// The scratches that each triangle's points may see. Needs triangle_lists. Twin: src/published.rs lays it out; the lists are
-// those of crates/index.
+// The scratches that each triangle's points may see. Twins: src/gpu.rs, src/triangle_lists.rs.
 
 fn triangle_lists_word(i: u32) -> u32 {
     return textureLoad(triangle_lists, row_texel(i), 0).x;

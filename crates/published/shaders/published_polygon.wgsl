@@ -1,5 +1,5 @@
 // The method of 2018, kept to be compared with: a triangular light on the band's middle line. Twin:
-// optics/src/published/polygon.rs, which explains the steps.
+// src/polygon.rs, which explains the steps.
 
 const CULL_SLACK: f32 = 1e-6;
 const CULLED: f32 = 2.0;

@@ -1,7 +1,5 @@
-// The base under lights and environment, spheres by the pivot transform of 2017. Twin: cpu/src/published.rs; base.wgsl
+// The base under lights and environment, spheres by the pivot transform of 2017. Twin: src/cpu.rs; base.wgsl
 // explains what is the same there.
-
-// Needs, beside its modules: lights, lobe_shapes, lobe_sptd, lobe_albedo, fresnel_curves, and the environment.
 
 // The lobe's integrals and the diffuse form factor of a light.
 fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, pivot: SptdLobe, light: Light) -> vec4f {

@@ -1,12 +1,12 @@
 //! View of a segment from a pixel, with anti-aliasing or without.
 
-use crate::surface::SurfacePoint;
+use crate::footprint::{PixelFootprint, published_share};
 use glam::{DVec2, DVec3};
+use hairline_cpu::surface::SurfacePoint;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_index::{IndexedProfile, IndexedSegment};
 use hairline_optics::band::BandFrame;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
-use hairline_published::footprint::{PixelFootprint, published_share};
 
 /// A segment as seen from a point.
 pub(super) struct SegmentView {
@@ -26,7 +26,7 @@ const ENDLESS_UM: f64 = 1e9;
 impl SegmentView {
     /// Makes the view of a segment; none where it lies on another side of the surface or out of the
     /// footprint's reach.
-    pub fn new(
+    pub(super) fn new(
         point: &SurfacePoint,
         segment: &IndexedSegment,
         anti_aliasing: bool,

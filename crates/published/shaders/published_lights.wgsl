@@ -1,9 +1,9 @@
 // Light that a scratch sends to the viewer by the method of 2018: eight wavelengths, the talk's steps, the middle line of the band,
-// depths along the normal. Twin: cpu/src/published.rs.
+// depths along the normal. Twin: src/cpu/lights.rs.
 
-// Wavelengths of published_wavelengths. Twin: optics/src/published/spectrum.rs.
+// Wavelengths of published_wavelengths. Twin: src/spectrum.rs.
 const PUBLISHED_WAVELENGTHS: u32 = 8u;
-// Columns of published_wavelengths that hold triangles of lights, beyond the wavelengths. Twin: src/published.rs.
+// Columns of published_wavelengths that hold triangles of lights, beyond the wavelengths. Twin: src/gpu.rs.
 const LIGHT_TRIANGLE_COLUMNS: u32 = 64u;
 
 // A segment as seen from the point, in the scratch's frame: micrometres.
@@ -53,6 +53,15 @@ fn published_triangle(light: Light, i: u32) -> vec3u {
 fn published_wavelength(table: u32, i: u32) -> PublishedWavelength {
     let texel = textureLoad(published_wavelengths, vec2u(i, table), 0);
     return PublishedWavelength(texel.xyz, texel.w);
+}
+
+// The radiance of a light towards a point; a picture counts by its mean.
+fn published_light_radiance(light: Light, to_m: vec3f) -> vec3f {
+    var radiance = light_radiance(light, to_m);
+    if HAS_PICTURES && (light.extras & LIGHT_PICTURE) != 0u {
+        radiance *= picture_mean(light_picture(light));
+    }
+    return radiance;
 }
 
 // A scratch's light over segments of a line, per unit of its share under a light of radiance 1.

@@ -4,9 +4,9 @@
 //!
 //! A footprint reaches further than the window, so lists serve points without one only.
 
-use crate::indexed_segment::IndexedSegment;
-use crate::scratch_index::{REACH_STD, ScratchIndex};
 use glam::{DVec2, DVec3, Vec3};
+use hairline_index::scratch_index::REACH_STD;
+use hairline_index::{IndexedSegment, ScratchIndex};
 use hairline_scene::{Mesh, Object, Scene};
 use rayon::prelude::*;
 
