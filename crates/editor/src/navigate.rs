@@ -3,7 +3,6 @@
 //! Pixels count to the right and down, as a pointer moves; `size_px` is the size of the view.
 
 use glam::{DQuat, DVec2, DVec3};
-use hairline_scene::CameraFrame;
 use hairline_scene::camera::framing;
 use hairline_scene::description::Camera;
 use hairline_scene::schema::{LARGEST_M, SMALLEST_M};
@@ -209,34 +208,6 @@ pub fn look_from(camera: &mut Camera, viewpoint: Viewpoint) {
         distance_m: Axes::of(camera).distance_m,
     }
     .give(camera);
-}
-
-/// The rays of a view of `size_px`, as the renderers take them.
-pub fn view(camera: &Camera, size_px: [u32; 2]) -> CameraFrame {
-    hairline_scene::Camera {
-        position_m: camera.position_m.into(),
-        target_m: camera.target_m.into(),
-        up: camera.up.into(),
-        fov_y_rad: camera.fov_y_deg.to_radians(),
-        shift_tan: camera.shift_tan(),
-        exposure_ev: camera.exposure_ev,
-        lens: camera.lens(),
-    }
-    .frame(size_px)
-}
-
-/// Position of a point in the view, in pixels from the upper left corner; none behind the camera.
-pub fn project(camera: &Camera, point_m: DVec3, size_px: DVec2) -> Option<DVec2> {
-    let axes = Axes::of(camera);
-    let from_eye = point_m - DVec3::from(camera.position_m);
-    let depth_m = from_eye.dot(axes.forward);
-    if !(depth_m > 0.0) {
-        return None;
-    }
-    let px = 0.5 * size_px.y / (half_fov_tan(camera) * depth_m);
-    let from_middle =
-        DVec2::new(from_eye.dot(axes.right), from_eye.dot(axes.up)) - camera.shift_tan() * depth_m;
-    Some(0.5 * size_px + from_middle * DVec2::new(px, -px))
 }
 
 /// Position of the camera on the turntable.

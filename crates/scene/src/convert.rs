@@ -24,7 +24,7 @@ use crate::scene::{Base, Camera, GLTF_DIELECTRIC_F0, Material, RenderSettings, S
 pub(crate) fn without_surfaces(description: &Description) -> Scene {
     let lights = description.lights.iter().filter(|light| !light.hidden);
     Scene {
-        camera: camera(&description.camera),
+        camera: description.camera.in_scene(),
         render: RenderSettings {
             size_px: description.render.size_px,
             filter_std_px: description.render.filter_std_px,
@@ -39,15 +39,18 @@ pub(crate) fn without_surfaces(description: &Description) -> Scene {
     }
 }
 
-pub(crate) fn camera(camera: &description::Camera) -> Camera {
-    Camera {
-        position_m: camera.position_m.into(),
-        target_m: camera.target_m.into(),
-        up: camera.up.into(),
-        fov_y_rad: camera.fov_y_deg.to_radians(),
-        shift_tan: camera.shift_tan(),
-        exposure_ev: camera.exposure_ev,
-        lens: camera.lens(),
+impl description::Camera {
+    /// Converts it to a camera of a scene.
+    pub fn in_scene(&self) -> Camera {
+        Camera {
+            position_m: self.position_m.into(),
+            target_m: self.target_m.into(),
+            up: self.up.into(),
+            fov_y_rad: self.fov_y_deg.to_radians(),
+            shift_tan: self.shift_tan(),
+            exposure_ev: self.exposure_ev,
+            lens: self.lens(),
+        }
     }
 }
 

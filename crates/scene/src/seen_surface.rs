@@ -3,7 +3,6 @@
 use glam::{DVec2, DVec3};
 
 use crate::camera::CameraFrame;
-use crate::convert;
 use crate::description::Camera;
 use crate::scene::Mesh;
 
@@ -29,7 +28,7 @@ pub(crate) fn seen_points(
     meshes: &[&Mesh],
 ) -> Vec<SeenPoint> {
     let height_px = (WIDTH_PX * height).div_ceil(width.max(1)).max(1);
-    let frame = convert::camera(camera).frame([WIDTH_PX, height_px]);
+    let frame = camera.in_scene().frame([WIDTH_PX, height_px]);
     let mut nearest: Vec<Option<(f64, SeenPoint)>> =
         vec![None; WIDTH_PX as usize * height_px as usize];
     for (i, mesh) in meshes.iter().enumerate() {

@@ -9,6 +9,12 @@ use proptest::prelude::*;
 
 const SIZE_PX: DVec2 = DVec2::new(800.0, 500.0);
 
+/// Where a renderer draws a point in a picture of whole pixels.
+fn project(camera: &Camera, point_m: DVec3, size_px: DVec2) -> Option<DVec2> {
+    let frame = camera.in_scene().frame(size_px.as_uvec2().into());
+    frame.pixel_of(point_m)
+}
+
 fn camera() -> impl Strategy<Value = Camera> {
     let coordinate = || -2.0..2.0;
     let point = move || [coordinate(), coordinate(), coordinate()];
@@ -46,7 +52,7 @@ fn offset(camera: &Camera) -> DVec3 {
 
 /// The point under a pixel at the target's depth.
 fn under(camera: &Camera, pixel: DVec2) -> DVec3 {
-    let frame = view(camera, SIZE_PX.as_uvec2().into());
+    let frame = camera.in_scene().frame(SIZE_PX.as_uvec2().into());
     frame.position_m + frame.camera_ray(pixel) * offset(camera).length()
 }
 
@@ -133,7 +139,7 @@ proptest! {
         prop_assume!(size.length() > 0.01);
         let before = camera.clone();
         frame_points(&mut camera, &corners(low, high), aspect);
-        let size_px = DVec2::new(600.0 * aspect, 600.0);
+        let size_px = DVec2::new(600.0 * aspect, 600.0).round();
         let (mut least, mut most) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for corner in corners(low, high) {
             let seen = project(&camera, corner, size_px).expect("in front of the camera") / size_px;

@@ -90,14 +90,9 @@ impl Area {
 /// Camera of the scene, for its frame.
 pub(crate) fn camera(camera: &description::Camera) -> Camera {
     Camera {
-        position_m: camera.position_m.into(),
-        target_m: camera.target_m.into(),
-        up: camera.up.into(),
-        fov_y_rad: camera.fov_y_deg.to_radians(),
-        shift_tan: camera.shift_tan(),
         // Shown by a `Display`, so that a change of it paints nothing anew.
         exposure_ev: 0.0,
-        lens: camera.lens(),
+        ..camera.in_scene()
     }
 }
 

@@ -10,7 +10,7 @@ use egui::{Event, Key, Modifiers, MouseWheelUnit, Pos2, Rect, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{DVec2, DVec3};
-use hairline_editor::{Selection, navigate};
+use hairline_editor::Selection;
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 
@@ -124,9 +124,10 @@ fn is_framed(scene: &str, object: &str) {
     let vertices = &built.scene.objects[i].mesh.positions_m;
     let camera = harness.state().camera();
     let size = DVec2::from(d.render.size_px.map(f64::from));
+    let frame = camera.in_scene().frame(d.render.size_px);
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     for vertex in vertices {
-        let at = navigate::project(&camera, vertex.as_dvec3(), size).unwrap() / size;
+        let at = frame.pixel_of(vertex.as_dvec3()).unwrap() / size;
         (low, high) = (low.min(at), high.max(at));
     }
     assert!(

@@ -2,8 +2,8 @@
 
 use crate::common;
 use egui::{Rect, vec2};
-use glam::{DVec2, DVec3};
-use hairline_editor::{Selection, navigate};
+use glam::DVec3;
+use hairline_editor::Selection;
 
 #[test]
 fn a_click_on_the_disk_selects_it_and_one_beside_it_nothing() {
@@ -31,10 +31,9 @@ fn a_double_click_where_the_disks_centre_is_seen_looks_at_its_centre() {
     let [width, height] = description.render.size_px.map(|side| side as f32);
     let fitting = (area.width() / width).min(area.height() / height);
     let frame = Rect::from_center_size(area.center(), vec2(width, height) * fitting);
-    let size = DVec2::new(frame.width().into(), frame.height().into());
-    let seen = navigate::project(&description.camera, DVec3::ZERO, size);
-    let seen = seen.expect("the disk is in view");
-    let at = frame.min + vec2(seen.x as f32, seen.y as f32);
+    let picture = description.camera.in_scene().frame(description.render.size_px);
+    let seen = picture.pixel_of(DVec3::ZERO).expect("the disk is in view");
+    let at = frame.min + vec2(seen.x as f32, seen.y as f32) * fitting;
     common::double_click_at(&mut harness, at);
     let target_m = DVec3::from(harness.state().camera().target_m);
     // Half a pixel is 0.3 mm there; a hundredth of one is what rounding to the screen's single precision leaves.
