@@ -18,7 +18,7 @@ use crate::environment::{self, BuiltInMap};
 use crate::error::Error;
 use crate::grating::{Bearing, Grating, GrooveField, GroovePicture, UvField};
 use crate::picture_lie::PictureLie;
-use crate::scene::{Base, Camera, GLTF_DIELECTRIC_F0, Material, RenderSettings, Scene, Specular};
+use crate::scene::{Base, GLTF_DIELECTRIC_F0, Material, RenderSettings, Scene, Specular};
 
 /// Converts the parts of a scene that take no time: camera, settings, materials, lights.
 pub(crate) fn without_surfaces(description: &Description) -> Scene {
@@ -36,21 +36,6 @@ pub(crate) fn without_surfaces(description: &Description) -> Scene {
         objects: Vec::new(),
         lights: lights.map(description::Light::in_scene).collect(),
         notes: description.notes.clone(),
-    }
-}
-
-impl description::Camera {
-    /// Converts it to a camera of a scene.
-    pub fn in_scene(&self) -> Camera {
-        Camera {
-            position_m: self.position_m.into(),
-            target_m: self.target_m.into(),
-            up: self.up.into(),
-            fov_y_rad: self.fov_y_deg.to_radians(),
-            shift_tan: self.shift_tan(),
-            exposure_ev: self.exposure_ev,
-            lens: self.lens(),
-        }
     }
 }
 

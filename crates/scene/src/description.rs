@@ -6,6 +6,7 @@
 //! its line and a hint; ranges are checked in `check`, so that they hold for descriptions that come from no file. What a key is when a file
 //! leaves it out is said in [`schema`] alone.
 
+mod camera;
 mod check;
 mod files;
 mod gratings;
@@ -27,7 +28,6 @@ pub(crate) mod values;
 
 use std::path::{Path, PathBuf};
 
-use glam::DVec3;
 use hairline_image::ToneMap;
 use hairline_model::mesh_file::Placing;
 use hairline_optics::metal::Metal;
@@ -36,9 +36,9 @@ use serde::Serialize;
 use crate::environment::BuiltInMap;
 use crate::scene::{Anisotropy, Coat, Specular};
 use crate::schema;
-use crate::upright::vertical_axis;
 use values::{Named, is_default, serialize_named, serialize_scale};
 
+pub use camera::Camera;
 pub use check::STROKE_POINTS;
 pub use files::FileUse;
 pub use gratings::{Grating, GratingTheory, GroovePattern, UvAxis};
@@ -91,83 +91,6 @@ pub struct Description {
     /// Notes on the file for its author, a line each; they are no part of the file.
     #[serde(skip)]
     pub notes: Vec<String>,
-}
-
-/// `[camera]`
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Camera {
-    /// Camera of a model's file, used in place of this one: its name, that of its node, or its number. The exposure and the lens
-    /// are of this one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub of_file: Option<String>,
-    /// The pinhole. Required without `of_file`.
-    pub position_m: [f64; 3],
-    /// The point in the centre of the picture. Required without `of_file`.
-    pub target_m: [f64; 3],
-    /// The direction that is up in the picture.
-    pub up: [f64; 3],
-    /// Vertical field of view, above 0 and below 180. A file may give `focal_length_mm` and `sensor_width_mm` instead.
-    pub fov_y_deg: f64,
-    /// Width of the film, that is, of the picture; focal lengths and f-stops refer to it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sensor_width_mm: Option<f64>,
-    /// Radiances are multiplied by 2^exposure_ev before the tone map.
-    pub exposure_ev: f64,
-    /// Diameter of the lens's opening. A file may give `f_stop` beside `focal_length_mm` instead.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub aperture_mm: Option<f64>,
-    /// With `aperture_mm`: the distance along the view at which the picture is sharp.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub focus_distance_m: Option<f64>,
-    /// How far the picture is moved across what the lens shows, to the right and up, in heights of the picture; the target is off
-    /// its centre by as much the other way.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shift: Option<[f64; 2]>,
-    /// The axis of the world that points up, for cameras that are rolled or look down.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub world_up: Option<Up>,
-}
-
-impl Default for Camera {
-    /// At the origin, looking nowhere yet; all other keys as a file that leaves them out.
-    fn default() -> Self {
-        Self {
-            of_file: None,
-            position_m: [0.0; 3],
-            target_m: [0.0; 3],
-            up: schema::camera::UP.initial(),
-            fov_y_deg: schema::camera::FOV_Y_DEG.initial(),
-            sensor_width_mm: None,
-            exposure_ev: schema::camera::EXPOSURE_EV.initial(),
-            aperture_mm: None,
-            focus_distance_m: None,
-            shift: None,
-            world_up: None,
-        }
-    }
-}
-
-impl Camera {
-    /// This camera, with its lens and its exposure, at the place of another one, with the other's target and field of view.
-    pub fn moved_to(&self, place: &Self) -> Self {
-        Self {
-            of_file: place.of_file.clone(),
-            position_m: place.position_m,
-            target_m: place.target_m,
-            fov_y_deg: place.fov_y_deg,
-            ..self.clone()
-        }
-    }
-
-    /// The axis of the world that points up. Where the camera does not say it, the one nearest to `up`; where it looks straight down, that which
-    /// it looks along.
-    pub fn world_up(&self) -> DVec3 {
-        if let Some(up) = self.world_up {
-            return up.axis();
-        }
-        let view = DVec3::from(self.target_m) - DVec3::from(self.position_m);
-        vertical_axis(self.up.into(), view)
-    }
 }
 
 /// `[render]`

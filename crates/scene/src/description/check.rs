@@ -2,9 +2,9 @@
 
 use super::ranges::{Check, check_radii, check_seed};
 use super::{
-    Amount, Around, Brush, Camera, Description, Distribution, Grating, Laid, Layer, LayerPlaces,
-    Light, Material, MaterialKind, MetalColor, Object, Override, Pattern, Render, Scratches,
-    Stroke, Surface,
+    Amount, Around, Brush, Description, Distribution, Grating, Laid, Layer, LayerPlaces, Light,
+    Material, MaterialKind, MetalColor, Object, Override, Pattern, Render, Scratches, Stroke,
+    Surface,
 };
 use crate::error::Error;
 use crate::schema::{self, environment, material, object, place, scratches, stroke};
@@ -18,7 +18,7 @@ impl Description {
     /// # Errors
     /// What is out of range, and where.
     pub fn check(&self) -> Result<(), Error> {
-        check_camera(&self.camera, "camera")?;
+        self.camera.check_at("camera")?;
         check_render(&self.render, "render")?;
         if let Some(it) = &self.environment {
             environment::ROTATION_DEG.check("environment", &it.rotation_deg)?;
@@ -60,39 +60,6 @@ fn unique<'n>(key: &str, names: impl Iterator<Item = &'n str>) -> Check {
             let found = format!("found a second {key} called \"{}\"", shown(name));
             return Err(Error::new(way, found, "names must differ"));
         }
-    }
-    Ok(())
-}
-
-fn check_camera(camera: &Camera, key: &str) -> Check {
-    use schema::camera as keys;
-    keys::POSITION_M.check(key, &camera.position_m)?;
-    keys::TARGET_M.check(key, &camera.target_m)?;
-    keys::UP.check(key, &camera.up)?;
-    keys::EXPOSURE_EV.check(key, &camera.exposure_ev)?;
-    keys::FOV_Y_DEG.check(key, &camera.fov_y_deg)?;
-    keys::SENSOR_WIDTH_MM.check(key, &camera.sensor_width_mm)?;
-    keys::APERTURE_MM.check(key, &camera.aperture_mm)?;
-    keys::FOCUS_DISTANCE_M.check(key, &camera.focus_distance_m)?;
-    keys::SHIFT.check(key, &camera.shift)?;
-    let [position, target, up] =
-        [camera.position_m, camera.target_m, camera.up].map(glam::DVec3::from_array);
-    let view = target - position;
-    if view.length() < schema::SMALLEST_M {
-        return Err(Error::new(
-            format!("{key}.target_m"),
-            "found the camera's own position",
-            "must be another point, for the camera to look at",
-        ));
-    }
-    // The picture's right direction is their cross product; below this angle it is made of rounding.
-    const LEAST_ANGLE_RAD: f64 = 1e-6;
-    if view.normalize().cross(up.normalize()).length() < LEAST_ANGLE_RAD {
-        return Err(Error::new(
-            format!("{key}.up"),
-            "found the direction of view",
-            "must be another direction",
-        ));
     }
     Ok(())
 }

@@ -5,8 +5,8 @@ use toml::de::{DeTable, DeValue};
 use super::lens;
 use super::table::{Held, Read, Table, Value, number, wrong_type};
 use super::{
-    Amount, Around, Brush, Brushed, Camera, Cover, Description, Distribution, Environment, Laid,
-    Layer, LayerPlaces, Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render,
+    Amount, Around, Brush, Brushed, Cover, Description, Distribution, Environment, Laid, Layer,
+    LayerPlaces, Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render,
     Scratches, Stroke, Studio, Surface,
 };
 use crate::error::Error;
@@ -72,37 +72,6 @@ pub(super) fn keys_without_effect(
     };
     let why = "this key has no effect any more; every scratch counts for itself";
     gather.map(|_| ("render.gather", why)).into_iter()
-}
-
-impl Read for Camera {
-    fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::of(&camera::CAMERA, value, key)?;
-        let of_file: Option<String> = table.value(&camera::OF_FILE)?;
-        // Until the file is read, anywhere.
-        let [position_m, target_m] = match of_file {
-            Some(_) => [
-                table.or(camera::POSITION_M.name, [0.0; 3])?,
-                table.or(camera::TARGET_M.name, [1.0; 3])?,
-            ],
-            None => [
-                table.value(&camera::POSITION_M)?,
-                table.value(&camera::TARGET_M)?,
-            ],
-        };
-        Ok(Self {
-            of_file,
-            position_m,
-            target_m,
-            up: table.value(&camera::UP)?,
-            fov_y_deg: table.value(&camera::FOV_Y_DEG)?,
-            exposure_ev: table.value(&camera::EXPOSURE_EV)?,
-            sensor_width_mm: table.value(&camera::SENSOR_WIDTH_MM)?,
-            aperture_mm: lens::aperture_mm(&table)?,
-            focus_distance_m: lens::focus_distance_m(&table)?,
-            shift: table.value(&camera::SHIFT)?,
-            world_up: table.value(&camera::WORLD_UP)?,
-        })
-    }
 }
 
 impl Read for Render {

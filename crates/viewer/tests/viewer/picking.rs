@@ -31,7 +31,10 @@ fn a_double_click_where_the_disks_centre_is_seen_looks_at_its_centre() {
     let [width, height] = description.render.size_px.map(|side| side as f32);
     let fitting = (area.width() / width).min(area.height() / height);
     let frame = Rect::from_center_size(area.center(), vec2(width, height) * fitting);
-    let picture = description.camera.in_scene().frame(description.render.size_px);
+    let picture = description
+        .camera
+        .in_scene()
+        .frame(description.render.size_px);
     let seen = picture.pixel_of(DVec3::ZERO).expect("the disk is in view");
     let at = frame.min + vec2(seen.x as f32, seen.y as f32) * fitting;
     common::double_click_at(&mut harness, at);
