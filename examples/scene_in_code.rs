@@ -9,8 +9,8 @@ use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_image::{Display, Output};
 use hairline_optics::metal::Metal;
 use hairline_scene::{
-    Base, Camera, GLTF_DIELECTRIC_F0, Lens, Light, Material, Mesh, Object, Profile, RenderSettings,
-    Scene, Scratch, Segment, Specular,
+    Base, Camera, Lens, Light, Material, Mesh, Object, Profile, RenderSettings, Scene, Scratch,
+    Segment,
 };
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -33,7 +33,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         },
         environment: None,
         textures: Arc::default(),
-        materials: vec![gold()],
+        materials: vec![Material::plain(
+            "gold".into(),
+            Base::Metal(Metal::Gold),
+            0.05,
+        )],
         objects: vec![scratched_square(0.004)],
         lights: vec![Light::sphere(DVec3::new(0.0, 0.12, 0.36), 0.03, [200.0; 3])],
         notes: Vec::new(),
@@ -42,31 +46,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Output::check(Path::new(&picture))?.write_image(&image, &Display::default())?;
     println!("{picture}");
     Ok(())
-}
-
-fn gold() -> Material {
-    Material {
-        name: "gold".into(),
-        base: Base::Metal(Metal::Gold),
-        roughness: 0.05,
-        coherence_um: 20.0,
-        emission: [0.0; 3],
-        base_color_texture: None,
-        metallic_roughness_texture: None,
-        normal_texture: None,
-        emission_texture: None,
-        occlusion_texture: None,
-        dielectric_f0: GLTF_DIELECTRIC_F0,
-        specular: Specular::default(),
-        specular_textures: [None; 2],
-        is_unlit: false,
-        cutout: None,
-        coat: None,
-        coat_textures: [None; 2],
-        coat_normal_texture: None,
-        anisotropy: None,
-        anisotropy_texture: None,
-    }
 }
 
 /// In the plane z = 0. Scratches lie on the surface in world space, in segments; each segment knows its triangle and the normal there.

@@ -5,8 +5,8 @@ pub mod unbiased;
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use hairline_scene::{
-    Base, Camera, Environment, GLTF_DIELECTRIC_F0, Lens, Light, Material, Mesh, Object, Profile,
-    RenderSettings, Scene, Scratch, Segment, Specular,
+    Base, Camera, Environment, Lens, Light, Material, Mesh, Object, Profile, RenderSettings, Scene,
+    Scratch, Segment,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -48,28 +48,6 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
         triangle_materials: vec![0; 2],
         ..Mesh::default()
     };
-    let material = Material {
-        name: "base".into(),
-        base,
-        roughness: 0.05,
-        coherence_um: 20.0,
-        emission: [0.0; 3],
-        base_color_texture: None,
-        metallic_roughness_texture: None,
-        normal_texture: None,
-        emission_texture: None,
-        occlusion_texture: None,
-        dielectric_f0: GLTF_DIELECTRIC_F0,
-        specular: Specular::default(),
-        specular_textures: [None; 2],
-        is_unlit: false,
-        cutout: None,
-        coat: None,
-        coat_textures: [None; 2],
-        coat_normal_texture: None,
-        anisotropy: None,
-        anisotropy_texture: None,
-    };
     Scene {
         camera: Camera {
             position_m: DVec3::new(0.0, -0.4, 1.0) * half_side_m as f64 * 2.0,
@@ -88,7 +66,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
         notes: Vec::new(),
         environment: None,
         textures: Arc::default(),
-        materials: vec![material],
+        materials: vec![Material::plain("base".into(), base, 0.05)],
         objects: vec![Object {
             name: "square".into(),
             mesh: Arc::new(mesh),

@@ -71,6 +71,32 @@ impl Default for Specular {
 }
 
 impl Material {
+    /// An even, opaque surface that emits nothing: no texture, no layer over it, dielectric parts as glTF has them without extensions.
+    pub fn plain(name: String, base: Base, roughness: f64) -> Self {
+        Self {
+            name,
+            base,
+            roughness,
+            coherence_um: DEFAULT_COHERENCE_UM,
+            emission: [0.0; 3],
+            base_color_texture: None,
+            metallic_roughness_texture: None,
+            normal_texture: None,
+            emission_texture: None,
+            occlusion_texture: None,
+            dielectric_f0: GLTF_DIELECTRIC_F0,
+            specular: Specular::default(),
+            specular_textures: [None; 2],
+            is_unlit: false,
+            cutout: None,
+            coat: None,
+            coat_textures: [None; 2],
+            coat_normal_texture: None,
+            anisotropy: None,
+            anisotropy_texture: None,
+        }
+    }
+
     /// Whether its coat has other normals than the surface under it.
     pub fn has_coat_normals(&self) -> bool {
         self.coat.is_some() && self.coat_normal_texture != self.normal_texture

@@ -18,7 +18,7 @@ use crate::environment::{self, BuiltInMap};
 use crate::error::Error;
 use crate::grating::{Bearing, Grating, GrooveField, GroovePicture, UvField};
 use crate::picture_lie::PictureLie;
-use crate::scene::{Base, GLTF_DIELECTRIC_F0, Material, RenderSettings, Scene, Specular};
+use crate::scene::{Base, Material, RenderSettings, Scene, Specular};
 
 /// Converts the parts of a scene that take no time: camera, settings, materials, lights.
 pub(crate) fn without_surfaces(description: &Description) -> Scene {
@@ -58,48 +58,32 @@ fn bare_or_covered(metal: Metal, cover: Option<description::Cover>) -> Base {
 }
 
 pub(crate) fn material(material: &description::Material) -> Material {
-    Material {
-        name: material.name.clone(),
-        base: match material.kind {
-            MaterialKind::Metal(MetalColor::Measured(metal)) => {
-                bare_or_covered(metal, material.cover)
-            }
-            MaterialKind::Metal(MetalColor::Own(ref rows)) => {
-                bare_or_covered(Metal::own(rows), material.cover)
-            }
-            MaterialKind::Metal(MetalColor::Color(base_color)) => Base::ColoredMetal { base_color },
-            MaterialKind::Dielectric { ior, base_color } => Base::Dielectric { ior, base_color },
-            MaterialKind::MetallicRoughness {
-                base_color,
-                metallic,
-                ..
-            } => Base::MetallicRoughness {
-                base_color,
-                metallic,
-            },
-            MaterialKind::Mirror => Base::Mirror,
+    let base = match material.kind {
+        MaterialKind::Metal(MetalColor::Measured(metal)) => bare_or_covered(metal, material.cover),
+        MaterialKind::Metal(MetalColor::Own(ref rows)) => {
+            bare_or_covered(Metal::own(rows), material.cover)
+        }
+        MaterialKind::Metal(MetalColor::Color(base_color)) => Base::ColoredMetal { base_color },
+        MaterialKind::Dielectric { ior, base_color } => Base::Dielectric { ior, base_color },
+        MaterialKind::MetallicRoughness {
+            base_color,
+            metallic,
+            ..
+        } => Base::MetallicRoughness {
+            base_color,
+            metallic,
         },
-        roughness: material.roughness,
+        MaterialKind::Mirror => Base::Mirror,
+    };
+    Material {
         coherence_um: material.coherence_um,
-        emission: [0.0; 3],
-        base_color_texture: None,
-        metallic_roughness_texture: None,
-        normal_texture: None,
-        emission_texture: None,
-        occlusion_texture: None,
-        dielectric_f0: GLTF_DIELECTRIC_F0,
         specular: match material.kind {
             MaterialKind::MetallicRoughness { specular, .. } => specular,
             _ => Specular::default(),
         },
-        specular_textures: [None; 2],
-        is_unlit: false,
-        cutout: None,
         coat: material.coat,
-        coat_textures: [None; 2],
-        coat_normal_texture: None,
         anisotropy: material.anisotropy,
-        anisotropy_texture: None,
+        ..Material::plain(material.name.clone(), base, material.roughness)
     }
 }
 

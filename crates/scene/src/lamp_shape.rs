@@ -1,7 +1,7 @@
 //! The shapes of lights that the camera sees, as surfaces that shine and reflect nothing.
 
 use crate::description::{self, LightKind, Shape};
-use crate::scene::{self, Base, GLTF_DIELECTRIC_F0, Material, Mesh, Specular};
+use crate::scene::{self, Base, Material, Mesh};
 use crate::shape;
 use glam::{DMat4, DQuat, DVec2, DVec3};
 use hairline_model::surface::{Surface, Vertex};
@@ -21,30 +21,14 @@ pub(crate) fn material(
         Some(cone) => cone.share((eye_m - middle_m).normalize_or(DVec3::Z)),
         None => 1.0,
     };
+    let black = Base::Dielectric {
+        ior: 1.0,
+        base_color: [0.0; 3],
+    };
     Material {
-        name: light.kind.title().to_owned(),
-        base: Base::Dielectric {
-            ior: 1.0,
-            base_color: [0.0; 3],
-        },
-        roughness: 1.0,
-        coherence_um: description::DEFAULT_COHERENCE_UM,
         emission: shining.radiance.map(|c| c * share),
-        base_color_texture: None,
-        metallic_roughness_texture: None,
-        normal_texture: None,
         emission_texture: shining.picture,
-        occlusion_texture: None,
-        dielectric_f0: GLTF_DIELECTRIC_F0,
-        specular: Specular::default(),
-        specular_textures: [None; 2],
-        is_unlit: false,
-        cutout: None,
-        coat: None,
-        coat_textures: [None; 2],
-        coat_normal_texture: None,
-        anisotropy: None,
-        anisotropy_texture: None,
+        ..Material::plain(light.kind.title().to_owned(), black, 1.0)
     }
 }
 

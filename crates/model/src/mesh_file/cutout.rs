@@ -58,7 +58,7 @@ pub(super) fn forget_whole(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::{Base, GLTF_DIELECTRIC_F0, Specular};
+    use crate::material::Base;
     use crate::texture::Sampling;
     use glam::Vec4;
 
@@ -70,26 +70,9 @@ mod tests {
                 rule,
             };
             let material = Material {
-                name: "glass".into(),
-                base: Base::Mirror,
-                roughness: 0.0,
-                coherence_um: 1.0,
-                emission: [0.0; 3],
                 base_color_texture: Some(0),
-                metallic_roughness_texture: None,
-                normal_texture: None,
-                emission_texture: None,
-                occlusion_texture: None,
-                dielectric_f0: GLTF_DIELECTRIC_F0,
-                specular: Specular::default(),
-                specular_textures: [None; 2],
-                is_unlit: false,
                 cutout: Some(cutout),
-                coat: None,
-                coat_textures: [None; 2],
-                coat_normal_texture: None,
-                anisotropy: None,
-                anisotropy_texture: None,
+                ..Material::plain("glass".into(), Base::Mirror, 0.0)
             };
             let textures = [Texture {
                 size_px: [2, 1],
