@@ -45,6 +45,9 @@ pub enum Command {
     Info(Info),
     /// Write the laid scratches of an object as a list (CSV), for other programs: three.js, game engines, Blender.
     Scratches(Scratches),
+    /// Write a scene as one glTF file (.glb) that other programs open, with its scratches by the extension HAIRLINE_scratches. Hairline opens it as
+    /// the same scene.
+    Export(Export),
     /// Print a shell's completions of this command line.
     Completions(Completions),
     /// Print the manual page (roff): `hairline man | man -l -`.
@@ -75,6 +78,36 @@ pub struct Scratches {
     /// Only this layer of scratches, counted from 0.
     #[arg(long, value_name = "N")]
     pub layer: Option<u32>,
+}
+
+/// `hairline export`
+#[derive(Args, Debug)]
+pub struct Export {
+    /// The scene file (TOML), or a model (.glb, .gltf), which gets the wear and the lamps that `render` shows it with; - reads a scene from stdin.
+    pub scene: PathBuf,
+    /// The file: .glb.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Whether the scratches are in it as they lie too, 44 bytes for each straight piece: programs that lay none by themselves show these.
+    #[arg(long, value_enum, default_value_t = Switch::On)]
+    pub laid: Switch,
+    /// Other scratches of the same kinds, as for `render`: added to the seed of each layer.
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        allow_negative_numbers = true
+    )]
+    pub seed: u64,
+    /// The time of the models' animations, seconds, at which the scratches lie, in place of the scene's.
+    #[arg(long, value_name = "SECONDS", value_parser = parse_time)]
+    pub time: Option<f64>,
+    /// See by this camera of a model's file: its name, or its number from 0.
+    #[arg(long, value_name = "CAMERA")]
+    pub camera: Option<String>,
+    /// Light the scene for its scratches, as for `render`.
+    #[arg(long)]
+    pub show_scratches: bool,
 }
 
 /// `hairline completions`
@@ -450,6 +483,12 @@ fn parse_exposure(text: &str) -> Result<f64, String> {
 }
 
 /// One time stands for both ends.
+fn parse_time(text: &str) -> Result<f64, String> {
+    let time = text.parse::<f64>().ok();
+    time.filter(|time| TIME_S.bounds.ends().contains(time))
+        .ok_or_else(|| "write seconds from 0 to 1e6, as in 1.5".to_owned())
+}
+
 fn parse_times(text: &str) -> Result<[f64; 2], String> {
     let time = |text: &str| {
         text.parse::<f64>()

@@ -6,6 +6,7 @@ mod bench;
 mod cli;
 mod compare;
 mod console;
+mod export;
 mod highlight;
 mod info;
 mod interrupt;
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
         Some(cli::Command::Bench(arguments)) => bench::run(arguments),
         Some(cli::Command::Info(arguments)) => info::run(arguments),
         Some(cli::Command::Scratches(arguments)) => scratches::run(arguments),
+        Some(cli::Command::Export(arguments)) => export::run(arguments),
         Some(cli::Command::Completions(arguments)) => manual::completions(arguments.shell),
         Some(cli::Command::Man) => manual::page(),
         Some(cli::Command::View(arguments)) => view::run(arguments),

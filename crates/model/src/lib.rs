@@ -3,11 +3,14 @@
 
 #![warn(unreachable_pub)]
 
+pub mod flaw;
+pub mod gltf_file;
 mod jpeg_end;
 mod ktx2;
 pub mod material;
 pub mod mesh;
 pub mod mesh_file;
+pub mod packed;
 pub mod reading;
 pub mod surface;
 pub mod text;

@@ -14,7 +14,6 @@ mod cutout;
 mod draco;
 mod extension_texture;
 mod extensions;
-mod flaw;
 mod head;
 mod images;
 mod instances;
@@ -39,27 +38,31 @@ mod uv;
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::DMat4;
 use gltf::Gltf;
 
+pub use crate::flaw::Flaw;
+use crate::flaw::RIGHT;
 use crate::mesh::{Mesh, NodeTriangles};
+use crate::packed;
 use crate::reading::{self, FileKind};
 use crate::text::shown;
 pub use cameras::FileCamera;
-pub use flaw::Flaw;
-use flaw::RIGHT;
+pub(crate) use head::whole_text;
 pub use head::{camera_names, counts, left_out, names};
 use images::Images;
 pub use left_out::LeftOut;
 pub use left_out::UsedContents;
+pub(crate) use leniency::drop_order_mark;
 pub use lights::{Punctual, PunctualKind};
 use material::Materials;
-pub use placing::Placing;
+pub use placing::{Placing, quarter_turn};
 use root::OptionalElements;
 use shapes::Shapes;
 use source::Buffers;
+pub(crate) use source::resource;
 use stock::FILE_SHARE;
 pub use stock::FileContents;
 
@@ -78,8 +81,8 @@ pub fn read(
         animations: placing.time_s.is_some(),
         cameras: false,
     };
-    let gltf = parse(&file(path)?, kept)?;
-    let base_dir = path.parent().unwrap_or(Path::new(""));
+    let gltf = parse(path, kept)?;
+    let base_dir = &folder(path);
     let FileContents {
         parts,
         materials,
@@ -194,32 +197,59 @@ pub fn camera(
         animations: placing.time_s.is_some(),
         cameras: true,
     };
-    let gltf = parse(&file(path)?, kept)?;
-    let base_dir = path.parent().unwrap_or(Path::new(""));
-    let buffers = Buffers::read(&gltf, base_dir, &mut Vec::new())?;
+    let gltf = parse(path, kept)?;
+    let buffers = Buffers::read(&gltf, &folder(path), &mut Vec::new())?;
     let shapes = Shapes::new(&gltf.document, &buffers, placing.moment())?;
     let start = placing.start(&shapes, world_from_object)?;
     let world_from_file = *world_from_object * start.object_from_file;
     Ok(shapes.camera(wanted)?.moved(&world_from_file))
 }
 
-/// The lights of a file, in its own frame.
-pub fn lights(path: &Path) -> Result<Vec<Punctual>, Flaw> {
-    lights::of(&parse(&file(path)?, OptionalElements::default())?.document)
+/// The transform of a file's contents to the object that they are.
+pub fn object_from_file(
+    path: &Path,
+    world_from_object: &DMat4,
+    placing: &Placing,
+) -> Result<DMat4, Flaw> {
+    let kept = OptionalElements {
+        animations: placing.time_s.is_some(),
+        cameras: false,
+    };
+    let gltf = parse(path, kept)?;
+    let buffers = Buffers::read(&gltf, &folder(path), &mut Vec::new())?;
+    let shapes = Shapes::new(&gltf.document, &buffers, placing.moment())?;
+    Ok(placing.start(&shapes, world_from_object)?.object_from_file)
 }
 
-fn file(path: &Path) -> Result<Vec<u8>, Flaw> {
+/// The lights of a file, in its own frame.
+pub fn lights(path: &Path) -> Result<Vec<Punctual>, Flaw> {
+    lights::of(&parse(path, OptionalElements::default())?.document)
+}
+
+/// The folder from which a file's own paths start.
+fn folder(path: &Path) -> PathBuf {
+    let mut file = packed::file_of(path);
+    file.pop();
+    file
+}
+
+/// The bytes of a file.
+pub(crate) fn file(path: &Path) -> Result<Vec<u8>, Flaw> {
     let mut bytes = reading::read(path, FileKind::File, FILE_SHARE).map_err(|error| {
         Flaw::new(
             format!("it cannot be read ({error})"),
             "give the path of a .gltf or .glb file, relative to the scene file",
         )
     })?;
-    leniency::drop_order_mark(&mut bytes);
+    drop_order_mark(&mut bytes);
     Ok(bytes)
 }
 
-fn parse(bytes: &[u8], kept: OptionalElements) -> Result<Gltf, Flaw> {
+/// The text of a file, and its binary chunk.
+type GltfChunks<'a> = (Cow<'a, [u8]>, Option<Vec<u8>>);
+
+/// Takes a file apart.
+pub(crate) fn chunks(bytes: &[u8]) -> Result<GltfChunks<'_>, Flaw> {
     let right = RIGHT;
     if bytes.is_empty() {
         return Err(Flaw::new("it is empty", right));
@@ -242,7 +272,33 @@ fn parse(bytes: &[u8], kept: OptionalElements) -> Result<Gltf, Flaw> {
     } else if !bytes.trim_ascii_start().starts_with(b"{") {
         return Err(Flaw::new("it is neither binary nor text glTF", right));
     }
-    let (text, blob) = parts(bytes)?;
+    if !bytes.starts_with(b"glTF") {
+        return Ok((Cow::Borrowed(bytes), None));
+    }
+    // Bytes beyond the file's stated length do not belong to it.
+    let length = u32::from_le_bytes([bytes[8], bytes[9], bytes[10], bytes[11]]);
+    let bytes = &bytes[..bytes.len().min(length as usize)];
+    let glb = gltf::binary::Glb::from_slice(bytes).map_err(|error| {
+        let found = format!("it is no valid binary glTF ({error})");
+        Flaw::new(found, RIGHT)
+    })?;
+    Ok((glb.json, glb.bin.map(Cow::into_owned)))
+}
+
+pub(crate) fn no_model(name: &str) -> Flaw {
+    let found = format!("it holds no model called \"{}\"", shown(name));
+    Flaw::new(found, "must be one of the names in its HAIRLINE_scratches")
+}
+
+/// Reads the text of a file, or that of a model in it.
+fn parse(path: &Path, kept: OptionalElements) -> Result<Gltf, Flaw> {
+    let right = RIGHT;
+    let part = packed::split(path);
+    let bytes = file(part.as_ref().map_or(path, |(file, _)| file))?;
+    let (mut text, blob) = chunks(&bytes)?;
+    if let Some((_, name)) = &part {
+        text = Cow::Owned(head::alone(&text, name).ok_or_else(|| no_model(name))?);
+    }
     let mut json = root::read(&text, kept)?;
     json.extensions_required
         .retain(|name| !extensions::may_be_required(name));
@@ -277,22 +333,4 @@ fn parse(bytes: &[u8], kept: OptionalElements) -> Result<Gltf, Flaw> {
     let document = gltf::Document::from_json(json)
         .map_err(|error| Flaw::new(format!("it is no valid glTF ({error})"), right))?;
     Ok(Gltf { document, blob })
-}
-
-/// The text of a file, and its binary chunk.
-type GltfChunks<'a> = (Cow<'a, [u8]>, Option<Vec<u8>>);
-
-/// Takes a file apart.
-fn parts(bytes: &[u8]) -> Result<GltfChunks<'_>, Flaw> {
-    if !bytes.starts_with(b"glTF") {
-        return Ok((Cow::Borrowed(bytes), None));
-    }
-    // Bytes beyond the file's stated length do not belong to it.
-    let length = u32::from_le_bytes([bytes[8], bytes[9], bytes[10], bytes[11]]);
-    let bytes = &bytes[..bytes.len().min(length as usize)];
-    let glb = gltf::binary::Glb::from_slice(bytes).map_err(|error| {
-        let found = format!("it is no valid binary glTF ({error})");
-        Flaw::new(found, RIGHT)
-    })?;
-    Ok((glb.json, glb.bin.map(Cow::into_owned)))
 }

@@ -17,13 +17,15 @@ use crate::convert;
 use crate::description::{self, Description};
 use crate::error::Error;
 use crate::estimate::Estimate;
+use crate::gltf_scene::packed_files;
 use crate::groove_shapes::{GrooveShapes, MOST_SHAPES};
 use crate::lamp_shape;
 use crate::light_picture::LightPicture;
 use crate::loader::{Loader, Stage};
 use crate::scene::{Mesh, Object, Scene};
+use crate::stamp::Stamp;
 use crate::studio::PhotoSet;
-use kept::{BuildCache, KeptPicture, KeptSurface, MapKey, Stamp, SurfaceKey};
+use kept::{BuildCache, KeptPicture, KeptSurface, MapKey, SurfaceKey};
 use textures::NewTextures;
 
 /// Builds scenes one after the other. What of a scene is as it was in the one before is not made again, but shared with it:
@@ -66,6 +68,7 @@ impl SceneBuilder {
         description.check()?;
         description.check_gratings()?;
         let description = &*description.with_its_camera(base_dir)?;
+        packed_files::hold(description, base_dir);
         let mut work = Work {
             loader,
             description,

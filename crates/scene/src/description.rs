@@ -11,6 +11,7 @@ mod check;
 mod files;
 mod gratings;
 pub(crate) mod hint;
+mod json;
 mod lens;
 mod light_kind;
 mod lights;

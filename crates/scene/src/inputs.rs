@@ -1,7 +1,9 @@
 //! Files from which a scene is made, so that no output overwrites one of them.
 
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use hairline_image::held;
 use hairline_model::mesh_file;
 use hairline_model::text::shown;
 
@@ -14,6 +16,23 @@ pub struct Input {
     pub what: String,
     /// Path of the file.
     pub path: PathBuf,
+}
+
+pub use hairline_model::packed::file_of;
+
+/// Whether there is a file at a path, by itself or in a glTF file.
+pub fn is_there(path: &Path) -> bool {
+    held::edition(path).is_some() || file_of(path).exists()
+}
+
+/// The bytes at a path: those of a file by itself, of a picture in a glTF file, or of the glTF file that a model is in.
+///
+/// # Errors
+/// Why it cannot be read.
+pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    held::open(&file_of(path))?.read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// The files that a model names in turn: buffers and textures. None where it cannot be read.
@@ -44,7 +63,7 @@ impl Description {
                 FileUse::GratingPicture(i) => format!("a picture of grating[{i}]"),
                 FileUse::LightPicture(i) => format!("the picture of light[{i}]"),
             };
-            add(what, path);
+            add(what, file_of(&path));
         }
         inputs
     }

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use glam::{DVec2, DVec3, Vec3};
-use hairline_model::mesh_file;
 use hairline_model::text::shown;
+use hairline_model::{mesh_file, packed};
 
 use crate::camera::framing;
 use crate::description::{
@@ -12,6 +12,7 @@ use crate::description::{
 };
 use crate::environment::BuiltInMap;
 use crate::error::Error;
+use crate::gltf_scene;
 use crate::probe;
 use crate::probe::ProbedMesh;
 use crate::scene::Mesh;
@@ -38,15 +39,30 @@ const ELEVATION_DEG: [f64; 2] = [32.0, 12.0];
 impl Description {
     /// Whether a file is a model by its name: .glb or .gltf.
     pub fn is_model(path: &Path) -> bool {
-        let ending = path.extension().unwrap_or_default();
-        ending.eq_ignore_ascii_case("glb") || ending.eq_ignore_ascii_case("gltf")
+        packed::is_model(path)
     }
 
-    /// A scene that shows a model, z up. Its files are relative to the model's folder.
+    /// The scene that a model's file holds, or one that shows the model, z up. Its files are relative to the model's folder.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// What is wrong with the file. A scene in it that cannot be read is told in the notes, and the model is shown plain.
     pub fn for_model(path: &Path) -> Result<Self, Error> {
+        match gltf_scene::reading::read(path) {
+            Some(Ok(scene)) => Ok(scene),
+            Some(Err(error)) => {
+                let mut plain = Self::around(path)?;
+                plain.scratches.clear();
+                plain
+                    .notes
+                    .push(format!("{error}; the model is shown plain"));
+                Ok(plain)
+            }
+            None => Self::around(path),
+        }
+    }
+
+    /// A scene around a model.
+    fn around(path: &Path) -> Result<Self, Error> {
         let ProbedMesh {
             mesh,
             materials,

@@ -39,6 +39,7 @@ pub(crate) use laying::LISTED_SIZES;
 use laying::{Laying, MOST_SEGMENTS};
 use listed::Listed;
 pub use listed::write_scratches;
+pub(crate) use listed::{ListedRow, list_header, read as read_list};
 use memory::{Demand, SEGMENT_BYTES};
 use painted::Painted;
 use place::GroundPlaces;

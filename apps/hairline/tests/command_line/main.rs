@@ -8,6 +8,7 @@ mod bench;
 mod cli;
 mod commands;
 mod compare;
+mod export;
 mod method;
 mod models;
 mod opengl;

@@ -6,7 +6,7 @@ use std::time::SystemTime;
 
 use hairline_image::output::write_atomically;
 use hairline_scene::description::FileUse;
-use hairline_scene::{Description, Error, reading};
+use hairline_scene::{Description, Error, inputs, reading};
 
 use super::{Document, layout, next_revision};
 use crate::paths;
@@ -122,7 +122,9 @@ impl Document {
     /// Files that the scene names, with their full paths as far as the document knows its folder.
     pub fn files(&self) -> Vec<PathBuf> {
         let named = self.state.description.files().into_iter();
-        named.map(|(_, path)| self.base_dir.join(path)).collect()
+        named
+            .map(|(_, path)| inputs::file_of(&self.base_dir.join(path)))
+            .collect()
     }
 
     /// Returns the files that are not there, as the scene names them, each once, with the use of the first place that names
@@ -131,7 +133,7 @@ impl Document {
         let mut missing: Vec<(FileUse, PathBuf)> = Vec::new();
         for (of, path) in self.state.description.files() {
             let is_known = missing.iter().any(|(_, known)| known == path);
-            if !is_known && !self.base_dir.join(path).exists() {
+            if !is_known && !inputs::is_there(&self.base_dir.join(path)) {
                 missing.push((of, path.clone()));
             }
         }

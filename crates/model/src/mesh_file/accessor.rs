@@ -3,8 +3,8 @@
 use gltf::Accessor;
 use gltf::accessor::DataType;
 
-use super::flaw::Flaw;
 use super::source::Buffers;
+use crate::flaw::Flaw;
 
 /// Largest number of elements of accessors without a buffer, which are all zero and cost the file
 /// nothing.

@@ -7,8 +7,8 @@ use gltf::{Document, Primitive, Semantic};
 
 use super::accessor;
 use super::draco::Unpacked;
-use super::flaw::Flaw;
 use super::source::Buffers;
+use crate::flaw::Flaw;
 
 /// Source of the numbers of a primitive.
 pub(super) struct Attributes<'a> {

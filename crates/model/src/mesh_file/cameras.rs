@@ -3,8 +3,8 @@
 use glam::{DMat4, DVec3};
 use gltf::camera::Projection;
 
-use super::flaw::Flaw;
 use super::nodes::PlacedNode;
+use crate::flaw::Flaw;
 use crate::text::shown;
 
 /// Position and directions of a file's camera, in a frame of its own or in the world's.

@@ -5,8 +5,8 @@ use gltf::accessor::DataType;
 use gltf::json::Value;
 use gltf::{Document, Primitive, Semantic};
 
-use super::flaw::Flaw;
 use super::source::Buffers;
+use crate::flaw::Flaw;
 
 pub(super) const NAME: &str = "KHR_draco_mesh_compression";
 /// A few bytes may stand for any number of points. So many more than the accessors say are taken for an oversight of an exporter; those of

@@ -3,8 +3,8 @@
 use gltf::Document;
 use gltf::json::Value;
 
-use super::flaw::{Flaw, RIGHT};
 use super::uv::{self, UvMapping};
+use crate::flaw::{Flaw, RIGHT};
 
 /// The texture of a use, and its mapping; `of` names its owner.
 pub(super) fn used<'a>(

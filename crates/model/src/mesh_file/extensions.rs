@@ -2,10 +2,11 @@
 //! others.
 
 /// Extensions that are read. Quantization needs nothing done: the accessors read every component type.
-const READ: [&str; 17] = [
+const READ: [&str; 18] = [
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
+    "HAIRLINE_scratches",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
@@ -69,6 +70,7 @@ pub(super) fn meaning(name: &str) -> (&'static str, bool) {
     let matters = |meaning| (meaning, true);
     let harmless = |meaning| (meaning, false);
     match name {
+        "EXT_lights_area" => matters("its area lights do not shine"),
         "KHR_materials_sheen" => matters("cloth misses its sheen"),
         "KHR_materials_iridescence" => matters("thin films have no colours"),
         "KHR_materials_transmission"

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use gltf::json::deserialize::from_slice;
 use gltf::json::mesh::Mode;
 use gltf::json::validation::Checked::Valid;
-use gltf::json::{Index, Root, mesh::Primitive, mesh::Semantic};
+use gltf::json::{Index, Root, Value, mesh::Primitive, mesh::Semantic};
 use hairline_image::held;
 
 use super::instances;
@@ -14,6 +14,7 @@ use super::left_out::{self, LeftOut, UsedContents};
 use super::leniency::drop_order_mark;
 use super::root::{self, OptionalElements};
 use super::source::percent_decoded;
+use crate::packed;
 use crate::reading::check_regular;
 
 /// A longer text than this is no description of a model.
@@ -94,7 +95,8 @@ pub fn names(path: &Path) -> Vec<(String, PathBuf)> {
     let Some((root, _)) = head(path) else {
         return Vec::new();
     };
-    let base_dir = path.parent().unwrap_or(Path::new(""));
+    let file = packed::file_of(path);
+    let base_dir = file.parent().unwrap_or(Path::new(""));
     let named = |what: &'static str, i: usize, uri: &Option<String>| {
         let uri = uri.as_deref().filter(|uri| !uri.starts_with("data:"))?;
         Some((format!("{what} {i}"), base_dir.join(percent_decoded(uri))))
@@ -140,6 +142,20 @@ fn head(path: &Path) -> Option<(Root, f64)> {
 
 /// The text of a .gltf file, or the first chunk of a .glb file.
 fn text(path: &Path) -> Option<Vec<u8>> {
+    match packed::split(path) {
+        Some((file, name)) => alone(&whole_text(&file)?, &name),
+        None => whole_text(path),
+    }
+}
+
+/// The text of a model in a file, by the text of the file.
+pub(super) fn alone(text: &[u8], name: &str) -> Option<Vec<u8>> {
+    let root: Value = from_slice(text).ok()?;
+    Some(packed::alone(root, name)?.to_string().into_bytes())
+}
+
+/// The text of a file with all that it holds.
+pub(crate) fn whole_text(path: &Path) -> Option<Vec<u8>> {
     check_regular(path).ok()?;
     let mut file = held::open(path).ok()?;
     let mut start = [0; 20];

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use gltf::texture::{MagFilter, WrappingMode};
 
-use super::flaw::Flaw;
 use super::source::{Buffers, resource};
 use super::spec_gloss::SpecGloss;
+use crate::flaw::Flaw;
 use crate::texture::{self, Channels, Texels, texture_bytes};
 use crate::texture::{Sampling, Texture, Wrap};
 

@@ -4,9 +4,9 @@ use glam::{DMat4, DVec3};
 use gltf::Document;
 
 use super::accessor::read_numbers;
-use super::flaw::Flaw;
 use super::pose::unit;
 use super::source::Buffers;
+use crate::flaw::Flaw;
 
 pub(super) const NAME: &str = "EXT_mesh_gpu_instancing";
 

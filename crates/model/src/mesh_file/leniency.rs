@@ -11,7 +11,7 @@ use gltf::json::{Index, Root, Value, mesh::Semantic};
 const WHOLE_BELOW: f64 = 9_007_199_254_740_992.0;
 
 /// The byte order mark that some editors put before a text; readers of JSON may pass it over (RFC 8259, section 8.1).
-pub(super) fn drop_order_mark(text: &mut Vec<u8>) {
+pub(crate) fn drop_order_mark(text: &mut Vec<u8>) {
     const MARK: &[u8] = b"\xef\xbb\xbf";
     if text.starts_with(MARK) {
         text.drain(..MARK.len());

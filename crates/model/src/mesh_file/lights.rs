@@ -3,9 +3,9 @@
 use glam::DVec3;
 use gltf::json::Value;
 
-use super::flaw::Flaw;
 use super::nodes::placed_nodes;
 use super::pose::Pose;
+use crate::flaw::Flaw;
 
 pub(super) const NAME: &str = "KHR_lights_punctual";
 /// The extension's default.

@@ -8,7 +8,7 @@ use gltf::json::Value;
 use meshopt_rs::index::buffer::decode_index_buffer;
 use meshopt_rs::index::sequence::decode_index_sequence;
 
-use super::flaw::Flaw;
+use crate::flaw::Flaw;
 
 /// The newer one has one more coding and one more filter; both are read under either name.
 const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DMat4;
 
-use super::flaw::Flaw;
 use super::pose::Pose;
+use crate::flaw::Flaw;
 
 /// Largest depth of nested nodes; a deeper file is refused.
 const DEEPEST: usize = 256;

@@ -2,9 +2,9 @@
 
 use glam::{DMat3, DMat4, DVec3};
 
-use super::flaw::Flaw;
 use super::pose::Moment;
 use super::shapes::Shapes;
+use crate::flaw::Flaw;
 use crate::mesh::LARGEST_M;
 
 /// The keys `up`, `fit_m`, `time_s` and `animation` of an object.
@@ -140,7 +140,7 @@ fn bounds(shapes: &Shapes) -> Result<(DVec3, DVec3), Flaw> {
 }
 
 /// Turns one axis to another, without rounding; both are of the frame's own, with either sign.
-fn quarter_turn(from: DVec3, to: DVec3) -> DMat3 {
+pub fn quarter_turn(from: DVec3, to: DVec3) -> DMat3 {
     let outer = |a: DVec3, b: DVec3| DMat3::from_cols(a * b.x, a * b.y, a * b.z);
     let cos = from.dot(to);
     if cos > 0.5 {

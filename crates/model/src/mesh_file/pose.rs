@@ -4,8 +4,8 @@ use glam::{DMat4, DQuat, DVec3};
 use gltf::animation::{Channel, Interpolation, Property};
 
 use super::accessor::read_numbers;
-use super::flaw::Flaw;
 use super::source::Buffers;
+use crate::flaw::Flaw;
 use crate::text::shown;
 
 /// A time of an animation.

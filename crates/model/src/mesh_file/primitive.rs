@@ -7,11 +7,11 @@ use gltf::{Document, Primitive, Semantic};
 use super::anisotropy;
 use super::attributes::Attributes;
 use super::coat;
-use super::flaw::Flaw;
 use super::skin::Motion;
 use super::source::Buffers;
 use super::tangents;
 use super::uv::{UvMapping, UvMappings};
+use crate::flaw::Flaw;
 use crate::surface::{Surface, Vertex};
 
 /// A primitive as the file has it, before missing attributes are computed.

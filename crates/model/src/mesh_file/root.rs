@@ -7,8 +7,8 @@ use gltf::json::{Index, Root, Value};
 
 use super::channels;
 use super::draco;
-use super::flaw::{Flaw, RIGHT};
 use super::leniency;
+use crate::flaw::{Flaw, RIGHT};
 use crate::text::shown;
 
 /// Reads the text of a file; contents that are not kept may be broken.

@@ -7,13 +7,13 @@ use gltf::json::Value;
 use gltf::{Document, Primitive, Semantic};
 
 use super::cameras::{self, FileCamera};
-use super::flaw::Flaw;
 use super::instances::node_from_instances;
 use super::nodes::{PlacedNode, placed_nodes};
 use super::pose::{Moment, Pose};
 use super::primitive::{self, Rough};
 use super::skin::Motion;
 use super::source::Buffers;
+use crate::flaw::Flaw;
 
 /// Primitives of a file, with the transforms of their nodes.
 pub(super) struct Shapes<'a> {

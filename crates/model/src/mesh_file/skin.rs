@@ -5,9 +5,9 @@ use gltf::{Accessor, Primitive, Semantic};
 
 use super::accessor::read_numbers;
 use super::attributes::Attributes;
-use super::flaw::Flaw;
 use super::nodes::PlacedNode;
 use super::source::Buffers;
+use crate::flaw::Flaw;
 use crate::surface::{Vertex, cofactor};
 
 /// The joints of a node's skin, and the weights of its morph targets.

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use gltf::Gltf;
 use gltf::buffer::View;
 
-use super::flaw::Flaw;
 use super::meshopt;
 use super::stock::FILE_SHARE;
+use crate::flaw::Flaw;
 use crate::reading::{self, FileKind};
 use crate::text::shown;
 
@@ -99,7 +99,7 @@ impl Buffers {
 }
 
 /// Reads a URI of a glTF file: a data URI or a file beside it, which is added to `files`.
-pub(super) fn resource(
+pub(crate) fn resource(
     uri: &str,
     base_dir: &Path,
     what: &str,

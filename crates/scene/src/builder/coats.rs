@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::Work;
-use super::kept::{KeptLayer, KeptSurface, Stamp};
+use super::kept::{KeptLayer, KeptSurface};
 use super::parts::{OnPart, PartGround};
 use crate::description::references::find;
 use crate::description::{self, Layer, LayerPlaces};
@@ -14,6 +14,7 @@ use crate::grey_map::GreyMap;
 use crate::scene::Scene;
 use crate::scratches;
 use crate::section_id::SectionId;
+use crate::stamp::Stamp;
 
 /// A `[[scratches]]` table and where it goes.
 struct Coat<'a> {

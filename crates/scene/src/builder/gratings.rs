@@ -6,13 +6,14 @@ use std::sync::Arc;
 use hairline_model::texture::{self, Channels, Texels, texture_bytes};
 
 use super::Work;
-use super::kept::{GroovePictureKind, KeptGroovePicture, KeptSurface, Stamp};
+use super::kept::{GroovePictureKind, KeptGroovePicture, KeptSurface};
 use super::textures::NewTextures;
 use crate::description::references::find;
 use crate::description::{self, GroovePattern};
 use crate::error::Error;
 use crate::grey_map;
 use crate::scene::{Scene, Texture};
+use crate::stamp::Stamp;
 
 impl Work<'_> {
     /// Converts the gratings of all objects that are not hidden.

@@ -1,11 +1,9 @@
 //! Results that a build stores for the next build, and their keys.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::SystemTime;
 
 use glam::{DMat4, DVec3};
-use hairline_image::held;
 use hairline_model::mesh_file::{self, FileContents, Placing, UsedContents};
 use hairline_model::text::shown;
 use hairline_optics::section::Section;
@@ -18,6 +16,7 @@ use crate::grey_map::GreyMap;
 use crate::loader::Loader;
 use crate::scene::{Material, Mesh, NodeTriangles, Scratch, Segment, Texture};
 use crate::scratches::{self, Ground, Laid};
+use crate::stamp::Stamp;
 use crate::{Environment, model_notes, shape};
 
 /// Results of the last build.
@@ -35,33 +34,6 @@ pub(super) struct BuildCache {
     pub objects: Vec<ObjectScratches>,
     /// Shapes of lights, with the numbers of their materials.
     pub lamps: Vec<(LightKind, u32, Arc<Mesh>)>,
-}
-
-/// Version of a file, known without reading it: equal stamps mean equal contents. Facts that cannot be
-/// found are `None`.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Stamp {
-    path: PathBuf,
-    changed: Option<SystemTime>,
-    length: Option<u64>,
-    /// Edition of a file that is held in memory.
-    edition: Option<u64>,
-}
-
-impl Stamp {
-    pub(super) fn of(path: &Path) -> Self {
-        let metadata = std::fs::metadata(path).ok();
-        Self {
-            path: path.to_owned(),
-            changed: metadata.as_ref().and_then(|m| m.modified().ok()),
-            length: metadata.map(|m| m.len()),
-            edition: held::edition(path),
-        }
-    }
-
-    fn is_current(&self) -> bool {
-        *self == Self::of(&self.path)
-    }
 }
 
 /// Source of a map.

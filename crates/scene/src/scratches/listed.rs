@@ -31,11 +31,11 @@ const LONGEST_WAY: f64 = 4.0;
 
 /// A row of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ListedRow {
+pub(crate) struct ListedRow {
     /// Counted from 1.
     line: usize,
-    ends_m: [[f64; 3]; 2],
-    profile: Profile,
+    pub ends_m: [[f64; 3]; 2],
+    pub profile: Profile,
 }
 
 /// The header.
@@ -44,8 +44,13 @@ fn columns() -> Vec<&'static str> {
     ENDS.into_iter().chain(sizes).collect()
 }
 
+/// The header of a list.
+pub(crate) fn list_header() -> String {
+    columns().join(",")
+}
+
 /// Reads all rows. `key` is the way to the layer's table in the scene file.
-pub(super) fn read(path: &Path, key: &str) -> Result<Vec<ListedRow>, Error> {
+pub(crate) fn read(path: &Path, key: &str) -> Result<Vec<ListedRow>, Error> {
     // The rows take about as much as the text, twice.
     let text = reading::read(path, FileKind::File, 1.0 / 6.0).map_err(|error| {
         Error::new(

@@ -10,6 +10,7 @@ mod description;
 mod draco;
 mod environment;
 mod gltf;
+mod gltf_scene;
 mod left_out;
 mod lights;
 mod listed;

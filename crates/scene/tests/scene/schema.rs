@@ -1,10 +1,14 @@
-//! What is made of the schema: the tables of docs/scene.md, and the keys of Python's classes. `HAIRLINE_WRITE=1 cargo test -p hairline-scene schema`
+//! What is made of the schema: the tables of docs/scene.md, the keys of Python's classes, and the schema of the glTF extension. `HAIRLINE_WRITE=1 cargo test -p hairline-scene schema`
 //! writes them anew.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use hairline_scene::schema::{Choice, Form, Initial, Key, SECTIONS, Section};
+use hairline_scene::gltf_scene::VERSION;
+use hairline_scene::schema::{
+    Bounds, Choice, Form, Initial, Key, LARGEST_M, SECTIONS, SMALLEST_M, Section,
+};
+use serde_json::{Map, Value, json};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -373,4 +377,204 @@ from ._table import Path, Sizes, Table, Vector, _default
         }
     }
     holds("crates/python/python/hairline/_keys.py", &text);
+}
+
+/// The schema of a number, within the bounds of its key.
+fn json_number(kind: &str, key: &Key) -> Value {
+    let mut number = json!({ "type": kind });
+    match key.bounds {
+        Bounds::Any | Bounds::Direction => {}
+        Bounds::AtLeast0 => number["minimum"] = json!(0),
+        Bounds::Within(least, most) => {
+            number["minimum"] = json!(least);
+            number["maximum"] = json!(most);
+        }
+        Bounds::Above0(most) => {
+            number["exclusiveMinimum"] = json!(0);
+            number["maximum"] = json!(most);
+        }
+        Bounds::Size => {
+            number["minimum"] = json!(SMALLEST_M);
+            number["maximum"] = json!(LARGEST_M);
+        }
+        Bounds::Factor(_, most) => {
+            number["minimum"] = json!(-most);
+            number["maximum"] = json!(most);
+        }
+    }
+    number
+}
+
+/// The schema of a key's value in a glTF file.
+fn json_value(section: &Section, key: &Key) -> Value {
+    let number = || json_number("number", key);
+    let many = |items: Value, count: usize| json!({ "type": "array", "items": items, "minItems": count, "maxItems": count });
+    let mut value = match (section.name, key.name) {
+        ("object", "mesh") => json!({ "type": "string" }),
+        ("scratches", "file") => json!({ "$ref": "#/$defs/list" }),
+        ("material", "cover") => json!({ "$ref": "#/$defs/cover" }),
+        ("object", "shape") => json!({ "$ref": "#/$defs/shape" }),
+        ("object", "overrides") => {
+            json!({ "type": "array", "items": { "$ref": "#/$defs/overrides" } })
+        }
+        ("scratches", "strokes") => {
+            json!({ "type": "array", "items": { "$ref": "#/$defs/strokes" } })
+        }
+        ("scratches", "where") => json!({ "$ref": "#/$defs/where" }),
+        _ => match key.form {
+            Form::Number => number(),
+            Form::Whole => json_number("integer", key),
+            Form::Numbers(count) => many(number(), count),
+            Form::Wholes(count) => many(json_number("integer", key), count),
+            Form::OneOrNumbers(count) => json!({ "oneOf": [number(), many(number(), count)] }),
+            Form::Points(count) => {
+                // Of a row of several units each has bounds of its own.
+                json!({ "type": "array", "items": many(json!({ "type": "number" }), count) })
+            }
+            Form::Color => many(number(), 3),
+            Form::Sizes => json!({ "oneOf": [number(), {
+                "type": "object", "required": ["mean"], "additionalProperties": false,
+                "properties": { "mean": number(), "spread": { "type": "number", "minimum": 0 } },
+            }] }),
+            Form::Flag => json!({ "type": "boolean" }),
+            Form::Text => json!({ "type": "string" }),
+            Form::File => {
+                json!({ "type": "integer", "minimum": 0, "gltf_detailedDescription": "A number among `files`." })
+            }
+            Form::Name(names) => json!({ "enum": names }),
+            Form::NameOrNumbers(names) => {
+                json!({ "oneOf": [{ "enum": names }, { "type": "array", "items": number() }] })
+            }
+            Form::Table | Form::Tables => panic!("{}.{}", section.name, key.name),
+        },
+    };
+    let unit = match key.unit {
+        "" => String::new(),
+        unit => format!(" Unit: {unit}."),
+    };
+    value["description"] = json!(format!("{}{unit}", key.meaning));
+    match key.initial {
+        Initial::Number(number) if key.form == Form::Whole => {
+            value["default"] = json!(number as u64)
+        }
+        Initial::Number(number) => value["default"] = json!(number),
+        Initial::Numbers(numbers) => value["default"] = json!(numbers),
+        Initial::Sizes(mean, spread) => {
+            value["default"] = json!({ "mean": mean, "spread": spread })
+        }
+        Initial::Flag(flag) => value["default"] = json!(flag),
+        Initial::Text(text) => value["default"] = json!(text),
+        Initial::Required | Initial::Words(_) => {}
+    }
+    value
+}
+
+/// The schema of a table whose keys these are; the first ones are of its kind.
+fn json_table(section: &Section, keys: &[&Key], kind: Option<&str>) -> Value {
+    let mut properties = Map::new();
+    let mut required = Vec::new();
+    if let Some(kind) = kind {
+        properties.insert(section.tag.to_owned(), json!({ "const": kind }));
+        required.push(section.tag);
+    }
+    for key in keys {
+        properties.insert(key.name.to_owned(), json_value(section, key));
+        // A focal length, a camera of a file and the like stand for some.
+        if key.initial == Initial::Required && section.name != "camera" {
+            required.push(key.name);
+        }
+    }
+    if section.name == "scratches" {
+        properties.insert("laid".to_owned(), json!({ "$ref": "#/$defs/laid" }));
+    }
+    let mut table = json!({
+        "type": "object", "properties": properties, "additionalProperties": false,
+    });
+    if !required.is_empty() {
+        table["required"] = json!(required);
+    }
+    table
+}
+
+fn json_section(section: &Section) -> Value {
+    let mut schema = match section.choices {
+        [] => json_table(section, section.keys, None),
+        choices if section.tag.is_empty() => {
+            let kinds = choices.iter().map(|choice| {
+                let table = json_table(section, choice.keys, None);
+                (choice.name.to_owned(), table)
+            });
+            json!({
+                "type": "object", "minProperties": 1, "maxProperties": 1, "additionalProperties": false,
+                "properties": Map::from_iter(kinds),
+            })
+        }
+        choices => {
+            let kinds = choices.iter().map(|choice| {
+                let keys = [choice.keys, section.keys].concat();
+                let mut table = json_table(section, &keys, Some(choice.name));
+                table["description"] = json!(choice.meaning);
+                table
+            });
+            json!({ "oneOf": kinds.collect::<Vec<_>>() })
+        }
+    };
+    schema["title"] = json!(format!("{}: {}", section.name, section.meaning));
+    schema
+}
+
+#[test]
+fn the_schema_of_the_gltf_extension_is_that_of_scene_files() {
+    let number = json!({ "type": "integer", "minimum": 0 });
+    let mut defs = Map::new();
+    let mut properties = Map::from_iter([
+        ("version".to_owned(), json!({ "const": VERSION })),
+        (
+            "files".to_owned(),
+            json!({ "type": "array", "minItems": 1, "items": { "$ref": "#/$defs/file" } }),
+        ),
+    ]);
+    let is_inner = |name: &str| ["cover", "shape", "overrides", "where", "strokes"].contains(&name);
+    for section in SECTIONS {
+        defs.insert(section.name.to_owned(), json_section(section));
+        if is_inner(section.name) {
+            continue;
+        }
+        let own = json!({ "$ref": format!("#/$defs/{}", section.name) });
+        let property = match section.is_single {
+            true => own,
+            false => json!({ "type": "array", "minItems": 1, "items": own }),
+        };
+        properties.insert(section.name.to_owned(), property);
+    }
+    let accessors = |names: &[&str], more: &[&str]| {
+        let all = names.iter().chain(more);
+        let all = all.map(|name| ((*name).to_owned(), number.clone()));
+        json!({
+            "type": "object", "additionalProperties": false, "required": names,
+            "properties": Map::from_iter(all),
+        })
+    };
+    let list = ["start_m", "end_m", "width_um", "depth_nm"];
+    defs.insert("list".to_owned(), accessors(&list, &["ends_f64"]));
+    let laid = [&list[..], &["normal", "scratch"]].concat();
+    defs.insert("laid".to_owned(), accessors(&laid, &[]));
+    let file = json!({
+        "type": "object", "required": ["name", "bufferView"], "additionalProperties": false,
+        "properties": {
+            "name": { "type": "string" }, "mimeType": { "type": "string" }, "bufferView": number,
+        },
+    });
+    defs.insert("file".to_owned(), file);
+    let schema = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "HAIRLINE_scratches glTF extension",
+        "type": "object",
+        "required": ["version", "camera", "object"],
+        "properties": properties,
+        "additionalProperties": false,
+        "$defs": defs,
+    });
+    let text = serde_json::to_string_pretty(&schema).unwrap() + "\n";
+    holds("docs/HAIRLINE_scratches.schema.json", &text);
 }

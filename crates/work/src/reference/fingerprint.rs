@@ -44,7 +44,7 @@ fn shortened(hash: &blake3::Hash) -> String {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>> {
-    fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))
+    inputs::bytes(path).with_context(|| format!("{}: cannot be read", path.display()))
 }
 
 fn digest_of_file(path: &Path) -> Result<String> {
@@ -56,6 +56,11 @@ fn digest_of_mesh(path: &Path) -> Result<String> {
     let bytes = read(path)?;
     let mut hasher = blake3::Hasher::new();
     hasher.update(&bytes);
+    if inputs::file_of(path) != path {
+        // One of several in the file.
+        let name = path.file_name().unwrap_or_default();
+        hasher.update(name.as_encoded_bytes());
+    }
     for file in inputs::of_model(path) {
         // A texture that the scene had no use for may be absent.
         match fs::read(file) {

@@ -1,7 +1,7 @@
 //! Errors of a model's file.
 
 /// Description of a valid file.
-pub(super) const RIGHT: &str = "must be a whole glTF 2.0 file, text (.gltf) or binary (.glb)";
+pub(crate) const RIGHT: &str = "must be a whole glTF 2.0 file, text (.gltf) or binary (.glb)";
 
 /// An error of a file: what was found, and what would be right.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

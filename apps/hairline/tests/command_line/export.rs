@@ -1,0 +1,80 @@
+//! `hairline export`: one file that opens as the same scene.
+
+use std::fs;
+
+use crate::common::{folder_with, hairline, stderr_of, stdout_of};
+use hairline_fixtures::scenes::bare_plate;
+
+const WORN: &str =
+    "[[scratches]]\nobject = \"plate\"\npattern = \"random\"\ncount = 30\nlength_m = 0.01\n";
+
+#[test]
+fn the_picture_of_the_file_is_that_of_the_scene() {
+    let folder = folder_with("s.toml", &bare_plate().part(WORN).to_string());
+    let path = folder.path();
+    let run = |arguments: &str| hairline(path, arguments).success();
+    let told = run("export s.toml -o worn.glb");
+    assert!(stderr_of(&told).contains("worn.glb: "), "its size is told");
+    let render = |scene: &str, output: &str| {
+        run(&format!(
+            "render {scene} --backend cpu --size 48x32 --samples 1 --shadows off -o {output}"
+        ));
+        fs::read(path.join(output)).unwrap()
+    };
+    // In a folder of its own, without the scene.
+    fs::create_dir(path.join("elsewhere")).unwrap();
+    fs::copy(path.join("worn.glb"), path.join("elsewhere/worn.glb")).unwrap();
+    let scene = render("s.toml", "a.png");
+    assert!(render("elsewhere/worn.glb", "b.png") == scene);
+    let list = |scene: &str, output: &str| {
+        run(&format!("scratches {scene} -o {output}"));
+        fs::read_to_string(path.join(output)).unwrap()
+    };
+    assert_eq!(list("s.toml", "a.csv"), list("worn.glb", "b.csv"));
+    // Another seed lays others, and without those that lie it is smaller.
+    run("export s.toml -o other.glb --seed 7 --laid off");
+    assert_ne!(list("s.toml", "a.csv"), list("other.glb", "b.csv"));
+    let length = |name: &str| path.join(name).metadata().unwrap().len();
+    assert!(length("other.glb") + 44 * 30 < length("worn.glb"));
+    let told = stdout_of(&run("info worn.glb"));
+    assert!(told.contains("plate"), "{told}");
+}
+
+#[test]
+fn wrong_names_are_refused() {
+    let folder = folder_with("s.toml", &bare_plate().part(WORN).to_string());
+    hairline(folder.path(), "export s.toml -o worn.glb").success();
+    for (arguments, message) in [
+        (
+            "export s.toml -o worn.gltf",
+            "--output: found \"worn.gltf\"; must end in .glb",
+        ),
+        ("export worn.glb -o worn.glb", "would be overwritten"),
+        ("export s.toml -o nowhere/worn.glb", "nowhere"),
+        ("export none.toml -o worn.glb", "none.toml"),
+    ] {
+        let told = stderr_of(&hairline(folder.path(), arguments).failure());
+        assert!(told.contains(message), "{arguments}: {told}");
+    }
+}
+
+#[test]
+fn a_file_of_an_unknown_version_is_shown_plain_and_told() {
+    let folder = folder_with("s.toml", &bare_plate().part(WORN).to_string());
+    let path = folder.path().join("worn.glb");
+    hairline(folder.path(), "export s.toml -o worn.glb").success();
+    let mut bytes = fs::read(&path).unwrap();
+    let at = bytes
+        .windows(12)
+        .position(|it| it == b"\"version\":1}")
+        .unwrap();
+    bytes[at + 10] = b'9';
+    fs::write(&path, bytes).unwrap();
+    let told = hairline(
+        folder.path(),
+        "render worn.glb --backend cpu --size 16x16 --samples 1 --shadows off -o a.png",
+    );
+    let told = stderr_of(&told.success());
+    let wanted = "worn.glb: extensions.HAIRLINE_scratches.version: found version 9; must be 1";
+    assert!(told.contains(wanted), "{told}");
+}

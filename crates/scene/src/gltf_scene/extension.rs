@@ -1,0 +1,99 @@
+//! The form of the extension: its version, and the keys whose values name files.
+
+pub(crate) use hairline_model::packed::EXTENSION;
+use serde_json::{Map, Value};
+
+/// Version of the extension that is written, and read.
+pub const VERSION: u64 = 1;
+
+/// Key of a layer for its scratches as they lie, for programs that lay none.
+pub(super) const LAID: &str = "laid";
+
+/// Contents that a key may name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Named {
+    /// A picture or an environment: a number among the extension's `files`.
+    File,
+    /// A list of scratches: accessors.
+    Scratches,
+    /// A model: a name, which an object's node stands for.
+    Model,
+}
+
+/// Values of a scene's tables that name something else, with the ways to them.
+pub(super) fn named(tables: &mut Map<String, Value>) -> Vec<(String, Named, &mut Value)> {
+    let mut found = Vec::new();
+    for (table, value) in tables.iter_mut() {
+        match value {
+            Value::Array(rows) => {
+                for (i, row) in rows.iter_mut().enumerate() {
+                    of_table(table, &format!("{table}[{i}]"), row, &mut found);
+                }
+            }
+            single => of_table(table, table, single, &mut found),
+        }
+    }
+    found
+}
+
+fn of_table<'v>(
+    table: &str,
+    way: &str,
+    value: &'v mut Value,
+    found: &mut Vec<(String, Named, &'v mut Value)>,
+) {
+    let Some(members) = value.as_object_mut() else {
+        return;
+    };
+    for (key, value) in members {
+        let way = format!("{way}.{key}");
+        let named = match (table, key.as_str()) {
+            ("object", "mesh") => Named::Model,
+            ("scratches", "file") => Named::Scratches,
+            ("scratches", "where") => {
+                of_table("where", &way, value, found);
+                continue;
+            }
+            ("environment", "file")
+            | ("where", "mask" | "density")
+            | ("grating", "mask" | "directions")
+            | ("light", "picture") => Named::File,
+            _ => continue,
+        };
+        found.push((way, named, value));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::schema::{Form, SECTIONS};
+    use serde_json::json;
+
+    #[test]
+    fn all_keys_of_files_are_known() {
+        let mut count = 0;
+        for section in SECTIONS {
+            for key in section.all_keys() {
+                let mut row = json!({ key.name: "a" });
+                if section.name == "where" {
+                    row = json!({ "where": row });
+                }
+                let table = match section.name {
+                    "where" => "scratches",
+                    name => name,
+                };
+                let mut tables = Map::from_iter([(table.to_owned(), json!([row]))]);
+                let is_file = key.form == Form::File;
+                assert_eq!(
+                    named(&mut tables).len(),
+                    usize::from(is_file),
+                    "{}",
+                    key.name
+                );
+                count += usize::from(is_file);
+            }
+        }
+        assert_eq!(count, 8);
+    }
+}
