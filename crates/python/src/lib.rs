@@ -55,6 +55,7 @@ fn _hairline(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(scene::read, module)?)?;
     module.add_function(wrap_pyfunction!(scene::check, module)?)?;
     module.add_function(wrap_pyfunction!(scene::to_toml, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::export, module)?)?;
     module.add_function(wrap_pyfunction!(image::read_image, module)?)?;
     module.add_function(wrap_pyfunction!(strips::assemble, module)?)?;
     module.add_function(wrap_pyfunction!(strips::picture_from_state, module)?)?;

@@ -6,10 +6,13 @@ use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 use hairline_image::Display;
+use hairline_image::output::write_atomically;
 use hairline_memory::{available_bytes, budget_bytes};
 use hairline_optics::mask::Mask;
 use hairline_reference::{Integrator, Model, SceneIndex, Settings};
 use hairline_scene::estimate::{Estimate, scratches_bytes, textures_bytes};
+use hairline_scene::gltf_scene::Export;
+use hairline_scene::inputs::is_same_file;
 use hairline_scene::{Description, Error, Loader, Scene, SceneBuilder, Stage, reading};
 use hairline_work::Listener;
 use hairline_work::backend::{self, Backend, BouncesWithoutShadows, Painter, Rendered, Task};
@@ -80,6 +83,45 @@ pub(crate) fn to_toml(table: &Bound<'_, PyDict>) -> PyResult<String> {
     let description = described(py, Stock::default().table(table)?)?;
     let text = description.to_toml();
     text.map_err(|error| errors::of_work(py, &error.to_string()))
+}
+
+/// Writes a scene as one glTF file, and returns notes on what other programs do not show.
+#[pyfunction]
+pub(crate) fn export(
+    table: &Bound<'_, PyDict>,
+    folder: PathBuf,
+    path: PathBuf,
+    laid: bool,
+) -> PyResult<Vec<String>> {
+    let py = table.py();
+    let mut stock = Stock::default();
+    let description = described(py, stock.table(table)?)?;
+    if !path
+        .extension()
+        .unwrap_or_default()
+        .eq_ignore_ascii_case("glb")
+    {
+        let found = format!("found {:?}", path.display().to_string());
+        return Err(errors::of_argument("path", found, "must end in .glb"));
+    }
+    let inputs = description.inputs(&folder);
+    if let Some(input) = inputs.iter().find(|it| is_same_file(&it.path, &path)) {
+        let found = format!("found {}", input.what);
+        let right = "must be another file: it would be overwritten";
+        return Err(errors::of_argument("path", found, right));
+    }
+    let arrays = &stock.arrays;
+    let exported = py.detach(|| {
+        let loader = Loader {
+            arrays,
+            ..Loader::default()
+        };
+        loader.export(&description, &folder, Export { laid })
+    });
+    let exported = exported.map_err(|error| errors::of_scene(py, &error))?;
+    let written = write_atomically(&path, &exported.bytes);
+    written.map_err(|error| errors::of_work(py, &error.to_string()))?;
+    Ok(exported.notes)
 }
 
 /// The files that a scene is made from, in `folder`.

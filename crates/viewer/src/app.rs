@@ -27,6 +27,7 @@ use crate::free_view::FreeView;
 use crate::gallery::Gallery;
 use crate::loss::WindowLoss;
 use crate::missing;
+use crate::model_export::ModelExport;
 use crate::notices::Notices;
 use crate::overlays::Overlays;
 use crate::panels;
@@ -60,6 +61,7 @@ pub struct Viewer {
     dialogs: Dialogs,
     files: Files,
     export: Export,
+    model_export: ModelExport,
     compare: Compare,
     /// Whether the camera frames the next scene that is built.
     frame_when_built: bool,
@@ -140,6 +142,7 @@ impl Viewer {
             dialogs: Dialogs::default(),
             files: Files::new(options.state_dir, options.native_dialogs, ctx.clone()),
             export: Export::default(),
+            model_export: ModelExport::default(),
             compare: Compare::default(),
             frame_when_built: false,
             is_closing: false,
@@ -243,6 +246,7 @@ impl Viewer {
             self.take_choice(&ctx, outcome);
         }
         self.hear_of_files(&ctx);
+        self.model_export.hear(&mut self.work.notices);
         let has_popup = egui::Popup::is_any_open(&ctx);
         self.viewport.shield(&ctx, has_popup);
         if !self.is_asking() {

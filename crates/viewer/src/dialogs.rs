@@ -15,6 +15,7 @@ use egui::{Grid, Id, Modal, Ui};
 use hairline_editor::autosave::Pending;
 
 use crate::command::{self, Group};
+use crate::files::Purpose;
 pub(crate) use answer::{Answer, Wish};
 use ask::{Loses, ask};
 pub(crate) use path_line::PathLine;
@@ -34,8 +35,8 @@ pub(crate) enum Question {
     Reload,
     /// Another program has written the scene file that is to be saved.
     SaveOver,
-    /// The file that the scene is to be saved as is there already.
-    Replace(PathBuf),
+    /// The file that is to be written is there already.
+    Replace(Purpose, PathBuf),
     /// A model that is to be added is much larger or smaller than the visible scene.
     Fit {
         path: PathBuf,
@@ -100,7 +101,7 @@ impl Question {
             Self::Changed => on_disk::changed(ctx, title),
             Self::Reload => on_disk::reload(ctx, title),
             Self::SaveOver => on_disk::save_over(ctx, title),
-            Self::Replace(path) => on_disk::replace(ctx, path),
+            Self::Replace(purpose, path) => on_disk::replace(ctx, *purpose, path),
             Self::Fit {
                 path,
                 extent_m,

@@ -29,6 +29,7 @@ pub(crate) enum Purpose {
     Environment,
     Screenshot,
     Turntable,
+    ExportModel,
     /// A file that the scene names and that is not there.
     Find(FileUse),
     /// A mask, a map or the picture of a light.
@@ -45,6 +46,7 @@ impl Purpose {
             Self::Environment => "Set the environment",
             Self::Screenshot => "Save a picture",
             Self::Turntable => "Export a turntable: name of the first frame",
+            Self::ExportModel => "Export the model with its scratches",
             Self::Find(_) => "Find the file",
             Self::Picture(_) => "Choose a picture",
         }
@@ -59,6 +61,7 @@ impl Purpose {
             Self::Environment => ("Environment maps", &["hdr", "exr"]),
             Self::Screenshot => ("Pictures", &["png", "exr"]),
             Self::Turntable => ("Pictures and animations", &["png", "exr", "apng"]),
+            Self::ExportModel => ("glTF models", &["glb"]),
             Self::Find(FileUse::Map) => Self::Environment.filter(),
             Self::Find(FileUse::Mesh(_)) => Self::AddModel.filter(),
             Self::Find(FileUse::ScratchList(_)) => ("Lists of scratches", &["csv"]),
@@ -70,7 +73,10 @@ impl Purpose {
 
     /// Whether a file is written there.
     pub fn writes(self) -> bool {
-        matches!(self, Self::SaveAs | Self::Screenshot | Self::Turntable)
+        matches!(
+            self,
+            Self::SaveAs | Self::Screenshot | Self::Turntable | Self::ExportModel
+        )
     }
 
     /// Proposed name of a new file.
@@ -84,6 +90,7 @@ impl Purpose {
             Self::SaveAs => format!("{stem}.toml"),
             Self::Screenshot => format!("{stem}.png"),
             Self::Turntable => format!("{stem}-turntable.png"),
+            Self::ExportModel => format!("{stem}-worn.glb"),
         }
     }
 }

@@ -33,6 +33,7 @@ mod jobs;
 mod link;
 mod loss;
 mod missing;
+mod model_export;
 mod notices;
 mod overlays;
 #[cfg(target_arch = "wasm32")]

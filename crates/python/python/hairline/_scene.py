@@ -224,6 +224,15 @@ class Scene:
         """Writes the scene file. Files that it names are not copied: write it where they are."""
         write_whole(path, self.to_toml().encode())
 
+    def export(self, path: Path, *, laid: bool = True) -> list[str]:
+        """Writes one glTF file (.glb) that other programs open, with its scratches by the extension HAIRLINE_scratches.
+        :func:`hairline.load` opens it as the same scene. Arrays in memory are in it too; a mesh in memory is rounded to single precision.
+
+        :param laid: whether the scratches are in it as they lie too, for programs that lay none: 44 bytes for each straight piece.
+        :return: notes on what other programs do not show.
+        """
+        return core.export(self.to_dict(), self.folder, path, _switch("laid", laid))
+
     def build(self, *, size: Optional[tuple[int, int]] = None, progress: Progress = False) -> core.Built:
         """Reads the files, builds the meshes and lays the scratches. :meth:`render` does it by itself, and what has not changed
         since the last time is not built again."""

@@ -1,12 +1,14 @@
 //! Changes of the document: a new one, another one, one that is recovered; the file that it is saved to; and the answers to
 //! questions about all that.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use egui::ViewportCommand;
 use hairline_editor::Document;
 use hairline_editor::autosave::Pending;
 use hairline_editor::document::SaveError;
+use hairline_scene::inputs::is_same_file;
 
 use super::Viewer;
 use crate::dialogs::{Answer, PathLine, Question, Wish};
@@ -62,10 +64,40 @@ impl Viewer {
         if self.work.is_own_file(&path) {
             self.save(ctx);
         } else if path.exists() && !(has_asked && path == chosen) {
-            self.dialogs.ask(Question::Replace(path));
+            self.dialogs.ask(Question::Replace(Purpose::SaveAs, path));
         } else {
             self.write_as(ctx, &path);
         }
+    }
+
+    /// Writes the scene as one glTF file, or first asks whether to replace an existing one; `has_asked` as in [`Self::save_as`].
+    pub(super) fn export_model(&mut self, ctx: &egui::Context, chosen: &Path, has_asked: bool) {
+        let path = match chosen.extension() {
+            Some(ending) if ending.eq_ignore_ascii_case("glb") => chosen.to_owned(),
+            // Not with_extension: a name may hold dots of its own.
+            _ => PathBuf::from(format!("{}.glb", chosen.display())),
+        };
+        let is_read = |file: &PathBuf| is_same_file(file, &path);
+        let mut read = self.work.document.files();
+        read.extend(self.work.document.path().map(Path::to_owned));
+        if read.iter().any(is_read) {
+            let why = format!("{}: the scene is made of it; give another name", path.display());
+            self.tell_wrong_file("model", why);
+        } else if path.exists() && !(has_asked && path == chosen) {
+            let question = Question::Replace(Purpose::ExportModel, path);
+            self.dialogs.ask(question);
+        } else {
+            self.write_model(ctx, &path);
+        }
+    }
+
+    pub(super) fn write_model(&mut self, ctx: &egui::Context, path: &Path) {
+        self.typed = None;
+        let work = &mut self.work;
+        let description = Arc::clone(work.document.description());
+        let base_dir = work.document.base_dir().to_owned();
+        self.model_export.start(description, base_dir, path, ctx.clone());
+        work.notices.note("model", "The model is being exported.");
     }
 
     pub(super) fn write_as(&mut self, ctx: &egui::Context, path: &Path) {
@@ -191,9 +223,10 @@ impl Viewer {
                 self.saved(ctx, done);
             }
             Answer::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
-            Answer::Replace(path) => self.write_as(ctx, &path),
-            Answer::Rename(path) => {
-                let line = PathLine::new(Purpose::SaveAs, path.display().to_string());
+            Answer::Replace(Purpose::ExportModel, path) => self.write_model(ctx, &path),
+            Answer::Replace(_, path) => self.write_as(ctx, &path),
+            Answer::Rename(purpose, path) => {
+                let line = PathLine::new(purpose, path.display().to_string());
                 self.dialogs.ask(Question::Path(line));
             }
             Answer::Fulfil(wish) => self.fulfil(ctx, wish),

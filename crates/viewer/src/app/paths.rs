@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use hairline_editor::actions::{self, layers, objects, pictures};
 use hairline_scene::description::Map;
+use hairline_scene::gltf_scene;
 use hairline_scene::probe::{self, MeshSummary};
 
 use super::Viewer;
@@ -52,6 +53,7 @@ impl Viewer {
                 let work = &mut self.work;
                 self.export.take_path(work, purpose, path, has_asked);
             }
+            Purpose::ExportModel => self.export_model(ctx, path, has_asked),
             Purpose::Find(_) => self.take_found(path),
             Purpose::Picture(of) => {
                 let base_dir = self.work.document.base_dir().to_owned();
@@ -111,6 +113,10 @@ impl Viewer {
         let ending = path.extension().unwrap_or_default();
         match ending.to_string_lossy().to_lowercase().as_str() {
             "toml" => self.wish(ctx, Wish::Open(path.to_owned())),
+            // One that holds a scene is one.
+            "glb" | "gltf" if gltf_scene::is_in(path) => {
+                self.wish(ctx, Wish::Open(path.to_owned()));
+            }
             "glb" | "gltf" => self.probe(ctx, Purpose::AddModel, path),
             "hdr" | "exr" => self.probe(ctx, Purpose::Environment, path),
             "csv" => self.add_list(path),

@@ -33,6 +33,7 @@ impl Viewer {
             Command::SetEnvironment => self.ask_path(ctx, Purpose::Environment),
             Command::Screenshot => self.export.ask(&mut self.work, Purpose::Screenshot),
             Command::Turntable => self.export.ask(&mut self.work, Purpose::Turntable),
+            Command::ExportModel => self.ask_path(ctx, Purpose::ExportModel),
             Command::Compare => self.compare.toggle(),
             Command::TakeSnapshot => self.take_snapshot(),
             Command::FlipSnapshot => self.work.snapshots.flip(),

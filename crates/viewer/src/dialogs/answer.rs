@@ -26,9 +26,9 @@ pub(crate) enum Answer {
     SaveOver,
     SaveAs,
     /// A file that is there is written over.
-    Replace(PathBuf),
-    /// The scene gets another name than this.
-    Rename(PathBuf),
+    Replace(Purpose, PathBuf),
+    /// The file gets another name than this.
+    Rename(Purpose, PathBuf),
     /// A path was typed.
     Path(Purpose, PathBuf),
     Reload,

@@ -6,6 +6,7 @@ use egui::Context;
 
 use super::answer::Answer;
 use super::ask::{Loses, ask};
+use crate::files::Purpose;
 
 pub(super) fn changed(ctx: &Context, title: &str) -> Option<Answer> {
     let text = format!(
@@ -50,7 +51,7 @@ pub(super) fn save_over(ctx: &Context, title: &str) -> Option<Answer> {
     })
 }
 
-pub(super) fn replace(ctx: &Context, path: &Path) -> Option<Answer> {
+pub(super) fn replace(ctx: &Context, purpose: Purpose, path: &Path) -> Option<Answer> {
     let text = format!(
         "\"{}\" is there already. Its contents would be lost.",
         path.display()
@@ -59,7 +60,7 @@ pub(super) fn replace(ctx: &Context, path: &Path) -> Option<Answer> {
     let heading = "Replace the file?";
     let answer = ask(ctx, "replace", heading, &text, &answers, Loses::Something)?;
     Some(match answer {
-        0 => Answer::Replace(path.to_owned()),
-        _ => Answer::Rename(path.to_owned()),
+        0 => Answer::Replace(purpose, path.to_owned()),
+        _ => Answer::Rename(purpose, path.to_owned()),
     })
 }

@@ -19,6 +19,7 @@ mod gratings;
 mod habits;
 mod lost;
 mod missing;
+mod model_export;
 mod model_files;
 mod numbers;
 mod on_disk;
