@@ -260,7 +260,7 @@ mod tests {
                 { "buffer": 1, "byteOffset": 1, "byteLength": 4 },
                 { "buffer": 0, "byteLength": 3 },
             ],
-            "materials": [{ "pbrMetallicRoughness": { "roughnessFactor": 0.1234567890123456789 } }],
+            "materials": [{ "pbrMetallicRoughness": { "roughnessFactor": 0.123_456_789_012_345_68 } }],
             "nodes": [{ "children": [1] }, {}],
         });
         let path = folder.path().join("a.gltf");

@@ -469,8 +469,30 @@ fn json_value(section: &Section, key: &Key) -> Value {
     value
 }
 
-/// The schema of a table whose keys these are; the first ones are of its kind.
-fn json_table(section: &Section, keys: &[&Key], kind: Option<&str>) -> Value {
+/// Definitions of a schema, each under its name.
+type Defs = Map<String, Value>;
+
+/// A reference to the schema of a key, which is defined once, whatever the number of kinds that have it.
+fn json_key(defs: &mut Defs, section: &Section, key: &'static Key) -> Value {
+    let of_name = |it: &&'static Key| it.name == key.name;
+    let alike: Vec<_> = section.all_keys().into_iter().filter(of_name).collect();
+    let place = alike.iter().position(|it| std::ptr::eq(*it, key)).unwrap();
+    let name = match place {
+        0 => format!("{}.{}", section.name, key.name),
+        place => format!("{}.{}.{place}", section.name, key.name),
+    };
+    defs.entry(name.clone())
+        .or_insert_with(|| json_value(section, key));
+    json!({ "$ref": format!("#/$defs/{name}") })
+}
+
+/// The schema of a table whose keys these are.
+fn json_table(
+    defs: &mut Defs,
+    section: &Section,
+    keys: &[&'static Key],
+    kind: Option<&str>,
+) -> Value {
     let mut properties = Map::new();
     let mut required = Vec::new();
     if let Some(kind) = kind {
@@ -478,7 +500,7 @@ fn json_table(section: &Section, keys: &[&Key], kind: Option<&str>) -> Value {
         required.push(section.tag);
     }
     for key in keys {
-        properties.insert(key.name.to_owned(), json_value(section, key));
+        properties.insert(key.name.to_owned(), json_key(defs, section, key));
         // A focal length, a camera of a file and the like stand for some.
         if key.initial == Initial::Required && section.name != "camera" {
             required.push(key.name);
@@ -496,23 +518,24 @@ fn json_table(section: &Section, keys: &[&Key], kind: Option<&str>) -> Value {
     table
 }
 
-fn json_section(section: &Section) -> Value {
+fn json_section(defs: &mut Defs, section: &Section) -> Value {
     let mut schema = match section.choices {
-        [] => json_table(section, section.keys, None),
+        [] => json_table(defs, section, section.keys, None),
         choices if section.tag.is_empty() => {
             let kinds = choices.iter().map(|choice| {
-                let table = json_table(section, choice.keys, None);
+                let table = json_table(defs, section, choice.keys, None);
                 (choice.name.to_owned(), table)
             });
+            let kinds = Map::from_iter(kinds);
             json!({
                 "type": "object", "minProperties": 1, "maxProperties": 1, "additionalProperties": false,
-                "properties": Map::from_iter(kinds),
+                "properties": kinds,
             })
         }
         choices => {
             let kinds = choices.iter().map(|choice| {
                 let keys = [choice.keys, section.keys].concat();
-                let mut table = json_table(section, &keys, Some(choice.name));
+                let mut table = json_table(defs, section, &keys, Some(choice.name));
                 table["description"] = json!(choice.meaning);
                 table
             });
@@ -526,7 +549,7 @@ fn json_section(section: &Section) -> Value {
 #[test]
 fn the_schema_of_the_gltf_extension_is_that_of_scene_files() {
     let number = json!({ "type": "integer", "minimum": 0 });
-    let mut defs = Map::new();
+    let mut defs = Defs::new();
     let mut properties = Map::from_iter([
         ("version".to_owned(), json!({ "const": VERSION })),
         (
@@ -536,7 +559,8 @@ fn the_schema_of_the_gltf_extension_is_that_of_scene_files() {
     ]);
     let is_inner = |name: &str| ["cover", "shape", "overrides", "where", "strokes"].contains(&name);
     for section in SECTIONS {
-        defs.insert(section.name.to_owned(), json_section(section));
+        let schema = json_section(&mut defs, section);
+        defs.insert(section.name.to_owned(), schema);
         if is_inner(section.name) {
             continue;
         }
