@@ -2,6 +2,8 @@
 import * as THREE from 'three/webgpu';
 import { RectAreaLightTexturesLib } from 'three/addons/lights/RectAreaLightTexturesLib.js';
 import { makeScratchTable, scratchTable, tableSize } from 'hairline-shaders';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { hairlineScratches } from 'hairline-shaders/gltf';
 import { ScratchedNodeMaterial, loadTables, readScratches } from 'hairline-shaders/three';
 
 const send = (path, body) => fetch(path, { method: 'POST', body });
@@ -44,6 +46,23 @@ function lightOf({ kind, center, radius, corners, radiance }, asSpot) {
   return light;
 }
 
+/** The mesh of a file of the same scene, as the plug-in makes it, or as GLTFLoader does without it; in the frame of the page. */
+async function meshOfFile(name, tables, isPlain, told) {
+  const loader = new GLTFLoader();
+  if (!isPlain) loader.register(hairlineScratches({ tables, warn: (what) => told.push(what) }));
+  const { scene } = await loader.loadAsync(`/pages/${name}/worn.glb`);
+  const lights = [];
+  scene.traverse((node) => {
+    if (node.isLight) lights.push(node);
+    if (node.isMesh && Boolean(node.material.isScratchedNodeMaterial) === isPlain) throw new Error(`${name}: found the material ${node.material.type}`);
+  });
+  if (!isPlain && lights.length === 0) throw new Error(`${name}: found no light in the file`);
+  // The page's own lights and camera are those of all pictures.
+  lights.forEach((light) => light.removeFromParent());
+  scene.rotation.x = Math.PI / 2;
+  return scene;
+}
+
 async function draw(renderer, name, tables) {
   const get = async (file, as) => (await fetch(`/pages/${name}/${file}`))[as]();
   const page = await get('scene.json', 'json');
@@ -60,7 +79,9 @@ async function draw(renderer, name, tables) {
   const picture = new THREE.RenderTarget(width, height, { type: THREE.FloatType });
   const { metal = null, color, metalness } = page.surface;
   const times = [];
-  for (const [what, list] of [['worn', scratches], ['bare', null], ['instanced', scratches]]) {
+  const told = [];
+  for (const [what, list] of [['worn', scratches], ['bare', null], ['instanced', scratches], ['file', scratches], ['plain file', null]]) {
+    const isFile = what.endsWith('file');
     const isInstanced = what === 'instanced';
     const scene = new THREE.Scene();
     for (const light of page.lights) scene.add(lightOf(light, isInstanced));
@@ -70,7 +91,7 @@ async function draw(renderer, name, tables) {
       material.color.setRGB(...color);
       material.metalness = metalness;
     }
-    const mesh = isInstanced ? new THREE.InstancedMesh(geometry, material, 1) : new THREE.Mesh(geometry, material);
+    const mesh = isFile ? await meshOfFile(name, tables, what === 'plain file', told) : isInstanced ? new THREE.InstancedMesh(geometry, material, 1) : new THREE.Mesh(geometry, material);
     if (isInstanced) {
       mesh.setMatrixAt(0, turn);
       mesh.applyMatrix4(turn.clone().invert());
@@ -85,8 +106,9 @@ async function draw(renderer, name, tables) {
     const drawn = performance.now();
     const seconds = (from, to) => `${((to - from) / 1000).toFixed(2)} s`;
     times.push(`${what}: made in ${seconds(began, made)}, compiled in ${seconds(made, compiled)}, drawn in ${seconds(compiled, drawn)}`);
-    await send(`/result/${name}/${what}`, new Float32Array(pixels.buffer, pixels.byteOffset, 4 * width * height).slice());
+    await send(`/result/${name}/${what.replace(' ', '-')}`, new Float32Array(pixels.buffer, pixels.byteOffset, 4 * width * height).slice());
   }
+  await send(`/result/${name}/told`, told.join('\n'));
   await send(`/result/${name}/times`, times.join('; '));
 }
 

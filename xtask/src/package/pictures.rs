@@ -6,7 +6,8 @@ use anyhow::{Context, ensure};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_image::{Image, Layer};
 use hairline_optics::section::Section;
-use hairline_scene::{Base, LightShape, Scene, write_scratches};
+use hairline_scene::gltf_scene::Export;
+use hairline_scene::{Base, Description, LightShape, Loader, Scene, write_scratches};
 use serde_json::{Value, json};
 
 use super::browser::{Folders, answers};
@@ -16,15 +17,15 @@ use super::files::{install, write};
 const SCENES: [&str; 3] = ["plate", "dome", "grooves"];
 /// The most that a picture may be off, as rms over that of the picture.
 const LIMIT: f64 = 0.005;
+/// The same for what a file gives, over the same set by hand: its numbers were moved to another frame and back.
+const FILE_LIMIT: f64 = 1e-3;
 
 /// Draws all scenes and compares them.
 pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
     let tests = root.join("packages/hairline-shaders/test");
     install(&tests)?;
     let mut pictures = Vec::new();
-    for name in SCENES {
-        let mut scene = Scene::load(tests.join(format!("{name}.toml")))?;
-        write_page(&output.join("pages").join(name), &scene)?;
+    for (name, mut scene) in write_pages(root, output)? {
         let worn = render(&scene);
         for object in &mut scene.objects {
             object.scratches = Default::default();
@@ -64,6 +65,23 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
             let minus = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| a[c] - b[c]);
             a.iter().zip(b).map(minus).collect()
         };
+        // The same by a file, and one whose scratches nobody reads.
+        let of_file = colours(find("file")?);
+        let plain = colours(find("plain-file")?);
+        ensure!(
+            find("told")?.is_empty(),
+            "{name}: the file has more than is drawn"
+        );
+        let by_hand = error(&of_file, &three_worn, &inner);
+        println!(
+            "three.js, {name}: a file, against what was set by hand: {:.4} %",
+            100.0 * by_hand
+        );
+        ensure!(by_hand < FILE_LIMIT, "{name}: the file is {by_hand} off");
+        ensure!(
+            error(&plain, &three_worn, &inner) > 10.0 * FILE_LIMIT,
+            "{name}: a file without the plug-in has scratches"
+        );
         let errors = [
             (
                 "as an instance",
@@ -96,6 +114,26 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
         }
     }
     Ok(())
+}
+
+/// Writes what the pages of all scenes show, and returns the scenes.
+pub(super) fn write_pages(
+    root: &Path,
+    output: &Path,
+) -> anyhow::Result<Vec<(&'static str, Scene)>> {
+    let tests = root.join("packages/hairline-shaders/test");
+    let page = |name: &'static str| {
+        let file = tests.join(format!("{name}.toml"));
+        let scene = Scene::load(&file)?;
+        let folder = output.join("pages").join(name);
+        write_page(&folder, &scene)?;
+        let text = std::fs::read_to_string(&file)?;
+        let described = Description::from_toml(&text, &file)?;
+        let exported = Loader::default().export(&described, &tests, Export::default())?;
+        write(&folder.join("worn.glb"), &exported.bytes)?;
+        Ok((name, scene))
+    };
+    SCENES.into_iter().map(page).collect()
 }
 
 fn render(scene: &Scene) -> Image {

@@ -1,0 +1,183 @@
+// A plug-in for GLTFLoader of three.js: files with HAIRLINE_scratches (docs/HAIRLINE_scratches.md of the project Hairline) get scratched
+// materials and lights with a surface. Without it such files load as ever, without scratches.
+import { Box3, Matrix4, RectAreaLight, Vector3 } from 'three/webgpu';
+import { ScratchedNodeMaterial, scratchesOn } from './three.js';
+import { Scratches, profilesOf } from './scratches.js';
+import { metals } from './spectrum.js';
+
+const NAME = 'HAIRLINE_scratches';
+const AREA = 'EXT_lights_area';
+const VERSION = 1;
+const PATTERNS = ['random', 'parallel', 'circular', 'radial'];
+/** Scratches of a part lie at most so far out of its box, over the box's size: they were rounded. */
+const MARGIN = 1e-4;
+
+/** For `loader.register()`. `tables` of loadTables(); `warn` is told once of each thing that is not drawn. */
+export function hairlineScratches({ tables, warn = console.warn, ...parameters } = {}) {
+  if (!tables) throw new Error('tables: found none; must be what loadTables() returned');
+  return (parser) => new HairlineScratches(parser, { tables, warn, parameters });
+}
+
+class HairlineScratches {
+  constructor(parser, { tables, warn, parameters }) {
+    this.name = NAME;
+    this.parser = parser;
+    this.tables = tables;
+    this.parameters = parameters;
+    const told = new Set();
+    this.warn = (what) => {
+      if (!told.has(what)) warn(`${NAME}: ${what}`);
+      told.add(what);
+    };
+  }
+
+  async afterRoot(gltf) {
+    const { json } = this.parser;
+    const extension = json.extensions?.[NAME];
+    if (!extension) return;
+    if (extension.version !== VERSION) {
+      this.warn(`found version ${extension.version}; must be ${VERSION}: the model is shown plain`);
+      return;
+    }
+    for (const scene of gltf.scenes) {
+      scene.updateMatrixWorld(true);
+      const nodes = [];
+      scene.traverse((node) => {
+        const number = this.parser.associations.get(node)?.nodes;
+        if (number !== undefined) nodes.push([node, json.nodes[number]]);
+      });
+      for (const [node, { extensions }] of nodes) {
+        const light = extensions?.[AREA]?.light;
+        if (light !== undefined) this.addLight(node, json.extensions[AREA].lights[light]);
+        const object = extensions?.[NAME]?.object;
+        // A primitive is associated with its node too.
+        if (object !== undefined && node.parent?.userData.hairlineObject === undefined) {
+          node.userData.hairlineObject = object;
+          await this.dress(node, object, extension);
+        }
+      }
+    }
+    for (const { object, name } of extension.grating ?? []) {
+      this.warn(`gratings are not drawn: that ${name ? `called "${name}" ` : ''}on "${object}"`);
+    }
+  }
+
+  /** RectAreaLight shines along its own -z, as the extension has it; a disk becomes a square as large. */
+  addLight(node, { type, color = [1, 1, 1], intensity = 1000, size = 1, rect }) {
+    const height = type === 'disk' ? (size * Math.sqrt(Math.PI)) / 2 : size;
+    if (type === 'disk') this.warn('disks of light are drawn as squares of their area');
+    const light = new RectAreaLight(0xffffff, intensity, type === 'disk' ? height : height * (rect?.aspect ?? 1), height);
+    light.color.setRGB(...color);
+    node.add(light);
+  }
+
+  /** Gives the meshes of an object materials with its scratches. */
+  async dress(node, number, extension) {
+    const object = extension.object[number];
+    const layers = (extension.scratches ?? []).filter((layer) => layer.object === object.name && !layer.hidden);
+    const meshes = [];
+    node.traverse((mesh) => {
+      if (mesh.isMesh) meshes.push(mesh);
+    });
+    const lists = [];
+    for (const layer of layers) {
+      if (layer.laid) lists.push(await this.laid(layer.laid, layer.profile));
+      else this.lay(layer, node, meshes, extension, lists);
+    }
+    const all = lists.length > 0 ? lists.reduce((a, b) => a.joined(b)) : null;
+    if (all === null) return;
+    const fromObject = node.matrixWorld;
+    const described = (extension.material ?? []).find(({ name }) => name === object.material);
+    for (const mesh of meshes) {
+      if (mesh.isSkinnedMesh || mesh.isInstancedMesh) {
+        this.warn(`scratches on skins and instances are not drawn: those on "${object.name}"`);
+        continue;
+      }
+      const scale = new Vector3().setFromMatrixScale(mesh.matrixWorld);
+      if (Math.max(Math.abs(scale.x / scale.y - 1), Math.abs(scale.x / scale.z - 1)) > 0.01) {
+        this.warn(`scratches on parts that are scaled unevenly are not drawn: those on "${object.name}"`);
+        continue;
+      }
+      const toMesh = new Matrix4().copy(mesh.matrixWorld).invert().multiply(fromObject);
+      const own = within(all.transformed(toMesh.elements), mesh.geometry);
+      if (own !== null) mesh.material = this.material(mesh.material, described, own, scale.x);
+    }
+  }
+
+  /** The scratches of a layer as Hairline laid them. */
+  async laid({ start_m, end_m, normal, width_um, depth_nm, scratch }, profile = 'rectangle') {
+    const read = async (accessor) => (await this.parser.getDependency('accessor', accessor)).array;
+    const [starts, ends, normals, widths, depths, numbers] = await Promise.all([start_m, end_m, normal, width_um, depth_nm, scratch].map(read));
+    const floats = (array) => Float64Array.from(array);
+    return new Scratches({
+      starts: floats(starts), ends: floats(ends), normals: floats(normals), widthsUm: floats(widths), depthsNm: floats(depths),
+      scratch: Uint32Array.from(numbers), profiles: profilesOf(profile, numbers.length),
+    });
+  }
+
+  /** Lays a layer that the file only describes: other scratches of the same kind. */
+  lay(layer, node, meshes, extension, lists) {
+    const name = nameOf(layer, extension);
+    const beyond = ['where', 'strokes', 'material', 'node', 'density_per_m2'].filter((key) => layer[key] !== undefined);
+    if (!PATTERNS.includes(layer.pattern)) beyond.unshift(`pattern ${layer.pattern}`);
+    if (meshes.length !== 1 || meshes[0] !== node) beyond.push('a model of several parts');
+    if (beyond.length > 0) {
+      this.warn(`not drawn: ${name} (${beyond.join(', ')}); a file written with --laid on has it`);
+      return;
+    }
+    lists.push(scratchesOn(meshes[0].geometry, {
+      pattern: layer.pattern, count: layer.count, seed: Number(layer.seed ?? 1) % 2 ** 32, lengthM: layer.length_m, widthUm: layer.width_um,
+      depthNm: layer.depth_nm, curvaturePerM: layer.curvature_per_m, jitterDeg: layer.jitter_deg, axis: layer.axis, centerM: layer.center_m,
+      direction: layer.direction, profile: layer.profile, metresPerUnit: new Vector3().setFromMatrixScale(node.matrixWorld).x,
+    }));
+  }
+
+  /** The scratched twin of a material. `described` is the scene's own, where the object has one. */
+  material(from, described, scratches, metresPerUnit) {
+    const { tables, parameters } = this;
+    for (const key of ['clearcoat', 'anisotropy', 'transmission', 'sheen', 'iridescence']) {
+      if (from[key] > 0) this.warn(`not drawn under scratches: ${key}`);
+    }
+    const metal = metals.includes(described?.metal) ? described.metal : null;
+    const taken = {};
+    for (const key of KEYS) {
+      const isOfMetal = metal !== null && (key === 'color' || key === 'metalness');
+      if (from[key] !== undefined && from[key] !== null && !isOfMetal) taken[key] = from[key];
+    }
+    return new ScratchedNodeMaterial({
+      tables, metal, scratches, metresPerUnit, coherenceUm: described?.coherence_um ?? 20, ...taken, ...parameters,
+    });
+  }
+}
+
+/** What a MeshStandardMaterial of GLTFLoader sets. */
+const KEYS = [
+  'name', 'color', 'map', 'roughness', 'roughnessMap', 'metalness', 'metalnessMap', 'normalMap', 'normalScale', 'emissive', 'emissiveMap',
+  'emissiveIntensity', 'aoMap', 'aoMapIntensity', 'side', 'transparent', 'opacity', 'alphaTest', 'depthWrite', 'vertexColors', 'flatShading',
+  'envMapIntensity',
+];
+
+function nameOf(layer, extension) {
+  return layer.name ? `layer "${layer.name}"` : `layer ${extension.scratches.indexOf(layer)}`;
+}
+
+/** The pieces that come near to a geometry; null where there are none. */
+function within(scratches, geometry) {
+  geometry.computeBoundingBox();
+  const box = new Box3().copy(geometry.boundingBox);
+  box.expandByScalar(MARGIN * box.getSize(new Vector3()).length());
+  const [a, b] = [new Vector3(), new Vector3()];
+  const kept = [];
+  for (let i = 0; i < scratches.count; i += 1) {
+    a.fromArray(scratches.starts, 3 * i);
+    b.fromArray(scratches.ends, 3 * i);
+    if (box.containsPoint(a.add(b).multiplyScalar(0.5))) kept.push(i);
+  }
+  if (kept.length === 0) return null;
+  const pick = (array, width) => Float64Array.from(kept.flatMap((i) => Array.from(array.subarray(width * i, width * (i + 1)))));
+  const { starts, ends, normals, widthsUm, depthsNm, scratch, profiles } = scratches;
+  return new Scratches({
+    starts: pick(starts, 3), ends: pick(ends, 3), normals: normals && pick(normals, 3), widthsUm: pick(widthsUm, 1), depthsNm: pick(depthsNm, 1),
+    scratch: Uint32Array.from(kept, (i) => scratch[i]), profiles: profiles && kept.map((i) => profiles[i]),
+  });
+}
