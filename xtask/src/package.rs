@@ -2,6 +2,7 @@
 //! without a build step; prints its sizes. `--pictures` also draws its test pages in Chromium, against the CPU renderer.
 
 mod browser;
+mod element;
 mod files;
 mod modules;
 mod pictures;
@@ -28,6 +29,9 @@ pub struct Package {
     /// Draw the test pages in Chromium and compare them with the CPU renderer.
     #[arg(long)]
     pictures: bool,
+    /// Make the element `<hairline-viewer>` beside it, one script, and look at it in Chromium: needs Node.
+    #[arg(long)]
+    viewer: bool,
     /// Serve the example for three.js on this port of this machine, until it is ended.
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8080")]
     serve: Option<u16>,
@@ -91,6 +95,14 @@ impl Package {
         if self.pictures {
             pictures::run(&root, &self.output)?;
         }
+        if self.viewer {
+            let bytes = element::make(&root, &self.output)?;
+            println!("{:<28} {bytes:>9}", "hairline-viewer.js");
+            if !self.pictures {
+                pictures::write_pages(&root, &self.output)?;
+            }
+            element::look(&root, &self.output)?;
+        }
         if let Some(port) = self.serve {
             let tests = by_hand.join("test");
             install(&tests)?;
@@ -112,7 +124,7 @@ fn print_sizes(package: &Path) -> anyhow::Result<()> {
         let path = entry?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if name.ends_with(".js") {
-            let is_for_three = name.starts_with("three");
+            let is_for_three = name.starts_with("three") || name.starts_with("gltf");
             let list = if is_for_three {
                 &mut for_three
             } else {

@@ -1,0 +1,42 @@
+// The element in a page: one that is seen is drawn, one far below is not loaded, and without WebGPU the poster stays.
+const send = (path, body) => fetch(path, { method: 'POST', body });
+const fail = (reason) => send('/failure', String(reason?.stack ?? reason));
+addEventListener('unhandledrejection', (event) => fail(event.reason));
+
+const posterOf = (element) => element.shadowRoot.querySelector('img');
+const canvasOf = (element) => element.shadowRoot.querySelector('canvas');
+const check = (isRight, what) => {
+  if (!isRight) throw new Error(what);
+};
+
+/** An event of an element, or the reason why it does not come. */
+const event = (element, wanted, other) => new Promise((resolve, reject) => {
+  element.addEventListener(wanted, resolve, { once: true });
+  element.addEventListener(other, (is) => reject(is.detail ?? new Error(other)), { once: true });
+});
+
+try {
+  const near = document.getElementById('near');
+  const far = document.getElementById('far');
+  const loaded = event(near, 'load', 'error');
+  await import('/element/hairline-viewer.js');
+  check(!posterOf(near).hidden && !canvasOf(near), 'found no poster at first');
+  await loaded;
+  check(posterOf(near).hidden && canvasOf(near), 'found the poster over the model');
+  check(!canvasOf(far), 'found a model that is far below');
+  const bitmap = await createImageBitmap(canvasOf(near));
+  const picture = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+  picture.drawImage(bitmap, 0, 0);
+  await send('/result/element', picture.getImageData(0, 0, bitmap.width, bitmap.height).data);
+
+  // As in a browser without WebGPU.
+  Object.defineProperty(navigator, 'gpu', { value: undefined });
+  const refused = event(far, 'error', 'load');
+  far.setAttribute('poster', posterOf(near).src);
+  far.scrollIntoView();
+  check((await refused).detail.message.includes('no WebGPU'), 'found another reason');
+  check(!posterOf(far).hidden && !canvasOf(far), 'found no poster without WebGPU');
+  await send('/done', '');
+} catch (error) {
+  fail(error);
+}
