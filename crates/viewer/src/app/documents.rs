@@ -81,7 +81,10 @@ impl Viewer {
         let mut read = self.work.document.files();
         read.extend(self.work.document.path().map(Path::to_owned));
         if read.iter().any(is_read) {
-            let why = format!("{}: the scene is made of it; give another name", path.display());
+            let why = format!(
+                "{}: the scene is made of it; give another name",
+                path.display()
+            );
             self.tell_wrong_file("model", why);
         } else if path.exists() && !(has_asked && path == chosen) {
             let question = Question::Replace(Purpose::ExportModel, path);
@@ -96,7 +99,8 @@ impl Viewer {
         let work = &mut self.work;
         let description = Arc::clone(work.document.description());
         let base_dir = work.document.base_dir().to_owned();
-        self.model_export.start(description, base_dir, path, ctx.clone());
+        self.model_export
+            .start(description, base_dir, path, ctx.clone());
         work.notices.note("model", "The model is being exported.");
     }
 
