@@ -173,7 +173,7 @@ def drawn(
         found = f"found {camera['of_file']!r}"
         raise argument_error("camera.of_file", found, "must be left out: a camera that is varied has position_m and target_m")
     target = np.array(camera["target_m"], dtype=float)
-    up = np.array(_UPS.get(camera.get("world_up"), camera.get("up", (0, 1, 0))), dtype=float)
+    up = np.array(_UPS.get(str(camera.get("world_up")), camera.get("up", (0, 1, 0))), dtype=float)
     up /= np.linalg.norm(up)
     even = random.uniform(-1, 1, 5)
     told: dict[str, Any] = {
