@@ -28,6 +28,7 @@ __all__ = [
     "read",
     "check",
     "to_toml",
+    "export",
     "read_image",
     "assemble",
     "picture_from_state",
