@@ -65,11 +65,10 @@ def found_scratches(
         low, high = (checked("widths_um", width, 0, 0.5 * step * min(grid.heights_nm.shape)) for width in pair)
     if not 0.5 * step <= low < high:
         raise argument_error("widths_um", f"found {widths_um!r}", f"must be two widths, the first from {0.5 * step:.3g}, half a point of the grid, the second greater")
-    # Four points of the grid are the least line.
-    if least_length_um is not None:
-        checked("least_length_um", least_length_um, 4 * step, 1e9)
-    if least_depth_nm is not None:
-        checked("least_depth_nm", least_depth_nm, 1e-6, 1e9)
+    if least_length_um is not None and not least_length_um >= 4 * step:
+        raise argument_error("least_length_um", f"found {least_length_um!r}", f"must be from {4 * step:.3g}, four points of the grid")
+    if least_depth_nm is not None and not least_depth_nm > 0:
+        raise argument_error("least_depth_nm", f"found {least_depth_nm!r}", "must be above 0")
     length_px = 20.0 if least_length_um is None else least_length_um / step
     noise = _noise(square.heights_nm)
     least = max(3 * noise, 1e-3) if least_depth_nm is None else float(least_depth_nm)
