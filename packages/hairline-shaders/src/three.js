@@ -29,6 +29,8 @@ export { Scratches, readScratches };
 
 /** The sun's, as a light's `userData.angle`. */
 const SUN_RAD = 0.00465;
+/** The greatest number of half floats. */
+const GREATEST_HALF = 65504;
 /** How far a light in the sky stands off. */
 const FAR_M = 1000;
 /** More scratches of one pixel do not mirror the environment. */
@@ -249,6 +251,11 @@ export class ScratchedNodeMaterial extends MeshStandardNodeMaterial {
     this.checkScale(builder.object);
     const environment = this.setupEnvironment(builder);
     return new ScratchedLightingModel(this, environment && environmentTexture(environment.envNode, this));
+  }
+
+  /** Mirror images of lamps exceed half floats, of which a canvas is: as infinities they would be tone mapped to black. */
+  setupOutput(builder, output) {
+    return super.setupOutput(builder, vec4(output.rgb.min(GREATEST_HALF), output.a));
   }
 
   /** Scratches of another scale than they were made for end in the wrong places. */

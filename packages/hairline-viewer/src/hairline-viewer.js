@@ -143,9 +143,12 @@ class Shown {
     scene.environment = await environmentOf(renderer, room);
     const extension = gltf.parser.json.extensions?.HAIRLINE_scratches;
     this.stops = extension?.camera?.exposure_ev ?? 0;
-    this.isOfHairline = extension !== undefined;
+    // In watts: a lamp's mirror image in candela exceeds the half floats of the canvas. Emission of files is in watts already.
+    gltf.scene.traverse((node) => {
+      if (node.isLight) node.intensity /= LUMENS_PER_WATT;
+    });
     // What is no file of Hairline's has no lamps: the room lights it.
-    scene.environmentIntensity = this.isOfHairline ? ROOM * LUMENS_PER_WATT : 1;
+    scene.environmentIntensity = extension === undefined ? 1 : ROOM;
     renderer.toneMapping = CURVES[extension?.render?.tone_map ?? 'neutral'] ?? NeutralToneMapping;
     Object.assign(this, { scene, ...viewOf(gltf, extension) });
     const canvas = renderer.domElement;
@@ -167,7 +170,7 @@ class Shown {
 
   expose(stops) {
     if (!this.renderer) return;
-    this.renderer.toneMappingExposure = 2 ** (this.stops + stops) / (this.isOfHairline ? LUMENS_PER_WATT : 1);
+    this.renderer.toneMappingExposure = 2 ** (this.stops + stops);
     this.ask();
   }
 

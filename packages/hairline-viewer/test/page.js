@@ -24,10 +24,16 @@ try {
   await loaded;
   check(posterOf(near).hidden && canvasOf(near), 'found the poster over the model');
   check(!canvasOf(far), 'found a model that is far below');
-  const bitmap = await createImageBitmap(canvasOf(near));
-  const picture = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
-  picture.drawImage(bitmap, 0, 0);
-  await send('/result/element', picture.getImageData(0, 0, bitmap.width, bitmap.height).data);
+  // A canvas holds its picture until the end of the frame that drew it, and on a slow machine none in some frames. Another exposure draws anew.
+  let pixels = null;
+  for (let i = 0; i < 50 && !pixels?.some((value, k) => k % 4 < 3 && value > 0); i += 1) {
+    near.setAttribute('exposure', String(1e-3 * i));
+    const bitmap = await new Promise((resolve) => requestAnimationFrame(() => resolve(createImageBitmap(canvasOf(near)))));
+    const picture = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+    picture.drawImage(bitmap, 0, 0);
+    pixels = picture.getImageData(0, 0, bitmap.width, bitmap.height).data;
+  }
+  await send('/result/element', pixels);
 
   // As in a browser without WebGPU.
   Object.defineProperty(navigator, 'gpu', { value: undefined });
