@@ -163,6 +163,11 @@ mod tests {
                     })
                 })
                 .collect();
+            self.mean_over(&nodes)
+        }
+
+        /// Mean over places and their weights, the same along both axes.
+        fn mean_over(&self, nodes: &[(f64, f64)]) -> f64 {
             let row = |&(y, wy): &(f64, f64)| -> f64 {
                 nodes
                     .iter()
@@ -182,13 +187,7 @@ mod tests {
                     (x * std_um, weight)
                 })
                 .collect();
-            let row = |&(y, wy): &(f64, f64)| -> f64 {
-                nodes
-                    .iter()
-                    .map(|&(x, wx)| wx * wy * self.share_at(x, y))
-                    .sum()
-            };
-            nodes.iter().map(row).sum()
+            self.mean_over(&nodes)
         }
 
         fn effective(&self) -> (f64, f64, SmoothInterval) {
