@@ -482,21 +482,16 @@ fn parse_exposure(text: &str) -> Result<f64, String> {
         })
 }
 
-/// One time stands for both ends.
 fn parse_time(text: &str) -> Result<f64, String> {
     let time = text.parse::<f64>().ok();
     time.filter(|time| TIME_S.bounds.ends().contains(time))
         .ok_or_else(|| "write seconds from 0 to 1e6, as in 1.5".to_owned())
 }
 
+/// One time stands for both ends.
 fn parse_times(text: &str) -> Result<[f64; 2], String> {
-    let time = |text: &str| {
-        text.parse::<f64>()
-            .ok()
-            .filter(|time| TIME_S.bounds.ends().contains(time))
-    };
     let (from, to) = text.split_once(':').unwrap_or((text, text));
-    let ends = time(from).zip(time(to));
+    let ends = parse_time(from).ok().zip(parse_time(to).ok());
     ends.map(|(from, to)| [from, to]).ok_or_else(|| {
         "write seconds from 0 to 1e6, as in 1.5, or with --frames two of them, FROM:TO, as in 0:2"
             .to_owned()

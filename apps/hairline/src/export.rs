@@ -5,12 +5,12 @@ use hairline_image::output::{check_writable, write_atomically};
 use hairline_memory::in_words;
 use hairline_scene::Loader;
 use hairline_scene::gltf_scene::Export;
+use hairline_work::failure::Failure;
 
 use crate::cli;
 use crate::console::tell;
 use crate::scene_file::{self, Overrides};
 use crate::switch::Switch;
-use hairline_work::failure::Failure;
 
 /// Writes the file.
 pub fn run(arguments: &cli::Export) -> Result<(), Failure> {

@@ -11,6 +11,7 @@ use anyhow::anyhow;
 use hairline_image::exr_file::Notes;
 use hairline_image::{Animation, Display, Format, Image, Output};
 use hairline_published::Method;
+use hairline_scene::inputs::is_same_file;
 use hairline_scene::{Scene, Transport};
 
 use crate::console::tell;
@@ -54,7 +55,9 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         highlight: arguments.highlight.as_ref(),
         is_lit_for_scratches: arguments.show_scratches,
     };
-    let mut loaded = scene_file::load(arguments.scene.as_deref(), &overrides, &target.paths())?;
+    let mut outputs = target.paths();
+    outputs.extend(labels.as_ref().map(Output::path));
+    let mut loaded = scene_file::load(arguments.scene.as_deref(), &overrides, &outputs)?;
     if let Some(motion) = &motion {
         motion.check(&loaded.description.camera)?;
     }
@@ -131,7 +134,9 @@ fn labels_goal(arguments: &cli::Render, target: &Target<'_>) -> Result<Option<Ou
         ));
     }
     let output = Output::check(path)?;
-    if target.paths().contains(&output.path()) {
+    let place = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let is_taken = |other: &&Path| place(other) == place(path) || is_same_file(other, path);
+    if target.paths().iter().any(is_taken) {
         return Err(refused("-o names the same file; give the labels another"));
     }
     match output.format() {

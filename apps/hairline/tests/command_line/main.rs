@@ -9,6 +9,7 @@ mod cli;
 mod commands;
 mod compare;
 mod export;
+mod labels;
 mod method;
 mod models;
 mod opengl;
