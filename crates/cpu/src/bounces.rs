@@ -3,7 +3,7 @@
 //! one ray anyway.
 
 use crate::light_view::LightViews;
-use crate::resolve::{PointLight, Sample, kept};
+use crate::resolve::{PointLight, Sample};
 use crate::shade_scratches::{Picks, ScratchPoint, pick_one_pair};
 use crate::shadows::{HitRoom, MetObject, Rounds, ShadowPoint, Shadows};
 use crate::surface::{SurfacePoint, surface_point};
@@ -83,8 +83,8 @@ impl<'a> Shadows<'a> {
         }
         light.gratings = has_gratings.then(|| self.gratings(&onwards, picks, rooms));
         let coherence = self.prepared.depth_coherence(hit.object);
-        let kept = kept(&sums, self.options.mask, coherence);
-        let sample = Sample::surface(&point, hit.object, &kept, light, 0.0);
+        let masked = sums.resolve(self.options.mask, coherence);
+        let sample = Sample::surface(&point, hit.object, &masked, light, 0.0);
         let [base, scratches] = sample.found().light().map(|rgb| Vec3::from(rgb).as_dvec3());
         (base + scratches).max(DVec3::ZERO)
     }

@@ -7,7 +7,7 @@ use crate::shade_gratings::ShadedGratings;
 use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hairline_image::{FoundPixel, Tone};
-use hairline_optics::mask::{Mask, Masked, ScratchSums};
+use hairline_optics::mask::{Masked, ScratchSums};
 
 /// Light and guides that one sample adds to the film, or the sum of several.
 #[derive(Clone, Copy, Debug, Default)]
@@ -51,15 +51,6 @@ impl PointLight {
     }
 }
 
-/// Share that is left of scratches of radiance 1 where they weaken one another, and the energy that they take of the base.
-pub(crate) fn kept(sums: &ScratchSums, mask: Mask, depth_coherence: f64) -> Masked {
-    let even = ScratchSums {
-        radiance: [1.0; 3],
-        ..*sums
-    };
-    even.resolve(mask, depth_coherence)
-}
-
 impl Sample {
     pub fn background(radiance: DVec3) -> Self {
         Self {
@@ -68,20 +59,16 @@ impl Sample {
         }
     }
 
-    /// A point of a surface, at a depth along the view axis. `kept` has what would be left of scratches of radiance 1, and what they take of the base.
+    /// A point of a surface, at a depth along the view axis. `masked` has what is left of the light of scratches, and what they take of the base.
     pub fn surface(
         point: &SurfacePoint,
         object: u32,
-        kept: &Masked,
+        masked: &Masked,
         light: PointLight,
         depth_m: f64,
     ) -> Self {
-        let Masked {
-            scratches: kept,
-            taken,
-        } = *kept;
-        let mut taken = DVec3::from(taken);
-        let mut scratches = light.scratches.times(kept.into());
+        let mut taken = DVec3::from(masked.taken);
+        let mut scratches = light.scratches.times(DVec3::splat(masked.kept));
         if let Some((gratings, of_gratings)) = light.gratings {
             // Scratches lie on top: they take of what gratings send as of what the mirror does.
             let left = DVec3::ONE - taken;

@@ -7,7 +7,7 @@ use crate::light_view::LightViews;
 use crate::method::PointShader;
 use crate::options::RenderOptions;
 use crate::prepared::Prepared;
-use crate::resolve::{Pixel, PointLight, Sample, kept};
+use crate::resolve::{Pixel, PointLight, Sample};
 use crate::sample_point::{SamplePoint, SampleView, Shared};
 use crate::shade_base::{Base, transformed_sphere};
 use crate::shade_gratings::ShadedGratings;
@@ -295,7 +295,7 @@ impl<'a> Tile<'a> {
                         Shared::With(_) => 0.0,
                     };
                     let coherence = prepared.depth_coherence(hit.object);
-                    let (kept, light) = match (&self.picture.by, &self.picture.shadows) {
+                    let (masked, light) = match (&self.picture.by, &self.picture.shadows) {
                         (PictureMethod::Tiles(_), Some(shadows)) => {
                             let Some(shadow_point) =
                                 point.shadow_point(&self.picture.camera, views)
@@ -321,7 +321,7 @@ impl<'a> Tile<'a> {
                                     shadows.gratings(&shadow_point, picks, &mut self.rooms);
                                 light.gratings = Some(gratings);
                             }
-                            (kept(&sums, mask, coherence), light)
+                            (sums.resolve(mask, coherence), light)
                         }
                         (PictureMethod::Tiles(_), None) => {
                             let gratings = has_gratings.then(|| {
@@ -331,7 +331,7 @@ impl<'a> Tile<'a> {
                             let base = base.radiance(environment, views, transformed_sphere);
                             let mut light = PointLight::open(base, &sums, gratings);
                             light.scratches = light.scratches.times(DVec3::splat(samples));
-                            (kept(&sums, mask, coherence), light)
+                            (sums.resolve(mask, coherence), light)
                         }
                         (PictureMethod::Other(method), _) => {
                             let masked = method.scratches(at, hit, views);
@@ -340,14 +340,14 @@ impl<'a> Tile<'a> {
                                 method.base_sphere(lobe, of, sphere)
                             });
                             sums.radiance = masked.scratches;
-                            let kept = Masked {
-                                scratches: [1.0; 3],
+                            let whole = Masked {
+                                kept: 1.0,
                                 ..masked
                             };
-                            (kept, PointLight::open(base, &sums, None))
+                            (whole, PointLight::open(base, &sums, None))
                         }
                     };
-                    Sample::surface(at, hit.object, &kept, light, *depth_m)
+                    Sample::surface(at, hit.object, &masked, light, *depth_m)
                 }
             };
             self.pixels[point.pixel].add(&sample);

@@ -306,15 +306,13 @@ fn scratch_segment(segment: &IndexedSegment, origin_m: DVec3) -> ScratchSegment 
 /// Profile, normal and blur of a segment. Twin: `profile_unpacked` in scratch.wgsl.
 pub(crate) fn profile_words(segment: &IndexedSegment) -> [u32; 2] {
     let profile = segment.profile;
-    let blur_um = match profile.is_part {
-        true => -segment.blur_um,
-        false => segment.blur_um,
-    };
     // The shape has the place of the last four digits of a half float's ten.
-    let blur = (half_bits(blur_um) + 8) & 0xfff0;
+    let blur = (half_bits(segment.blur_um) + 8) & 0xfff0;
+    let class = u32::from(profile.width_class);
+    let signs = [(class & 1) << 15 | (class & 2) << 30, (class & 4) << 29];
     [
-        half_bits(profile.width_um) | half_bits(profile.depth_nm) << 16,
-        octahedral(segment.normal) | (blur | u32::from(profile.shape)) << 16,
+        half_bits(profile.width_um) | half_bits(profile.depth_nm) << 16 | signs[0],
+        octahedral(segment.normal) | (blur | u32::from(profile.shape)) << 16 | signs[1],
     ]
 }
 

@@ -27,8 +27,8 @@ pub struct IndexedProfile {
     pub depth_nm: f32,
     /// Index of the shape: [`GrooveShapes::index`](hairline_scene::GrooveShapes::index).
     pub shape: u8,
-    /// Whether it is a part of a groove, whose other parts lie beside it.
-    pub is_part: bool,
+    /// Class of the width of the groove that it is a part of, whose other parts lie beside it; 0 for a narrow groove.
+    pub width_class: u8,
 }
 
 impl IndexedProfile {
@@ -38,13 +38,13 @@ impl IndexedProfile {
             width_um,
             depth_nm,
             shape: 0,
-            is_part: false,
+            width_class: 0,
         }
     }
 
     /// Number of parts side by side that weaken one another as little as a scratch does itself.
     pub fn lines(&self) -> f64 {
-        if self.is_part { 2.0 } else { 1.0 }
+        if self.width_class > 0 { 2.0 } else { 1.0 }
     }
 }
 

@@ -2,7 +2,7 @@
 //! editor can reuse it.
 
 use hairline_optics::footprint;
-use hairline_optics::section::Parts;
+use hairline_optics::section::{Parts, width_class};
 use hairline_scene::{GrooveShapes, Object, Scene, Scratch, Segment};
 use rayon::prelude::*;
 
@@ -195,13 +195,14 @@ impl<'a> LayerRun<'a> {
         if self.is_wide(scratch) {
             let section = scratch.profile.section.section();
             let parts = section.parts(width_um.into(), coherence_um);
-            append_parts(effective, first, &parts);
+            let class = width_class(f64::from(width_um) / coherence_um);
+            append_parts(effective, first, &parts, class);
         }
     }
 }
 
 /// Puts the parts of a wide groove in the place of the pieces from `first` on.
-fn append_parts(effective: &mut Vec<IndexedSegment>, first: usize, parts: &Parts) {
+fn append_parts(effective: &mut Vec<IndexedSegment>, first: usize, parts: &Parts, class: u8) {
     let pieces = effective.split_off(first);
     for &offset_um in &parts.offsets_um {
         effective.extend(pieces.iter().map(|piece| {
@@ -212,7 +213,7 @@ fn append_parts(effective: &mut Vec<IndexedSegment>, first: usize, parts: &Parts
                 end_m: piece.end_m + offset_m,
                 profile: IndexedProfile {
                     width_um: parts.width_um as f32,
-                    is_part: true,
+                    width_class: class,
                     ..piece.profile
                 },
                 ..*piece

@@ -74,12 +74,13 @@ impl ScratchedBsdf {
     fn view(&self, wo: DVec3, mode: SpectralMode) -> View<'_> {
         let mut sums = ScratchSums::default();
         let energy = |depth: &dyn Fn() -> DVec3, share: ScratchShare, sums: &mut ScratchSums| {
-            sums.add(share, depth().into(), [1.0; 3]);
+            sums.add(share, depth().into(), [0.0; 3]);
         };
         for layer in &self.layers {
             let share = ScratchShare {
                 segment: layer.share(),
                 line: 0.0,
+                cover: 1.0,
             };
             energy(&|| layer.energy(wo.z, mode), share, &mut sums);
         }
@@ -93,11 +94,7 @@ impl ScratchedBsdf {
             };
             energy(&at, scratch.share, &mut sums);
         }
-        let Masked { scratches, taken } = sums.resolve(Mask::Energy, self.depth_coherence);
-        let kept = match sums.share > 0.0 {
-            true => scratches[0] / sums.share,
-            false => 1.0,
-        };
+        let Masked { kept, taken, .. } = sums.resolve(Mask::Energy, self.depth_coherence);
         let left = DVec3::ONE - DVec3::from(taken);
         let taken_by_gratings: DVec3 = self.gratings.iter().map(|it| it.taken(wo, mode)).sum();
         let left_by_gratings = (DVec3::ONE - taken_by_gratings).max(DVec3::ZERO);

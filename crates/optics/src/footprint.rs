@@ -63,6 +63,8 @@ pub struct ScratchShare {
     pub segment: f64,
     /// The share that an endless scratch along the segment's line covers.
     pub line: f64,
+    /// Factor on both where scratches cover one another: 1 but for parts of wide grooves, [`cover_of_part`](crate::section::cover_of_part).
+    pub cover: f64,
 }
 
 /// The share of the footprint-averaged coherence window that a scratch segment covers: rho of docs/model.md, which is
@@ -93,6 +95,7 @@ pub fn scratch_share(
     ScratchShare {
         segment: line * along,
         line,
+        cover: 1.0,
     }
 }
 

@@ -57,6 +57,7 @@ pub fn piece_share(
     ScratchShare {
         segment: line * e(piece_um) * e(whole_um),
         line,
+        cover: 1.0,
     }
 }
 

@@ -154,6 +154,18 @@ impl GrooveShape {
     }
 }
 
+/// Factor from the share of a part of a wide groove to that by which it covers other scratches, for each class of widths; 1 for narrow grooves.
+///
+/// A part has the share that the groove takes from the mirror's direction, and the groove covers its whole width. Of the light that comes from the
+/// edges of floors exp(-rho) is left, since an edge within another floor is none; [`ScratchSums::mask_resolve`](crate::mask::ScratchSums::mask_resolve) leaves about
+/// exp(-3/2 rho), which is right for narrow grooves: hence two thirds.
+pub fn cover_of_part(width_class: u8) -> f64 {
+    COVERS[usize::from(width_class)]
+}
+
+/// [`cover_of_part`]: 2/3 of the width over what is taken, [`GrooveShape::widths_of_part`].
+const COVERS: [f64; 6] = [1.0, 0.8403, 1.015, 1.3858, 2.1804, 4.1777];
+
 /// Parts of a wide groove.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parts {
@@ -172,4 +184,21 @@ pub fn width_class(windows: f64) -> u8 {
     }
     let class = CLASSES.iter().position(|(most, _)| windows <= *most);
     class.map_or(CLASSES.len(), |class| class + 1) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn covers_are_two_thirds_of_the_width_over_what_is_taken() {
+        for (class, cover) in (0..).zip(COVERS).skip(1) {
+            let shape = GrooveShape {
+                section: Section::Rectangle,
+                width_class: class,
+            };
+            let exact = 2.0 / 3.0 * shape.widths_of_part() / shape.part_count() as f64;
+            assert!((cover - exact).abs() < 1e-4, "{class}: {cover} {exact}");
+        }
+    }
 }

@@ -82,7 +82,7 @@ fn published_weight(point: SurfacePoint, segment: Segment, view: PublishedView) 
     let reach2 = REACH_STD * REACH_STD * (footprint.across_sq_um + 0.5 * sigma * sigma);
     let elsewhere = dot(segment.normal, point.normal) < FACING_MIN_COS;
     if offset_um * offset_um > reach2 || elsewhere || !(view.end.x > view.start.x) {
-        return PublishedWeight(ScratchShare(0.0, 0.0), 0.0);
+        return PublishedWeight(ScratchShare(0.0, 0.0, 1.0), 0.0);
     }
     let width_um = segment.profile.width_um;
     if !PUBLISHED_ANTI_ALIASING {
@@ -95,7 +95,7 @@ fn published_weight(point: SurfacePoint, segment: Segment, view: PublishedView) 
     if METHOD_MASK == MASK_ENERGY {
         line = published_share(width_um, offset_um, -1e9, 1e9, segment.blur_um, pixel, sigma).share;
     }
-    return PublishedWeight(ScratchShare(seen.share, line), seen.density);
+    return PublishedWeight(ScratchShare(seen.share, line, 1.0), seen.density);
 }
 
 // Adds the share of a segment and what it takes from the base; keeps it to be lit.

@@ -134,6 +134,7 @@ impl PointShader for Published<'_> {
         match self.mask {
             // Twice the share but for the published footprint, which has a density of its own.
             Mask::Density => Masked {
+                kept: 1.0,
                 scratches: sums.radiance,
                 taken: [density.min(1.0); 3],
             },

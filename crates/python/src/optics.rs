@@ -77,7 +77,7 @@ functions! {
         let mut sums = ScratchSums::default();
         let line = share_by_line / share.max(1e-30);
         let energy = [energy_r, energy_g, energy_b].map(|energy| energy / share.max(1e-30));
-        sums.add(ScratchShare { segment: share, line }, energy, [0.0; 3]);
+        sums.add(ScratchShare { segment: share, line, cover: 1.0 }, energy, [0.0; 3]);
         sums.resolve(Mask::Energy, depth_coherence).taken
     };
 }

@@ -8,7 +8,7 @@ use hairline_optics::band::BandFrame;
 use hairline_optics::coherent::GroovePiece;
 use hairline_optics::footprint::ScratchShare;
 use hairline_optics::scratch::piece_share;
-use hairline_optics::section::{Parts, Section, width_class};
+use hairline_optics::section::{Parts, Section, cover_of_part, width_class};
 
 /// Distance within which grooves matter, in sigma. The window's energy falls as exp(-p^2/sigma^2): 7e-7 of it lies beyond
 /// 3.5.
@@ -155,6 +155,7 @@ fn parts_share(
     let mut sum = ScratchShare {
         segment: 0.0,
         line: 0.0,
+        cover: cover_of_part(width_class(piece.width_um / sigma_um)),
     };
     for offset_um in &parts.offsets_um {
         let part = GroovePiece {

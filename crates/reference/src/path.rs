@@ -209,17 +209,11 @@ impl Integrator<'_> {
             let table = &self.tables.tables[point.table + usize::from(view.shape)];
             // In the mirror's direction both cosines are the viewer's.
             let total = table.scratch_table_total(view.piece.depth_nm * point.wo.z);
-            sums.add(view.share, total, [1.0; 3]);
+            sums.add(view.share, total, [0.0; 3]);
         }
         let coherence = self.depth_coherence[object] as f64;
         let masked = sums.resolve(self.settings.mask, coherence);
-        let taken = DVec3::from(masked.taken);
-        let kept = if sums.share > 0.0 {
-            masked.scratches[0] / sums.share
-        } else {
-            1.0
-        };
-        (kept, taken)
+        (masked.kept, masked.taken.into())
     }
 
     /// Light off the base: multiple importance sampling of lights and lobes (E. Veach, 1997).

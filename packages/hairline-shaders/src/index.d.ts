@@ -80,8 +80,8 @@ export interface PreparedPiece {
   blurUm: number;
   /** Index in the shapes. */
   shape?: number;
-  /** Whether it is a part of a wide groove. */
-  isPart?: boolean;
+  /** Class of the width of the groove that it is a part of; 0 for a narrow one. */
+  widthClass?: number;
 }
 export interface Prepared {
   pieces: PreparedPiece[];

@@ -143,7 +143,7 @@ function partsOfPiece(piece, shape, coherenceUm, umPerUnit) {
   const length = Math.hypot(...across) || 1;
   return offsetsUm.map((offsetUm) => {
     const moved = (point) => point.map((x, k) => Math.fround(x + ((offsetUm / umPerUnit) * across[k]) / length));
-    return { ...piece, start: moved(piece.start), end: moved(piece.end), widthUm, isPart: true };
+    return { ...piece, start: moved(piece.start), end: moved(piece.end), widthUm, widthClass: shape.widthClass };
   });
 }
 
@@ -186,7 +186,7 @@ export function preparedPieces(scratches, { coherenceUm = 20, metresPerUnit = 1 
       const shape = { profile, widthClass: widthClassOf(widthsUm[i] / coherenceUm) };
       const piece = {
         start: at(s), end: at(e), normal: normals ? Array.from(normals.subarray(3 * i, 3 * i + 3)) : null,
-        widthUm: widthsUm[i], depthNm: depthsNm[i], blurUm: end.blurUm, shape: shapeOf(shape), isPart: false,
+        widthUm: widthsUm[i], depthNm: depthsNm[i], blurUm: end.blurUm, shape: shapeOf(shape),
       };
       made.push(...(shape.widthClass > 0 ? partsOfPiece(piece, shape, coherenceUm, umPerUnit) : [piece]));
     }

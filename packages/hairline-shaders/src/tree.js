@@ -126,11 +126,12 @@ export function scratchTree({ pieces: given, coherenceUm, depthCoherence }, { me
   pieces.forEach((piece, i) => {
     const at = 4 * (piecesAt + 2 * i);
     numbers.set(piece.start, at);
-    texels[at + 3] = (halfBits(piece.widthUm) | (halfBits(piece.depthNm) << 16)) >>> 0;
+    const widthClass = piece.widthClass ?? 0;
+    texels[at + 3] = (halfBits(piece.widthUm) | (halfBits(piece.depthNm) << 16) | ((widthClass & 1) << 15) | ((widthClass & 2) << 30)) >>> 0;
     numbers.set(piece.end, at + 4);
     // The shape has the place of the last four digits of a half float's ten.
-    const blur = (halfBits(piece.isPart ? -piece.blurUm : piece.blurUm) + 8) & 0xfff0;
-    texels[at + 7] = (octahedral(piece.normal) | ((blur | (piece.shape ?? 0)) << 16)) >>> 0;
+    const blur = (halfBits(piece.blurUm) + 8) & 0xfff0;
+    texels[at + 7] = (octahedral(piece.normal) | ((blur | (piece.shape ?? 0)) << 16) | ((widthClass & 4) << 29)) >>> 0;
   });
   return { texels, width: WIDTH, height };
 }

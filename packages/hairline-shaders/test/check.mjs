@@ -206,14 +206,15 @@ assert.throws(() => few.joined(new hairline.Scratches({ ...more, normals: null }
     starts: [0, 0, 0], ends: [1e-3, 0, 0], widthsUm: [widthUm], depthsNm: [150], scratch: [0], normals: normals && Float64Array.from(normals), profiles: ['v'],
   });
   const narrow = hairline.preparedPieces(piece(4, null));
-  assert.deepEqual([narrow.pieces.length, narrow.pieces[0].shape, narrow.pieces[0].isPart, narrow.shapes.length], [1, 1, false, 2]);
+  assert.deepEqual([narrow.pieces.length, narrow.pieces[0].shape, narrow.pieces[0].widthClass, narrow.shapes.length], [1, 1, undefined, 2]);
   const wide = hairline.preparedPieces(piece(12, [0, 0, 1]));
-  assert.deepEqual(wide.pieces.map(({ start, isPart }) => [start[1], isPart]), [[Math.fround(-3e-6), true], [Math.fround(3e-6), true]]);
+  assert.deepEqual(wide.pieces.map(({ start, widthClass }) => [start[1], widthClass]), [[Math.fround(-3e-6), 1], [Math.fround(3e-6), 1]]);
   const unknown = hairline.preparedPieces(piece(12, null));
   assert.deepEqual(unknown.pieces.map(({ start, widthUm }) => [start[1], widthUm]), [0, 0].map((y) => [y, wide.pieces[0].widthUm]));
   const { texels } = hairline.scratchTree(wide);
   const word = texels[4 * (1 + 2 * texels[0]) + 7];
-  assert.deepEqual([(word >>> 16) & 15, word >>> 31], [1, 1]);
+  const sizes = texels[4 * (1 + 2 * texels[0]) + 3];
+  assert.deepEqual([(word >>> 16) & 15, word >>> 31, (sizes >>> 15) & 1, sizes >>> 31], [1, 0, 1, 0]);
 }
 assert.throws(() => hairline.layScratches(square, { count: 1, profile: 'w' }), /profile: found "w"; must be one of rectangle, v, round/);
 

@@ -7,6 +7,7 @@ use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
 use hairline_optics::mask::ScratchSums;
 use hairline_optics::metal::Metal;
 use hairline_optics::scratch::{band_std, oblique_depth_nm};
+use hairline_optics::section::cover_of_part;
 use hairline_optics::table::{COLUMNS, ROWS, ScratchTable};
 use std::sync::LazyLock;
 
@@ -65,6 +66,27 @@ fn footprint_shares() {
         tolerance: Tolerance {
             absolute: 1e-6,
             relative: 1e-3,
+        },
+    }
+    .check(&rows, 0);
+}
+
+/// Classes of the widths of wide grooves travel in the signs of three numbers.
+#[test]
+fn covers_of_parts() {
+    let rows: Vec<[f32; 1]> = (0..6).map(|class| [class as f32]).collect();
+    Twin {
+        name: "profile_cover",
+        modules: &[&shaders::SCRATCH],
+        snippet: "let width_class = u32(x[0]);
+            let halves = pack2x16float(vec2f(3.0, 150.0)) | ((width_class & 1u) << 15u) | ((width_class & 2u) << 30u);
+            let profile = profile_unpacked(halves, (width_class & 4u) << 29u).profile;
+            y[0] = profile_cover(profile); y[1] = profile.width_um; y[2] = profile.depth_nm;",
+        tables: &[],
+        expected: &|[class]: [f64; 1]| [cover_of_part(class as u8), 3.0, 150.0],
+        tolerance: Tolerance {
+            absolute: 0.0,
+            relative: 1e-6,
         },
     }
     .check(&rows, 0);
@@ -170,8 +192,8 @@ fn masks() {
         name: "mask_resolve",
         modules: &[&shaders::MASK],
         snippet: "var sums: ScratchSums;
-            mask_add(&sums, ScratchShare(x[0], 0.3), vec3f(x[1]), vec3f(7.0 * x[1]));
-            mask_add(&sums, ScratchShare(x[2], 0.1), vec3f(x[3]), vec3f(3.0 * x[3]));
+            mask_add(&sums, ScratchShare(x[0], 0.3, 1.0), vec3f(x[1]), vec3f(7.0 * x[1]));
+            mask_add(&sums, ScratchShare(x[2], 0.1, 2.0), vec3f(x[3]), vec3f(3.0 * x[3]));
             let m = mask_resolve(sums, x[4]);
             y[0] = m.scratches.y; y[1] = m.taken.z;",
         tables: &[],
@@ -181,6 +203,7 @@ fn masks() {
                 ScratchShare {
                     segment: r0,
                     line: 0.3,
+                    cover: 1.0,
                 },
                 [e0; 3],
                 [7.0 * e0; 3],
@@ -189,6 +212,7 @@ fn masks() {
                 ScratchShare {
                     segment: r1,
                     line: 0.1,
+                    cover: 2.0,
                 },
                 [e1; 3],
                 [3.0 * e1; 3],

@@ -9,6 +9,7 @@ use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_index::{IndexedProfile, IndexedSegment};
 use hairline_optics::band::{Along, BandPlace};
 use hairline_optics::footprint::ScratchShare;
+use hairline_optics::section::cover_of_part;
 
 /// Points of a group.
 pub(super) const LANES: usize = 8;
@@ -267,6 +268,7 @@ impl SegmentView {
             self.ends(lane),
         );
         share.line *= profile.lines();
+        share.cover = cover_of_part(profile.width_class);
         (share.segment > 0.0).then_some(share)
     }
 }

@@ -69,5 +69,6 @@ pub(super) fn share(
     ScratchShare {
         segment: line * gaussian().between(low, high),
         line,
+        cover: 1.0,
     }
 }

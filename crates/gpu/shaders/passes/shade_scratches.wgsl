@@ -309,7 +309,7 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                         reaching = lights_reaching(pair);
                     }
                     results[lane] = select(vec3f(0.0), share.segment * energy, is_seen);
-                    shares[lane] = select(vec2f(0.0), share.segment * vec2f(1.0, share.line), is_seen);
+                    shares[lane] = select(vec2f(0.0), mask_shares(share), is_seen);
                 }
             }
             if lights_now {

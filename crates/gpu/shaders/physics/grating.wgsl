@@ -8,7 +8,7 @@ const GRATING_DEPTH_NM: f32 = SCRATCH_TABLE_DEPTH_MAX_NM;
 // Grooves that lie everywhere under a pixel and cover a share of it; fine ones have a table by incidence.
 fn row_seen(tangent: vec2f, share: f32, turns_rad: vec2f, angle_std_rad: f32, by_incidence: bool) -> SeenScratch {
     let profile = Profile(GRATING_WIDTH_UM, GRATING_DEPTH_NM, 0u);
-    return SeenScratch(ScratchShare(share, 0.0), tangent, 0.0, vec2f(0.0), 1.0, profile, true, by_incidence, turns_rad, angle_std_rad, -1.0);
+    return SeenScratch(ScratchShare(share, 0.0, 1.0), tangent, 0.0, vec2f(0.0), 1.0, profile, true, by_incidence, turns_rad, angle_std_rad, -1.0);
 }
 
 // Light of an environment, as scratch_environment().

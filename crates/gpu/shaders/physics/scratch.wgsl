@@ -4,12 +4,13 @@
 struct Profile {
     width_um: f32,
     depth_nm: f32,
-    shape: u32,                 // which of the material's tables; 16 more for a part of a wide groove, see profile_lines()
+    shape: u32,                 // which of the material's tables; for a part of a wide groove 16 times its class of widths more
 }
 
 // Profile and more of a segment in two words. Twin: profile_words in src/host.rs.
 //   first   width and depth, half floats
-//   second  normal, two bytes of an octahedral map; table, four bits; blur, twelve bits of a half float, negative for a part of a wide groove
+//   second  normal, two bytes of an octahedral map; table, four bits; blur, twelve bits of a half float
+// The signs of width, depth and blur are the three bits of the class of widths.
 struct PackedProfile {
     profile: Profile,
     normal: vec3f,
@@ -17,8 +18,9 @@ struct PackedProfile {
 }
 
 fn profile_unpacked(sizes: u32, more: u32) -> PackedProfile {
-    let halves = unpack2x16float(sizes);
-    let shape = extractBits(more, 16u, 4u) | ((more >> 31u) << 4u);
+    let halves = abs(unpack2x16float(sizes));
+    let width_class = extractBits(sizes, 15u, 1u) | ((sizes >> 31u) << 1u) | ((more >> 31u) << 2u);
+    let shape = extractBits(more, 16u, 4u) | (width_class << 4u);
     let blur_um = abs(unpack2x16float(more & 0xfff00000u).y);
     return PackedProfile(Profile(halves.x, halves.y, shape), octahedral_normal(unpack4x8snorm(more).xy), blur_um);
 }
@@ -28,9 +30,15 @@ fn profile_table(first: u32, profile: Profile) -> u32 {
     return first + (profile.shape & 15u);
 }
 
+// Factor on the share of a part of a wide groove where scratches cover one another. Twin: cover_of_part in optics/src/section.rs.
+fn profile_cover(profile: Profile) -> f32 {
+    var covers = array<f32, 8>(1.0, 0.8403, 1.015, 1.3858, 2.1804, 4.1777, 1.0, 1.0);
+    return covers[profile.shape >> 4u];
+}
+
 // Number of parts side by side that weaken one another as little as a scratch does itself.
 fn profile_lines(profile: Profile) -> f32 {
-    return f32(1u + (profile.shape >> 4u));
+    return select(1.0, 2.0, profile.shape >= 16u);
 }
 
 // A unit vector from its octahedral map. Q. Meyer et al., "On Floating-Point Normal Vectors", 2010.
@@ -63,6 +71,7 @@ struct Footprint {
 struct ScratchShare {
     segment: f32,
     line: f32,
+    cover: f32,                 // factor on both where scratches cover one another
 }
 
 // `offset_um` is the distance from the footprint's centre to its line along n; `start_um` and `end_um` are its ends along t.
@@ -83,5 +92,5 @@ fn scratch_share(
     let along_variance = footprint.along_sq_um - footprint.cross_sq_um * slant + blur_um * blur_um;
     let z = max(sqrt(2.0 * max(along_variance, 0.0)), 1e-6);
     let line = width_um * across;
-    return ScratchShare(line * 0.5 * gaussian_erf_difference((start_um - shift) / z, (end_um - shift) / z), line);
+    return ScratchShare(line * 0.5 * gaussian_erf_difference((start_um - shift) / z, (end_um - shift) / z), line, 1.0);
 }

@@ -43,11 +43,12 @@ fn scratch_seen(point: LitPoint, start_um: vec2f, end_um: vec2f, profile: Profil
     let along = vec2f(dot(point.footprint_x_um, t), dot(point.footprint_y_um, t));
     let variance = dot(across, across) + 0.5 * point.coherence_um * point.coherence_um;
     let offset = 0.5 * dot(n, start_um + end_um);
-    var share = ScratchShare(0.0, 0.0);
+    var share = ScratchShare(0.0, 0.0, 1.0);
     if length2 > 0.0 && offset * offset <= SCRATCH_REACH_STD * SCRATCH_REACH_STD * variance {
         let footprint = Footprint(dot(across, across), dot(along, along), dot(across, along));
         share = scratch_share(profile.width_um, offset, dot(t, start_um), dot(t, end_um), blur_um, footprint, point.coherence_um);
         share.line *= profile_lines(profile);
+        share.cover = profile_cover(profile);
     }
     return SeenScratch(share, t, offset, across, variance, profile, false, false, vec2f(0.0), 0.0, -1.0);
 }

@@ -32,6 +32,7 @@ fn materials() -> Vec<(&'static str, ScratchedBsdf)> {
         share: ScratchShare {
             segment: 0.03,
             line: 0.05,
+            cover: 1.0,
         },
     };
     let bare = ScratchedBsdf {

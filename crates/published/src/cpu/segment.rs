@@ -68,6 +68,7 @@ impl SegmentView {
             let share = ScratchShare {
                 segment: segment.share,
                 line: seen(-ENDLESS_UM, ENDLESS_UM).share,
+                cover: 1.0,
             };
             (share, segment.density)
         } else {
