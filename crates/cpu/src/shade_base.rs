@@ -8,7 +8,7 @@ use hairline_optics::band::Cap;
 use hairline_optics::brushed_lobe::BrushedLobe;
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
 use hairline_optics::facets::FacetAxes;
-use hairline_optics::filtered_lobe::{LobePart, filtered_lobe};
+use hairline_optics::filtered_lobe::{LobePart, PixelSlopes, filtered_lobe};
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
@@ -54,6 +54,8 @@ pub(crate) struct Layer<'a> {
     /// Direction to the viewer, in the local frame.
     wo: DVec3,
     shape: Shape,
+    /// Slopes that the pixel sees, which widen the lobe.
+    slopes: PixelSlopes,
     of: LobeFresnel<'a>,
     /// Albedo of the lobe with F = 1.
     lobe_albedo: f64,
@@ -62,24 +64,21 @@ pub(crate) struct Layer<'a> {
 }
 
 /// Representation of a lobe for the integral over a light.
-// Most materials have parts, which no point of a surface should allocate for.
-#[expect(clippy::large_enum_variant)]
 enum Shape {
-    /// Lobes whose weighted sum it is.
-    Parts([LobePart; 3]),
-    /// Facets that lean further one way than across it, integrated slice by slice. The transformed cosine stands for the lobe where
-    /// parts of a light are weighed.
-    Brushed(Box<(BrushedLobe, LtcLobe)>),
+    /// A transformed cosine.
+    Round(LtcLobe),
+    /// Facets that lean further one way than across it, integrated slice by slice.
+    Brushed(FacetAxes),
 }
 
 impl<'a> Layer<'a> {
     fn new(point: &SurfacePoint, fresnel: FresnelRgb<'a>, roughness: f64, slope_std: f64) -> Self {
         let sharp = ltc_lobe(point.wo, roughness);
-        let filtered = filtered_lobe(sharp.alpha, point.slope_spread(slope_std), point.wo.z);
         let of = LobeFresnel::new(fresnel, point.wo, roughness);
         Self {
             wo: point.wo,
-            shape: Shape::Parts(filtered.parts(&sharp)),
+            shape: Shape::Round(sharp),
+            slopes: point.pixel_slopes(slope_std),
             of,
             lobe_albedo: sharp.albedo,
             albedo: ggx_area_reflectance(of.albedo, fresnel.f0, sharp.albedo).into(),
@@ -87,7 +86,8 @@ impl<'a> Layer<'a> {
     }
 
     fn brushed(point: &SurfacePoint, fresnel: FresnelRgb<'a>, facets: FacetAxes) -> Self {
-        let lobe = BrushedLobe::new(point.wo, facets, point.slope_spread(point.slope_std));
+        let slopes = point.pixel_slopes(point.slope_std);
+        let lobe = BrushedLobe::new(point.wo, facets, slopes.towards(0.0));
         let [lobe_albedo, ..] = lobe.albedo(&FresnelRgb::schlick([1.0; 3]));
         let of = LobeFresnel {
             fresnel,
@@ -95,35 +95,44 @@ impl<'a> Layer<'a> {
         };
         Self {
             wo: point.wo,
-            shape: Shape::Brushed(Box::new((lobe, lobe.chord(point.wo)))),
+            shape: Shape::Brushed(facets),
+            slopes,
             of,
             lobe_albedo,
             albedo: ggx_area_reflectance(of.albedo, fresnel.f0, lobe_albedo).into(),
         }
     }
 
-    /// Light that the layer reflects of a light, over the light's radiance. `sphere` is what a lobe reflects of a sphere.
+    /// The lobes whose weighted sum a round lobe is over a pixel, for a light at 1 / `per_m` metres.
+    fn parts(&self, sharp: &LtcLobe, per_m: f64) -> [LobePart; 3] {
+        filtered_lobe(sharp.alpha, self.slopes.towards(per_m), self.wo.z).parts(sharp)
+    }
+
+    /// Light that the layer reflects of one of the views, over the light's radiance. `sphere` is what a lobe reflects of a sphere.
     fn lit_by(
         &self,
-        light: &LightView,
+        view: usize,
         views: &LightViews,
         sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
     ) -> DVec3 {
+        let light = &views.views[view];
+        let per_m = 1.0 / views.distances_m[view];
         let picture = views.picture(light);
         let pictured = |even: DVec3, lobe: &LtcLobe| match &picture {
             Some(picture) if even != DVec3::ZERO => even * picture.on_lobe(lobe, &self.of),
             _ => even,
         };
         let single = match &self.shape {
-            Shape::Parts(parts) => {
+            Shape::Round(sharp) => {
                 let part = |part: &LobePart| {
                     let even = reflected_light(light, views, part, self, &sphere);
                     pictured(even.into(), &part.lobe)
                 };
+                let parts = self.parts(sharp, per_m);
                 parts.iter().filter(|part| part.counts()).map(part).sum()
             }
-            Shape::Brushed(brushed) => {
-                let (lobe, chord) = &**brushed;
+            Shape::Brushed(facets) => {
+                let lobe = BrushedLobe::new(self.wo, *facets, self.slopes.towards(per_m));
                 let fresnel = &self.of.fresnel;
                 let even = match light {
                     LightView::Sphere { cap, .. } => {
@@ -133,7 +142,8 @@ impl<'a> Layer<'a> {
                         lobe.polygon(&views.vertices[vertices.clone()], fresnel)
                     }
                 };
-                pictured(even.into(), chord)
+                // A transformed cosine stands for the lobe where parts of a light are weighed.
+                pictured(even.into(), &lobe.chord(self.wo))
             }
         };
         // The fit may make the second part a little larger than the first.
@@ -143,16 +153,16 @@ impl<'a> Layer<'a> {
     /// Light that the layer reflects of the environment without its suns.
     fn surrounded_by(&self, environment: &Environment, point: &SurfacePoint) -> DVec3 {
         let single = match &self.shape {
-            Shape::Parts(parts) => {
+            Shape::Round(sharp) => {
                 let part = |part: &LobePart| match part.core {
                     0.0 => DVec3::ZERO,
                     weight => weight * reflected(environment, point, &part.lobe, &self.of),
                 };
-                parts.iter().map(part).sum()
+                self.parts(sharp, 0.0).iter().map(part).sum()
             }
-            Shape::Brushed(brushed) => {
-                DVec3::from(self.of.albedo)
-                    * brushed_around(environment, point, &brushed.0, &self.of)
+            Shape::Brushed(facets) => {
+                let lobe = BrushedLobe::new(self.wo, *facets, self.slopes.towards(0.0));
+                DVec3::from(self.of.albedo) * brushed_around(environment, point, &lobe, &self.of)
             }
         };
         self.of_single(DVec3::max(single, DVec3::ZERO))
@@ -254,17 +264,20 @@ impl<'p, 'a> Base<'p, 'a> {
         sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
     ) -> BaseRadiance {
         let under_coat = views.under_coat();
-        let bare = under_coat.light(light).map(|light| BaseRadiance {
-            specular: light.radiance() * self.lobe.lit_by(light, under_coat, &sphere),
-            diffuse: self.diffuse(|| {
-                let even = light.radiance() * form_factor(light, under_coat);
-                let picture = under_coat.picture(light);
-                picture.map_or(even, |picture| even * picture.on_body())
-            }),
+        let bare = under_coat.view_of(light).map(|view| {
+            let light = &under_coat.views[view];
+            BaseRadiance {
+                specular: light.radiance() * self.lobe.lit_by(view, under_coat, &sphere),
+                diffuse: self.diffuse(|| {
+                    let even = light.radiance() * form_factor(light, under_coat);
+                    let picture = under_coat.picture(light);
+                    picture.map_or(even, |picture| even * picture.on_body())
+                }),
+            }
         });
         self.coated(bare.unwrap_or_default(), |coat| {
-            views.light(light).map_or(DVec3::ZERO, |light| {
-                light.radiance() * coat.lit_by(light, views, &sphere)
+            views.view_of(light).map_or(DVec3::ZERO, |view| {
+                views.views[view].radiance() * coat.lit_by(view, views, &sphere)
             })
         })
     }

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec2, DVec3};
 use hairline_index::Hit;
 use hairline_optics::facets::{FacetAxes, anisotropic_alpha};
-use hairline_optics::filtered_lobe::SlopeSpread;
+use hairline_optics::filtered_lobe::PixelSlopes;
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_alpha;
 use hairline_scene::texture_lookup::{TextureSampler, blend, texture_footprint};
@@ -104,12 +104,15 @@ impl SurfacePoint<'_> {
         self.axis_x * v.x + self.axis_y * v.y + self.normal * v.z
     }
 
-    /// Spread of the slopes that a pixel sees. `slope_std` is the spread of the normal map's slopes.
-    pub fn slope_spread(&self, slope_std: f64) -> SlopeSpread {
-        let [x, y] = self.normal_turns.map(|turn| turn.truncate());
-        SlopeSpread {
-            variance: x * x + y * y + slope_std * slope_std,
-            covariance: x.x * x.y + y.x * y.y,
+    /// Slopes that a pixel sees. `map_std` is the spread of the normal map's.
+    pub fn pixel_slopes(&self, map_std: f64) -> PixelSlopes {
+        let local = |step| self.surface_from_world(step).truncate();
+        PixelSlopes {
+            turns: self.normal_turns.map(|turn| turn.truncate()),
+            steps_m: self.footprint_axes_m.map(local),
+            cos_o: self.wo.z,
+            viewer_m: self.distance_m,
+            map_std,
         }
     }
 

@@ -19,6 +19,10 @@ const MAX_VARIANCE: f64 = 0.06;
 const MAX_VARIANCE_OVER_COS2: f64 = 0.1;
 /// The square of an arc's distance from its chord, over the squared alpha, at which it counts as bent by half.
 const BEND2: f64 = 0.25;
+/// Least distance of the viewer in [`PixelSlopes::towards`].
+const MIN_VIEWER_M: f64 = 1e-6;
+/// Least cosine of the view in [`PixelSlopes::towards`].
+const MIN_COS: f64 = 0.01;
 /// Below this excess the wider lobe is left out.
 const MIN_EXCESS: f64 = 0.02;
 
@@ -46,6 +50,35 @@ impl SlopeSpread {
         // Correlated as before.
         let kept = variance / self.variance.max(DVec2::splat(1e-30));
         (variance, self.covariance * (kept.x * kept.y).sqrt())
+    }
+}
+
+/// How the slope that mirrors a light to the viewer changes over a pixel, in the frame of [`SlopeSpread`].
+#[derive(Clone, Copy, Debug)]
+pub struct PixelSlopes {
+    /// Turns of the normal over one standard deviation of the pixel's filter to the right and down.
+    pub turns: [DVec2; 2],
+    /// Movements of the point over these, metres.
+    pub steps_m: [DVec2; 2],
+    /// Cosine of the view.
+    pub cos_o: f64,
+    /// Distance to the viewer.
+    pub viewer_m: f64,
+    /// Standard deviation of the slopes of the normal map, in each direction.
+    pub map_std: f64,
+}
+
+impl PixelSlopes {
+    /// Spread of the slopes for a light at 1 / `per_m` metres; 0 is at infinity. Equation (28d) of docs/model.md.
+    pub fn towards(&self, per_m: f64) -> SlopeSpread {
+        let half = 0.5 * (1.0 / self.viewer_m.max(MIN_VIEWER_M) + per_m);
+        let cos_o = self.cos_o.max(MIN_COS);
+        let per_step = half * DVec2::new(cos_o, 1.0 / cos_o);
+        let [x, y] = [0, 1].map(|i| self.turns[i] + per_step * self.steps_m[i]);
+        SlopeSpread {
+            variance: x * x + y * y + self.map_std * self.map_std,
+            covariance: x.x * x.y + y.x * y.y,
+        }
     }
 }
 

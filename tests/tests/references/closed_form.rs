@@ -64,6 +64,33 @@ fn plates() {
     }
 }
 
+/// Lamps whose mirror images are about as wide as a pixel, on smooth metal: without the pixel's footprint they fall on one pixel or between two.
+#[test]
+fn lamps_as_small_as_pixels() {
+    let view = View {
+        angle_rad: 30f64.to_radians(),
+        pixel_um: 500.0,
+        size_px: 16,
+    };
+    let brushed = Anisotropy {
+        strength: 0.7,
+        direction_deg: 20.0,
+    };
+    for anisotropy in [None, Some(brushed)] {
+        let mut scene = plate(Base::Metal(Metal::Silver), view);
+        scene.materials[0].roughness = 0.03;
+        scene.materials[0].anisotropy = anisotropy;
+        scene.lights = vec![
+            sphere(view, 0.003, 0.001, 5e-4),
+            panel(view, -0.002, -0.001, [4e-4, 8e-4]),
+        ];
+        let name = format!("lamps as small as pixels, {anisotropy:?}");
+        let reference = sampled(&scene, LINEAR, 8);
+        let found = compared(&name, &closed(&scene), &reference, Layer::Base);
+        assert!(found.rms().0 < 0.12, "{name}: {found:?}");
+    }
+}
+
 /// A clear layer with scratches in it, over gold and over a part of a body.
 #[test]
 fn coated_plates() {

@@ -3,6 +3,7 @@
 use super::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec2, DVec3};
 use hairline_gpu::shaders;
+use hairline_optics::filtered_lobe::PixelSlopes;
 use hairline_scene::camera::{CameraFrame, MIN_FOOTPRINT_COS};
 
 fn v(x: f64, y: f64, z: f64) -> DVec3 {
@@ -67,6 +68,53 @@ fn footprints() {
     }
     // Edge-on, rounding may decide from which side the surface is seen.
     .check(&rows, rows.len() / 2000);
+}
+
+#[test]
+fn slopes_of_a_pixel() {
+    let mut random = Sequence(3);
+    let rows: Vec<[f32; 8]> = (0..4000)
+        .map(|_| {
+            let [a, b, c, d] = [0; 4].map(|_| random.between(-0.1, 0.1));
+            let distance = 10f32.powf(random.between(-2.0, 1.0));
+            [
+                a,
+                b,
+                c,
+                d,
+                random.between(0.005, 1.0),
+                distance,
+                random.between(0.0, 5.0),
+                random.between(0.0, 0.1),
+            ]
+        })
+        .collect();
+    Twin {
+        name: "surface_slope_spread",
+        modules: &[&shaders::SURFACE],
+        snippet: "var point: SurfacePoint;
+            point.turn_x = vec2f(x[0], x[1]); point.turn_y = vec2f(x[2], x[3]);
+            point.footprint_x_um = 1e4 * vec2f(x[1], x[2]); point.footprint_y_um = 1e4 * vec2f(x[3], x[0]);
+            point.wo.z = x[4]; point.distance_m = x[5]; point.slope_std = x[7];
+            let s = surface_slope_spread(point, x[6]); y[0] = s.x; y[1] = s.y; y[2] = s.z;",
+        tables: &[],
+        expected: &|[a, b, c, d, cos_o, viewer_m, per_m, map_std]: [f64; 8]| {
+            let slopes = PixelSlopes {
+                turns: [DVec2::new(a, b), DVec2::new(c, d)],
+                steps_m: [DVec2::new(b, c), DVec2::new(d, a)].map(|step| 0.01 * step),
+                cos_o,
+                viewer_m,
+                map_std,
+            };
+            let spread = slopes.towards(per_m);
+            [spread.variance.x, spread.variance.y, spread.covariance]
+        },
+        tolerance: Tolerance {
+            absolute: 1e-6,
+            relative: 1e-5,
+        },
+    }
+    .check(&rows, 0);
 }
 
 #[test]

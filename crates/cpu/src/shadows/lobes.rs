@@ -42,7 +42,12 @@ impl<'a> DrawnLobe<'a> {
         fresnel: FresnelRgb<'a>,
         share: f64,
     ) -> Self {
-        let added = 2.0 * point.slope_spread(slope_std).variance.element_sum();
+        let added = 2.0
+            * point
+                .pixel_slopes(slope_std)
+                .towards(0.0)
+                .variance
+                .element_sum();
         Self {
             wo: point.wo,
             facets: Facets::new(own.spread_by(added)),

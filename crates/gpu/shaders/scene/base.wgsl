@@ -153,16 +153,14 @@ fn base_surroundings(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel
 struct Layer {
     is_brushed: bool,           // its facets lean further one way: `sharp` has its albedo alone
     sharp: LtcLobe,
-    filtered: FilteredLobe,
     reflecting: LobeFresnel,
     albedo: vec3f,              // of light from all around
 }
 
 fn layer_of(point: SurfacePoint, fresnel: FresnelRgb, roughness: f32) -> Layer {
     let sharp = ltc_lobe(point.wo, roughness, lobe_shapes, lobe_albedo);
-    let filtered = filtered_lobe(sharp.alpha, surface_slope_spread(point), point.wo.z);
     let reflecting = lobe_fresnel(fresnel, point.wo, roughness, fresnel_curves);
-    return Layer(false, sharp, filtered, reflecting, ggx_area_reflectance(reflecting.albedo, fresnel.at_normal, sharp.albedo));
+    return Layer(false, sharp, reflecting, ggx_area_reflectance(reflecting.albedo, fresnel.at_normal, sharp.albedo));
 }
 
 fn base_layer(point: SurfacePoint) -> Layer {
@@ -174,8 +172,14 @@ fn base_facets(point: SurfacePoint) -> FacetAxes {
     return FacetAxes(point.long_axis, vec2f(max(point.long_alpha, alpha), alpha));
 }
 
-fn base_brushed_lobe(point: SurfacePoint) -> BrushedLobe {
-    return brushed_lobe(point.wo, base_facets(point), surface_slope_spread(point));
+// As it is for a light at 1 / `per_m` metres.
+fn base_brushed_lobe(point: SurfacePoint, per_m: f32) -> BrushedLobe {
+    return brushed_lobe(point.wo, base_facets(point), surface_slope_spread(point, per_m));
+}
+
+// The same of a round lobe.
+fn layer_filtered(point: SurfacePoint, layer: Layer, per_m: f32) -> FilteredLobe {
+    return filtered_lobe(layer.sharp.alpha, surface_slope_spread(point, per_m), point.wo.z);
 }
 
 // The layer with the albedos of facets that lean further one way, where they do.
@@ -183,7 +187,7 @@ fn layer_brushed(point: SurfacePoint, round: Layer) -> Layer {
     var layer = round;
     if HAS_ANISOTROPY && point.long_alpha > 0.0 {
         let fresnel = round.reflecting.fresnel;
-        let albedo = brushed_albedo(base_brushed_lobe(point), fresnel, fresnel_curves);
+        let albedo = brushed_albedo(base_brushed_lobe(point, 0.0), fresnel, fresnel_curves);
         layer.is_brushed = true;
         layer.sharp.albedo = albedo.w;
         layer.reflecting.albedo = albedo.xyz;
@@ -259,19 +263,28 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
         return brushed_lit(point, layer, of_lights, surrounded);
     }
     var sum: BaseRadiance;
-    for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
-        let part = filtered_lobe_part(layer.sharp, layer.filtered, p);
-        if !filtered_lobe_counts(part) {
-            break;
+    if surrounded && HAS_ENVIRONMENT {
+        let filtered = layer_filtered(point, layer, 0.0);
+        for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
+            let part = filtered_lobe_part(layer.sharp, filtered, p);
+            if part.core == 0.0 {
+                break;
+            }
+            let light = base_surroundings(point, part.lobe, layer.reflecting);
+            sum.specular += part.core * light.specular;
+            // The body's light is the same by every part.
+            sum.diffuse = light.diffuse;
         }
-        var light: BaseRadiance;
-        if surrounded && part.core != 0.0 {
-            light = base_surroundings(point, part.lobe, layer.reflecting);
-            light.specular *= part.core;
-        }
-        for (var l = of_lights.x; l < of_lights.y; l += 1u) {
-            let source = light_at(l);
-            let radiance = light_radiance(source, point.position_m);
+    }
+    for (var l = of_lights.x; l < of_lights.y; l += 1u) {
+        let source = light_at(l);
+        let radiance = light_radiance(source, point.position_m);
+        let filtered = layer_filtered(point, layer, light_per_m(source, point.position_m));
+        for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
+            let part = filtered_lobe_part(layer.sharp, filtered, p);
+            if !filtered_lobe_counts(part) {
+                break;
+            }
             var seen: LightOnBase;
             var on_lobe = radiance;
             var on_body = radiance;
@@ -285,16 +298,11 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
             } else if BASE_HAS_POLYGONS {
                 seen = base_polygon(point, part.lobe, source);
             }
-            let weight = filtered_lobe_weight(layer.filtered, part, seen.vector);
+            let weight = filtered_lobe_weight(filtered, part, seen.vector);
             if weight != 0.0 {
-                light.specular += weight * on_lobe * ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector);
+                sum.specular += weight * on_lobe * ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector);
             }
-            light.diffuse += on_body * seen.form_factor;
-        }
-        sum.specular += light.specular;
-        // The body's light is the same by every part; only the first part includes the environment's.
-        if p == 0u {
-            sum.diffuse = light.diffuse;
+            sum.diffuse += select(vec3f(0.0), on_body * seen.form_factor, p == 0u);
         }
     }
     return sum;
@@ -302,18 +310,19 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
 
 // layer_lit() for facets that lean further one way, slice by slice.
 fn brushed_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
-    let lobe = base_brushed_lobe(point);
     let fresnel = layer.reflecting.fresnel;
-    // Chord for the body's light, and for the weights of a picture's parts.
-    let chord = brushed_chord(lobe, ltc_lobe(point.wo, brushed_chord_roughness(lobe), lobe_shapes, lobe_albedo));
     var sum: BaseRadiance;
     if surrounded && HAS_ENVIRONMENT {
+        let lobe = base_brushed_lobe(point, 0.0);
         sum.specular = layer.reflecting.albedo * brushed_around(point, lobe, fresnel) * point.open;
         sum.diffuse = scene_irradiance(point.normal) / 3.14159265 * point.open;
     }
     for (var l = of_lights.x; l < of_lights.y; l += 1u) {
         let source = light_at(l);
         let radiance = light_radiance(source, point.position_m);
+        let lobe = base_brushed_lobe(point, light_per_m(source, point.position_m));
+        // Chord for the body's light, and for the weights of a picture's parts.
+        let chord = brushed_chord(lobe, ltc_lobe(point.wo, brushed_chord_roughness(lobe), lobe_shapes, lobe_albedo));
         var seen: LightOnBase;
         var on_lobe = radiance;
         var on_body = radiance;

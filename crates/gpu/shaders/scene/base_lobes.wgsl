@@ -41,7 +41,7 @@ fn base_lobes(on_top: SurfacePoint) -> BaseLobes {
     let point = surface_under_coat(on_top);
     let layer = base_layer(point);
     let specular = rgb_luminance(layer.albedo);
-    let spread = surface_slope_spread(point);
+    let spread = surface_slope_spread(point, 0.0);
     var lobes: BaseLobes;
     lobes.wo = point.wo;
     lobes.alpha = base_lobes_alpha(layer.sharp.alpha, spread);
@@ -62,7 +62,7 @@ fn base_lobes(on_top: SurfacePoint) -> BaseLobes {
     lobes.coat_share = surface_coat(point.coat).x;
     if HAS_COATS && lobes.coat_share > 0.0 {
         let coat = coat_layer(on_top);
-        lobes.coat_alpha = base_lobes_alpha(coat.sharp.alpha, surface_slope_spread(surface_of_coat(on_top)));
+        lobes.coat_alpha = base_lobes_alpha(coat.sharp.alpha, surface_slope_spread(surface_of_coat(on_top), 0.0));
         lobes.coat_albedo = coat.albedo;
         lobes.coat_lobe_albedo = coat.sharp.albedo;
         // Faint as it is, its highlights are the strongest.
