@@ -37,6 +37,7 @@ fn pair(picture: impl Fn(u32) -> Option<Image>, bounces: u32) -> Option<[Image; 
 /// Other objects add the same light as on the CPU, in the mean over the picture. Bound: four standard deviations of the mean, which the differences
 /// of the pixels tell and which are one to two percent, and 0.2 % for single precision and for what the GPU keeps in fewer bits.
 #[test]
+#[ignore = "long: cargo long"]
 fn the_gpus_bounces_are_the_cpus_in_the_mean() {
     let more = [
         ("along an axis", along_an_axis_in_a_mirror()),

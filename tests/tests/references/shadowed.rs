@@ -254,6 +254,7 @@ pub(super) fn luminance(image: &Image, layer: Layer) -> Vec<f64> {
 
 /// Many rays converge to the path tracer's result, as near as the closed forms come without shadows.
 #[test]
+#[ignore = "long: cargo long"]
 fn many_rays_come_to_the_path_tracers_shadows() {
     for (name, scene) in scenes() {
         let (exact, reference) = (closed(&scene, 768, true), sampled(&scene, SHADOWS, 6));

@@ -24,6 +24,7 @@ fn rms(values: &[f64]) -> f64 {
 
 /// Rays are right in the mean, their error falls with their number, and it is about that of the CPU's.
 #[test]
+#[ignore = "long: cargo long"]
 fn rays_come_to_the_cpus_shadows() {
     for (name, scene) in scenes().into_iter().chain([in_a_studio()]) {
         let Some(open) = on_gpu(&scene, 1, None) else {

@@ -459,6 +459,7 @@ fn flicker(pitch_um: f64, first_um: f64, filter_std_px: f64) -> f64 {
 
 /// Frames do not flicker either where single grooves, a few pixels apart, become visible. Pixels that look at points see other grooves in each frame there.
 #[test]
+#[ignore = "long: cargo long"]
 fn frames_of_a_zoom_do_not_flicker() {
     for (pitch_um, limit) in [(1.6, 0.02), (30.0, 0.05)] {
         let found = flicker(pitch_um, 1000.0, 0.5);

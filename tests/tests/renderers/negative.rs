@@ -64,6 +64,7 @@ fn small(name: &str) -> Scene {
 }
 
 #[test]
+#[ignore = "long: cargo long"]
 fn no_light_is_negative_on_the_cpu() {
     for &name in ALL {
         let scene = small(name);
@@ -81,7 +82,7 @@ fn no_light_is_negative_on_the_cpu() {
 }
 
 #[test]
-#[ignore = "minutes: cargo test --release -p conformance negative_on_the_gpu -- --ignored"]
+#[ignore = "long: cargo long"]
 fn no_light_is_negative_on_the_gpu() {
     for &name in ALL {
         let scene = small(name);

@@ -88,6 +88,7 @@ fn difference(a: &Image, b: &Image) -> f64 {
 
 /// A plate, whose pixels are far wider than the coherence window, and a closeup, whose pixels are finer, where footprints alone differ.
 #[test]
+#[ignore = "long: cargo long"]
 fn each_switch() {
     let usual = PublishedMethod::default();
     for name in ["plate", "closeup"] {

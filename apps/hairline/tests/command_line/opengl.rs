@@ -17,6 +17,7 @@ fn by_opengl(folder: &Path, arguments: &str) -> Command {
 
 /// The scene has one metal and no texture: arrays of one layer are the special case there.
 #[test]
+#[ignore = "long: cargo long"]
 fn a_picture_is_that_of_the_cpu() {
     // Under the lamp alone, whose shaders are compiled in half the time.
     let lamp_ends = SCRATCHED.rfind("[[light]]").unwrap();

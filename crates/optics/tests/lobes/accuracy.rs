@@ -348,7 +348,7 @@ fn polygons_match_ggx() {
 
 /// Prints the numbers of docs/lobes.md.
 #[test]
-#[ignore = "takes minutes, and its half is a test"]
+#[ignore = "long: cargo long"]
 fn all_polygons_match_ggx() {
     polygons(|_| &[0.0, 1.0]);
 }

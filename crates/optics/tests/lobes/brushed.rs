@@ -144,7 +144,7 @@ fn spheres_match_elliptic_ggx() {
 
 /// An oblong, and one with a notch.
 #[test]
-#[ignore = "takes a minute of two cores"]
+#[ignore = "long: cargo long"]
 fn polygons_match_elliptic_ggx() {
     const OUTLINES: [(f64, &str); 2] = [(1.0, "oblong"), (0.3, "notched")];
     for (notch, name) in OUTLINES {

@@ -438,6 +438,7 @@ fn a_sun_is_a_light() {
 }
 
 #[test]
+#[ignore = "long: cargo long"]
 fn real_maps_load() {
     for name in ["studio.hdr", "workshop.hdr"] {
         let Some(path) = asset(name) else { continue };
