@@ -1,4 +1,4 @@
-//! Arrays that lie in textures, 16 bytes a texel, row after row. Twins: `shaders/scene/texels.wgsl`, `rows.wgsl`.
+//! Arrays that lie in textures, 16 bytes a texel, row after row. Twins: `shaders/physics/texels.wgsl`, `shaders/scene/rows.wgsl`.
 
 use wgpu::TextureFormat;
 

@@ -67,6 +67,8 @@ modules! {
     BAND = "physics/band" needs [SCRATCH];
     /// Intersection of the lines of a band with an outline of four edges.
     FOUR_EDGES = "physics/four_edges" needs [BAND];
+    /// Places of elements in textures.
+    TEXELS = "physics/texels" needs [];
     /// The outline of a tube.
     TUBE = "physics/tube" needs [];
     /// An environment along the band of a scratch.
@@ -101,14 +103,16 @@ modules! {
     TONE_MAP = "physics/tone_map" needs [];
     /// Light that one scratch sends to the viewer: the module for other engines.
     SCRATCH_LIGHT = "physics/scratch_light" needs [FOUR_EDGES, BAND_ENVIRONMENT, INCIDENCE_TABLE, MASK, ENVIRONMENT];
+    /// Light that one scratch sends to the viewer of a polygon with many vertices, or of a tube.
+    OUTLINE_LIGHT = "physics/outline_light" needs [SCRATCH_LIGHT, TEXELS, TUBE];
     /// Light that the grooves of a grating send.
     GRATING = "physics/grating" needs [SCRATCH_LIGHT];
     /// Search for scratches under a footprint, for other engines.
     SCRATCH_TREE = "engine/scratch_tree" needs [SCRATCH];
     /// The base of a point under lights, for other engines.
-    LIT_BASE = "engine/lit_base" needs [FILTERED_LOBE, BAND, SCRATCH_LIGHT];
+    LIT_BASE = "engine/lit_base" needs [FILTERED_LOBE, BAND, OUTLINE_LIGHT];
     /// All scratches of a point under lights, for other engines.
-    SCRATCHED_SURFACE = "engine/scratched_surface" needs [SCRATCH_LIGHT, SCRATCH_TREE];
+    SCRATCHED_SURFACE = "engine/scratched_surface" needs [OUTLINE_LIGHT, SCRATCH_TREE];
     /// The frame of a pixel from the inputs of a fragment shader, for other engines.
     PIXEL_FRAME = "engine/pixel_frame" needs [CAMERA, SCRATCHED_SURFACE, LIT_BASE];
     /// A pass that makes the table of a metal, for other engines.
@@ -119,8 +123,6 @@ modules! {
     LAYOUT = "scene/layout" needs [];
     /// Bindings of the scene: group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures.
     BINDINGS = "scene/bindings" needs [LAYOUT];
-    /// Places of elements in textures.
-    TEXELS = "scene/texels" needs [];
     /// Arrays that lie in textures.
     ROWS = "scene/rows" needs [BINDINGS, TEXELS, CONTENTS];
     /// The triangles along a ray.
@@ -138,7 +140,7 @@ modules! {
     /// Surface points as they lie in memory.
     PIXEL_POINT = "scene/pixel_point" needs [LAYOUT, SURFACE_POINT, FRESNEL, CONTENTS];
     /// Area lights from a surface point.
-    LIGHTS = "scene/lights" needs [ROWS, CONTENTS, SURFACE_POINT, BAND, TUBE];
+    LIGHTS = "scene/lights" needs [ROWS, CONTENTS, SURFACE_POINT, OUTLINE_LIGHT];
     /// Pictures on lights as a point sees them.
     PICTURE_LIGHT = "scene/picture_light" needs [SCENE, PICTURE];
     /// Light that one scratch sends to the viewer of a rectangle with a picture.
@@ -149,8 +151,6 @@ modules! {
     PROJECTED = "scene/projected" needs [ROWS, SEGMENTS, FILM];
     /// Test of which pixels see a segment.
     NEARNESS = "scene/nearness" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, BINDINGS];
-    /// Light that one scratch sends to the viewer of a polygon with many vertices.
-    OUTLINE_LIGHT = "scene/outline_light" needs [ROWS, SCRATCH_LIGHT, TUBE];
     /// Spots of circular grooves.
     GROOVE_SPOTS = "scene/groove_spots" needs [LAYOUT, CONTENTS];
     /// Directions of the grooves of a grating.
@@ -194,7 +194,7 @@ modules! {
     /// A pixel with a segment that it sees.
     PAIRS = "scene/pairs" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, METHOD, BINDINGS];
     /// Light that a pair sends of a light.
-    PAIR_LIGHT = "scene/pair_light" needs [PAIRS, OUTLINE_LIGHT, SCRATCH_PICTURE];
+    PAIR_LIGHT = "scene/pair_light" needs [PAIRS, LIGHTS, SCRATCH_PICTURE];
     /// A sample with a grating that it sees.
     GRATING_PAIRS = "scene/grating_pairs" needs [PAIRS, GRATING, SINGLE_GROOVES, GROOVE_GROUND, BINDINGS, CONTENTS];
     /// Scratches that stand for all.
@@ -208,7 +208,7 @@ modules! {
     /// The lobes of the base, to draw directions from.
     BASE_LOBES = "scene/base_lobes" needs [BASE, LUMINANCE];
     /// Directions to area lights.
-    LIGHT_SAMPLING = "scene/light_sampling" needs [LIGHTS, GGX, CONTENTS, SCRATCH_LIGHT, SHADOW];
+    LIGHT_SAMPLING = "scene/light_sampling" needs [LIGHTS, GGX, CONTENTS, SHADOW];
     /// Functions that the passes of shadows share.
     SHADOW = "scene/shadow" needs [LAYOUT, SOBOL, LUMINANCE];
     /// Pass: a ray of each sample to one source of the base's light.
@@ -230,7 +230,7 @@ modules! {
     /// Pass: and on the film.
     FOUND_FILM = "passes/found_film" needs [FOUND_LIGHT, SCENE, PIXEL_POINT, FILM];
     /// Directions to light by way of a scratch.
-    DRAWN_LIGHT = "scene/drawn_light" needs [OUTLINE_LIGHT, LUMINANCE];
+    DRAWN_LIGHT = "scene/drawn_light" needs [LIGHTS, LUMINANCE];
     /// `DRAWN_LIGHT` of a rectangle with a picture.
     DRAWN_PICTURE = "scene/drawn_picture" needs [DRAWN_LIGHT, SCRATCH_PICTURE];
     /// Rays to sources by way of a pair.
@@ -272,7 +272,6 @@ pub static FOR_ENGINES: &[&Module] = &[
     &SCRATCHED_SURFACE,
     &LIT_BASE,
     &PIXEL_FRAME,
-    &TUBE,
     &ENVIRONMENT_LOBE,
 ];
 

@@ -36,7 +36,7 @@ struct Seen(Vec<[f32; 3]>);
 #[test]
 fn bevy_draws_what_hairline_renders() {
     for name in ["plate", "dome"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../hairline-shaders/test");
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
         let mut scene = Scene::load(path.join(format!("{name}.toml"))).expect("a scene");
         let worn = compare(name, "with scratches", &scene, false);
         compare(name, "turned, under spots", &scene, true);

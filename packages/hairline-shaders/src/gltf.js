@@ -47,8 +47,11 @@ class HairlineScratches {
         if (number !== undefined) nodes.push([node, json.nodes[number]]);
       });
       for (const [node, { extensions }] of nodes) {
-        const light = extensions?.[AREA]?.light;
-        if (light !== undefined) this.addLight(node, json.extensions[AREA].lights[light]);
+        const own = extensions?.[NAME];
+        const described = extension.light?.[own?.light];
+        const area = extensions?.[AREA]?.light;
+        if (area !== undefined) this.addLight(node, json.extensions[AREA].lights[area], described);
+        else if (own?.intensity !== undefined && described) this.addPlaced(node, own, described);
         const object = extensions?.[NAME]?.object;
         // A primitive is associated with its node too.
         if (object !== undefined && node.parent?.userData.hairlineObject === undefined) {
@@ -62,13 +65,46 @@ class HairlineScratches {
     }
   }
 
-  /** RectAreaLight shines along its own -z, as the extension has it; a disk becomes a square as large. */
-  addLight(node, { type, color = [1, 1, 1], intensity = 1000, size = 1, rect }) {
-    const height = type === 'disk' ? (size * Math.sqrt(Math.PI)) / 2 : size;
-    if (type === 'disk') this.warn('disks of light are drawn as squares of their area');
-    const light = new RectAreaLight(0xffffff, intensity, type === 'disk' ? height : height * (rect?.aspect ?? 1), height);
-    light.color.setRGB(...color);
+  /** RectAreaLight shines along its own -z, as the extension has it. `described` is the scene's own table, where the light has one. */
+  addLight(node, { type, color, intensity, size = 1, rect }, described = {}) {
+    const light = areaLight(color, intensity, type === 'disk' ? size : size * (rect?.aspect ?? 1), size);
+    if (type === 'disk') light.userData.shape = 'disk';
+    this.cone(light, described);
+    for (const key of ['picture', 'barn_doors_deg']) {
+      if (described[key] !== undefined) this.warn(`not drawn: ${key} of the light "${node.name}"`);
+    }
     node.add(light);
+  }
+
+  /** A polygon or a tube, whose table gives its place. */
+  addPlaced(node, { color, intensity }, described) {
+    const places = (described.kind === 'tube' ? described.ends_m : described.vertices_m).map((place) => new Vector3(...place));
+    const middle = new Box3().setFromPoints(places).getCenter(new Vector3());
+    const x = places[1].clone().sub(places[0]).normalize();
+    // Of the polygon's area and both of its sides; of a tube any axis across it.
+    const z = new Vector3();
+    places.forEach((place, i) => z.sub(place.clone().sub(middle).cross(places[(i + 1) % places.length].clone().sub(middle))));
+    if (described.kind === 'tube') z.copy(Math.abs(x.x) > 0.7 ? new Vector3(0, 1, 0) : new Vector3(1, 0, 0)).cross(x);
+    z.normalize();
+    const y = z.clone().cross(x);
+    const light = areaLight(color, intensity, places[0].distanceTo(places[1]), 0);
+    light.position.copy(middle);
+    light.quaternion.setFromRotationMatrix(new Matrix4().makeBasis(x, y, z));
+    light.userData.shape = described.kind;
+    light.userData.twoSided = described.two_sided === true;
+    if (described.kind === 'tube') {
+      light.userData.radius = described.radius_m;
+      if (described.cone_deg !== undefined) this.warn(`not drawn: the cone of the tube "${node.name}"`);
+    } else {
+      light.userData.corners = places.map((place) => [place.sub(middle).dot(x), place.dot(y)]);
+      this.cone(light, described);
+    }
+    node.add(light);
+  }
+
+  /** The cone into which a flat light shines. */
+  cone({ userData }, { cone_deg: degrees, cone_softness: softness = 0.1 }) {
+    if (degrees !== undefined) Object.assign(userData, { angle: (degrees * Math.PI) / 360, penumbra: softness });
   }
 
   /** Gives the meshes of an object materials with its scratches. */
@@ -156,6 +192,12 @@ const KEYS = [
   'emissiveIntensity', 'aoMap', 'aoMapIntensity', 'side', 'transparent', 'opacity', 'alphaTest', 'depthWrite', 'vertexColors', 'flatShading',
   'envMapIntensity',
 ];
+
+function areaLight(color = [1, 1, 1], intensity = 1000, width, height) {
+  const light = new RectAreaLight(0xffffff, intensity, width, height);
+  light.color.setRGB(...color);
+  return light;
+}
 
 function nameOf(layer, extension) {
   return layer.name ? `layer "${layer.name}"` : `layer ${extension.scratches.indexOf(layer)}`;

@@ -7,11 +7,24 @@ const PLACE = `position: vec3f, view_from_object: mat3x3f, position_view: vec3f,
   move_x: vec3f, move_y: vec3f, turn_x: vec3f, turn_y: vec3f`;
 const HERE = `pixel_frame(position, view_from_object, position_view, normal_view, pixel, ray_view, move_x, move_y, turn_x, turn_y)`;
 const SCRATCHES = `${PLACE}, tree: texture_2d<u32>, tables: texture_2d_array<u32>`;
-const BASE = `${PLACE}, surface: vec4f, curve: f32, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>`;
+// The base: reflectance at normal incidence and roughness; curve, reflectance at grazing incidence, variance of a normal map's slopes.
+const BASE = `${PLACE}, surface: vec4f, more: vec3f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>`;
+const OUTLINE = `vertices: texture_2d<u32>, outline: vec4f, around: vec4f, view_from_light: mat4x4f`;
 
 const library = wgsl(`${hairlineWgsl}
-fn hairline_base(here: PixelFrame, surface: vec4f, curve: f32, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>) -> LitBase {
-  return pixel_base(here, surface.w, FresnelRgb(surface.xyz, 1.0, u32(curve)), shapes, albedo, curves);
+fn hairline_fresnel_rgb(surface: vec4f, more: vec3f) -> FresnelRgb {
+  return FresnelRgb(surface.xyz, more.y, u32(more.x));
+}
+fn hairline_base(here: PixelFrame, surface: vec4f, more: vec3f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>) -> LitBase {
+  return lit_base(normalize(here.view.to_viewer_m), surface.w, hairline_fresnel_rgb(surface, more), pixel_spread(here, more.z), shapes, albedo, curves);
+}
+// The light, the point and the axes of the surface in the light's frame.
+struct HairlineOutline { light: OutlineLight, point_m: vec3f, surface: mat3x3f }
+fn hairline_outline(here: PixelFrame, outline: vec4f, view_from_light: mat4x4f) -> HairlineOutline {
+  let light_from_view = transpose(mat3x3f(view_from_light[0].xyz, view_from_light[1].xyz, view_from_light[2].xyz));
+  let light = OutlineLight(0u, u32(outline.x), vec3f(0.0, 0.0, -1.0), outline.z > 0.0, outline.y > 0.0);
+  let point_m = light_from_view * (here.position_view - view_from_light[3].xyz);
+  return HairlineOutline(light, point_m, light_from_view * transpose(here.surface_from_view));
 }
 `);
 
@@ -33,6 +46,12 @@ export const scratchesByQuad = wgslFn(`fn hairline_scratches_quad(${SCRATCHES}, 
   let turn = here.surface_from_view;
   let light = quad_light(turn * (middle - here.position_view), turn * half_width, turn * half_height, false);
   return scratched_quad(tables, tree, scratched_point(here.view, tree, 0u), light);
+}`, [library]);
+
+export const scratchesByOutline = wgslFn(`fn hairline_scratches_outline(${SCRATCHES}, ${OUTLINE}) -> vec3f {
+  let here = ${HERE};
+  let seen = hairline_outline(here, outline, view_from_light);
+  return scratched_outline(tables, tree, scratched_point(here.view, tree, 0u), vertices, seen.light, around, seen.point_m, seen.surface);
 }`, [library]);
 
 export const viewFromSurface = wgslFn(`fn hairline_view_from_surface(${PLACE}) -> mat3x3f {
@@ -72,7 +91,7 @@ export const bandCell = wgslFn(`fn hairline_band_cell(band: mat4x4f, tables: tex
 
 export const baseBySphere = wgslFn(`fn hairline_base_sphere(${BASE}, light: vec4f) -> vec4f {
   let here = ${HERE};
-  let base = hairline_base(here, surface, curve, shapes, albedo, curves);
+  let base = hairline_base(here, surface, more, shapes, albedo, curves);
   let lit = lit_base_sphere(base, curves, here.surface_from_view * (light.xyz - here.position_view), light.w);
   return vec4f(lit.specular, lit.form_factor);
 }`, [library]);
@@ -80,20 +99,28 @@ export const baseBySphere = wgslFn(`fn hairline_base_sphere(${BASE}, light: vec4
 export const baseByQuad = wgslFn(`fn hairline_base_quad(${BASE}, middle: vec3f, half_width: vec3f, half_height: vec3f) -> vec4f {
   let here = ${HERE};
   let turn = here.surface_from_view;
-  let base = hairline_base(here, surface, curve, shapes, albedo, curves);
+  let base = hairline_base(here, surface, more, shapes, albedo, curves);
   let lit = lit_base_quad(base, curves, quad_light(turn * (middle - here.position_view), turn * half_width, turn * half_height, false));
   return vec4f(lit.specular, lit.form_factor);
 }`, [library]);
 
+export const baseByOutline = wgslFn(`fn hairline_base_outline(${BASE}, ${OUTLINE}) -> vec4f {
+  let here = ${HERE};
+  let seen = hairline_outline(here, outline, view_from_light);
+  let view = outline_view(vertices, seen.light, seen.point_m, seen.surface, vec2f(1.0, 0.0));
+  let lit = lit_base_outline(hairline_base(here, surface, more, shapes, albedo, curves), curves, vertices, view);
+  return vec4f(lit.specular, lit.form_factor);
+}`, [library]);
+
 export const baseReflected = wgslFn(`fn hairline_base_reflected(${BASE}, specular: vec3f) -> vec3f {
-  return lit_base_reflected(hairline_base(${HERE}, surface, curve, shapes, albedo, curves), specular);
+  return lit_base_reflected(hairline_base(${HERE}, surface, more, shapes, albedo, curves), specular);
 }`, [library]);
 
 export const baseBody = wgslFn(`fn hairline_base_body(${BASE}) -> vec3f {
-  return lit_base_body(hairline_base(${HERE}, surface, curve, shapes, albedo, curves));
+  return lit_base_body(hairline_base(${HERE}, surface, more, shapes, albedo, curves));
 }`, [library]);
 
 export const fresnelOf = wgslFn(`fn hairline_fresnel(${BASE}) -> vec3f {
   let here = ${HERE};
-  return fresnel_eval(curves, FresnelRgb(surface.xyz, 1.0, u32(curve)), normalize(here.view.to_viewer_m).z);
+  return fresnel_eval(curves, hairline_fresnel_rgb(surface, more), normalize(here.view.to_viewer_m).z);
 }`, [library]);

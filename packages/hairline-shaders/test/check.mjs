@@ -47,13 +47,19 @@ for (const name of ['scratch_light', 'scratched_surface', 'lit_base', 'camera', 
   await compiles(`${name}.wesl`, dest);
 }
 
-// Lights of one direction are in the sky, those at a place are not, and others are no spheres in silence.
+// Lights of one direction are in the sky, those at a place are not, and others are no spheres in silence. Outlines have the light's area, and shine to -z.
 {
-  const { isFar } = await import(pathToFileURL(join(folder, 'hairline-shaders/src/three_lights.js')));
+  const { isFar, outlineOf } = await import(pathToFileURL(join(folder, 'hairline-shaders/src/three_lights.js')));
   const { SunLight } = await import('three/addons/lights/SunLight.js');
   const { DirectionalLight, HemisphereLight, PointLight, SpotLight } = await import('three');
   assert.deepEqual([new DirectionalLight(), new SunLight(), new PointLight(), new SpotLight()].map(isFar), [true, true, false, false]);
   assert.throws(() => isFar(new HemisphereLight()), /found the light "" of type HemisphereLight; must be a PointLight/);
+  const area = (vertices) => vertices.reduce((sum, [x, y], i) => sum + (x * vertices[(i + 1) % vertices.length][1] - y * vertices[(i + 1) % vertices.length][0]) / 2, 0);
+  const square = [[0, 0], [2, 0], [2, 2], [0, 2]];
+  const near = (a, b) => assert.ok(Math.abs(a - b) < 1e-12, `${a} ${b}`);
+  near(area(outlineOf({ width: 2, height: 2, userData: { shape: 'disk' } })), -Math.PI);
+  for (const corners of [square, [...square].reverse()]) near(area(outlineOf({ userData: { shape: 'polygon', corners } })), -4);
+  assert.throws(() => outlineOf({ name: 'lamp', userData: { shape: 'polygon', corners: [[0, 0]] } }), /corners of the light "lamp": found \[\[0,0\]\]; must be three/);
 }
 
 /** T(u, d) as scratch_table.wgsl looks it up. */

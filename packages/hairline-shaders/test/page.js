@@ -26,50 +26,121 @@ function colour(light, [r, g, b], factor) {
   return light;
 }
 
-function lightOf({ kind, center, radius, corners, radiance }, asSpot) {
-  if (kind === 'sphere') {
-    // Candela of a sphere of that radiance. The cone of a spot is wide enough to hold the scene, and points to its origin.
-    const light = colour(asSpot ? new THREE.SpotLight(0xffffff, 1, 0, 1.2, 0.1) : new THREE.PointLight(), radiance, Math.PI * radius * radius);
-    light.position.set(...center);
-    light.userData.radius = radius;
+/** Corners of the polygon that stands for a disk. */
+const DISK_CORNERS = 24;
+/** Beyond it a sphere is a sun. */
+const FAR_M = 1e4;
+
+const vectors = (places) => places.map((place) => new THREE.Vector3(...place));
+
+function roundLight({ center, radius, radiance, cone }) {
+  const place = new THREE.Vector3(...center);
+  let light;
+  if (place.length() > FAR_M) {
+    const sine = radius / place.length();
+    light = colour(new THREE.DirectionalLight(), radiance, Math.PI * sine * sine);
+    light.userData.angle = Math.asin(sine);
+    light.position.copy(place.normalize());
     return light;
   }
-  const [a, b, c] = corners.map((corner) => new THREE.Vector3(...corner));
-  const [width, height] = [b.clone().sub(a), c.clone().sub(b)];
-  const light = colour(new THREE.RectAreaLight(0xffffff, 1, width.length(), height.length()), radiance, 1);
-  // Corners run counter-clockwise as seen from where it shines to, which is its own -z.
-  const [x, y] = [height.clone().normalize(), width.clone().normalize()];
-  light.width = height.length();
-  light.height = width.length();
-  light.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(x, y, x.clone().cross(y)));
-  light.position.copy(a).add(c).multiplyScalar(0.5);
+  // Candela of a sphere of that radiance.
+  light = colour(cone ? new THREE.SpotLight(0xffffff, 1, 0, cone.outer, 1 - cone.inner / cone.outer) : new THREE.PointLight(), radiance, Math.PI * radius * radius);
+  light.position.copy(place);
+  light.userData.radius = radius;
+  if (cone) light.add(light.target);
+  light.target?.position.set(...cone.axis);
   return light;
 }
 
-/** The mesh of a file of the same scene, as the plug-in makes it, or as GLTFLoader does without it; in the frame of the page. */
-async function meshOfFile(name, tables, isPlain, told) {
+function flatLight({ corners, radiance, cone }) {
+  const places = vectors(corners);
+  const middle = new THREE.Box3().setFromPoints(places).getCenter(new THREE.Vector3());
+  const edge = (i) => places[(i + 1) % places.length].clone().sub(places[i]);
+  const area = new THREE.Vector3();
+  places.forEach((place, i) => area.addScaledVector(place.clone().sub(middle).cross(edge(i)), 0.5));
+  // It shines to its own -z, from where its corners are seen counter-clockwise.
+  const x = edge(0).normalize();
+  const z = area.clone().normalize().negate();
+  const y = z.clone().cross(x);
+  const light = colour(new THREE.RectAreaLight(0xffffff, 1, edge(0).length(), edge(1).length()), radiance, 1);
+  light.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(x, y, z));
+  light.position.copy(middle);
+  if (places.length === DISK_CORNERS) {
+    light.userData.shape = 'disk';
+    light.width = light.height = 2 * Math.sqrt(area.length() / Math.PI);
+  } else if (places.length !== 4) {
+    light.userData.shape = 'polygon';
+    light.userData.corners = places.map((place) => [place.sub(middle).dot(x), place.dot(y)]);
+  }
+  if (cone) Object.assign(light.userData, { angle: cone.outer, penumbra: 1 - cone.inner / cone.outer });
+  return light;
+}
+
+function tubeLight({ ends, radius, radiance }) {
+  const [a, b] = vectors(ends);
+  const light = colour(new THREE.RectAreaLight(0xffffff, 1, a.distanceTo(b), 0), radiance, 1);
+  light.position.copy(a).add(b).multiplyScalar(0.5);
+  light.quaternion.setFromUnitVectors(new THREE.Vector3(1, 0, 0), b.sub(a).normalize());
+  Object.assign(light.userData, { shape: 'tube', radius });
+  return light;
+}
+
+const lightOf = (light) => ({ sphere: roundLight, flat: flatLight, tube: tubeLight })[light.kind](light);
+
+/** A mesh by the package's classes, in the frame of the page; its lights beside it. */
+function byHand(page, { geometry, scratches }, tables, what) {
+  const { metal = null, color, metalness } = page.surface;
+  const material = new ScratchedNodeMaterial({ tables, metal, scratches: what === 'bare' ? null : scratches, roughness: page.roughness });
+  if (color) {
+    material.color.setRGB(...color);
+    material.metalness = metalness;
+  }
+  const all = new THREE.Group();
+  const mesh = what === 'instanced' ? new THREE.InstancedMesh(geometry, material, 1) : new THREE.Mesh(geometry, material);
+  if (what === 'instanced') {
+    // The picture is the same for an instance of a mesh that is turned back.
+    const turn = new THREE.Matrix4().makeRotationZ(0.5).setPosition(0.01, 0.02, 0);
+    mesh.setMatrixAt(0, turn);
+    mesh.applyMatrix4(turn.invert());
+  }
+  return all.add(mesh, ...page.lights.map(lightOf));
+}
+
+/** The same scene from a file, as the plug-in makes it; plain as GLTFLoader does without it, bare without scratches. */
+async function byFile(name, tables, what, told) {
+  const isPlain = what === 'plain';
   const loader = new GLTFLoader();
-  if (!isPlain) loader.register(hairlineScratches({ tables, warn: (what) => told.push(what) }));
+  if (!isPlain) loader.register(hairlineScratches({ tables, warn: (text) => told.push(text) }));
   const { scene } = await loader.loadAsync(`/pages/${name}/worn.glb`);
-  const lights = [];
+  let lights = 0;
   scene.traverse((node) => {
-    if (node.isLight) lights.push(node);
+    if (node.isLight) {
+      // The picture's unit is a watt, the file's a lumen.
+      node.intensity /= 683;
+      lights += 1;
+    }
     if (node.isMesh && Boolean(node.material.isScratchedNodeMaterial) === isPlain) throw new Error(`${name}: found the material ${node.material.type}`);
+    if (node.isMesh && what === 'bare') {
+      node.material = node.material.clone();
+      node.material.scratches = null;
+    }
   });
-  if (!isPlain && lights.length === 0) throw new Error(`${name}: found no light in the file`);
-  // The page's own lights and camera are those of all pictures.
-  lights.forEach((light) => light.removeFromParent());
+  if (!isPlain && lights === 0) throw new Error(`${name}: found no light in the file`);
   scene.rotation.x = Math.PI / 2;
   return scene;
 }
 
+/** Pictures of a scene of shapes, and of one whose mesh is a file. */
+const BY_HAND = ['worn', 'bare'];
+const PICTURES = { plate: ['instanced', 'file', 'plain'], grooves: ['file'] };
+
 async function draw(renderer, name, tables) {
   const get = async (file, as) => (await fetch(`/pages/${name}/${file}`))[as]();
   const page = await get('scene.json', 'json');
-  const geometry = geometryOf(await get('mesh.bin', 'arrayBuffer'), page);
-  const scratches = readScratches(await get('scratches.csv', 'text'), 'scratches.csv', { profile: page.profile });
-  // The picture is the same for an instance of a mesh that is turned back, under spots.
-  const turn = new THREE.Matrix4().makeRotationZ(0.5).setPosition(0.01, 0.02, 0);
+  const object = {
+    geometry: geometryOf(await get('mesh.bin', 'arrayBuffer'), page),
+    scratches: readScratches(await get('scratches.csv', 'text'), 'scratches.csv', { profile: page.profile }),
+  };
   const { position, target, up, fov } = page.camera;
   const [width, height] = page.size;
   const camera = new THREE.PerspectiveCamera(fov, width / height, 0.001, 10);
@@ -77,26 +148,12 @@ async function draw(renderer, name, tables) {
   camera.up.set(...up);
   camera.lookAt(...target);
   const picture = new THREE.RenderTarget(width, height, { type: THREE.FloatType });
-  const { metal = null, color, metalness } = page.surface;
   const times = [];
   const told = [];
-  for (const [what, list] of [['worn', scratches], ['bare', null], ['instanced', scratches], ['file', scratches], ['plain file', null]]) {
-    const isFile = what.endsWith('file');
-    const isInstanced = what === 'instanced';
-    const scene = new THREE.Scene();
-    for (const light of page.lights) scene.add(lightOf(light, isInstanced));
+  for (const what of [...BY_HAND, ...(PICTURES[name] ?? [])]) {
     const began = performance.now();
-    const material = new ScratchedNodeMaterial({ tables, metal, scratches: list, roughness: page.roughness });
-    if (color) {
-      material.color.setRGB(...color);
-      material.metalness = metalness;
-    }
-    const mesh = isFile ? await meshOfFile(name, tables, what === 'plain file', told) : isInstanced ? new THREE.InstancedMesh(geometry, material, 1) : new THREE.Mesh(geometry, material);
-    if (isInstanced) {
-      mesh.setMatrixAt(0, turn);
-      mesh.applyMatrix4(turn.clone().invert());
-    }
-    scene.add(mesh);
+    const isByHand = page.surface && what !== 'file' && what !== 'plain';
+    const scene = new THREE.Scene().add(isByHand ? byHand(page, object, tables, what) : await byFile(name, tables, what, told));
     const made = performance.now();
     renderer.setRenderTarget(picture);
     await renderer.compileAsync(scene, camera);
@@ -106,7 +163,7 @@ async function draw(renderer, name, tables) {
     const drawn = performance.now();
     const seconds = (from, to) => `${((to - from) / 1000).toFixed(2)} s`;
     times.push(`${what}: made in ${seconds(began, made)}, compiled in ${seconds(made, compiled)}, drawn in ${seconds(compiled, drawn)}`);
-    await send(`/result/${name}/${what.replace(' ', '-')}`, new Float32Array(pixels.buffer, pixels.byteOffset, 4 * width * height).slice());
+    await send(`/result/${name}/${what}`, new Float32Array(pixels.buffer, pixels.byteOffset, 4 * width * height).slice());
   }
   await send(`/result/${name}/told`, told.join('\n'));
   await send(`/result/${name}/times`, times.join('; '));

@@ -1,6 +1,6 @@
 // The base between the scratches as an engine shades it: a GGX lobe over a white body, widened for pixels whose normals differ.
 //
-// Needs: filtered_lobe, band, scratch_light (QuadLight). Frame: the surface's, z along the shading normal, the viewer in the x-z plane.
+// Needs: filtered_lobe, band, scratch_light (QuadLight), outline_light. Frame: the surface's, z along the shading normal, the viewer in the x-z plane.
 // Positions of lights are relative to the point, in metres. Textures: `shapes`, `albedo` and `curves` of the package's tables.
 //
 //   let base = lit_base(wo, roughness, fresnel, slope_spread(turn_x, turn_y), shapes, albedo, curves);    // once
@@ -93,6 +93,34 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
             ltc_edge(&reflected, part.lobe, corners[0], to);
             lambert_edge(&body, corners[0], to);
             corners = mat4x3f(corners[1], corners[2], corners[3], corners[0]);
+        }
+        let vector = irradiance_end(reflected);
+        specular += filtered_lobe_weight(base.filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
+        form_factor = lambert_end(body);
+    }
+    return BaseLit(specular, form_factor);
+}
+
+// A polygon of any number of corners or a tube, as outline_view() sees it with the tangent (1, 0).
+fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d<u32>, view: OutlineView) -> BaseLit {
+    var specular = vec3f(0.0);
+    var form_factor = 0.0;
+    if view.facing == 0.0 {
+        return BaseLit(specular, form_factor);
+    }
+    for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
+        let part = filtered_lobe_part(base.sharp, base.filtered, p);
+        if !filtered_lobe_counts(part) {
+            break;
+        }
+        var reflected = ltc_begin();
+        var body = lambert_begin();
+        var a = outline_corner_m(vertices, view, 0u);
+        for (var i = 1u; i <= view.light.vertex_count; i += 1u) {
+            let b = outline_corner_m(vertices, view, i);
+            ltc_edge(&reflected, part.lobe, a, b);
+            lambert_edge(&body, a, b);
+            a = b;
         }
         let vector = irradiance_end(reflected);
         specular += filtered_lobe_weight(base.filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);

@@ -1,6 +1,6 @@
 // A scratched surface as an engine shades it: all scratches under a pixel at once, found in a tree.
 //
-// Needs: scratch_light, scratch_tree. Frame: the surface's, z along the shading normal, towards the viewer; any x. Positions
+// Needs: scratch_light, outline_light, scratch_tree. Frame: the surface's, z along the shading normal, towards the viewer; any x. Positions
 // of lights are relative to the point, in metres.
 //
 //   let view = SurfaceView(...);                                            // from the engine
@@ -122,6 +122,31 @@ fn scratched_quad(tables: texture_2d_array<u32>, tree: texture_2d<u32>, point: S
         let seen = scratched_seen(tree, point, walk, i);
         if seen.share.segment > 0.0 && scratch_meets(point.lit, seen, light.center_m, light.radius_m) {
             sum += seen.share.segment * scratch_quad(tables, point.lit, seen, light);
+        }
+    }
+    return sum;
+}
+
+// Light that the scratches send of a polygon of any number of corners or a tube, of radiance 1. `point_m` and the axes of the surface are given in the
+// frame of the light's vertices, and so is the sphere that holds it: its middle and, in w, its radius.
+fn scratched_outline(
+    tables: texture_2d_array<u32>,
+    tree: texture_2d<u32>,
+    point: ScratchedPoint,
+    vertices: texture_2d<u32>,
+    light: OutlineLight,
+    around: vec4f,
+    point_m: vec3f,
+    surface: mat3x3f,
+) -> vec3f {
+    let center_m = (around.xyz - point_m) * surface;
+    var sum = vec3f(0.0);
+    var walk = scratched_walk(tree, point);
+    for (var i = scratch_walk_next(tree, &walk); i != SCRATCH_TREE_END; i = scratch_walk_next(tree, &walk)) {
+        let seen = scratched_seen(tree, point, walk, i);
+        if seen.share.segment > 0.0 && scratch_meets(point.lit, seen, center_m, around.w) {
+            let view = outline_view(vertices, light, point_m, surface, seen.tangent);
+            sum += seen.share.segment * scratch_outline(tables, vertices, point.lit, seen, view, center_m, around.w);
         }
     }
     return sum;

@@ -151,17 +151,17 @@ fn nearer_root(next: vec2f, after: f32, q: f32, more: f32) -> vec2f {
     return vec2f(q, more + select(0.0, next.y, q == next.x));
 }
 
-fn outline_next_root(view: OutlineView, line: BandLine, facing: f32, wraps: bool, after: f32) -> vec2f {
+fn outline_next_root(view: OutlineView, line: BandLine, wraps: bool, after: f32) -> vec2f {
     var next = vec2f(DRAWN_NO_ROOT, 0.0);
     var a: vec3f;
-    for (var i = 0u; i <= view.vertex_count; i += 1u) {
+    for (var i = 0u; i <= view.light.vertex_count; i += 1u) {
         let b = outline_corner(view, i);
         let roots = band_edge_crossings(band_edge(a, b), line);
         if i > 0u && roots.rises {
-            next = nearer_root(next, after, roots.rising, -facing);
+            next = nearer_root(next, after, roots.rising, -view.facing);
         }
         if i > 0u && roots.falls {
-            next = nearer_root(next, after, roots.falling, facing);
+            next = nearer_root(next, after, roots.falling, view.facing);
         }
         a = b;
     }
@@ -176,34 +176,34 @@ fn outline_next_root(view: OutlineView, line: BandLine, facing: f32, wraps: bool
 const DRAWN_NO_ROOT: f32 = 9.0;
 
 // Light of an outline along a line.
-fn outline_sent(point: LitPoint, seen: SeenScratch, view: OutlineView, line: BandLine, facing: f32, wraps: bool, cos_i: f32) -> vec3f {
+fn outline_sent(point: LitPoint, seen: SeenScratch, view: OutlineView, line: BandLine, wraps: bool, cos_i: f32) -> vec3f {
     var sent = vec3f(0.0);
     var a: vec3f;
-    for (var i = 0u; i <= view.vertex_count + u32(wraps); i += 1u) {
-        let b = outline_corner(view, min(i, view.vertex_count));
+    for (var i = 0u; i <= view.light.vertex_count + u32(wraps); i += 1u) {
+        let b = outline_corner(view, min(i, view.light.vertex_count));
         let roots = band_edge_crossings(band_edge(a, b), line);
         // Without a root of one sense both ends are the middle, which counts for nothing, as before the first edge.
         var ends = vec2f(select(0.0, roots.rising, roots.rises && i > 0u), select(0.0, roots.falling, roots.falls && i > 0u));
-        ends = select(ends, facing * vec2f(band_q_start(line), band_q_end(line)), i > view.vertex_count);
+        ends = select(ends, view.facing * vec2f(band_q_start(line), band_q_end(line)), i > view.light.vertex_count);
         sent += scratch_chord(scratch_tables, point, seen, ends.x, ends.y, cos_i);
         a = b;
     }
-    return facing * sent;
+    return view.facing * sent;
 }
 
 // The corner before the first edge, then the one at the end of each.
 fn outline_corner(view: OutlineView, i: u32) -> vec3f {
-    return outline_direction(view, select(i - 1u, view.vertex_count - 1u, i == 0u));
+    return outline_direction(lights, view, select(i - 1u, view.light.vertex_count - 1u, i == 0u));
 }
 
 // The part of a line in which the share u of what comes along it is reached: from root to root, upwards.
-fn outline_part(point: LitPoint, seen: SeenScratch, view: OutlineView, line: BandLine, facing: f32, wraps: bool, cos_i: f32, wanted: f32) -> DrawnPart {
+fn outline_part(point: LitPoint, seen: SeenScratch, view: OutlineView, line: BandLine, wraps: bool, cos_i: f32, wanted: f32) -> DrawnPart {
     var part = DrawnPart(0.0, 0.0, 0.0);
     var left = wanted;
     var cover = 0.0;
     var low = -DRAWN_NO_ROOT;
-    for (var i = 0u; i < 2u * view.vertex_count + 2u; i += 1u) {
-        let root = outline_next_root(view, line, facing, wraps, low);
+    for (var i = 0u; i < 2u * view.light.vertex_count + 2u; i += 1u) {
+        let root = outline_next_root(view, line, wraps, low);
         if root.x == DRAWN_NO_ROOT {
             break;
         }
@@ -222,26 +222,26 @@ fn outline_part(point: LitPoint, seen: SeenScratch, view: OutlineView, line: Ban
 }
 
 // Draws a direction to a polygon that faces the point.
-fn draw_outline(point: LitPoint, seen: SeenScratch, view: OutlineView, facing: f32, away: vec3f, center_m: vec3f, radius_m: f32, u: vec3f) -> DrawnFrom {
+fn draw_outline(point: LitPoint, seen: SeenScratch, view: OutlineView, center_m: vec3f, radius_m: f32, u: vec3f) -> DrawnFrom {
     let band = scratch_band(point, seen, sphere_cap(center_m, radius_m).axis, max(length(center_m), radius_m));
     let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
-    let extent = outline_extent(view, away);
+    let extent = outline_extent(lights, view);
     let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
     var offer = drawn_offers(u.y);
     var taken: DrawnFrom;
     var wraps = false;
     for (var i = 0u; i < lines.count; i += 1u) {
         let line = drawn_line(lines, wo, i, u.x);
-        let range = outline_range(view, line, away);
+        let range = outline_range(lights, view, line);
         let cos_i = drawn_cos(seen, line, range.q);
-        let sent = outline_sent(point, seen, view, line, facing, range.wraps, cos_i);
+        let sent = outline_sent(point, seen, view, line, range.wraps, cos_i);
         if drawn_offer(&offer, sent) {
             taken = DrawnFrom(line, DrawnPart(0.0, 0.0, u.z * rgb_luminance(sent)), cos_i, true, vec3f(1.0), vec3f(0.0));
             wraps = range.wraps;
         }
     }
     if taken.is_there {
-        taken.part = outline_part(point, seen, view, taken.line, facing, wraps, taken.cos_i, taken.part.left);
+        taken.part = outline_part(point, seen, view, taken.line, wraps, taken.cos_i, taken.part.left);
     }
     taken.total = offer.total;
     return taken;

@@ -48,27 +48,9 @@ fn draw_light(pair: Pair, light: Light, u: vec3f) -> DrawnFrom {
         let quad = QuadLight(plane.corner, plane.corner + plane.right, last + plane.right, last, 4u, normal, center_m, light.radius_m, light.two_sided != 0u);
         drawn = draw_picture(pair.point, pair.seen, PictureLight(quad, plane, light_picture(light)), u);
     } else if HAS_POLYGONS {
-        let normal = light.normal * pair.surface;
-        let corner_m = (light_corner_m(light.first_vertex) - pair.position_m) * pair.surface;
-        var view: OutlineView;
-        view.first_vertex = light.first_vertex;
-        view.vertex_count = light.vertex_count;
-        view.point_m = pair.position_m;
-        view.axis_x = pair.surface[0];
-        view.normal = pair.surface[2];
-        view.tangent = pair.seen.tangent;
-        view.is_tube = light_is_tube(light);
-        var facing = polygon_facing(normal, corner_m, light.two_sided != 0u);
-        var away = band_from_surface(pair.seen.tangent, -facing * normal);
-        if view.is_tube {
-            let a = light_end_m(light.first_vertex);
-            let b = light_end_m(light.first_vertex + 1u);
-            view.tube = tube_outline(outline_local(view, a.xyz), outline_local(view, b.xyz), a.w);
-            facing = f32(view.tube.seen);
-            away = view.tube.away;
-        }
-        if facing != 0.0 {
-            drawn = draw_outline(pair.point, pair.seen, view, facing, away, center_m, light.radius_m, u);
+        let view = outline_view(lights, outline_light(light, light_is_tube(light)), pair.position_m, pair.surface, pair.seen.tangent);
+        if view.facing != 0.0 {
+            drawn = draw_outline(pair.point, pair.seen, view, center_m, light.radius_m, u);
         }
     }
     return drawn;

@@ -45,3 +45,8 @@ fn light_cap(point: SurfacePoint, light: Light) -> Cap {
 fn light_per_m(light: Light, position_m: vec3f) -> f32 {
     return 1.0 / max(max(length(light.center_m - position_m), light.radius_m), 1e-30);
 }
+
+// A light with an outline, for its look by a scratch. Whether it is a tube may be known where a pass is compiled.
+fn outline_light(light: Light, is_tube: bool) -> OutlineLight {
+    return OutlineLight(light_vertex_texel(light.first_vertex), light.vertex_count, light.normal, light.two_sided != 0u, is_tube);
+}

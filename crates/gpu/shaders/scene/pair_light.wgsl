@@ -38,17 +38,15 @@ fn pair_light(pair: Pair, light_index: u32) -> vec3f {
     if SCRATCH_LIGHTS == SCRATCH_LIGHTS_SPHERES {
         return sent * scratch_sphere(scratch_tables, point, seen, center_m, light.radius_m);
     }
-    let normal = light.normal * pair.surface;
-    let a = (light_corner_m(light.first_vertex) - pair.position_m) * pair.surface;
     if SCRATCH_LIGHTS == SCRATCH_LIGHTS_QUADS || SCRATCH_LIGHTS == SCRATCH_LIGHTS_PICTURES {
         let last = select(light.first_vertex + 3u, light.first_vertex, light.vertex_count == 3u);
         let quad = QuadLight(
-            a,
+            (light_corner_m(light.first_vertex) - pair.position_m) * pair.surface,
             (light_corner_m(light.first_vertex + 1u) - pair.position_m) * pair.surface,
             (light_corner_m(light.first_vertex + 2u) - pair.position_m) * pair.surface,
             (light_corner_m(last) - pair.position_m) * pair.surface,
             light.vertex_count,
-            normal,
+            light.normal * pair.surface,
             center_m,
             light.radius_m,
             light.two_sided != 0u,
@@ -60,28 +58,6 @@ fn pair_light(pair: Pair, light_index: u32) -> vec3f {
         }
         return sent * scratch_quad(scratch_tables, point, seen, quad);
     }
-    var view: OutlineView;
-    view.first_vertex = light.first_vertex;
-    view.vertex_count = light.vertex_count;
-    view.point_m = pair.position_m;
-    view.axis_x = pair.surface[0];
-    view.normal = pair.surface[2];
-    view.tangent = seen.tangent;
-    view.is_tube = SCRATCH_LIGHTS == SCRATCH_LIGHTS_TUBES;
-    var facing: f32;
-    var away: vec3f;
-    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_TUBES {
-        let end = light_end_m(light.first_vertex);
-        let b = light_end_m(light.first_vertex + 1u).xyz;
-        view.tube = tube_outline(outline_local(view, end.xyz), outline_local(view, b), end.w);
-        facing = f32(view.tube.seen);
-        away = view.tube.away;
-    } else {
-        facing = polygon_facing(normal, a, light.two_sided != 0u);
-        away = band_from_surface(seen.tangent, -facing * normal);
-    }
-    if facing == 0.0 {
-        return vec3f(0.0);
-    }
-    return sent * scratch_outline(scratch_tables, point, seen, view, facing, away, center_m, light.radius_m);
+    let view = outline_view(lights, outline_light(light, SCRATCH_LIGHTS == SCRATCH_LIGHTS_TUBES), pair.position_m, pair.surface, seen.tangent);
+    return sent * scratch_outline(scratch_tables, lights, point, seen, view, center_m, light.radius_m);
 }

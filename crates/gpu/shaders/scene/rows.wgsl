@@ -139,12 +139,17 @@ fn light_around(i: u32) -> vec4f {
     return bitcast<vec4f>(textureLoad(lights, row_texel(LIGHT_TEXELS * i + 1u), 0));
 }
 
-// An end of a tube and the tube's radius, metres: they lie among the vertices.
-fn light_end_m(i: u32) -> vec4f {
-    return bitcast<vec4f>(textureLoad(lights, row_texel(LIGHT_TEXELS * frame.light_count + i), 0));
+// The texel of a vertex: they lie behind the lights.
+fn light_vertex_texel(i: u32) -> u32 {
+    return LIGHT_TEXELS * frame.light_count + i;
 }
 
-// A vertex of a polygonal light, metres: they lie behind the lights.
+// An end of a tube and the tube's radius, metres: they lie among the vertices.
+fn light_end_m(i: u32) -> vec4f {
+    return bitcast<vec4f>(textureLoad(lights, row_texel(light_vertex_texel(i)), 0));
+}
+
+// A vertex of a polygonal light, metres.
 fn light_corner_m(i: u32) -> vec3f {
-    return bitcast<vec3f>(textureLoad(lights, row_texel(LIGHT_TEXELS * frame.light_count + i), 0).xyz);
+    return light_end_m(i).xyz;
 }

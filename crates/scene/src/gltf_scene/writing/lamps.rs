@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 
 use super::nodes::node;
 use crate::description::{Description, Light, LightKind};
+use crate::gltf_scene::extension::EXTENSION;
 
 const PUNCTUAL: &str = "KHR_lights_punctual";
 /// Draft: pull request 2525 of the repository KhronosGroup/glTF.
@@ -33,11 +34,25 @@ pub(super) fn write(
         }
         let title = light.kind.title();
         let name = light.name.clone().unwrap_or_else(|| format!("{title} {i}"));
-        let Some((extension, words, world_from_light)) = words(light) else {
-            left_out.push(name);
+        let Some((extension, mut words, world_from_light)) = words(light) else {
             continue;
         };
-        let mut words = words;
+        file.use_extension(EXTENSION);
+        let at = |world_from_light: DMat4| {
+            let mut node = node(&name, &(*gltf_from_world * world_from_light));
+            // Its table has more to say of it than words of glTF.
+            node["extensions"][EXTENSION]["light"] = json!(i);
+            node
+        };
+        if extension == EXTENSION {
+            let mut node = at(world_from_light);
+            for key in ["color", "intensity"] {
+                node["extensions"][EXTENSION][key] = words[key].take();
+            }
+            roots.push(file.push("nodes", node));
+            left_out.push(name);
+            continue;
+        }
         words["name"] = json!(name);
         let number = file.push_in_extension(extension, "lights", words);
         let mut both = vec![world_from_light];
@@ -45,7 +60,7 @@ pub(super) fn write(
             both.push(world_from_light * DMat4::from_rotation_y(PI));
         }
         for world_from_light in both {
-            let mut node = node(&name, &(*gltf_from_world * world_from_light));
+            let mut node = at(world_from_light);
             node["extensions"][extension]["light"] = json!(number);
             roots.push(file.push("nodes", node));
         }
@@ -102,7 +117,8 @@ fn placed(axes: DMat3, place: DVec3) -> DMat4 {
     DMat4::from_translation(place) * DMat4::from_mat3(axes)
 }
 
-/// The extension that has words for a light, the words, and the light's place: it shines along -z.
+/// The extension that has words for a light, the words, and the light's place: it shines along -z. Of the kinds that glTF does not know the extension
+/// of scenes has the colour, and the table the place.
 fn words(light: &Light) -> Option<(&'static str, Value, DMat4)> {
     let in_scene = light.in_scene();
     let brightest = in_scene.radiance.into_iter().fold(0.0, f64::max);
@@ -179,6 +195,9 @@ fn words(light: &Light) -> Option<(&'static str, Value, DMat4)> {
             words["rect"] = json!({ "aspect": width_m / height_m });
             Some((AREA, words, place))
         }
-        LightKind::Polygon { .. } | LightKind::Tube { .. } => None,
+        LightKind::Polygon { .. } | LightKind::Tube { .. } => {
+            let words = json!({ "color": color, "intensity": luminance });
+            Some((EXTENSION, words, DMat4::IDENTITY))
+        }
     }
 }

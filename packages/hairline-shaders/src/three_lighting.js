@@ -1,0 +1,166 @@
+// The lighting model of ScratchedNodeMaterial: what is added up of each light, and how scratches and base weaken one another.
+import { InstancedInterleavedBuffer, InterleavedBufferAttribute, PhysicalLightingModel, Vector2 } from 'three/webgpu';
+import {
+  Break, If, Loop, buffer, cameraProjectionMatrix, cameraWorldMatrix, dFdx, dFdy, diffuseContribution, float, instanceIndex, instancedBufferAttribute,
+  lightTargetDirection, lightViewPosition, mat3, mat4, materialEnvIntensity, materialRoughness, modelViewMatrix, normalView, normalViewGeometry, pmremTexture,
+  positionGeometry, positionView, specularColorBlended, specularF90, uint, uniform, varying, vec2, vec3, vec4, viewportSize, viewportUV,
+} from 'three/tsl';
+import {
+  bandCell, bandOf, baseBody, baseByOutline, baseByQuad, baseBySphere, baseReflected, fresnelOf, maskOf, scratchesByOutline, scratchesByQuad,
+  scratchesBySphere, viewFromSurface,
+} from './three_functions.js';
+import { hasOutline, isFar } from './three_lights.js';
+import { outlineNodes } from './three_outlines.js';
+
+/** The sun's, as a light's `userData.angle`. */
+const SUN_RAD = 0.00465;
+/** How far a light in the sky stands off. */
+const FAR_M = 1000;
+/** More scratches of one pixel do not mirror the environment. */
+const SCRATCHES_MAX = 4096;
+
+/** From the object's frame to the view's, without the move: of a mesh, or of each instance. */
+function viewFromObject(object) {
+  if (!object.isInstancedMesh) return mat3(modelViewMatrix);
+  const { instanceMatrix } = object;
+  const count = Math.max(instanceMatrix.count, 1);
+  let matrix;
+  if (count <= 1000) {
+    matrix = buffer(instanceMatrix.array, 'mat4', count).element(instanceIndex);
+  } else {
+    const columns = new InstancedInterleavedBuffer(instanceMatrix.array, 16, 1);
+    matrix = mat4(...[0, 4, 8, 12].map((offset) => instancedBufferAttribute(new InterleavedBufferAttribute(columns, 4, offset))));
+  }
+  const whole = modelViewMatrix.mul(matrix).toVar();
+  return mat3(...[0, 1, 2].map((i) => varying(whole.element(i).xyz)));
+}
+
+export class ScratchedLightingModel extends PhysicalLightingModel {
+  constructor(material, environment) {
+    super(false, material.useSheen, material.useIridescence, material.useAnisotropy, material.useTransmission, material.useDispersion);
+    this.material = material;
+    this.environment = environment;
+  }
+
+  start(builder) {
+    const { material } = this;
+    const nodes = material.hairlineNodes;
+    const side = normalViewGeometry.dot(normalView).sign();
+    const perspective = vec2(cameraProjectionMatrix.element(0).x, cameraProjectionMatrix.element(1).y).toVar();
+    const middle = cameraProjectionMatrix.element(2).xy;
+    const place = {
+      position: positionGeometry,
+      view_from_object: viewFromObject(builder.object).toVar(),
+      position_view: positionView,
+      normal_view: normalView,
+      pixel: vec3(vec2(2).div(viewportSize.mul(perspective)), cameraProjectionMatrix.element(3).w).toVar(),
+      ray_view: viewportUV.mul(vec2(2, -2)).add(vec2(-1, 1)).add(middle).div(perspective).toVar(),
+      move_x: dFdx(positionView).toVar(),
+      move_y: dFdy(positionView).toVar(),
+      turn_x: dFdx(normalViewGeometry).mul(side).toVar(),
+      turn_y: dFdy(normalViewGeometry).mul(side).toVar(),
+    };
+    const { shapes, albedo, curves } = nodes;
+    const roughness = material.roughnessNode ? float(material.roughnessNode) : materialRoughness;
+    this.base = {
+      ...place, surface: vec4(specularColorBlended, roughness).toVar(),
+      more: vec3(nodes.curve, specularF90, 0).toVar(), shapes, albedo, curves,
+    };
+    this.scratches = material.scratches ? { ...place, tree: nodes.tree, tables: nodes.table } : null;
+    this.specular = vec3(0).toVar();
+    this.diffuse = vec3(0).toVar();
+    this.scratchLight = vec3(0).toVar();
+
+    super.start(builder);
+
+    const { reflectedLight } = builder.context;
+    const reflected = baseReflected({ ...this.base, specular: this.specular });
+    reflectedLight.directDiffuse.addAssign(this.diffuse.mul(diffuseContribution).mul(baseBody(this.base)));
+    if (!this.scratches) {
+      reflectedLight.directSpecular.addAssign(reflected);
+      return;
+    }
+    const mask = maskOf(this.scratches).toVar();
+    const left = mask.xyz.oneMinus().toVar();
+    if (this.environment) this.scratchLight.addAssign(this.scratchesByEnvironment());
+    const coloured = this.scratchLight.mul(mask.w).mul(fresnelOf(this.base));
+    // Channels that lie outside of the gamut stay below zero where the picture is a float one, and are cut by the display.
+    reflectedLight.directSpecular.addAssign(reflected.mul(left).add(coloured));
+    reflectedLight.indirectSpecular.mulAssign(left);
+  }
+
+  direct({ lightDirection, lightColor, lightNode }) {
+    const { light } = lightNode;
+    const { lightRadius } = this.material;
+    let center;
+    let radius;
+    let radiance;
+    if (isFar(light)) {
+      center = positionView.add(lightDirection.mul(FAR_M));
+      radius = uniform(0).onRenderUpdate(() => FAR_M * Math.sin(light.userData.angle ?? SUN_RAD));
+      radiance = lightColor.mul(FAR_M * FAR_M);
+    } else {
+      center = lightViewPosition(light);
+      radius = uniform(0).onRenderUpdate(() => light.userData.radius ?? lightRadius);
+      const way = center.sub(positionView);
+      // three.js holds its fall-off at that of 0.1 m.
+      radiance = lightColor.mul(way.dot(way).max(0.01));
+      if (lightNode.constructor.type === 'SpotLightNode') {
+        // The rim is that of glTF and Hairline, t^2 in the place of three's t^2 (3 - 2 t).
+        const { coneCosNode, penumbraCosNode } = lightNode;
+        const cosine = lightDirection.dot(lightTargetDirection(light));
+        const t = cosine.sub(coneCosNode).div(penumbraCosNode.sub(coneCosNode)).clamp();
+        radiance = radiance.div(float(3).sub(t.mul(2)));
+      }
+    }
+    this.light(radiance.div(radius.mul(radius).mul(Math.PI)).toVar(), { light: vec4(center, radius).toVar() }, baseBySphere, scratchesBySphere);
+  }
+
+  directRectArea({ lightColor, lightNode, lightPosition, halfWidth, halfHeight }) {
+    const { light } = lightNode;
+    let radiance = lightColor;
+    if (light.userData.angle !== undefined) {
+      const away = positionView.sub(lightPosition).normalize();
+      const ahead = halfHeight.cross(halfWidth).normalize();
+      const rim = uniform(new Vector2()).onRenderUpdate((_, self) => {
+        const { angle, penumbra = 0 } = light.userData;
+        return self.value.set(Math.cos(angle), Math.cos(angle * (1 - penumbra)));
+      });
+      radiance = radiance.mul(away.dot(ahead).sub(rim.x).div(rim.y.sub(rim.x).max(1e-6)).clamp().pow2());
+    }
+    if (hasOutline(light)) {
+      this.light(radiance.toVar(), outlineNodes(light), baseByOutline, scratchesByOutline);
+      return;
+    }
+    // The light shines to its own -z.
+    const quad = { middle: lightPosition.toVar(), half_width: halfHeight.toVar(), half_height: halfWidth.toVar() };
+    this.light(radiance.toVar(), quad, baseByQuad, scratchesByQuad);
+  }
+
+  light(radiance, shape, base, scratches) {
+    const lit = base({ ...this.base, ...shape }).toVar();
+    this.specular.addAssign(radiance.mul(lit.xyz));
+    this.diffuse.addAssign(radiance.mul(lit.w));
+    if (this.scratches) this.scratchLight.addAssign(radiance.mul(scratches({ ...this.scratches, ...shape })));
+  }
+
+  scratchesByEnvironment() {
+    const { tree: _, tables, ...place } = this.scratches;
+    const sum = vec3(0).toVar();
+    const axes = viewFromSurface(place).toVar();
+    const band = mat4(vec4(0), vec4(0), vec4(0), vec4(0)).toVar();
+    Loop({ start: uint(0), end: uint(SCRATCHES_MAX), type: 'uint', condition: '<', name: 'scratch' }, () => {
+      band.assign(bandOf({ ...this.scratches, walked: band }));
+      If(band.element(3).y.equal(0), () => Break());
+      If(band.element(0).z.greaterThan(0), () => {
+        Loop({ start: uint(0), end: uint(10), type: 'uint', condition: '<', name: 'cell' }, ({ cell }) => {
+          const found = bandCell({ band, tables, j: cell }).toVar();
+          const direction = axes.mul(found.element(0).xyz).transformDirection(cameraWorldMatrix);
+          const radiance = pmremTexture(this.environment, direction, found.element(0).w).mul(materialEnvIntensity);
+          sum.addAssign(radiance.mul(found.element(1).xyz));
+        });
+      });
+    });
+    return sum;
+  }
+}
