@@ -171,8 +171,11 @@ class HairlineScratches {
   /** The scratched twin of a material. `described` is the scene's own, where the object has one. */
   material(from, described, scratches, metresPerUnit) {
     const { tables, parameters } = this;
-    for (const key of ['clearcoat', 'anisotropy', 'transmission', 'sheen', 'iridescence']) {
+    for (const key of ['clearcoat', 'anisotropy']) {
       if (from[key] > 0) this.warn(`not drawn under scratches: ${key}`);
+    }
+    for (const key of ['sheen', 'iridescence']) {
+      if (from[key] > 0) this.warn(`drawn under environments, not under lights: ${key}`);
     }
     const metal = metals.includes(described?.metal) ? described.metal : null;
     const taken = {};
@@ -186,11 +189,13 @@ class HairlineScratches {
   }
 }
 
-/** What a MeshStandardMaterial of GLTFLoader sets. */
+/** What a MeshPhysicalMaterial of GLTFLoader sets. */
 const KEYS = [
   'name', 'color', 'map', 'roughness', 'roughnessMap', 'metalness', 'metalnessMap', 'normalMap', 'normalScale', 'emissive', 'emissiveMap',
   'emissiveIntensity', 'aoMap', 'aoMapIntensity', 'side', 'transparent', 'opacity', 'alphaTest', 'depthWrite', 'vertexColors', 'flatShading',
-  'envMapIntensity',
+  'envMapIntensity', 'ior', 'specularIntensity', 'specularIntensityMap', 'specularColor', 'specularColorMap', 'transmission', 'transmissionMap',
+  'thickness', 'thicknessMap', 'attenuationColor', 'attenuationDistance', 'dispersion', 'sheen', 'sheenColor', 'sheenColorMap', 'sheenRoughness',
+  'sheenRoughnessMap', 'iridescence', 'iridescenceMap', 'iridescenceIOR', 'iridescenceThicknessRange', 'iridescenceThicknessMap',
 ];
 
 function areaLight(color = [1, 1, 1], intensity = 1000, width, height) {

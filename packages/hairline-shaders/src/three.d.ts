@@ -1,5 +1,5 @@
-import type { BufferGeometry, MeshStandardMaterialParameters } from 'three';
-import { MeshStandardNodeMaterial } from 'three/webgpu';
+import type { BufferGeometry, MeshPhysicalMaterialParameters } from 'three';
+import { MeshPhysicalNodeMaterial } from 'three/webgpu';
 import { Metal, PatternOptions, Scratches, Tables } from './index.js';
 
 export { Scratches, loadTables, readScratches } from './index.js';
@@ -7,7 +7,7 @@ export { Scratches, loadTables, readScratches } from './index.js';
 /** Lays scratches in a pattern on a geometry. */
 export function scratchesOn(geometry: BufferGeometry, options: PatternOptions): Scratches;
 
-export interface ScratchedNodeMaterialParameters extends MeshStandardMaterialParameters {
+export interface ScratchedNodeMaterialParameters extends MeshPhysicalMaterialParameters {
   tables: Tables;
   /** A measured metal; null: `color` and `metalness`. */
   metal?: Metal | null;
@@ -19,8 +19,8 @@ export interface ScratchedNodeMaterialParameters extends MeshStandardMaterialPar
   /** Of lights that have no `userData.radius`. */
   lightRadius?: number;
 }
-/** A standard material with scratches that split light into colours. */
-export class ScratchedNodeMaterial extends MeshStandardNodeMaterial {
+/** A physical material with scratches that split light into colours. */
+export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
   constructor(parameters: ScratchedNodeMaterialParameters);
   readonly isScratchedNodeMaterial: true;
   readonly scratches: Scratches | null;

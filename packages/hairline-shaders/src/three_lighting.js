@@ -18,6 +18,8 @@ const SUN_RAD = 0.00465;
 const FAR_M = 1000;
 /** More scratches of one pixel do not mirror the environment. */
 const SCRATCHES_MAX = 4096;
+/** Variance of the filter of a pixel, in pixels. */
+const FILTER_VARIANCE = 0.25;
 
 /** From the object's frame to the view's, without the move: of a mesh, or of each instance. */
 function viewFromObject(object) {
@@ -33,6 +35,13 @@ function viewFromObject(object) {
   }
   const whole = modelViewMatrix.mul(matrix).toVar();
   return mat3(...[0, 1, 2].map((i) => varying(whole.element(i).xyz)));
+}
+
+/** Variance of the slopes that a normal map gives a pixel, beside those of the smooth normals. */
+function slopeVariance() {
+  const bent = normalView.sub(normalViewGeometry);
+  const [x, y] = [dFdx(bent), dFdy(bent)];
+  return x.dot(x).add(y.dot(y)).mul(0.5 * FILTER_VARIANCE);
 }
 
 export class ScratchedLightingModel extends PhysicalLightingModel {
@@ -62,9 +71,10 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
     };
     const { shapes, albedo, curves } = nodes;
     const roughness = material.roughnessNode ? float(material.roughnessNode) : materialRoughness;
+    const hasMap = material.normalMap !== null || material.normalNode !== null;
     this.base = {
       ...place, surface: vec4(specularColorBlended, roughness).toVar(),
-      more: vec3(nodes.curve, specularF90, 0).toVar(), shapes, albedo, curves,
+      more: vec3(nodes.curve, specularF90, hasMap ? slopeVariance() : 0).toVar(), shapes, albedo, curves,
     };
     this.scratches = material.scratches ? { ...place, tree: nodes.tree, tables: nodes.table } : null;
     this.specular = vec3(0).toVar();
