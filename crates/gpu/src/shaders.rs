@@ -105,12 +105,16 @@ modules! {
     SCRATCH_LIGHT = "physics/scratch_light" needs [FOUR_EDGES, BAND_ENVIRONMENT, INCIDENCE_TABLE, MASK, ENVIRONMENT];
     /// Light that one scratch sends to the viewer of a polygon with many vertices, or of a tube.
     OUTLINE_LIGHT = "physics/outline_light" needs [SCRATCH_LIGHT, TEXELS, TUBE];
+    /// Light of polygons and tubes on a lobe of elliptic facets.
+    BRUSHED_OUTLINE = "physics/brushed_outline" needs [BRUSHED_LOBE, OUTLINE_LIGHT];
     /// Light that the grooves of a grating send.
     GRATING = "physics/grating" needs [SCRATCH_LIGHT];
     /// Search for scratches under a footprint, for other engines.
     SCRATCH_TREE = "engine/scratch_tree" needs [SCRATCH];
     /// The base of a point under lights, for other engines.
     LIT_BASE = "engine/lit_base" needs [FILTERED_LOBE, BAND, OUTLINE_LIGHT];
+    /// The base of brushed metal, for other engines.
+    BRUSHED_BASE = "engine/brushed_base" needs [BRUSHED_OUTLINE, LIT_BASE];
     /// All scratches of a point under lights, for other engines.
     SCRATCHED_SURFACE = "engine/scratched_surface" needs [OUTLINE_LIGHT, SCRATCH_TREE];
     /// The frame of a pixel from the inputs of a fragment shader, for other engines.
@@ -163,7 +167,7 @@ modules! {
     COAT = "scene/coat" needs [BINDINGS, FRESNEL, CONTENTS, SURFACE_POINT];
     /// The base under lights and environment.
     BASE = "scene/base" needs [
-        SCENE, LIGHTS, PICTURE_LIGHT, FILTERED_LOBE, ENVIRONMENT_LOBE, BRUSHED_LOBE, COAT
+        SCENE, LIGHTS, PICTURE_LIGHT, FILTERED_LOBE, ENVIRONMENT_LOBE, BRUSHED_OUTLINE, COAT
     ];
     /// Pass: triangle and object of each pixel.
     VISIBILITY = "passes/visibility" needs [BINDINGS];
@@ -270,7 +274,7 @@ modules! {
 /// Modules that `cargo xtask package` packs for other engines, with those that they need.
 pub static FOR_ENGINES: &[&Module] = &[
     &SCRATCHED_SURFACE,
-    &LIT_BASE,
+    &BRUSHED_BASE,
     &PIXEL_FRAME,
     &ENVIRONMENT_LOBE,
 ];

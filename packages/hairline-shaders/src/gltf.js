@@ -136,7 +136,7 @@ class HairlineScratches {
       }
       const toMesh = new Matrix4().copy(mesh.matrixWorld).invert().multiply(fromObject);
       const own = within(all.transformed(toMesh.elements), mesh.geometry);
-      if (own !== null) mesh.material = this.material(mesh.material, described, own, scale.x);
+      if (own !== null) mesh.material = this.material(mesh, described, own, scale.x);
     }
   }
 
@@ -168,12 +168,9 @@ class HairlineScratches {
     }));
   }
 
-  /** The scratched twin of a material. `described` is the scene's own, where the object has one. */
-  material(from, described, scratches, metresPerUnit) {
+  /** The scratched twin of a mesh's material. `described` is the scene's own, where the object has one. */
+  material({ material: from, geometry }, described, scratches, metresPerUnit) {
     const { tables, parameters } = this;
-    for (const key of ['clearcoat', 'anisotropy']) {
-      if (from[key] > 0) this.warn(`not drawn under scratches: ${key}`);
-    }
     for (const key of ['sheen', 'iridescence']) {
       if (from[key] > 0) this.warn(`drawn under environments, not under lights: ${key}`);
     }
@@ -183,6 +180,8 @@ class HairlineScratches {
       const isOfMetal = metal !== null && (key === 'color' || key === 'metalness');
       if (from[key] !== undefined && from[key] !== null && !isOfMetal) taken[key] = from[key];
     }
+    // Without tangents three.js has the bitangent where v rises, glTF where it falls.
+    if (taken.anisotropyRotation && !geometry.attributes.tangent) taken.anisotropyRotation *= -1;
     return new ScratchedNodeMaterial({
       tables, metal, scratches, metresPerUnit, coherenceUm: described?.coherence_um ?? 20, ...taken, ...parameters,
     });
@@ -195,7 +194,8 @@ const KEYS = [
   'emissiveIntensity', 'aoMap', 'aoMapIntensity', 'side', 'transparent', 'opacity', 'alphaTest', 'depthWrite', 'vertexColors', 'flatShading',
   'envMapIntensity', 'ior', 'specularIntensity', 'specularIntensityMap', 'specularColor', 'specularColorMap', 'transmission', 'transmissionMap',
   'thickness', 'thicknessMap', 'attenuationColor', 'attenuationDistance', 'dispersion', 'sheen', 'sheenColor', 'sheenColorMap', 'sheenRoughness',
-  'sheenRoughnessMap', 'iridescence', 'iridescenceMap', 'iridescenceIOR', 'iridescenceThicknessRange', 'iridescenceThicknessMap',
+  'sheenRoughnessMap', 'clearcoat', 'clearcoatMap', 'clearcoatRoughness', 'clearcoatRoughnessMap', 'clearcoatNormalMap', 'clearcoatNormalScale',
+  'anisotropy', 'anisotropyRotation', 'anisotropyMap', 'iridescence', 'iridescenceMap', 'iridescenceIOR', 'iridescenceThicknessRange', 'iridescenceThicknessMap',
 ];
 
 function areaLight(color = [1, 1, 1], intensity = 1000, width, height) {

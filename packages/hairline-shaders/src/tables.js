@@ -31,6 +31,9 @@ export function curveOf(metal) {
   return metal === null ? 0 : 1 + metals.indexOf(metal);
 }
 
+/** The curve of a dielectric of refractive index 1.5, of which clear coats are. */
+export const dielectricCurve = 1 + metals.length;
+
 /** Fetches tables.bin from beside the package's folder `src`, or from an address. */
 export async function loadTables(url = new URL('../tables.bin', import.meta.url)) {
   const response = await fetch(url);

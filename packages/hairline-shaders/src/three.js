@@ -87,22 +87,25 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
     }
     this.isScratchedNodeMaterial = true;
     Object.assign(this, { tables, metal, coherenceUm, metresPerUnit, lightRadius });
-    const { shapes, albedo, curves } = texturesOf(tables);
-    this.scratches = scratches;
     const prepared = scratches && preparedPieces(scratches, { coherenceUm, metresPerUnit });
-    const tree = prepared && texture(treeTexture(prepared, metresPerUnit));
-    const table = tableTexture(tables, metal, prepared?.shapes ?? [narrowRectangle]);
-    Object.defineProperty(this, 'hairlineNodes', {
-      value: {
-        shapes: texture(shapes), albedo: texture(albedo), curves: texture(curves), table: texture(table), tree,
-        curve: uniform(curveOf(metal)),
-      },
-    });
+    Object.assign(this, { scratches, shapes: prepared?.shapes ?? [narrowRectangle] });
     if (metal !== null) {
       this.color.setRGB(...metalColor(metal));
       this.metalness = 1;
     }
     this.setValues(parameters);
+    const { shapes, albedo, curves } = texturesOf(tables);
+    Object.defineProperty(this, 'hairlineNodes', {
+      value: {
+        shapes: texture(shapes), albedo: texture(albedo), curves: texture(curves), table: texture(this.table()),
+        tree: prepared && texture(treeTexture(prepared, metresPerUnit)), curve: uniform(curveOf(metal)),
+      },
+    });
+  }
+
+  /** The spectra of the scratches: a coat, in which they lie, has no colour of its own. */
+  table() {
+    return tableTexture(this.tables, this.useClearcoat ? null : this.metal, this.shapes);
   }
 
   setupLightingModel(builder) {
@@ -110,6 +113,7 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
       throw new Error('ScratchedNodeMaterial: found the backend for WebGL; must be that for WebGPU, which this browser lacks or `forceWebGL` turns off');
     }
     this.checkScale(builder.object);
+    this.hairlineNodes.table.value = this.table();
     const environment = this.setupEnvironment(builder);
     return new ScratchedLightingModel(this, environment && environmentTexture(environment.envNode, this));
   }

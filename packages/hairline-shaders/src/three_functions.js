@@ -18,6 +18,15 @@ fn hairline_fresnel_rgb(surface: vec4f, more: vec3f) -> FresnelRgb {
 fn hairline_base(here: PixelFrame, surface: vec4f, more: vec3f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>) -> LitBase {
   return lit_base(normalize(here.view.to_viewer_m), surface.w, hairline_fresnel_rgb(surface, more), pixel_spread(here, more.z), shapes, albedo, curves);
 }
+fn hairline_brushed(
+  here: PixelFrame, surface: vec4f, more: vec3f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>, facets: vec4f,
+) -> BrushedBase {
+  let along = (here.surface_from_view * facets.xyz).xy;
+  let length_sq = dot(along, along);
+  let unit = select(vec2f(1.0, 0.0), along * inverseSqrt(max(length_sq, 1e-30)), length_sq > 1e-12);
+  let fresnel = hairline_fresnel_rgb(surface, more);
+  return brushed_base(normalize(here.view.to_viewer_m), surface.w, unit, facets.w, fresnel, pixel_spread(here, more.z), shapes, albedo, curves);
+}
 // The light, the point and the axes of the surface in the light's frame.
 struct HairlineOutline { light: OutlineLight, point_m: vec3f, surface: mat3x3f }
 fn hairline_outline(here: PixelFrame, outline: vec4f, view_from_light: mat4x4f) -> HairlineOutline {
@@ -89,36 +98,48 @@ export const bandCell = wgslFn(`fn hairline_band_cell(band: mat4x4f, tables: tex
   return mat4x4f(vec4f(cell.direction, cell.roughness), vec4f(band[0].z * cell.response, 0.0), vec4f(0.0), vec4f(0.0));
 }`, [library]);
 
-export const baseBySphere = wgslFn(`fn hairline_base_sphere(${BASE}, light: vec4f) -> vec4f {
-  let here = ${HERE};
-  let base = hairline_base(here, surface, more, shapes, albedo, curves);
-  let lit = lit_base_sphere(base, curves, here.surface_from_view * (light.xyz - here.position_view), light.w);
+/** Functions of a base: of a name, with a WGSL expression of it and the module's names of what they do. */
+function baseFunctions(name, parameters, made, module, lit = 'base') {
+  const given = `let here = ${HERE};\n  let base = ${made};`;
+  return {
+    bySphere: wgslFn(`fn hairline_${name}_sphere(${parameters}, light: vec4f) -> vec4f {
+  ${given}
+  let lit = ${module}_sphere(base, curves, here.surface_from_view * (light.xyz - here.position_view), light.w);
   return vec4f(lit.specular, lit.form_factor);
-}`, [library]);
+}`, [library]),
+    byOutline: wgslFn(`fn hairline_${name}_outline(${parameters}, ${OUTLINE}) -> vec4f {
+  ${given}
+  let seen = hairline_outline(here, outline, view_from_light);
+  let view = outline_view(vertices, seen.light, seen.point_m, seen.surface, vec2f(1.0, 0.0));
+  let lit = ${module}_outline(base, curves, vertices, view);
+  return vec4f(lit.specular, lit.form_factor);
+}`, [library]),
+    reflected: wgslFn(`fn hairline_${name}_reflected(${parameters}, specular: vec3f) -> vec3f {
+  ${given}
+  return lit_base_reflected(${lit}, specular);
+}`, [library]),
+    body: wgslFn(`fn hairline_${name}_body(${parameters}) -> vec3f {
+  ${given}
+  return lit_base_body(${lit});
+}`, [library]),
+  };
+}
 
-export const baseByQuad = wgslFn(`fn hairline_base_quad(${BASE}, middle: vec3f, half_width: vec3f, half_height: vec3f) -> vec4f {
+export const roundBase = {
+  ...baseFunctions('base', BASE, 'hairline_base(here, surface, more, shapes, albedo, curves)', 'lit_base'),
+  byQuad: wgslFn(`fn hairline_base_quad(${BASE}, middle: vec3f, half_width: vec3f, half_height: vec3f) -> vec4f {
   let here = ${HERE};
   let turn = here.surface_from_view;
   let base = hairline_base(here, surface, more, shapes, albedo, curves);
   let lit = lit_base_quad(base, curves, quad_light(turn * (middle - here.position_view), turn * half_width, turn * half_height, false));
   return vec4f(lit.specular, lit.form_factor);
-}`, [library]);
+}`, [library]),
+};
 
-export const baseByOutline = wgslFn(`fn hairline_base_outline(${BASE}, ${OUTLINE}) -> vec4f {
-  let here = ${HERE};
-  let seen = hairline_outline(here, outline, view_from_light);
-  let view = outline_view(vertices, seen.light, seen.point_m, seen.surface, vec2f(1.0, 0.0));
-  let lit = lit_base_outline(hairline_base(here, surface, more, shapes, albedo, curves), curves, vertices, view);
-  return vec4f(lit.specular, lit.form_factor);
-}`, [library]);
-
-export const baseReflected = wgslFn(`fn hairline_base_reflected(${BASE}, specular: vec3f) -> vec3f {
-  return lit_base_reflected(hairline_base(${HERE}, surface, more, shapes, albedo, curves), specular);
-}`, [library]);
-
-export const baseBody = wgslFn(`fn hairline_base_body(${BASE}) -> vec3f {
-  return lit_base_body(hairline_base(${HERE}, surface, more, shapes, albedo, curves));
-}`, [library]);
+// `facets`: the direction of the view's frame across the brushing; the anisotropy.
+export const brushedBase = baseFunctions(
+  'brushed', `${BASE}, facets: vec4f`, 'hairline_brushed(here, surface, more, shapes, albedo, curves, facets)', 'brushed_base', 'base.lit',
+);
 
 export const fresnelOf = wgslFn(`fn hairline_fresnel(${BASE}) -> vec3f {
   let here = ${HERE};

@@ -1,14 +1,15 @@
 // The lighting model of ScratchedNodeMaterial: what is added up of each light, and how scratches and base weaken one another.
 import { InstancedInterleavedBuffer, InterleavedBufferAttribute, PhysicalLightingModel, Vector2 } from 'three/webgpu';
 import {
-  Break, If, Loop, buffer, cameraProjectionMatrix, cameraWorldMatrix, dFdx, dFdy, diffuseContribution, float, instanceIndex, instancedBufferAttribute,
-  lightTargetDirection, lightViewPosition, mat3, mat4, materialEnvIntensity, materialRoughness, modelViewMatrix, normalView, normalViewGeometry, pmremTexture,
+  Break, If, Loop, anisotropy, anisotropyT, buffer, cameraProjectionMatrix, cameraWorldMatrix, clearcoat, clearcoatNormalView, dFdx, dFdy,
+  diffuseContribution, float, instanceIndex, instancedBufferAttribute, lightTargetDirection, lightViewPosition, mat3, mat4,
+  materialClearcoatRoughness, materialEnvIntensity, materialRoughness, mix, modelViewMatrix, normalView, normalViewGeometry, pmremTexture,
   positionGeometry, positionView, specularColorBlended, specularF90, uint, uniform, varying, vec2, vec3, vec4, viewportSize, viewportUV,
 } from 'three/tsl';
 import {
-  bandCell, bandOf, baseBody, baseByOutline, baseByQuad, baseBySphere, baseReflected, fresnelOf, maskOf, scratchesByOutline, scratchesByQuad,
-  scratchesBySphere, viewFromSurface,
+  bandCell, bandOf, brushedBase, fresnelOf, maskOf, roundBase, scratchesByOutline, scratchesByQuad, scratchesBySphere, viewFromSurface,
 } from './three_functions.js';
+import { dielectricCurve } from './tables.js';
 import { hasOutline, isFar } from './three_lights.js';
 import { outlineNodes } from './three_outlines.js';
 
@@ -37,16 +38,19 @@ function viewFromObject(object) {
   return mat3(...[0, 1, 2].map((i) => varying(whole.element(i).xyz)));
 }
 
+/** Reflectance of every clear coat at normal incidence. */
+const COAT_F0 = 0.04;
+
 /** Variance of the slopes that a normal map gives a pixel, beside those of the smooth normals. */
-function slopeVariance() {
-  const bent = normalView.sub(normalViewGeometry);
+function slopeVariance(normal) {
+  const bent = normal.sub(normalViewGeometry);
   const [x, y] = [dFdx(bent), dFdy(bent)];
   return x.dot(x).add(y.dot(y)).mul(0.5 * FILTER_VARIANCE);
 }
 
 export class ScratchedLightingModel extends PhysicalLightingModel {
   constructor(material, environment) {
-    super(false, material.useSheen, material.useIridescence, material.useAnisotropy, material.useTransmission, material.useDispersion);
+    super(material.useClearcoat, material.useSheen, material.useIridescence, material.useAnisotropy, material.useTransmission, material.useDispersion);
     this.material = material;
     this.environment = environment;
   }
@@ -70,33 +74,69 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       turn_y: dFdy(normalViewGeometry).mul(side).toVar(),
     };
     const { shapes, albedo, curves } = nodes;
-    const roughness = material.roughnessNode ? float(material.roughnessNode) : materialRoughness;
-    const hasMap = material.normalMap !== null || material.normalNode !== null;
-    this.base = {
-      ...place, surface: vec4(specularColorBlended, roughness).toVar(),
-      more: vec3(nodes.curve, specularF90, hasMap ? slopeVariance() : 0).toVar(), shapes, albedo, curves,
-    };
-    this.scratches = material.scratches ? { ...place, tree: nodes.tree, tables: nodes.table } : null;
+    const baseOf = (own, { roughness, f0, f90, curve, hasMap }) => ({
+      ...own, surface: vec4(f0, roughness).toVar(), more: vec3(curve, f90, hasMap ? slopeVariance(own.normal_view) : 0).toVar(), shapes, albedo, curves,
+    });
+    this.base = baseOf(place, {
+      roughness: material.roughnessNode ? float(material.roughnessNode) : materialRoughness, f0: specularColorBlended, f90: specularF90,
+      curve: nodes.curve, hasMap: material.normalMap !== null || material.normalNode !== null,
+    });
+    this.functions = roundBase;
+    if (this.anisotropy) {
+      this.functions = brushedBase;
+      this.base.facets = vec4(anisotropyT, anisotropy).toVar();
+    }
+    // Scratches lie in the coat, where there is one.
+    let top = place;
+    if (this.clearcoat) {
+      top = { ...place, normal_view: clearcoatNormalView };
+      this.coat = baseOf(top, {
+        roughness: material.clearcoatRoughnessNode ? float(material.clearcoatRoughnessNode) : materialClearcoatRoughness, f0: vec3(COAT_F0), f90: 1,
+        curve: dielectricCurve, hasMap: material.clearcoatNormalMap !== null || material.clearcoatNormalNode !== null,
+      });
+      this.coatSpecular = vec3(0).toVar();
+    }
+    this.scratches = material.scratches ? { ...top, tree: nodes.tree, tables: nodes.table } : null;
     this.specular = vec3(0).toVar();
     this.diffuse = vec3(0).toVar();
     this.scratchLight = vec3(0).toVar();
 
     super.start(builder);
 
-    const { reflectedLight } = builder.context;
-    const reflected = baseReflected({ ...this.base, specular: this.specular });
-    reflectedLight.directDiffuse.addAssign(this.diffuse.mul(diffuseContribution).mul(baseBody(this.base)));
-    if (!this.scratches) {
-      reflectedLight.directSpecular.addAssign(reflected);
-      return;
+    const { directDiffuse, directSpecular, indirectDiffuse, indirectSpecular } = builder.context.reflectedLight;
+    directSpecular.addAssign(this.functions.reflected({ ...this.base, specular: this.specular }));
+    directDiffuse.addAssign(this.diffuse.mul(diffuseContribution).mul(this.functions.body(this.base)));
+    // What shines through the coat is no more reflected at the surface, and scratches take nothing of it.
+    let through = null;
+    if (this.coat) {
+      const bare = clearcoat.oneMinus().toVar();
+      const passed = roundBase.body(this.coat).mul(clearcoat).toVar();
+      through = directSpecular.add(indirectSpecular).mul(passed).toVar();
+      for (const light of [directDiffuse, indirectDiffuse]) light.mulAssign(passed.add(bare));
+      directSpecular.assign(directSpecular.mul(bare).add(roundBase.reflected({ ...this.coat, specular: this.coatSpecular }).mul(clearcoat)));
+      indirectSpecular.assign(indirectSpecular.mul(bare).add(this.clearcoatSpecularIndirect.mul(clearcoat)));
     }
-    const mask = maskOf(this.scratches).toVar();
-    const left = mask.xyz.oneMinus().toVar();
-    if (this.environment) this.scratchLight.addAssign(this.scratchesByEnvironment());
-    const coloured = this.scratchLight.mul(mask.w).mul(fresnelOf(this.base));
-    // Channels that lie outside of the gamut stay below zero where the picture is a float one, and are cut by the display.
-    reflectedLight.directSpecular.addAssign(reflected.mul(left).add(coloured));
-    reflectedLight.indirectSpecular.mulAssign(left);
+    if (this.scratches) {
+      const mask = maskOf(this.scratches).toVar();
+      const left = mask.xyz.oneMinus().toVar();
+      if (this.environment) this.scratchLight.addAssign(this.scratchesByEnvironment());
+      const { normal_view } = top;
+      const { facets: _, ...base } = this.base;
+      const reflectance = fresnelOf({ ...base, normal_view });
+      const coloured = this.scratchLight.mul(mask.w).mul(this.coat ? mix(reflectance, fresnelOf(this.coat), clearcoat) : reflectance);
+      // Channels that lie outside of the gamut stay below zero where the picture is a float one, and are cut by the display.
+      directSpecular.assign(directSpecular.mul(left).add(coloured));
+      indirectSpecular.mulAssign(left);
+    }
+    if (through) directSpecular.addAssign(through);
+  }
+
+  finish(builder) {
+    // start() has laid the coat on.
+    const { clearcoat: had } = this;
+    this.clearcoat = false;
+    super.finish(builder);
+    this.clearcoat = had;
   }
 
   direct({ lightDirection, lightColor, lightNode }) {
@@ -123,7 +163,8 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
         radiance = radiance.div(float(3).sub(t.mul(2)));
       }
     }
-    this.light(radiance.div(radius.mul(radius).mul(Math.PI)).toVar(), { light: vec4(center, radius).toVar() }, baseBySphere, scratchesBySphere);
+    const sphere = { light: vec4(center, radius).toVar() };
+    this.light(radiance.div(radius.mul(radius).mul(Math.PI)).toVar(), [sphere, 'bySphere'], [sphere, scratchesBySphere]);
   }
 
   directRectArea({ lightColor, lightNode, lightPosition, halfWidth, halfHeight }) {
@@ -138,20 +179,21 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       });
       radiance = radiance.mul(away.dot(ahead).sub(rim.x).div(rim.y.sub(rim.x).max(1e-6)).clamp().pow2());
     }
-    if (hasOutline(light)) {
-      this.light(radiance.toVar(), outlineNodes(light), baseByOutline, scratchesByOutline);
-      return;
-    }
+    radiance = radiance.toVar();
     // The light shines to its own -z.
     const quad = { middle: lightPosition.toVar(), half_width: halfHeight.toVar(), half_height: halfWidth.toVar() };
-    this.light(radiance.toVar(), quad, baseByQuad, scratchesByQuad);
+    if (hasOutline(light)) this.light(radiance, [outlineNodes(light), 'byOutline'], [outlineNodes(light), scratchesByOutline]);
+    else if (this.anisotropy) this.light(radiance, [outlineNodes(light), 'byOutline'], [quad, scratchesByQuad]);
+    else this.light(radiance, [quad, 'byQuad'], [quad, scratchesByQuad]);
   }
 
-  light(radiance, shape, base, scratches) {
-    const lit = base({ ...this.base, ...shape }).toVar();
+  /** Adds a light: to the base by a function of this name, to scratches by a function, each with its own view of the light. */
+  light(radiance, [shape, byShape], [shapeOnScratches, scratches]) {
+    const lit = this.functions[byShape]({ ...this.base, ...shape }).toVar();
     this.specular.addAssign(radiance.mul(lit.xyz));
     this.diffuse.addAssign(radiance.mul(lit.w));
-    if (this.scratches) this.scratchLight.addAssign(radiance.mul(scratches({ ...this.scratches, ...shape })));
+    if (this.coat) this.coatSpecular.addAssign(radiance.mul(roundBase[byShape]({ ...this.coat, ...shape }).xyz));
+    if (this.scratches) this.scratchLight.addAssign(radiance.mul(scratches({ ...this.scratches, ...shapeOnScratches })));
   }
 
   scratchesByEnvironment() {

@@ -39,7 +39,7 @@ await compiles('make_scratch_table.wgsl', text('wgsl/make_scratch_table.wgsl'));
 
 // One module of each kind by itself, with what it imports.
 const weslSrc = Object.fromEntries(readdirSync(join(folder, 'hairline-shaders/wesl')).map((file) => [file, text(join('wesl', file))]));
-for (const name of ['scratch_light', 'scratched_surface', 'lit_base', 'camera', 'tube', 'environment_lobe']) {
+for (const name of ['scratch_light', 'scratched_surface', 'lit_base', 'brushed_base', 'outline_light', 'camera', 'environment_lobe']) {
   const functions = [...weslSrc[`${name}.wesl`].matchAll(/^fn (\w+)\(/gm)].map((match) => match[1]);
   // Code that no entry point reaches is left out, so each module is compiled as a root of its own.
   const { dest } = await link({ weslSrc, rootModuleName: name });

@@ -14,7 +14,7 @@ use super::browser::{Folders, answers};
 use super::files::{install, write};
 
 /// The scenes in packages/hairline-shaders/test.
-const SCENES: [&str; 3] = ["plate", "sheet", "grooves"];
+const SCENES: [&str; 4] = ["plate", "sheet", "grooves", "lacquer"];
 /// The most that a picture may be off, as rms over that of the picture.
 const LIMIT: f64 = 0.005;
 /// The same for what a file gives, over the same set by hand: its numbers were moved to another frame and back.
@@ -164,7 +164,7 @@ fn write_page(folder: &Path, scene: &Scene) -> anyhow::Result<()> {
     let material = &scene.materials[mesh.triangle_materials[0] as usize];
     let surface = match material.base {
         // The file has it.
-        _ if material.base_color_texture.is_some() => Value::Null,
+        _ if material.base_color_texture.is_some() || material.coat.is_some() => Value::Null,
         Base::Metal(_) => json!({ "metal": "steel" }),
         Base::MetallicRoughness {
             base_color,

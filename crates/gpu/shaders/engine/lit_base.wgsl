@@ -104,9 +104,8 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
 // A polygon of any number of corners or a tube, as outline_view() sees it with the tangent (1, 0).
 fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d<u32>, view: OutlineView) -> BaseLit {
     var specular = vec3f(0.0);
-    var form_factor = 0.0;
     if view.facing == 0.0 {
-        return BaseLit(specular, form_factor);
+        return BaseLit(specular, 0.0);
     }
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, base.filtered, p);
@@ -114,19 +113,28 @@ fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d
             break;
         }
         var reflected = ltc_begin();
-        var body = lambert_begin();
         var a = outline_corner_m(vertices, view, 0u);
         for (var i = 1u; i <= view.light.vertex_count; i += 1u) {
             let b = outline_corner_m(vertices, view, i);
             ltc_edge(&reflected, part.lobe, a, b);
-            lambert_edge(&body, a, b);
             a = b;
         }
         let vector = irradiance_end(reflected);
         specular += filtered_lobe_weight(base.filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
-        form_factor = lambert_end(body);
     }
-    return BaseLit(specular, form_factor);
+    return BaseLit(specular, lambert_outline(vertices, view));
+}
+
+// Form factor of an outline that faces the point.
+fn lambert_outline(vertices: texture_2d<u32>, view: OutlineView) -> f32 {
+    var body = lambert_begin();
+    var a = outline_corner_m(vertices, view, 0u);
+    for (var i = 1u; i <= view.light.vertex_count; i += 1u) {
+        let b = outline_corner_m(vertices, view, i);
+        lambert_edge(&body, a, b);
+        a = b;
+    }
+    return lambert_end(body);
 }
 
 // The flat light of four corners around a middle; it shines to the side that sees its half width to the right of its half height.

@@ -369,7 +369,7 @@ fn brushed_tap(lobe: BrushedLobe, i: u32, fresnel: FresnelRgb, curves: texture_2
 // a0 = e.x + e.y x + e.z x^2.
 struct BrushedSphere {
     e: vec3f,
-    a2: f32,
+    second: f32,                // a2
     b: vec2f,
     range: vec2f,               // of places; empty where nothing is seen
     d: vec3f,                   // a1^2 - a2 a0, as e
@@ -419,7 +419,7 @@ fn brushed_sphere(lobe: BrushedLobe, axis: vec3f, sin2: f32, fresnel: FresnelRgb
     if range.y <= range.x {
         return sum;
     }
-    let is_outside = sphere.a2 > 0.0;
+    let is_outside = sphere.second > 0.0;
     for (var i = 0u; i < BRUSHED_NODES; i += 1u) {
         let node = brushed_node(i, range);
         let slice = brushed_slice(lobe, node.x);
@@ -435,8 +435,8 @@ fn brushed_sphere(lobe: BrushedLobe, axis: vec3f, sin2: f32, fresnel: FresnelRgb
             let reach = select(sqrt(inside), -sqrt(inside), a1 < 0.0);
             let q = -(a1 + reach);
             // The nearer end has two forms; the one that cancels less is used.
-            let near = select(a0 / q, (reach - a1) / sphere.a2, 2.0 * abs(reach) < abs(a1));
-            let roots = vec2f(q / sphere.a2, near);
+            let near = select(a0 / q, (reach - a1) / sphere.second, 2.0 * abs(reach) < abs(a1));
+            let roots = vec2f(q / sphere.second, near);
             ends = clamp(vec2f(min(roots.x, roots.y), max(roots.x, roots.y)), vec2f(-BRUSHED_FAR), vec2f(BRUSHED_FAR));
         }
         for (var k = 0u; k < brushed_parts(lobe); k += 1u) {

@@ -339,7 +339,7 @@ fn brushed_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: 
                 seen = base_polygon(point, chord, source);
             }
             if BASE_HAS_POLYGONS {
-                on_lobe *= brushed_light_polygon(point, lobe, fresnel, source);
+                on_lobe *= brushed_outline(lobe, fresnel, fresnel_curves, lights, surface_outline(point, source));
             }
         }
         sum.specular += on_lobe;
@@ -356,56 +356,6 @@ fn brushed_light_sphere(point: SurfacePoint, lobe: BrushedLobe, fresnel: Fresnel
     let cap = sphere_cap(center, light.radius_m);
     let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
     return brushed_sphere(lobe, cap.axis, sin2, fresnel, fresnel_curves);
-}
-
-// Twin: BrushedLobe::polygon of optics.
-fn brushed_light_polygon(point: SurfacePoint, lobe: BrushedLobe, fresnel: FresnelRgb, light: Light) -> vec3f {
-    let outline = light_outline(point, light);
-    var sum = vec3f(0.0);
-    if outline.facing == 0.0 {
-        return sum;
-    }
-    var range = vec2f(1.0, -1.0);
-    var area = vec3f(0.0);
-    var highest_z = 0.0;
-    let first = brushed_from_local(lobe, light_vertex(point, light, outline, 0u));
-    var a = first;
-    for (var i = 0u; i < light.vertex_count; i += 1u) {
-        let b = brushed_from_local(lobe, light_vertex(point, light, outline, i + 1u));
-        area += cross(a, b);
-        highest_z = max(highest_z, b.z);
-        range = brushed_range(lobe, range, brushed_edge(a, b, false));
-        range = brushed_range(lobe, range, brushed_edge(a, b, true));
-        a = b;
-    }
-    let visible = brushed_visible(lobe, range);
-    if highest_z <= 0.0 || visible.y <= visible.x {
-        return sum;
-    }
-    let orientation = select(1.0, -1.0, dot(area, first) < 0.0);
-    for (var n = 0u; n < BRUSHED_NODES; n += 1u) {
-        let node = brushed_node(n, visible);
-        let slice = brushed_slice(lobe, node.x);
-        if !slice.is_seen {
-            continue;
-        }
-        // The edges once for each kind of facets: most lobes have one.
-        for (var k = 0u; k < brushed_parts(lobe); k += 1u) {
-            let part = brushed_part(lobe, slice, k);
-            var moments = brushed_none();
-            a = first;
-            for (var i = 0u; i < 2u * light.vertex_count; i += 1u) {
-                let b = brushed_from_local(lobe, light_vertex(point, light, outline, i / 2u + 1u));
-                let edge = brushed_edge(a, b, (i & 1u) == 1u);
-                brushed_add_crossings(&moments, part, brushed_crossings(lobe, slice.slope, edge), orientation);
-                if (i & 1u) == 1u {
-                    a = b;
-                }
-            }
-            sum += node.y * brushed_reflected(lobe, slice, k, moments, fresnel, fresnel_curves);
-        }
-    }
-    return max(sum, vec3f(0.0));
 }
 
 // The mean of the environment over the lobe, as its facets reflect it.

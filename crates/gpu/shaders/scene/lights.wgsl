@@ -50,3 +50,9 @@ fn light_per_m(light: Light, position_m: vec3f) -> f32 {
 fn outline_light(light: Light, is_tube: bool) -> OutlineLight {
     return OutlineLight(light_vertex_texel(light.first_vertex), light.vertex_count, light.normal, light.two_sided != 0u, is_tube);
 }
+
+// A light with an outline in the frame of a surface.
+fn surface_outline(point: SurfacePoint, light: Light) -> OutlineView {
+    let surface = mat3x3f(point.axis_x, point.axis_y, point.normal);
+    return outline_view(lights, outline_light(light, light_is_tube(light)), point.position_m, surface, vec2f(1.0, 0.0));
+}

@@ -1,0 +1,49 @@
+// The base of brushed metal as an engine shades it: facets that lean further one way than across it, in the place of lit_base().
+//
+// Needs: brushed_outline, lit_base. Frame and textures: those of lit_base. Sums over lights end in lit_base_reflected() and lit_base_body() of `lit`.
+
+struct BrushedBase {
+    lit: LitBase,                   // with the albedo of the brushed lobe
+    lobe: BrushedLobe,
+}
+
+// `along` is the unit vector across the brushing, in the plane of the surface; `anisotropy` that of KHR_materials_anisotropy.
+fn brushed_base(
+    wo: vec3f,
+    roughness: f32,
+    along: vec2f,
+    anisotropy: f32,
+    fresnel: FresnelRgb,
+    spread: vec3f,
+    shapes: texture_2d<f32>,
+    albedo: texture_2d<f32>,
+    curves: texture_2d<f32>,
+) -> BrushedBase {
+    let alpha = ggx_alpha(roughness);
+    let axes = FacetAxes(along, vec2f(max(anisotropic_alpha(alpha, anisotropy), alpha), alpha));
+    let lobe = brushed_lobe(wo, axes, spread);
+    let around = brushed_albedo(lobe, fresnel, curves);
+    var lit = lit_base(wo, roughness, fresnel, spread, shapes, albedo, curves);
+    lit.sharp.albedo = around.w;
+    lit.reflecting.albedo = around.xyz;
+    return BrushedBase(lit, lobe);
+}
+
+fn brushed_base_sphere(base: BrushedBase, curves: texture_2d<f32>, center_m: vec3f, radius_m: f32) -> BaseLit {
+    if center_m.z <= -radius_m {
+        return BaseLit(vec3f(0.0), 0.0);
+    }
+    let cap = sphere_cap(center_m, radius_m);
+    let sin_sq = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
+    let specular = brushed_sphere(base.lobe, cap.axis, sin_sq, base.lit.reflecting.fresnel, curves);
+    return BaseLit(specular, lambert_sphere(cap.axis, sin_sq));
+}
+
+// A polygon of any number of corners or a tube, as outline_view() sees it with the tangent (1, 0).
+fn brushed_base_outline(base: BrushedBase, curves: texture_2d<f32>, vertices: texture_2d<u32>, view: OutlineView) -> BaseLit {
+    if view.facing == 0.0 {
+        return BaseLit(vec3f(0.0), 0.0);
+    }
+    let specular = brushed_outline(base.lobe, base.lit.reflecting.fresnel, curves, vertices, view);
+    return BaseLit(specular, lambert_outline(vertices, view));
+}
