@@ -85,6 +85,7 @@ impl Package {
             tables::data(&root)?.as_bytes(),
         )?;
         write(&package.join("tables.bin"), &tables::tables())?;
+        tables::write_gratings(&package.join("gratings"))?;
         print_sizes(&package)?;
 
         if self.test {
@@ -140,6 +141,7 @@ fn print_sizes(package: &Path) -> anyhow::Result<()> {
         ("JavaScript, the WGSL in it", scripts),
         ("for three.js", for_three),
         ("tables", vec![package.join("tables.bin")]),
+        ("a grating", vec![package.join("gratings/cd.bin")]),
     ];
     println!("{:<28} {:>9} {:>11}", "", "bytes", "compressed");
     for (what, files) in parts {

@@ -107,6 +107,8 @@ modules! {
     OUTLINE_LIGHT = "physics/outline_light" needs [SCRATCH_LIGHT, TEXELS, TUBE];
     /// Light of polygons and tubes on a lobe of elliptic facets.
     BRUSHED_OUTLINE = "physics/brushed_outline" needs [BRUSHED_LOBE, OUTLINE_LIGHT];
+    /// Rows of grooves on a surface.
+    GROOVE_FIELD = "physics/groove_field" needs [GAUSSIAN];
     /// Light that the grooves of a grating send.
     GRATING = "physics/grating" needs [SCRATCH_LIGHT];
     /// Search for scratches under a footprint, for other engines.
@@ -117,6 +119,8 @@ modules! {
     BRUSHED_BASE = "engine/brushed_base" needs [BRUSHED_OUTLINE, LIT_BASE];
     /// All scratches of a point under lights, for other engines.
     SCRATCHED_SURFACE = "engine/scratched_surface" needs [OUTLINE_LIGHT, SCRATCH_TREE];
+    /// A surface with gratings under lights, for other engines.
+    GRATED_SURFACE = "engine/grated_surface" needs [GRATING, GROOVE_FIELD, SCRATCHED_SURFACE];
     /// The frame of a pixel from the inputs of a fragment shader, for other engines.
     PIXEL_FRAME = "engine/pixel_frame" needs [CAMERA, SCRATCHED_SURFACE, LIT_BASE];
     /// A pass that makes the table of a metal, for other engines.
@@ -158,7 +162,7 @@ modules! {
     /// Spots of circular grooves.
     GROOVE_SPOTS = "scene/groove_spots" needs [LAYOUT, CONTENTS];
     /// Directions of the grooves of a grating.
-    GRATINGS = "scene/gratings" needs [GROOVE_SPOTS, GAUSSIAN];
+    GRATINGS = "scene/gratings" needs [GROOVE_SPOTS, GROOVE_FIELD];
     /// Single grooves of a grating.
     SINGLE_GROOVES = "scene/single_grooves" needs [GRATINGS, SOBOL, CONTENTS];
     /// The triangle under a grating.
@@ -275,6 +279,7 @@ modules! {
 pub static FOR_ENGINES: &[&Module] = &[
     &SCRATCHED_SURFACE,
     &BRUSHED_BASE,
+    &GRATED_SURFACE,
     &PIXEL_FRAME,
     &ENVIRONMENT_LOBE,
 ];

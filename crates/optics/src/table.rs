@@ -18,6 +18,10 @@ use rayon::prelude::*;
 pub const COLUMNS: usize = 1024;
 /// Rows, over depth.
 pub const ROWS: usize = 512;
+/// Columns and rows of the tables that other engines look up: a quarter of the memory.
+pub const ENGINE_COLUMNS: usize = 512;
+/// Rows over depth. Tables by incidence keep all of theirs.
+pub const ENGINE_ROWS: usize = 256;
 /// The u of the middle column. Columns are even in u/(u + U_HALF_UM), so that the last one lies at infinity: fine where
 /// the colours are (one fringe spans about 0.5 um of u), coarse where they have blurred into the tail.
 pub(crate) const U_HALF_UM: f64 = 2.0;
@@ -180,6 +184,22 @@ impl ScratchTable {
         }
     }
 
+    /// Texels of a table with fewer columns and rows, as other engines look it up.
+    pub fn resampled(&self, columns: usize, rows: usize) -> Vec<[u32; 4]> {
+        let stretch = (COLUMNS - 1) as f64 / (columns - 1) as f64;
+        let texels = (0..rows).into_par_iter().flat_map_iter(|row| {
+            let y = row as f64 * (ROWS - 1) as f64 / (rows - 1) as f64;
+            let first = (y as usize).min(ROWS - 2);
+            let between = self.between_rows(first, y - first as f64);
+            (0..columns).map(move |column| {
+                let (values, slopes) = between.near_column(column as f64 * stretch);
+                let [r, g, b] = values.map(|value| (value as f32).to_bits());
+                [r, g, b, pack_slopes(slopes.map(|slope| slope * stretch))]
+            })
+        });
+        texels.collect()
+    }
+
     /// T_c(u, d): by value and slope of the nearest column, linear in depth. Odd in u.
     pub fn scratch_table(&self, u_um: f64, depth_nm: f64) -> [f64; 3] {
         self.at_depth(depth_nm).at(u_um)
@@ -231,16 +251,24 @@ impl TableRow<'_> {
         // Infinite u is in the last column too.
         let u = u_um.abs().min(1e300);
         let x = u / (u + U_HALF_UM) * (COLUMNS - 1) as f64;
+        let sign = 1f64.copysign(u_um);
+        self.near_column(x).0.map(|value| sign * value)
+    }
+
+    /// T and its derivative by the column at a place among the columns: by those of the nearest one.
+    #[inline]
+    fn near_column(&self, x: f64) -> ([f64; 3], [f64; 3]) {
         let column = (x + 0.5) as usize;
         let f = x - column as f64;
         let (near, far) = (self.near[column], self.far[column]);
         let (near_slopes, far_slopes) = (unpack_slopes(near[3]), unpack_slopes(far[3]));
-        let sign = 1f64.copysign(u_um);
-        std::array::from_fn(|c| {
+        let values = std::array::from_fn(|c| {
             let near = f64::from(f32::from_bits(near[c])) + f * near_slopes[c];
             let far = f64::from(f32::from_bits(far[c])) + f * far_slopes[c];
-            sign * (near + self.share * (far - near))
-        })
+            near + self.share * (far - near)
+        });
+        let slope = |c: usize| near_slopes[c] + self.share * (far_slopes[c] - near_slopes[c]);
+        (values, std::array::from_fn(slope))
     }
 }
 
@@ -324,6 +352,40 @@ mod tests {
             }
         }
         (error2 / value2).sqrt()
+    }
+
+    #[test]
+    fn a_table_with_fewer_texels_sends_the_same_light() {
+        let own = ScratchTable::new(|nm| Metal::Gold.reflectance(1.0, nm));
+        let texels = own.resampled(ENGINE_COLUMNS, ENGINE_ROWS);
+        // As scratch_table.wgsl looks it up.
+        let small = |u: f64, depth_nm: f64| -> [f64; 3] {
+            let x = u / (u + U_HALF_UM) * (ENGINE_COLUMNS - 1) as f64;
+            let y = depth_nm / DEPTH_MAX_NM * (ENGINE_ROWS - 1) as f64;
+            let (column, row) = ((x + 0.5) as usize, y as usize);
+            let near = |row: usize| {
+                let texel = texels[row * ENGINE_COLUMNS + column];
+                let slopes = unpack_slopes(texel[3]);
+                let value = |c: usize| f64::from(f32::from_bits(texel[c]));
+                std::array::from_fn::<f64, 3, _>(|c| value(c) + slopes[c] * (x - column as f64))
+            };
+            let (low, high) = (near(row), near(row + 1));
+            std::array::from_fn(|c| low[c] + (high[c] - low[c]) * (y - row as f64))
+        };
+        let (mut off, mut all) = (0.0, 0.0);
+        for i in 0..300 {
+            let u = 8.0 * (0.618_033_988_749_895 * f64::from(i)).fract();
+            let depth = 1000.0 * (0.414_213_562_373_095 * f64::from(i)).fract();
+            let expected = own.at_depth(depth);
+            let (low, high) = (expected.at(u), expected.at(u + 0.5));
+            let (from, to) = (small(u, depth), small(u + 0.5, depth));
+            for c in 0..3 {
+                off += (to[c] - from[c] - high[c] + low[c]).powi(2);
+                all += (high[c] - low[c]).powi(2);
+            }
+        }
+        let error = f64::sqrt(off / all);
+        assert!(error < 3e-3, "{error}");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 // A plug-in for GLTFLoader of three.js: files with HAIRLINE_scratches (docs/HAIRLINE_scratches.md of the project Hairline) get scratched
 // materials and lights with a surface. Without it such files load as ever, without scratches.
 import { Box3, Matrix4, RectAreaLight, Vector3 } from 'three/webgpu';
+import { Grating } from './gratings.js';
 import { ScratchedNodeMaterial, scratchesOn } from './three.js';
 import { Scratches, profilesOf } from './scratches.js';
 import { metals } from './spectrum.js';
@@ -60,9 +61,6 @@ class HairlineScratches {
         }
       }
     }
-    for (const { object, name } of extension.grating ?? []) {
-      this.warn(`gratings are not drawn: that ${name ? `called "${name}" ` : ''}on "${object}"`);
-    }
   }
 
   /** RectAreaLight shines along its own -z, as the extension has it. `described` is the scene's own table, where the light has one. */
@@ -121,7 +119,12 @@ class HairlineScratches {
       else this.lay(layer, node, meshes, extension, lists);
     }
     const all = lists.length > 0 ? lists.reduce((a, b) => a.joined(b)) : null;
-    if (all === null) return;
+    const gratings = [];
+    for (const grating of (extension.grating ?? []).filter((it) => it.object === object.name && !it.hidden)) {
+      if (grating.laid) gratings.push(await this.grating(grating.laid));
+      else this.warn(`not drawn: grating ${grating.name ? `"${grating.name}" ` : ''}of pattern ${grating.pattern} on "${object.name}"`);
+    }
+    if (all === null && gratings.length === 0) return;
     const fromObject = node.matrixWorld;
     const described = (extension.material ?? []).find(({ name }) => name === object.material);
     for (const mesh of meshes) {
@@ -135,8 +138,12 @@ class HairlineScratches {
         continue;
       }
       const toMesh = new Matrix4().copy(mesh.matrixWorld).invert().multiply(fromObject);
-      const own = within(all.transformed(toMesh.elements), mesh.geometry);
-      if (own !== null) mesh.material = this.material(mesh, described, own, scale.x);
+      const own = all && within(all.transformed(toMesh.elements), mesh.geometry);
+      const rows = gratings.map((grating) => new Grating({
+        ...grating, axis: new Vector3(...grating.axis).transformDirection(toMesh).toArray(),
+        center: new Vector3(...grating.center).applyMatrix4(toMesh).toArray(),
+      }));
+      if (own !== null || rows.length > 0) mesh.material = this.material(mesh, described, own, rows, scale.x);
     }
   }
 
@@ -149,6 +156,15 @@ class HairlineScratches {
       starts: floats(starts), ends: floats(ends), normals: floats(normals), widthsUm: floats(widths), depthsNm: floats(depths),
       scratch: Uint32Array.from(numbers), profiles: profilesOf(profile, numbers.length),
     });
+  }
+
+  /** A grating with its table, in the frame of its object. */
+  async grating(laid) {
+    const { array } = await this.parser.getDependency('accessor', laid.texels);
+    return {
+      kind: laid.kind, axis: laid.axis, center: laid.center, radiiM: laid.radii_m, curvaturePerM: laid.curvature_per_m, coverage: laid.coverage,
+      angleStdRad: laid.angle_std_rad, coherenceUm: laid.coherence_um, texels: array,
+    };
   }
 
   /** Lays a layer that the file only describes: other scratches of the same kind. */
@@ -169,11 +185,12 @@ class HairlineScratches {
   }
 
   /** The scratched twin of a mesh's material. `described` is the scene's own, where the object has one. */
-  material({ material: from, geometry }, described, scratches, metresPerUnit) {
+  material({ material: from, geometry }, described, scratches, gratings, metresPerUnit) {
     const { tables, parameters } = this;
     for (const key of ['sheen', 'iridescence']) {
       if (from[key] > 0) this.warn(`drawn under environments, not under lights: ${key}`);
     }
+    if (described?.cover) this.warn(`not drawn: the plate over the material "${described.name}"`);
     const metal = metals.includes(described?.metal) ? described.metal : null;
     const taken = {};
     for (const key of KEYS) {
@@ -183,7 +200,7 @@ class HairlineScratches {
     // Without tangents three.js has the bitangent where v rises, glTF where it falls.
     if (taken.anisotropyRotation && !geometry.attributes.tangent) taken.anisotropyRotation *= -1;
     return new ScratchedNodeMaterial({
-      tables, metal, scratches, metresPerUnit, coherenceUm: described?.coherence_um ?? 20, ...taken, ...parameters,
+      tables, metal, scratches, gratings, metresPerUnit, coherenceUm: described?.coherence_um ?? 20, ...taken, ...parameters,
     });
   }
 }

@@ -115,3 +115,38 @@ export interface PatternOptions {
 }
 /** Lays scratches on triangles. */
 export function layScratches(mesh: { positions: ArrayLike<number>; index: ArrayLike<number> | null }, options: PatternOptions): Scratches;
+
+export interface GratingOptions {
+  /** Texels of the table, rgba32uint, 512 wide; 256 high, or 512 of a fine grating. */
+  texels: Uint32Array;
+  /** Along a direction, or about an axis. */
+  kind?: 'along' | 'circular' | 'radial' | 'spun';
+  /** In the mesh's own frame. */
+  axis?: number[];
+  center?: number[];
+  /** From the axis, or from the centre of grooves along a direction: metres in the world. */
+  radiiM?: [number, number];
+  /** Of 'spun'. */
+  curvaturePerM?: number;
+  coverage?: number;
+  angleStdRad?: number;
+  coherenceUm?: number;
+}
+/** Rows of grooves whose light interferes. */
+export class Grating implements Required<GratingOptions> {
+  constructor(options: GratingOptions);
+  readonly texels: Uint32Array;
+  readonly kind: 'along' | 'circular' | 'radial' | 'spun';
+  readonly axis: number[];
+  readonly center: number[];
+  readonly radiiM: [number, number];
+  readonly curvaturePerM: number;
+  readonly coverage: number;
+  readonly angleStdRad: number;
+  readonly coherenceUm: number;
+  readonly rows: number;
+  /** `Grooves` of grated_surface.wgsl. */
+  readonly numbers: number[];
+}
+/** Fetches the table of a grating that the package has, in aluminium. */
+export function loadGrating(name: 'cd' | 'dvd', options?: Omit<GratingOptions, 'texels'>, url?: string | URL): Promise<Grating>;

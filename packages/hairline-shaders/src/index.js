@@ -4,5 +4,6 @@ export { Tables, curveOf, loadTables } from './tables.js';
 export { makeScratchTable, scratchTable, tableSize } from './table.js';
 export { Scratches, preparedPieces, readScratches, scratchEnds } from './scratches.js';
 export { scratchTree } from './tree.js';
+export { Grating, loadGrating } from './gratings.js';
 export { layScratches } from './pattern.js';
 export { depthCoherence, metalColor, metals } from './spectrum.js';

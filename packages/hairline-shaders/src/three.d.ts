@@ -1,8 +1,8 @@
 import type { BufferGeometry, MeshPhysicalMaterialParameters } from 'three';
 import { MeshPhysicalNodeMaterial } from 'three/webgpu';
-import { Metal, PatternOptions, Scratches, Tables } from './index.js';
+import { Grating, Metal, PatternOptions, Scratches, Tables } from './index.js';
 
-export { Scratches, loadTables, readScratches } from './index.js';
+export { Grating, Scratches, loadGrating, loadTables, readScratches } from './index.js';
 
 /** Lays scratches in a pattern on a geometry. */
 export function scratchesOn(geometry: BufferGeometry, options: PatternOptions): Scratches;
@@ -13,6 +13,8 @@ export interface ScratchedNodeMaterialParameters extends MeshPhysicalMaterialPar
   metal?: Metal | null;
   /** In the mesh's own frame. */
   scratches?: Scratches | null;
+  /** In the mesh's own frame. */
+  gratings?: Grating[];
   coherenceUm?: number;
   /** How long a unit of the mesh's own frame is in the world. */
   metresPerUnit?: number;

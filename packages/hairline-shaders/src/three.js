@@ -4,7 +4,7 @@
 // The world is in metres. Lights without a size get one: `light.userData.radius` in metres (of a light in the sky `userData.angle` in
 // radians), or the material's `lightRadius`. A RectAreaLight may be a disk, a polygon or a tube: `userData.shape`.
 import {
-  DataArrayTexture, DataTexture, FloatType, MeshPhysicalNodeMaterial, RGBAFormat, RGBAIntegerFormat, UnsignedIntType, Vector3,
+  DataArrayTexture, DataTexture, FloatType, Matrix4, MeshPhysicalNodeMaterial, RGBAFormat, RGBAIntegerFormat, UnsignedIntType, Vector3,
 } from 'three/webgpu';
 import { texture, uniform, vec4 } from 'three/tsl';
 import { Scratches, preparedPieces, readScratches } from './scratches.js';
@@ -14,9 +14,11 @@ import { scratchTree } from './tree.js';
 import { scratchTable, tableSize } from './table.js';
 import { curveOf } from './tables.js';
 import { metalColor } from './spectrum.js';
+import { Grating } from './gratings.js';
 import { ScratchedLightingModel } from './three_lighting.js';
 
 export { loadTables } from './tables.js';
+export { Grating, loadGrating } from './gratings.js';
 export { Scratches, readScratches };
 
 /** The greatest number of half floats. */
@@ -45,6 +47,14 @@ function texturesOf(tables) {
   return shared.get(tables);
 }
 
+function layersTexture(texels, rows) {
+  const made = new DataArrayTexture(texels, tableSize.columns, rows, texels.length / (4 * tableSize.columns * rows));
+  made.format = RGBAIntegerFormat;
+  made.type = UnsignedIntType;
+  made.needsUpdate = true;
+  return made;
+}
+
 /** The tables of a metal: a layer for each shape of grooves. */
 function tableTexture(tables, metal, shapes) {
   const { metals } = texturesOf(tables);
@@ -53,13 +63,17 @@ function tableTexture(tables, metal, shapes) {
     const layers = shapes.map((shape) => scratchTable(metal, shape));
     const texels = new Uint32Array(layers.length * layers[0].length);
     layers.forEach((layer, i) => texels.set(layer, i * layer.length));
-    const made = new DataArrayTexture(texels, tableSize.columns, tableSize.rows, layers.length);
-    made.format = RGBAIntegerFormat;
-    made.type = UnsignedIntType;
-    made.needsUpdate = true;
-    metals.set(key, made);
+    metals.set(key, layersTexture(texels, tableSize.rows));
   }
   return metals.get(key);
+}
+
+const rowsOf = new WeakMap();
+
+/** The table of a grating, made once. */
+function rowsTexture({ texels, rows }) {
+  if (!rowsOf.has(texels)) rowsOf.set(texels, layersTexture(texels, rows));
+  return rowsOf.get(texels);
 }
 
 function treeTexture(prepared, metresPerUnit) {
@@ -71,7 +85,7 @@ function treeTexture(prepared, metresPerUnit) {
 
 /**
  * MeshPhysicalNodeMaterial with scratches. Besides its own parameters: `tables` of loadTables(); `metal` by name, or null for `color` and
- * `metalness`; `scratches` in the object's own frame, or null; `coherenceUm`; `metresPerUnit`, how long a unit of the object's frame is;
+ * `metalness`; `scratches` in the object's own frame, or null; `gratings`, an array; `coherenceUm`; `metresPerUnit`, how long a unit of the object's frame is;
  * `lightRadius` of lights that have none.
  */
 export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
@@ -79,16 +93,19 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
     return 'ScratchedNodeMaterial';
   }
 
-  constructor({ tables, metal = null, scratches = null, coherenceUm = 20, metresPerUnit = 1, lightRadius = 0.005, ...parameters } = {}) {
+  constructor({ tables, metal = null, scratches = null, gratings = [], coherenceUm = 20, metresPerUnit = 1, lightRadius = 0.005, ...parameters } = {}) {
     super();
     if (!tables) throw new Error('tables: found none; must be what loadTables() returned');
     if (scratches !== null && !(scratches instanceof Scratches)) {
       throw new Error('scratches: found something else; must be what readScratches() or scratchesOn() returned, or null');
     }
+    if (!Array.isArray(gratings) || gratings.some((grating) => !(grating instanceof Grating))) {
+      throw new Error('gratings: found something else; must be an array of Gratings');
+    }
     this.isScratchedNodeMaterial = true;
     Object.assign(this, { tables, metal, coherenceUm, metresPerUnit, lightRadius });
     const prepared = scratches && preparedPieces(scratches, { coherenceUm, metresPerUnit });
-    Object.assign(this, { scratches, shapes: prepared?.shapes ?? [narrowRectangle] });
+    Object.assign(this, { scratches, gratings, shapes: prepared?.shapes ?? [narrowRectangle] });
     if (metal !== null) {
       this.color.setRGB(...metalColor(metal));
       this.metalness = 1;
@@ -99,6 +116,7 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
       value: {
         shapes: texture(shapes), albedo: texture(albedo), curves: texture(curves), table: texture(this.table()),
         tree: prepared && texture(treeTexture(prepared, metresPerUnit)), curve: uniform(curveOf(metal)),
+        gratings: gratings.map((grating) => ({ rows: texture(rowsTexture(grating)), field: uniform(new Matrix4().fromArray(grating.numbers)) })),
       },
     });
   }
@@ -124,11 +142,11 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
   }
 
   /** Scratches of another scale than they were made for end in the wrong places. */
-  checkScale({ matrixWorld, name }) {
-    const scale = new Vector3().setFromMatrixScale(matrixWorld);
-    const isRight = scale.toArray().every((s) => Math.abs(s / this.metresPerUnit - 1) < 0.01);
-    if (this.scratches && !isRight) {
-      console.warn(`ScratchedNodeMaterial: found the scale ${scale.toArray().join(', ')} of mesh "${name}"; must be metresPerUnit, ${this.metresPerUnit}`);
+  checkScale(object) {
+    if (!this.scratches && this.gratings.length === 0) return;
+    const scale = new Vector3().setFromMatrixScale(object.matrixWorld).toArray();
+    if (scale.some((s) => Math.abs(s / this.metresPerUnit - 1) >= 0.01)) {
+      console.warn(`ScratchedNodeMaterial: found the scale ${scale.join(', ')} of mesh "${object.name}"; must be metresPerUnit, ${this.metresPerUnit}`);
     }
   }
 
@@ -138,8 +156,8 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
   }
 
   clone() {
-    const { tables, metal, scratches, coherenceUm, metresPerUnit, lightRadius } = this;
-    return new ScratchedNodeMaterial({ tables, metal, scratches, coherenceUm, metresPerUnit, lightRadius }).copy(this);
+    const { tables, metal, scratches, gratings, coherenceUm, metresPerUnit, lightRadius } = this;
+    return new ScratchedNodeMaterial({ tables, metal, scratches, gratings, coherenceUm, metresPerUnit, lightRadius }).copy(this);
   }
 
   dispose() {

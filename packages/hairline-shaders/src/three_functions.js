@@ -9,6 +9,8 @@ const HERE = `pixel_frame(position, view_from_object, position_view, normal_view
 const SCRATCHES = `${PLACE}, tree: texture_2d<u32>, tables: texture_2d_array<u32>`;
 // The base: reflectance at normal incidence and roughness; curve, reflectance at grazing incidence, variance of a normal map's slopes.
 const BASE = `${PLACE}, surface: vec4f, more: vec3f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>`;
+const GRATED = `${PLACE}, rows: texture_2d_array<u32>, field: mat4x4f, covered: f32`;
+const GROOVES = `grated_point(here.view, hairline_grooves(field), covered)`;
 const OUTLINE = `vertices: texture_2d<u32>, outline: vec4f, around: vec4f, view_from_light: mat4x4f`;
 
 const library = wgsl(`${hairlineWgsl}
@@ -27,6 +29,10 @@ fn hairline_brushed(
   let fresnel = hairline_fresnel_rgb(surface, more);
   return brushed_base(normalize(here.view.to_viewer_m), surface.w, unit, facets.w, fresnel, pixel_spread(here, more.z), shapes, albedo, curves);
 }
+fn hairline_grooves(field: mat4x4f) -> Grooves {
+  let rows = GrooveField(field[0].xyz, u32(field[0].w), field[2].xy, field[1].w, field[2].z, field[2].w);
+  return Grooves(rows, field[1].xyz, field[3].x, 0u, field[3].y > 0.0);
+}
 // The light, the point and the axes of the surface in the light's frame.
 struct HairlineOutline { light: OutlineLight, point_m: vec3f, surface: mat3x3f }
 fn hairline_outline(here: PixelFrame, outline: vec4f, view_from_light: mat4x4f) -> HairlineOutline {
@@ -44,23 +50,47 @@ export const maskOf = wgslFn(`fn hairline_mask(${SCRATCHES}) -> vec4f {
   return vec4f(masked.taken, masked.scratches.x);
 }`, [library]);
 
-export const scratchesBySphere = wgslFn(`fn hairline_scratches_sphere(${SCRATCHES}, light: vec4f) -> vec3f {
+/** What is sent of a light by scratches or by a grating. */
+function sentFunctions(name, parameters, module, given) {
+  return {
+    bySphere: wgslFn(`fn hairline_${name}_sphere(${parameters}, light: vec4f) -> vec3f {
   let here = ${HERE};
   let center = here.surface_from_view * (light.xyz - here.position_view);
-  return scratched_sphere(tables, tree, scratched_point(here.view, tree, 0u), center, light.w);
-}`, [library]);
-
-export const scratchesByQuad = wgslFn(`fn hairline_scratches_quad(${SCRATCHES}, middle: vec3f, half_width: vec3f, half_height: vec3f) -> vec3f {
+  return ${module}_sphere(${given}, center, light.w);
+}`, [library]),
+    byQuad: wgslFn(`fn hairline_${name}_quad(${parameters}, middle: vec3f, half_width: vec3f, half_height: vec3f) -> vec3f {
   let here = ${HERE};
   let turn = here.surface_from_view;
-  let light = quad_light(turn * (middle - here.position_view), turn * half_width, turn * half_height, false);
-  return scratched_quad(tables, tree, scratched_point(here.view, tree, 0u), light);
-}`, [library]);
-
-export const scratchesByOutline = wgslFn(`fn hairline_scratches_outline(${SCRATCHES}, ${OUTLINE}) -> vec3f {
+  return ${module}_quad(${given}, quad_light(turn * (middle - here.position_view), turn * half_width, turn * half_height, false));
+}`, [library]),
+    byOutline: wgslFn(`fn hairline_${name}_outline(${parameters}, ${OUTLINE}) -> vec3f {
   let here = ${HERE};
   let seen = hairline_outline(here, outline, view_from_light);
-  return scratched_outline(tables, tree, scratched_point(here.view, tree, 0u), vertices, seen.light, around, seen.point_m, seen.surface);
+  return ${module}_outline(${given}, vertices, seen.light, around, seen.point_m, seen.surface);
+}`, [library]),
+  };
+}
+
+export const scratchesSend = sentFunctions('scratches', SCRATCHES, 'scratched', 'tables, tree, scratched_point(here.view, tree, 0u)');
+
+export const gratingSends = sentFunctions('grating', GRATED, 'grated', `rows, ${GROOVES}`);
+
+/** The share of a pixel that a grating would cover. */
+export const gratingShare = wgslFn(`fn hairline_grating_share(${PLACE}, field: mat4x4f) -> f32 {
+  return grooves_seen(${HERE}.view, hairline_grooves(field)).share;
+}`, [library]);
+
+/** What it takes of the base. */
+export const gratingTaken = wgslFn(`fn hairline_grating_taken(${GRATED}) -> vec3f {
+  let here = ${HERE};
+  return grated_taken(rows, ${GROOVES});
+}`, [library]);
+
+/** One cell of its band, as bandCell. */
+export const gratingCell = wgslFn(`fn hairline_grating_cell(${GRATED}, j: u32) -> mat4x4f {
+  let here = ${HERE};
+  let cell = grated_cell(rows, ${GROOVES}, j);
+  return mat4x4f(vec4f(cell.direction, cell.roughness), vec4f(cell.response, 0.0), vec4f(0.0), vec4f(0.0));
 }`, [library]);
 
 export const viewFromSurface = wgslFn(`fn hairline_view_from_surface(${PLACE}) -> mat3x3f {

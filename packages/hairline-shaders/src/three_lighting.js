@@ -7,7 +7,7 @@ import {
   positionGeometry, positionView, specularColorBlended, specularF90, uint, uniform, varying, vec2, vec3, vec4, viewportSize, viewportUV,
 } from 'three/tsl';
 import {
-  bandCell, bandOf, brushedBase, fresnelOf, maskOf, roundBase, scratchesByOutline, scratchesByQuad, scratchesBySphere, viewFromSurface,
+  bandCell, bandOf, brushedBase, fresnelOf, gratingCell, gratingSends, gratingShare, gratingTaken, maskOf, roundBase, scratchesSend, viewFromSurface,
 } from './three_functions.js';
 import { dielectricCurve } from './tables.js';
 import { hasOutline, isFar } from './three_lights.js';
@@ -19,6 +19,9 @@ const SUN_RAD = 0.00465;
 const FAR_M = 1000;
 /** More scratches of one pixel do not mirror the environment. */
 const SCRATCHES_MAX = 4096;
+/** Look-ups of the environment along the band of a scratch and of a grating, ENVIRONMENT_CELLS and ROW_CELLS of band_environment.wgsl. */
+const SCRATCH_CELLS = 10;
+const ROW_CELLS = 48;
 /** Variance of the filter of a pixel, in pixels. */
 const FILTER_VARIANCE = 0.25;
 
@@ -97,9 +100,13 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       this.coatSpecular = vec3(0).toVar();
     }
     this.scratches = material.scratches ? { ...top, tree: nodes.tree, tables: nodes.table } : null;
+    const gratings = nodes.gratings.slice(0, material.gratings.length);
+    const covered = gratings.length > 1 ? gratings.map(({ field }) => gratingShare({ ...top, field })).reduce((a, b) => a.add(b)).toVar() : float(1);
+    this.gratings = gratings.map((grating) => ({ ...top, ...grating, covered }));
     this.specular = vec3(0).toVar();
     this.diffuse = vec3(0).toVar();
     this.scratchLight = vec3(0).toVar();
+    this.gratingLight = vec3(0).toVar();
 
     super.start(builder);
 
@@ -116,16 +123,28 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       directSpecular.assign(directSpecular.mul(bare).add(roundBase.reflected({ ...this.coat, specular: this.coatSpecular }).mul(clearcoat)));
       indirectSpecular.assign(indirectSpecular.mul(bare).add(this.clearcoatSpecularIndirect.mul(clearcoat)));
     }
-    if (this.scratches) {
-      const mask = maskOf(this.scratches).toVar();
-      const left = mask.xyz.oneMinus().toVar();
-      if (this.environment) this.scratchLight.addAssign(this.scratchesByEnvironment());
+    if (this.scratches || this.gratings.length > 0) {
+      const axes = this.environment && viewFromSurface(top).toVar();
       const { normal_view } = top;
       const { facets: _, ...base } = this.base;
-      const reflectance = fresnelOf({ ...base, normal_view });
-      const coloured = this.scratchLight.mul(mask.w).mul(this.coat ? mix(reflectance, fresnelOf(this.coat), clearcoat) : reflectance);
-      // Channels that lie outside of the gamut stay below zero where the picture is a float one, and are cut by the display.
-      directSpecular.assign(directSpecular.mul(left).add(coloured));
+      let reflectance = fresnelOf({ ...base, normal_view });
+      if (this.coat) reflectance = mix(reflectance, fresnelOf(this.coat), clearcoat);
+      const left = vec3(1).toVar();
+      const sent = vec3(0).toVar();
+      for (const grating of this.gratings) {
+        left.subAssign(gratingTaken(grating));
+        if (axes) this.gratingLight.addAssign(this.aroundByCells(axes, ROW_CELLS, (j) => gratingCell({ ...grating, j })));
+      }
+      sent.addAssign(this.gratingLight);
+      if (this.scratches) {
+        // Scratches lie on top.
+        const mask = maskOf(this.scratches).toVar();
+        const beside = mask.xyz.oneMinus().toVar();
+        if (axes) this.scratchLight.addAssign(this.scratchesByEnvironment(axes));
+        left.mulAssign(beside);
+        sent.assign(sent.mul(beside).add(this.scratchLight.mul(mask.w)));
+      }
+      directSpecular.assign(directSpecular.mul(left).add(sent.mul(reflectance)));
       indirectSpecular.mulAssign(left);
     }
     if (through) directSpecular.addAssign(through);
@@ -164,7 +183,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       }
     }
     const sphere = { light: vec4(center, radius).toVar() };
-    this.light(radiance.div(radius.mul(radius).mul(Math.PI)).toVar(), [sphere, 'bySphere'], [sphere, scratchesBySphere]);
+    this.light(radiance.div(radius.mul(radius).mul(Math.PI)).toVar(), [sphere, 'bySphere'], [sphere, 'bySphere']);
   }
 
   directRectArea({ lightColor, lightNode, lightPosition, halfWidth, halfHeight }) {
@@ -182,36 +201,43 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
     radiance = radiance.toVar();
     // The light shines to its own -z.
     const quad = { middle: lightPosition.toVar(), half_width: halfHeight.toVar(), half_height: halfWidth.toVar() };
-    if (hasOutline(light)) this.light(radiance, [outlineNodes(light), 'byOutline'], [outlineNodes(light), scratchesByOutline]);
-    else if (this.anisotropy) this.light(radiance, [outlineNodes(light), 'byOutline'], [quad, scratchesByQuad]);
-    else this.light(radiance, [quad, 'byQuad'], [quad, scratchesByQuad]);
+    if (hasOutline(light)) this.light(radiance, [outlineNodes(light), 'byOutline'], [outlineNodes(light), 'byOutline']);
+    else if (this.anisotropy) this.light(radiance, [outlineNodes(light), 'byOutline'], [quad, 'byQuad']);
+    else this.light(radiance, [quad, 'byQuad'], [quad, 'byQuad']);
   }
 
-  /** Adds a light: to the base by a function of this name, to scratches by a function, each with its own view of the light. */
-  light(radiance, [shape, byShape], [shapeOnScratches, scratches]) {
+  /** Adds a light: to the base, then to grooves, by functions of a name, each with its own view of the light. */
+  light(radiance, [shape, byShape], [onGrooves, byGrooves]) {
     const lit = this.functions[byShape]({ ...this.base, ...shape }).toVar();
     this.specular.addAssign(radiance.mul(lit.xyz));
     this.diffuse.addAssign(radiance.mul(lit.w));
     if (this.coat) this.coatSpecular.addAssign(radiance.mul(roundBase[byShape]({ ...this.coat, ...shape }).xyz));
-    if (this.scratches) this.scratchLight.addAssign(radiance.mul(scratches({ ...this.scratches, ...shapeOnScratches })));
+    if (this.scratches) this.scratchLight.addAssign(radiance.mul(scratchesSend[byGrooves]({ ...this.scratches, ...onGrooves })));
+    for (const grating of this.gratings) this.gratingLight.addAssign(radiance.mul(gratingSends[byGrooves]({ ...grating, ...onGrooves })));
   }
 
-  scratchesByEnvironment() {
-    const { tree: _, tables, ...place } = this.scratches;
+  scratchesByEnvironment(axes) {
+    const { tables } = this.scratches;
     const sum = vec3(0).toVar();
-    const axes = viewFromSurface(place).toVar();
     const band = mat4(vec4(0), vec4(0), vec4(0), vec4(0)).toVar();
     Loop({ start: uint(0), end: uint(SCRATCHES_MAX), type: 'uint', condition: '<', name: 'scratch' }, () => {
       band.assign(bandOf({ ...this.scratches, walked: band }));
       If(band.element(3).y.equal(0), () => Break());
       If(band.element(0).z.greaterThan(0), () => {
-        Loop({ start: uint(0), end: uint(10), type: 'uint', condition: '<', name: 'cell' }, ({ cell }) => {
-          const found = bandCell({ band, tables, j: cell }).toVar();
-          const direction = axes.mul(found.element(0).xyz).transformDirection(cameraWorldMatrix);
-          const radiance = pmremTexture(this.environment, direction, found.element(0).w).mul(materialEnvIntensity);
-          sum.addAssign(radiance.mul(found.element(1).xyz));
-        });
+        sum.addAssign(this.aroundByCells(axes, SCRATCH_CELLS, (j) => bandCell({ band, tables, j })));
       });
+    });
+    return sum;
+  }
+
+  /** Light of the environment along a band, cell by cell. */
+  aroundByCells(axes, cells, cellOf) {
+    const sum = vec3(0).toVar();
+    Loop({ start: uint(0), end: uint(cells), type: 'uint', condition: '<', name: 'cell' }, ({ cell }) => {
+      const found = cellOf(cell).toVar();
+      const direction = axes.mul(found.element(0).xyz).transformDirection(cameraWorldMatrix);
+      const radiance = pmremTexture(this.environment, direction, found.element(0).w).mul(materialEnvIntensity);
+      sum.addAssign(radiance.mul(found.element(1).xyz));
     });
     return sum;
   }

@@ -39,7 +39,7 @@ await compiles('make_scratch_table.wgsl', text('wgsl/make_scratch_table.wgsl'));
 
 // One module of each kind by itself, with what it imports.
 const weslSrc = Object.fromEntries(readdirSync(join(folder, 'hairline-shaders/wesl')).map((file) => [file, text(join('wesl', file))]));
-for (const name of ['scratch_light', 'scratched_surface', 'lit_base', 'brushed_base', 'outline_light', 'camera', 'environment_lobe']) {
+for (const name of ['scratch_light', 'scratched_surface', 'lit_base', 'brushed_base', 'grated_surface', 'outline_light', 'camera', 'environment_lobe']) {
   const functions = [...weslSrc[`${name}.wesl`].matchAll(/^fn (\w+)\(/gm)].map((match) => match[1]);
   // Code that no entry point reaches is left out, so each module is compiled as a root of its own.
   const { dest } = await link({ weslSrc, rootModuleName: name });
@@ -233,6 +233,8 @@ for (const [list, message] of [
 ]) {
   assert.throws(() => hairline.readScratches(list, 'list.csv'), message);
 }
+assert.throws(() => new hairline.Grating({ texels: new Uint32Array(4) }), /texels: found 4; must be a Uint32Array of 524288 or 1048576 numbers/);
+assert.throws(() => new hairline.Grating({ texels: new Uint32Array(524288), kind: 'uv' }), /kind: found "uv"; must be one of along, circular/);
 assert.throws(() => hairline.scratchTable('tin'), /metal: found "tin"; must be one of iron, steel/);
 console.log('the package is right');
 process.exit(0);

@@ -96,13 +96,16 @@ function byHand(page, { geometry, scratches }, tables, what) {
     material.metalness = metalness;
   }
   const all = new THREE.Group();
-  const mesh = what === 'instanced' ? new THREE.InstancedMesh(geometry, material, 1) : new THREE.Mesh(geometry, material);
+  // The picture is the same for an instance, or a skin on a bone, of a mesh that is turned back.
+  const turn = new THREE.Matrix4().makeRotationZ(0.5).setPosition(0.01, 0.02, 0);
+  let mesh;
   if (what === 'instanced') {
-    // The picture is the same for an instance of a mesh that is turned back.
-    const turn = new THREE.Matrix4().makeRotationZ(0.5).setPosition(0.01, 0.02, 0);
+    mesh = new THREE.InstancedMesh(geometry, material, 1);
     mesh.setMatrixAt(0, turn);
-    mesh.applyMatrix4(turn.invert());
+  } else {
+    mesh = new THREE.Mesh(geometry, material);
   }
+  if (what === 'instanced' || what === 'skinned') mesh.applyMatrix4(turn.invert());
   return all.add(mesh, ...page.lights.map(lightOf));
 }
 
@@ -123,6 +126,7 @@ async function byFile(name, tables, what, told) {
     if (node.isMesh && what === 'bare') {
       node.material = node.material.clone();
       node.material.scratches = null;
+      node.material.gratings = [];
     }
   });
   if (!isPlain && lights === 0) throw new Error(`${name}: found no light in the file`);
@@ -193,12 +197,17 @@ async function tableByPass(device) {
   return `two tables by a pass in ${made.toFixed(0)} ms, ${(off / most).toExponential(1)} off the processor's`;
 }
 
-try {
-  const renderer = new THREE.WebGPURenderer({ antialias: false });
+async function rendererOf(options) {
+  const renderer = new THREE.WebGPURenderer({ antialias: false, ...options });
   await renderer.init();
+  renderer.toneMapping = THREE.NoToneMapping;
+  return renderer;
+}
+
+try {
+  const renderer = await rendererOf();
   if (!renderer.backend.isWebGPUBackend) throw new Error('no WebGPU in this browser');
   renderer.backend.device.addEventListener('uncapturederror', (event) => fail(event.error.message));
-  renderer.toneMapping = THREE.NoToneMapping;
   THREE.RectAreaLightNode.setLTC(RectAreaLightTexturesLib.init());
   const tables = await loadTables('/package/tables.bin');
   for (const name of new URLSearchParams(location.search).get('scenes').split(',')) await draw(renderer, name, tables);

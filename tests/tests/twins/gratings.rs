@@ -206,7 +206,7 @@ fn single_grooves() {
             let normal = vec3f(x[4], x[5], x[6]);
             let course = groove_course_straight(grating);
             let arm_m = groove_arm(grating, vec3f(x[7], x[8], x[9]));
-            let tangent = groove_tangent(grating, course.here, arm_m, normal);
+            let tangent = groove_tangent(groove_field(grating), course.here, arm_m, normal);
             y[0] = groove_density(grating, course, arm_m, normal, tangent, cross(normal, tangent) * x[13] * 1e-6, vec3f(0.0), x[14]);",
         tables: &[],
         expected: &|x: [f64; 16]| {

@@ -14,7 +14,7 @@ use super::browser::{Folders, answers};
 use super::files::{install, write};
 
 /// The scenes in packages/hairline-shaders/test.
-const SCENES: [&str; 4] = ["plate", "sheet", "grooves", "lacquer"];
+const SCENES: [&str; 5] = ["plate", "sheet", "grooves", "lacquer", "disc"];
 /// The most that a picture may be off, as rms over that of the picture.
 const LIMIT: f64 = 0.005;
 /// The same for what a file gives, over the same set by hand: its numbers were moved to another frame and back.
@@ -30,6 +30,7 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
         for object in &mut scene.objects {
             object.scratches = Default::default();
             object.segments = Default::default();
+            object.gratings.clear();
         }
         pictures.push((name, worn, render(&scene)));
     }
@@ -57,7 +58,8 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
                 &bytes,
             )
         };
-        let (beauty, base) = (worn.layer(Layer::Beauty), bare.layer(Layer::Beauty));
+        // Channels outside of the gamut are below 0, which three.js cuts.
+        let (beauty, base) = (cut(worn), cut(bare));
         save("hairline", &beauty)?;
         save("three", &three_worn)?;
         let inner = inner_pixels(worn);
@@ -95,11 +97,10 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
                 ),
             ),
         ];
-        if let Ok(instanced) = find("instanced") {
-            errors.push((
-                "as an instance",
-                error(&colours(instanced), &beauty, &inner),
-            ));
+        for (sent, what) in [("instanced", "as an instance"), ("skinned", "as a skin")] {
+            if let Ok(other) = find(sent) {
+                errors.push((what, error(&colours(other), &beauty, &inner)));
+            }
         }
         for (what, error) in &errors {
             println!(
@@ -163,8 +164,13 @@ fn write_page(folder: &Path, scene: &Scene) -> anyhow::Result<()> {
     write(&folder.join("scratches.csv"), &list)?;
     let material = &scene.materials[mesh.triangle_materials[0] as usize];
     let surface = match material.base {
-        // The file has it.
-        _ if material.base_color_texture.is_some() || material.coat.is_some() => Value::Null,
+        // The file has it, maps, axes of brushing and gratings.
+        _ if material.base_color_texture.is_some()
+            || material.coat.is_some()
+            || !object.gratings.is_empty() =>
+        {
+            Value::Null
+        }
         Base::Metal(_) => json!({ "metal": "steel" }),
         Base::MetallicRoughness {
             base_color,
@@ -217,6 +223,12 @@ fn light(light: &Light) -> Value {
         });
     }
     written
+}
+
+/// The picture as an unsigned one.
+fn cut(image: &Image) -> Vec<[f32; 3]> {
+    let rgb = image.layer(Layer::Beauty);
+    rgb.iter().map(|rgb| rgb.map(|c| c.max(0.0))).collect()
 }
 
 /// Four f32 a pixel.

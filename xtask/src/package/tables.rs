@@ -9,8 +9,8 @@ use hairline_gpu::scratch_tree;
 use hairline_index::ScratchIndex;
 use hairline_optics::metal::Metal;
 use hairline_optics::section::{GrooveShape, Section};
-use hairline_optics::table::ScratchTable;
-use hairline_scene::Scene;
+use hairline_optics::table::{ENGINE_COLUMNS, ROWS, ScratchTable};
+use hairline_scene::{Scene, ScratchTables};
 use serde_json::{Value, json};
 
 use super::files::write;
@@ -79,6 +79,42 @@ pub(super) fn data(root: &Path) -> anyhow::Result<String> {
     }
     out.push_str("};\n");
     Ok(out)
+}
+
+/// Fine gratings in aluminium that the package has tables of.
+const GRATINGS: [(&str, &str); 2] = [
+    (
+        "cd",
+        "pitch_um = 1.6, width_um = 0.6, depth_nm = { mean = 110.0, spread = 0.05 }, jitter_um = 0.03",
+    ),
+    (
+        "dvd",
+        "pitch_um = 0.74, width_um = 0.32, depth_nm = { mean = 105.0, spread = 0.05 }, jitter_um = 0.015",
+    ),
+];
+
+/// Writes the tables of gratings, a file each.
+pub(super) fn write_gratings(folder: &Path) -> anyhow::Result<()> {
+    for (name, row) in GRATINGS {
+        let text = format!(
+            "
+            camera = {{ position_m = [0.0, 0.0, 0.3], target_m = [0.0, 0.0, 0.0], up = [0.0, 1.0, 0.0] }}
+            material = [{{ name = \"m\", kind = \"metal\", metal = \"aluminium\" }}]
+            object = [{{ name = \"o\", material = \"m\", shape = {{ plane = {{ size_m = [0.1, 0.1] }} }} }}]
+            grating = [{{ object = \"o\", pattern = \"circular\", {row} }}]
+        "
+        );
+        let scene = Scene::from_toml(&text, name, ".")?;
+        let tables = ScratchTables::new(&scene);
+        let table = tables.grating_table(&scene.objects[0].gratings[0], 0);
+        let table = table.context("a grating without a table")?;
+        let texels = tables.tables[table].resampled(ENGINE_COLUMNS, ROWS);
+        let bytes: Vec<u8> = (texels.iter().flatten())
+            .flat_map(|word| word.to_le_bytes())
+            .collect();
+        write(&folder.join(format!("{name}.bin")), &bytes)?;
+    }
+    Ok(())
 }
 
 /// Random scratches on a ball, as Rust packs their tree.

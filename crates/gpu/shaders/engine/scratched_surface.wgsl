@@ -33,21 +33,26 @@ struct ScratchedPoint {
     reach: vec3f,                   // half the sides of a box that holds what the footprint may see, in the object's frame
 }
 
-fn scratched_point(view: SurfaceView, tree: texture_2d<u32>, table: u32) -> ScratchedPoint {
+// The point as one scratch or groove sees it. `table` is the layer of its spectrum.
+fn surface_lit_point(view: SurfaceView, coherence_um: f32, table: u32) -> LitPoint {
     let distance_m = max(length(view.to_viewer_m), 1e-9);
-    let x = view.footprint_x_m.xy * SCRATCHED_FILTER_STD;
-    let y = view.footprint_y_m.xy * SCRATCHED_FILTER_STD;
-    let coherence_um = scratch_tree_coherence_um(tree);
-    let lit = LitPoint(
+    return LitPoint(
         view.to_viewer_m / distance_m,
         distance_m,
-        1e6 * x,
-        1e6 * y,
+        1e6 * SCRATCHED_FILTER_STD * view.footprint_x_m.xy,
+        1e6 * SCRATCHED_FILTER_STD * view.footprint_y_m.xy,
         SCRATCHED_FILTER_STD * view.turn_x.xy,
         SCRATCHED_FILTER_STD * view.turn_y.xy,
         coherence_um,
         table,
     );
+}
+
+fn scratched_point(view: SurfaceView, tree: texture_2d<u32>, table: u32) -> ScratchedPoint {
+    let x = view.footprint_x_m.xy * SCRATCHED_FILTER_STD;
+    let y = view.footprint_y_m.xy * SCRATCHED_FILTER_STD;
+    let coherence_um = scratch_tree_coherence_um(tree);
+    let lit = surface_lit_point(view, coherence_um, table);
     // Footprint, coherence window and what ends are smoothed by; off the plane as far as the surface may bend.
     let back = transpose(view.surface_from_object);
     let units_per_m = 1.0 / max(dot(back[2], back[2]), 1e-20);

@@ -4,6 +4,7 @@
 
 const INCIDENCES_ACROSS: f32 = 64.0;
 const INCIDENCES_ALONG: f32 = 8.0;
+const INCIDENCE_ROWS: i32 = 512;
 
 // Rows of a table about a direction.
 struct IncidenceRows {
@@ -26,15 +27,15 @@ fn incidence_rows(wo: vec3f, q: f32) -> IncidenceRows {
 // T(q) of a viewer's direction, odd for both directions of the grooves together. `u_um` is q times the width that gratings are looked up by.
 fn incidence_table(tables: texture_2d_array<u32>, layer: u32, u_um: f32, wo: vec3f) -> vec3f {
     let rows = incidence_rows(wo, u_um);
-    let near = scratch_table_row(tables, layer, u_um, rows.near);
-    return near + rows.share * (scratch_table_row(tables, layer, u_um, rows.far) - near);
+    let near = scratch_table_row(tables, layer, u_um, rows.near, INCIDENCE_ROWS);
+    return near + rows.share * (scratch_table_row(tables, layer, u_um, rows.far, INCIDENCE_ROWS) - near);
 }
 
 // Derivative of that by |u|, up to a factor.
 fn incidence_table_slope(tables: texture_2d_array<u32>, layer: u32, u_um: f32, wo: vec3f) -> vec3f {
     let rows = incidence_rows(wo, u_um);
-    let near = scratch_table_row_slope(tables, layer, u_um, rows.near);
-    return near + rows.share * (scratch_table_row_slope(tables, layer, u_um, rows.far) - near);
+    let near = scratch_table_row_slope(tables, layer, u_um, rows.near, INCIDENCE_ROWS);
+    return near + rows.share * (scratch_table_row_slope(tables, layer, u_um, rows.far, INCIDENCE_ROWS) - near);
 }
 
 // The energy that is missing in the mirror's direction.

@@ -21,15 +21,15 @@ fn scratch_table_depth(depth_nm: f32) -> f32 {
 
 // T(u, d), odd in u: by value and slope of the nearest column, linear in depth.
 fn scratch_table(table: texture_2d_array<u32>, layer: u32, u_um: f32, depth_nm: f32) -> vec3f {
-    return scratch_table_row(table, layer, u_um, scratch_table_depth(depth_nm));
+    return scratch_table_row(table, layer, u_um, scratch_table_depth(depth_nm), SCRATCH_TABLE_ROWS);
 }
 
-// T(u) at a row or between two.
-fn scratch_table_row(table: texture_2d_array<u32>, layer: u32, u_um: f32, y: f32) -> vec3f {
+// T(u) at a row or between two, of so many.
+fn scratch_table_row(table: texture_2d_array<u32>, layer: u32, u_um: f32, y: f32, rows: i32) -> vec3f {
     let u = min(abs(u_um), 1e18);
     let x = u / (u + SCRATCH_TABLE_U_HALF_UM) * f32(SCRATCH_TABLE_COLUMNS - 1);
     let column = min(i32(x + 0.5), SCRATCH_TABLE_COLUMNS - 1);
-    let row = min(i32(y), SCRATCH_TABLE_ROWS - 2);
+    let row = min(i32(y), rows - 2);
     let beside = x - f32(column);
     let near = scratch_table_near(textureLoad(table, vec2i(column, row), layer, 0), beside);
     let far = scratch_table_near(textureLoad(table, vec2i(column, row + 1), layer, 0), beside);
@@ -48,13 +48,13 @@ fn scratch_table_total(table: texture_2d_array<u32>, layer: u32, depth_nm: f32) 
 
 // Derivative of T by |u|, up to a factor: the colours of the light from a direction.
 fn scratch_table_slope(table: texture_2d_array<u32>, layer: u32, u_um: f32, depth_nm: f32) -> vec3f {
-    return scratch_table_row_slope(table, layer, u_um, scratch_table_depth(depth_nm));
+    return scratch_table_row_slope(table, layer, u_um, scratch_table_depth(depth_nm), SCRATCH_TABLE_ROWS);
 }
 
-fn scratch_table_row_slope(table: texture_2d_array<u32>, layer: u32, u_um: f32, y: f32) -> vec3f {
+fn scratch_table_row_slope(table: texture_2d_array<u32>, layer: u32, u_um: f32, y: f32, rows: i32) -> vec3f {
     let u = min(abs(u_um), 1e18);
     let column = min(i32(u / (u + SCRATCH_TABLE_U_HALF_UM) * f32(SCRATCH_TABLE_COLUMNS - 1) + 0.5), SCRATCH_TABLE_COLUMNS - 1);
-    let row = min(i32(y), SCRATCH_TABLE_ROWS - 2);
+    let row = min(i32(y), rows - 2);
     let near = scratch_table_near(vec4u(0u, 0u, 0u, textureLoad(table, vec2i(column, row), layer, 0).w), 1.0);
     let far = scratch_table_near(vec4u(0u, 0u, 0u, textureLoad(table, vec2i(column, row + 1), layer, 0).w), 1.0);
     return near + (far - near) * (y - f32(row));

@@ -84,12 +84,13 @@ fn described(path: &Path, extension: Value) -> Result<Description, Error> {
     Ok(description)
 }
 
-/// Layers as they lie are for other programs.
+/// Layers and gratings as they lie are for other programs.
 fn forget_laid(tables: &mut Map<String, Value>) {
-    let layers = tables.get_mut("scratches").and_then(Value::as_array_mut);
-    let layers = layers.into_iter().flatten();
-    for layer in layers.filter_map(Value::as_object_mut) {
-        layer.remove(LAID);
+    for name in ["scratches", "grating"] {
+        let rows = tables.get_mut(name).and_then(Value::as_array_mut);
+        for row in rows.into_iter().flatten().filter_map(Value::as_object_mut) {
+            row.remove(LAID);
+        }
     }
 }
 

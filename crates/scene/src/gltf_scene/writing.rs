@@ -1,11 +1,13 @@
 //! Writes a scene as one glTF file: what glTF has words for, for all programs, and the whole scene as an extension.
 
+mod grooves;
 mod laid;
 mod lamps;
 mod looks;
 mod nodes;
 mod objects;
 
+use std::cell::LazyCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -20,6 +22,7 @@ use super::scratch_lists;
 use crate::description::Description;
 use crate::error::Error;
 use crate::loader::Loader;
+use crate::material_optics::ScratchTables;
 use objects::Objects;
 
 /// The share of the free memory that a file in a scene may take.
@@ -28,7 +31,7 @@ const FILE_SHARE: f64 = 0.25;
 /// Contents of a glTF file of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Export {
-    /// Whether scratches are in it as they lie too, for programs that lay none: 44 bytes a straight piece.
+    /// Whether scratches are in it as they lie too, for programs that lay none: 44 bytes a straight piece; and tables of gratings, 2 or 4 MiB each.
     pub laid: bool,
 }
 
@@ -101,6 +104,15 @@ impl Loader<'_> {
             for (i, layer) in layers.into_iter().flatten().enumerate() {
                 if let Some(laid) = laid::write(&described, &scene, i, &mut file) {
                     layer[LAID] = laid;
+                }
+            }
+            let gratings = tables.get_mut("grating").and_then(Value::as_array_mut);
+            let mut known = grooves::Known::new();
+            let spectra = LazyCell::new(|| ScratchTables::new(&scene));
+            for (i, grating) in gratings.into_iter().flatten().enumerate() {
+                let laid = grooves::write(&described, &scene, &spectra, i, &mut known, &mut file);
+                if let Some(laid) = laid {
+                    grating[LAID] = laid;
                 }
             }
         }

@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use hairline_scene::description::Surface;
 use hairline_scene::gltf_scene::{Export, Exported};
-use hairline_scene::{Arrays, Description, Loader, MeshArrays, Scene, ScratchArrays};
+use hairline_scene::{
+    Arrays, Description, Loader, MeshArrays, Scene, ScratchArrays, ScratchTables,
+};
 use serde_json::{Value, json};
 
 use crate::common::{Glb, cube, glb_of, png, temporary_dir};
@@ -318,14 +320,8 @@ fn scratches_as_they_lie_are_in_the_frame_of_their_object() {
     let extension = &root["extensions"]["HAIRLINE_scratches"];
     let laid = &extension["scratches"][0]["laid"];
     let floats = |accessor: &Value| -> Vec<f32> {
-        let accessor = &root["accessors"][accessor.as_u64().unwrap() as usize];
-        let view = &root["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
-        let start = view["byteOffset"].as_u64().unwrap() as usize;
-        let bytes = &chunk[start..start + view["byteLength"].as_u64().unwrap() as usize];
-        bytes
-            .chunks(4)
-            .map(|it| f32::from_le_bytes(it.try_into().unwrap()))
-            .collect()
+        let words = words(&root, &chunk, accessor).into_iter();
+        words.map(f32::from_bits).collect()
     };
     let starts = floats(&laid["start_m"]);
     let world_from_object = description.objects[0].world_from_object();
@@ -359,6 +355,93 @@ fn scratches_as_they_lie_are_in_the_frame_of_their_object() {
         layers[2]["file"]["ends_f64"].is_u64(),
         "decimals are no binary fractions"
     );
+}
+
+/// Numbers of an accessor of whole numbers or floats, as words.
+fn words(root: &Value, chunk: &[u8], accessor: &Value) -> Vec<u32> {
+    let accessor = &root["accessors"][accessor.as_u64().unwrap() as usize];
+    let view = &root["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
+    let start = view["byteOffset"].as_u64().unwrap() as usize;
+    let bytes = &chunk[start..start + view["byteLength"].as_u64().unwrap() as usize];
+    let (words, []) = bytes.as_chunks() else {
+        panic!("a part of a word");
+    };
+    words.iter().map(|word| u32::from_le_bytes(*word)).collect()
+}
+
+#[test]
+fn a_grating_as_it_lies_is_in_the_frame_of_its_object_and_has_its_table() {
+    let text = "
+        camera = { position_m = [0.0, 0.0, 0.3], target_m = [0.0, 0.0, 0.0], up = [0.0, 1.0, 0.0] }
+        material = [{ name = \"m\", kind = \"metal\", metal = \"gold\" }]
+        object = [{ name = \"o\", material = \"m\", shape = { disk = { radius_m = 0.05 } }, translation_m = [0.1, 0.2, 0.3], rotation_deg = [20.0, 30.0, 40.0] }]
+        grating = [
+            { object = \"o\", pattern = \"swirl\", pitch_um = 20.0, spacing_m = 0.005, hidden = true },
+            { object = \"o\", pattern = \"parallel\", direction = [3.0, 4.0, 0.0], center_m = [0.01, 0.0, 0.0], radius_m = [0.0, 0.03], pitch_um = 20.0 },
+        ]
+    ";
+    let dir = temporary_dir();
+    let description = Description::from_toml(text, Path::new("rows.toml")).unwrap();
+    let (root, chunk) = taken_apart(&exported(&description, dir.path()).bytes);
+    let gratings = &root["extensions"]["HAIRLINE_scratches"]["grating"];
+    assert_eq!(gratings[0].get("laid"), None);
+    let laid = &gratings[1]["laid"];
+    let near = |key: &str, expected: [f64; 3]| {
+        for (i, expected) in expected.into_iter().enumerate() {
+            let found = laid[key][i].as_f64().unwrap();
+            assert!((found - expected).abs() < 1e-12, "{key}: {found}");
+        }
+    };
+    near("axis", [0.6, 0.8, 0.0]);
+    near("center", [0.01, 0.0, 0.0]);
+    assert_eq!(
+        (&laid["kind"], &laid["is_fine"]),
+        (&json!("along"), &json!(false))
+    );
+    assert_eq!(laid["radii_m"], json!([0.0, 0.03]));
+    // Light of all orders at the depth of the first row and of the last one, over that of the scene's own table.
+    let texels = words(&root, &chunk, &laid["texels"]);
+    assert_eq!(texels.len(), 4 * 512 * 256);
+    let scene = Scene::build(&description, dir.path()).unwrap();
+    let tables = ScratchTables::new(&scene);
+    let own = tables
+        .grating_table(&scene.objects[0].gratings[0], 0)
+        .unwrap();
+    for (row, depth_nm) in [(1, 2000.0 / 255.0), (255, 2000.0)] {
+        let expected = tables.tables[own].scratch_table(1e18, depth_nm);
+        for (c, expected) in expected.into_iter().enumerate() {
+            let found = f32::from_bits(texels[4 * (512 * row + 511) + c]);
+            assert!(
+                (f64::from(found) / expected - 1.0).abs() < 1e-5,
+                "{found} {expected}"
+            );
+        }
+    }
+    let (_, again) = reopened(&description, dir.path());
+    assert_eq!(again.gratings, description.gratings);
+}
+
+#[test]
+fn lights_without_words_have_a_node_that_names_their_table() {
+    let (dir, description) = whole();
+    let (root, _) = taken_apart(&exported(&description, dir.path()).bytes);
+    let named = |number: usize| -> Vec<&Value> {
+        let nodes = root["nodes"].as_array().unwrap().iter();
+        let own = nodes.map(|node| &node["extensions"]);
+        own.filter(|it| it["HAIRLINE_scratches"]["light"] == number)
+            .collect()
+    };
+    // A tube.
+    let [tube] = named(3)[..] else {
+        panic!("found {:?}", named(3));
+    };
+    let expected = json!({ "light": 3, "color": [1.0, 1.0, 1.0], "intensity": 683.0 });
+    assert_eq!(tube["HAIRLINE_scratches"], expected);
+    // A rectangle, and both sides of a disk; one that is hidden has none.
+    assert_eq!(named(1).len(), 1);
+    assert!(named(1)[0]["EXT_lights_area"]["light"].is_u64());
+    assert_eq!(named(2).len(), 2);
+    assert!(named(5).is_empty());
 }
 
 /// The note of a file whose extension was changed so, which is shown plain.

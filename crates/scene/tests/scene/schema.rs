@@ -506,8 +506,14 @@ fn json_table(
             required.push(key.name);
         }
     }
-    if section.name == "scratches" {
-        properties.insert("laid".to_owned(), json!({ "$ref": "#/$defs/laid" }));
+    let laid = match section.name {
+        "scratches" => "laid",
+        "grating" => "laid_grating",
+        _ => "",
+    };
+    if !laid.is_empty() {
+        let reference = json!({ "$ref": format!("#/$defs/{laid}") });
+        properties.insert("laid".to_owned(), reference);
     }
     let mut table = json!({
         "type": "object", "properties": properties, "additionalProperties": false,
@@ -583,6 +589,29 @@ fn the_schema_of_the_gltf_extension_is_that_of_scene_files() {
     defs.insert("list".to_owned(), accessors(&list, &["ends_f64"]));
     let laid = [&list[..], &["normal", "scratch"]].concat();
     defs.insert("laid".to_owned(), accessors(&laid, &[]));
+    let any = json!({ "type": "number" });
+    let numbers = |count: usize| json!({ "type": "array", "items": any, "minItems": count, "maxItems": count });
+    let kinds = json!({ "enum": ["along", "circular", "radial", "spun"] });
+    let grooves = Map::from_iter(
+        [
+            ("kind", kinds),
+            ("axis", numbers(3)),
+            ("center", numbers(3)),
+            ("radii_m", numbers(2)),
+            ("curvature_per_m", any.clone()),
+            ("coverage", any.clone()),
+            ("angle_std_rad", any.clone()),
+            ("coherence_um", any.clone()),
+            ("is_fine", json!({ "type": "boolean" })),
+            ("texels", number.clone()),
+        ]
+        .map(|(name, of)| (name.to_owned(), of)),
+    );
+    let required: Vec<&String> = grooves.keys().collect();
+    let grooves = json!({
+        "type": "object", "additionalProperties": false, "required": required, "properties": grooves,
+    });
+    defs.insert("laid_grating".to_owned(), grooves);
     let file = json!({
         "type": "object", "required": ["name", "bufferView"], "additionalProperties": false,
         "properties": {

@@ -1,0 +1,84 @@
+//! Gratings as programs draw them that compute no spectra: where their grooves run in the frame of their object, and the table of what they send.
+
+use std::collections::HashMap;
+use std::ops::Deref;
+
+use glam::DVec3;
+use hairline_model::gltf_file::GltfFile;
+use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_ROWS, ROWS};
+use serde_json::{Value, json};
+
+use crate::description::Description;
+use crate::grating::{Bearing, GrooveField};
+use crate::material_optics::ScratchTables;
+use crate::scene::Scene;
+
+/// Stands for everywhere: JSON has no infinity.
+const FAR_M: f64 = 1e9;
+
+/// Tables of gratings that are in the file, by their index.
+pub(super) type Known = HashMap<usize, usize>;
+
+/// Adds a grating; `tables` are made where they are asked for, which takes seconds. None where its grooves follow a picture, spots or texture coordinates, or lie on several materials.
+pub(super) fn write(
+    described: &Description,
+    scene: &Scene,
+    tables: &dyn Deref<Target = ScratchTables>,
+    number: usize,
+    known: &mut Known,
+    file: &mut GltfFile,
+) -> Option<Value> {
+    let own = &described.gratings[number];
+    let is_its = |name: &str| name == own.object;
+    let object = described.objects.iter().position(|it| is_its(&it.name))?;
+    let before = described.gratings[..number].iter();
+    let at = before.filter(|it| !it.hidden && is_its(&it.object)).count();
+    let in_scene = &scene.objects[object];
+    let mut materials = in_scene.mesh.materials().into_iter();
+    let (Some(material), None) = (materials.next(), materials.next()) else {
+        return None;
+    };
+    let grating = in_scene.gratings.get(at).filter(|_| !own.hidden)?;
+    if grating.mask.is_some() {
+        return None;
+    }
+    let (kind, axis, center_m, curvature_per_m) = match grating.field {
+        GrooveField::Along {
+            direction,
+            center_m,
+        } => ("along", direction, center_m, 0.0),
+        GrooveField::Around {
+            axis,
+            center_m,
+            bearing,
+        } => match bearing {
+            Bearing::Circular => ("circular", axis, center_m, 0.0),
+            Bearing::Radial => ("radial", axis, center_m, 0.0),
+            Bearing::Spun { curvature_per_m } => ("spun", axis, center_m, curvature_per_m),
+        },
+        GrooveField::Spots { .. } | GrooveField::ByUv { .. } => return None,
+    };
+    let index = tables.grating_table(grating, material)?;
+    let table = &tables.tables[index];
+    let texels = *known.entry(index).or_insert_with(|| {
+        let rows = match table.by_incidence {
+            true => ROWS,
+            false => ENGINE_ROWS,
+        };
+        file.push_wholes(table.resampled(ENGINE_COLUMNS, rows).as_flattened())
+    });
+    let object_from_world = described.objects[object].world_from_object().inverse();
+    let axis = object_from_world.transform_vector3(axis);
+    Some(json!({
+        "kind": kind,
+        "axis": axis.normalize_or(DVec3::Z).to_array(),
+        "center": object_from_world.transform_point3(center_m).to_array(),
+        "radii_m": grating.radii_m.map(|radius_m| radius_m.min(FAR_M)),
+        "curvature_per_m": curvature_per_m,
+        "coverage": grating.coverage,
+        "angle_std_rad": grating.angle_std_rad,
+        "coherence_um": scene.materials[material].coherence_um,
+        "is_fine": table.by_incidence,
+        "texels": texels,
+    }))
+}
