@@ -13,6 +13,9 @@ const PATTERNS = ['random', 'parallel', 'circular', 'radial'];
 /** Scratches of a part lie at most so far out of its box, over the box's size: they were rounded. */
 const MARGIN = 1e-4;
 
+/** Vertices of a skin that are looked at. */
+const POSES = 100;
+
 /** For `loader.register()`. `tables` of loadTables(); `warn` is told once of each thing that is not drawn. */
 export function hairlineScratches({ tables, warn = console.warn, ...parameters } = {}) {
   if (!tables) throw new Error('tables: found none; must be what loadTables() returned');
@@ -128,8 +131,12 @@ class HairlineScratches {
     const fromObject = node.matrixWorld;
     const described = (extension.material ?? []).find(({ name }) => name === object.material);
     for (const mesh of meshes) {
-      if (mesh.isSkinnedMesh || mesh.isInstancedMesh) {
-        this.warn(`scratches on skins and instances are not drawn: those on "${object.name}"`);
+      if (mesh.isInstancedMesh) {
+        this.warn(`scratches on instances are not drawn: those on "${object.name}"`);
+        continue;
+      }
+      if (!isAtRest(mesh)) {
+        this.warn(`scratches on skins and morphs that are not in their pose of rest are not drawn: those on "${object.name}"`);
         continue;
       }
       const scale = new Vector3().setFromMatrixScale(mesh.matrixWorld);
@@ -203,6 +210,19 @@ class HairlineScratches {
       tables, metal, scratches, gratings, metresPerUnit, coherenceUm: described?.coherence_um ?? 20, ...taken, ...parameters,
     });
   }
+}
+
+/** Whether the vertices of a skin or a morph are where its geometry has them; the file has scratches where they are. */
+function isAtRest(mesh) {
+  const { position } = mesh.geometry.attributes;
+  mesh.geometry.computeBoundingSphere();
+  const [rest, now] = [new Vector3(), new Vector3()];
+  const step = Math.ceil(position.count / POSES);
+  for (let i = 0; i < position.count; i += step) {
+    rest.fromBufferAttribute(position, i);
+    if (mesh.getVertexPosition(i, now).distanceTo(rest) > MARGIN * mesh.geometry.boundingSphere.radius) return false;
+  }
+  return true;
 }
 
 /** What a MeshPhysicalMaterial of GLTFLoader sets. */

@@ -15,7 +15,7 @@ import { scratchTable, tableSize } from './table.js';
 import { curveOf } from './tables.js';
 import { metalColor } from './spectrum.js';
 import { Grating } from './gratings.js';
-import { ScratchedLightingModel } from './three_lighting.js';
+import { ScratchedLightingModel, isBent } from './three_lighting.js';
 
 export { loadTables } from './tables.js';
 export { Grating, loadGrating } from './gratings.js';
@@ -143,7 +143,7 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
 
   /** Scratches of another scale than they were made for end in the wrong places. */
   checkScale(object) {
-    if (!this.scratches && this.gratings.length === 0) return;
+    if (isBent(object) || (!this.scratches && this.gratings.length === 0)) return;
     const scale = new Vector3().setFromMatrixScale(object.matrixWorld).toArray();
     if (scale.some((s) => Math.abs(s / this.metresPerUnit - 1) >= 0.01)) {
       console.warn(`ScratchedNodeMaterial: found the scale ${scale.join(', ')} of mesh "${object.name}"; must be metresPerUnit, ${this.metresPerUnit}`);

@@ -25,8 +25,23 @@ const ROW_CELLS = 48;
 /** Variance of the filter of a pixel, in pixels. */
 const FILTER_VARIANCE = 0.25;
 
-/** From the object's frame to the view's, without the move: of a mesh, or of each instance. */
-function viewFromObject(object) {
+/** Whether vertices move by themselves: in their pose of rest scratches are looked up. */
+export const isBent = ({ isSkinnedMesh, isBatchedMesh, morphTargetInfluences }) => Boolean(isSkinnedMesh || isBatchedMesh || morphTargetInfluences?.length > 0);
+
+/** Rows: how a triangle lies, from how a position changes over the picture. */
+function triangleAxes(position) {
+  const unit = (v) => v.mul(v.dot(v).max(1e-30).inverseSqrt()).toVar();
+  const x = unit(dFdx(position));
+  const z = unit(dFdx(position).cross(dFdy(position)));
+  return [x, z.cross(x).toVar(), z];
+}
+
+/** From the object's frame to the view's, without the move: of a mesh, of each instance, or of each triangle of what bends. */
+function viewFromObject(object, metresPerUnit) {
+  if (isBent(object)) {
+    const [from, to] = [positionGeometry, positionView].map(triangleAxes);
+    return mat3(...to).mul(mat3(...from).transpose()).mul(metresPerUnit);
+  }
   if (!object.isInstancedMesh) return mat3(modelViewMatrix);
   const { instanceMatrix } = object;
   const count = Math.max(instanceMatrix.count, 1);
@@ -66,7 +81,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
     const middle = cameraProjectionMatrix.element(2).xy;
     const place = {
       position: positionGeometry,
-      view_from_object: viewFromObject(builder.object).toVar(),
+      view_from_object: viewFromObject(builder.object, material.metresPerUnit).toVar(),
       position_view: positionView,
       normal_view: normalView,
       pixel: vec3(vec2(2).div(viewportSize.mul(perspective)), cameraProjectionMatrix.element(3).w).toVar(),

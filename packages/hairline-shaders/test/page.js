@@ -102,6 +102,15 @@ function byHand(page, { geometry, scratches }, tables, what) {
   if (what === 'instanced') {
     mesh = new THREE.InstancedMesh(geometry, material, 1);
     mesh.setMatrixAt(0, turn);
+  } else if (what === 'skinned') {
+    const { count } = geometry.attributes.position;
+    geometry.setAttribute('skinIndex', new THREE.Uint16BufferAttribute(new Uint16Array(4 * count), 4));
+    geometry.setAttribute('skinWeight', new THREE.Float32BufferAttribute(Array.from({ length: 4 * count }, (_, i) => Number(i % 4 === 0)), 4));
+    mesh = new THREE.SkinnedMesh(geometry, material);
+    const bone = new THREE.Bone();
+    mesh.add(bone);
+    mesh.bind(new THREE.Skeleton([bone], [new THREE.Matrix4()]), new THREE.Matrix4());
+    bone.applyMatrix4(turn);
   } else {
     mesh = new THREE.Mesh(geometry, material);
   }
@@ -136,7 +145,7 @@ async function byFile(name, tables, what, told) {
 
 /** Pictures of a scene of shapes, and of one whose mesh is a file. */
 const BY_HAND = ['worn', 'bare'];
-const PICTURES = { plate: ['instanced', 'file', 'plain'], grooves: ['file'] };
+const PICTURES = { plate: ['instanced', 'file', 'plain'], grooves: ['file', 'skinned'] };
 
 async function draw(renderer, name, tables) {
   const get = async (file, as) => (await fetch(`/pages/${name}/${file}`))[as]();
