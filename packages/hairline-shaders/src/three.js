@@ -128,7 +128,8 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
 
   setupLightingModel(builder) {
     if (!builder.renderer.backend.isWebGPUBackend) {
-      throw new Error('ScratchedNodeMaterial: found the backend for WebGL; must be that for WebGPU, which this browser lacks or `forceWebGL` turns off');
+      console.warn('ScratchedNodeMaterial: found the backend for WebGL; must be that for WebGPU, which this browser lacks or `forceWebGL` turns off: drawn without scratches');
+      return super.setupLightingModel(builder);
     }
     this.checkScale(builder.object);
     this.hairlineNodes.table.value = this.table();

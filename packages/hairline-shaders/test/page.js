@@ -4,7 +4,7 @@ import { RectAreaLightTexturesLib } from 'three/addons/lights/RectAreaLightTextu
 import { makeScratchTable, scratchTable, tableSize } from 'hairline-shaders';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { hairlineScratches } from 'hairline-shaders/gltf';
-import { ScratchedNodeMaterial, loadTables, readScratches } from 'hairline-shaders/three';
+import { ScratchedNodeMaterial, loadTables, readScratches, scratchesOn } from 'hairline-shaders/three';
 
 const send = (path, body) => fetch(path, { method: 'POST', body });
 const fail = (reason) => send('/failure', String(reason?.stack ?? reason));
@@ -213,6 +213,35 @@ async function rendererOf(options) {
   return renderer;
 }
 
+/** A picture in another size and back is the same, so is that of a second renderer, as after the loss of a device; on WebGL a message tells what is missing. */
+async function outlives(renderer, tables) {
+  const geometry = new THREE.PlaneGeometry(0.1, 0.1);
+  const scratches = scratchesOn(geometry, { count: 200, depthNm: 160, lengthM: 0.05 });
+  const lamp = lightOf({ kind: 'sphere', center: [0, 0.1, 0.1], radius: 0.004, radiance: [300, 300, 300] });
+  const scene = new THREE.Scene().add(lamp, new THREE.Mesh(geometry, new ScratchedNodeMaterial({ tables, metal: 'steel', scratches })));
+  const camera = new THREE.PerspectiveCamera(20, 1, 0.01, 1);
+  camera.position.set(0, -0.1, 0.1);
+  camera.lookAt(0, 0, 0);
+  const pictureOf = async (by, [width, height]) => {
+    const target = new THREE.RenderTarget(width, height, { type: THREE.FloatType });
+    by.setRenderTarget(target);
+    by.render(scene, camera);
+    return (await by.readRenderTargetPixelsAsync(target, 0, 0, width, height)).join();
+  };
+  const [small, large] = [[16, 12], [32, 24]];
+  const [first, other, again] = [await pictureOf(renderer, small), await pictureOf(renderer, large), await pictureOf(renderer, small)];
+  if (again !== first) throw new Error('found another picture after one of another size');
+  renderer.backend.device.destroy();
+  if (await pictureOf(await rendererOf(), large) !== other) throw new Error('found another picture by a second renderer');
+  const told = [];
+  const { warn } = console;
+  console.warn = (text) => told.push(text);
+  const plain = await pictureOf(await rendererOf({ forceWebGL: true }), large);
+  console.warn = warn;
+  if (!told.some((text) => /^ScratchedNodeMaterial: found the backend for WebGL/.test(text))) throw new Error(`WebGL: found the messages ${told}`);
+  if (!plain.split(',').some((value, i) => i % 4 < 3 && value > 0)) throw new Error('WebGL: found a black picture');
+}
+
 try {
   const renderer = await rendererOf();
   if (!renderer.backend.isWebGPUBackend) throw new Error('no WebGPU in this browser');
@@ -221,6 +250,7 @@ try {
   const tables = await loadTables('/package/tables.bin');
   for (const name of new URLSearchParams(location.search).get('scenes').split(',')) await draw(renderer, name, tables);
   await send('/result/table', await tableByPass(renderer.backend.device));
+  await outlives(renderer, tables);
   await send('/done', '');
 } catch (error) {
   fail(error);
