@@ -48,6 +48,8 @@ mod share_scratches;
 mod silhouettes;
 pub mod surface;
 mod tile;
+mod unrounded;
 mod visibility;
 
 pub use alpha::alpha;
+pub use unrounded::unrounded_light;

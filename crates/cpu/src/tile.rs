@@ -31,7 +31,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 /// Number of samples of a pixel that are shaded together and may share scratches.
 const SAMPLES_AT_ONCE: usize = 16;
 /// Pixels to a side.
-const SIDE: usize = TILE_PX as usize;
+pub(crate) const SIDE: usize = TILE_PX as usize;
 
 /// A picture that is being rendered, shared by all of its tiles.
 pub(crate) struct Picture<'a> {

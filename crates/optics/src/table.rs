@@ -7,12 +7,17 @@
 //! turns the light integral of any scratch into differences of two look-ups, whatever the number of wavelengths.
 //! R/F0 carries the correlation of the metal's colour with the scratch's; the caller multiplies by Fresnel in RGB.
 
+mod smooth;
+
 use crate::groove_spectrum::{GrooveSpectrum, Places, add_times};
 use crate::scratch::DEPTH_MAX_NM;
 use crate::section::GrooveShape;
 use crate::vectors::with_widest;
 use crate::{diffraction, scratch, spectrum};
 use rayon::prelude::*;
+use smooth::SmoothTable;
+
+pub use smooth::SmoothRow;
 
 /// Columns, over u.
 pub const COLUMNS: usize = 1024;
@@ -37,6 +42,8 @@ pub struct ScratchTable {
     totals: Vec<[f32; 4]>,
     /// Whether rows are of incidences in the place of depths: those of a [rigorous grating](crate::grating::IncidenceRow).
     pub by_incidence: bool,
+    /// The table with all digits, where it was asked for.
+    smooth: Option<SmoothTable>,
 }
 
 /// Bits of each slope, in two's complement; the rest of a word is the exponent that they share.
@@ -70,37 +77,7 @@ impl ScratchTable {
     /// The table of a material. `reflectance` is spectral at normal incidence; the channels are divided by its colour, so
     /// that T(infinity) - T(-infinity) is the share of a reflected white that a scratch scatters.
     pub fn new(reflectance: impl Fn(f64) -> f64 + Sync) -> Self {
-        let samples = spectrum::samples();
-        let f0 = spectrum::rgb_from_reflectance(&reflectance);
-        // Both factors of T are tables over wavelength; T is their product.
-        let chords: Vec<[[f64; 2]; COLUMNS]> = samples
-            .iter()
-            .map(|s| {
-                let wavelength_um = s.wavelength_nm * 1e-3;
-                let g =
-                    |u: f64| diffraction::sinc_squared_integral(u, wavelength_um) / wavelength_um;
-                std::array::from_fn(|column| {
-                    [
-                        g(column_u_um(column as f64)),
-                        chord_slope(column, wavelength_um),
-                    ]
-                })
-            })
-            .collect();
-        Self::from_rows(|row, sums| {
-            let depth_nm = row as f64 * DEPTH_MAX_NM / (ROWS - 1) as f64;
-            for (sample, chords) in samples.iter().zip(&chords) {
-                let energy = reflectance(sample.wavelength_nm)
-                    * scratch::phase_step_energy(depth_nm, sample.wavelength_nm);
-                let weight: [f64; 3] = std::array::from_fn(|c| sample.weight[c] * energy / f0[c]);
-                for (sum, chord) in sums.iter_mut().zip(chords) {
-                    for c in 0..3 {
-                        sum[c] += weight[c] * chord[0];
-                        sum[3 + c] += weight[c] * chord[1];
-                    }
-                }
-            }
-        })
+        Self::from_rows(rows_of_rectangle(reflectance))
     }
 
     /// The table of grooves of a shape. Wide ones are looked up by the width of a [part](crate::section::Section::parts).
@@ -113,47 +90,22 @@ impl ScratchTable {
 
     /// The table of the grooves of a spectrum, as [`Self::of_shape`] makes it.
     pub fn of_spectrum(grid: &GrooveSpectrum, reflectance: impl Fn(f64) -> f64 + Sync) -> Self {
-        let widths = grid.shape.widths_of_part();
-        let part_count = grid.shape.part_count() as f64;
-        let samples = spectrum::samples();
-        let f0 = spectrum::rgb_from_reflectance(&reflectance);
-        let per_um = |nm: f64| widths * 1e3 / nm;
-        let columns_um: [f64; COLUMNS] = std::array::from_fn(|column| column_u_um(column as f64));
-        let places: Vec<Places> = samples
-            .iter()
-            .map(|sample| Places::new(&columns_um.map(|u_um| per_um(sample.wavelength_nm) * u_um)))
-            .collect();
-        Self::from_rows(|row, sums| {
-            let depth_nm = row as f64 * DEPTH_MAX_NM / (ROWS - 1) as f64;
-            let [mut densities, mut integrals] = [[0.0; COLUMNS]; 2];
-            // T in each channel, then its derivatives by u.
-            let mut channels = [[0.0; COLUMNS]; 6];
-            with_widest(|| {
-                for (sample, places) in samples.iter().zip(&places) {
-                    let nm = sample.wavelength_nm;
-                    let reflected = reflectance(nm) * widths / part_count;
-                    let of_row = grid.at_depth(depth_nm / nm);
-                    of_row.at_all(places, &mut densities, &mut integrals);
-                    for (c, weight) in sample.weight.iter().enumerate() {
-                        let weight = weight * reflected / f0[c];
-                        add_times(&mut channels[c], weight, &integrals);
-                        add_times(&mut channels[3 + c], weight * per_um(nm), &densities);
-                        // Density and step have a product at infinity.
-                        let slope = of_row.tail() / (per_um(nm) * U_HALF_UM * (COLUMNS - 1) as f64);
-                        sums[COLUMNS - 1][3 + c] += weight * slope;
-                    }
-                }
-            });
-            for (column, sum) in sums.iter_mut().enumerate() {
-                let u_um = columns_um[column];
-                for c in 0..3 {
-                    sum[c] = channels[c][column];
-                    if u_um.is_finite() {
-                        sum[3 + c] = channels[3 + c][column] * column_step_um(u_um);
-                    }
-                }
+        Self::from_rows(rows_of_spectrum(grid, reflectance))
+    }
+
+    /// The table of [`Self::of_shape`] with its [smooth rows](Self::smooth_row): three times as large.
+    pub fn smooth(shape: &GrooveShape, reflectance: impl Fn(f64) -> f64 + Sync) -> Self {
+        let smooth = match *shape == GrooveShape::default() {
+            true => SmoothTable::from_rows(rows_of_rectangle(reflectance)),
+            false => {
+                SmoothTable::from_rows(rows_of_spectrum(&GrooveSpectrum::new(shape), reflectance))
             }
-        })
+        };
+        let rounded = Self::from_rows(|row, sums| sums.copy_from_slice(smooth.row(row)));
+        Self {
+            smooth: Some(smooth),
+            ..rounded
+        }
     }
 
     /// `fill` adds to zeros the columns of a row: T in each channel, and its derivatives by the column index.
@@ -181,6 +133,7 @@ impl ScratchTable {
             texels,
             totals,
             by_incidence: false,
+            smooth: None,
         }
     }
 
@@ -212,6 +165,11 @@ impl ScratchTable {
         self.between_rows(row, share)
     }
 
+    /// T_c(., d) with all digits and without kinks, of a table made by [`Self::smooth`].
+    pub fn smooth_row(&self, depth_nm: f64) -> Option<SmoothRow<'_>> {
+        Some(self.smooth.as_ref()?.at_depth(depth_nm))
+    }
+
     /// T between a row and a share of the next one.
     #[inline]
     pub(crate) fn between_rows(&self, row: usize, share: f64) -> TableRow<'_> {
@@ -221,9 +179,96 @@ impl ScratchTable {
 
     /// T(infinity, d) - T(-infinity, d): the mean of |D|^2 in each channel, which the mask of section 3 needs.
     pub fn scratch_table_total(&self, depth_nm: f64) -> [f64; 3] {
+        if let Some(row) = self.smooth_row(depth_nm) {
+            return row.at(f64::INFINITY).map(|half| 2.0 * half);
+        }
         let (row, g) = row_at(depth_nm);
         let (near, far) = (self.totals[row], self.totals[row + 1]);
         std::array::from_fn(|c| (1.0 - g) * near[c] as f64 + g * far[c] as f64)
+    }
+}
+
+/// Rows of a material's table, for [`ScratchTable::from_rows`].
+fn rows_of_rectangle(
+    reflectance: impl Fn(f64) -> f64 + Sync,
+) -> impl Fn(usize, &mut [[f64; 6]]) + Sync {
+    let samples = spectrum::samples();
+    let f0 = spectrum::rgb_from_reflectance(&reflectance);
+    // Both factors of T are tables over wavelength; T is their product.
+    let chords: Vec<[[f64; 2]; COLUMNS]> = samples
+        .iter()
+        .map(|s| {
+            let wavelength_um = s.wavelength_nm * 1e-3;
+            let g = |u: f64| diffraction::sinc_squared_integral(u, wavelength_um) / wavelength_um;
+            std::array::from_fn(|column| {
+                [
+                    g(column_u_um(column as f64)),
+                    chord_slope(column, wavelength_um),
+                ]
+            })
+        })
+        .collect();
+    move |row, sums| {
+        let depth_nm = row as f64 * DEPTH_MAX_NM / (ROWS - 1) as f64;
+        for (sample, chords) in samples.iter().zip(&chords) {
+            let energy = reflectance(sample.wavelength_nm)
+                * scratch::phase_step_energy(depth_nm, sample.wavelength_nm);
+            let weight: [f64; 3] = std::array::from_fn(|c| sample.weight[c] * energy / f0[c]);
+            for (sum, chord) in sums.iter_mut().zip(chords) {
+                for c in 0..3 {
+                    sum[c] += weight[c] * chord[0];
+                    sum[3 + c] += weight[c] * chord[1];
+                }
+            }
+        }
+    }
+}
+
+/// Rows of the table of the grooves of a spectrum.
+fn rows_of_spectrum(
+    grid: &GrooveSpectrum,
+    reflectance: impl Fn(f64) -> f64 + Sync,
+) -> impl Fn(usize, &mut [[f64; 6]]) + Sync {
+    let widths = grid.shape.widths_of_part();
+    let part_count = grid.shape.part_count() as f64;
+    let samples = spectrum::samples();
+    let f0 = spectrum::rgb_from_reflectance(&reflectance);
+    let per_um = move |nm: f64| widths * 1e3 / nm;
+    let columns_um: [f64; COLUMNS] = std::array::from_fn(|column| column_u_um(column as f64));
+    let places: Vec<Places> = samples
+        .iter()
+        .map(|sample| Places::new(&columns_um.map(|u_um| per_um(sample.wavelength_nm) * u_um)))
+        .collect();
+    move |row, sums| {
+        let depth_nm = row as f64 * DEPTH_MAX_NM / (ROWS - 1) as f64;
+        let [mut densities, mut integrals] = [[0.0; COLUMNS]; 2];
+        // T in each channel, then its derivatives by u.
+        let mut channels = [[0.0; COLUMNS]; 6];
+        with_widest(|| {
+            for (sample, places) in samples.iter().zip(&places) {
+                let nm = sample.wavelength_nm;
+                let reflected = reflectance(nm) * widths / part_count;
+                let of_row = grid.at_depth(depth_nm / nm);
+                of_row.at_all(places, &mut densities, &mut integrals);
+                for (c, weight) in sample.weight.iter().enumerate() {
+                    let weight = weight * reflected / f0[c];
+                    add_times(&mut channels[c], weight, &integrals);
+                    add_times(&mut channels[3 + c], weight * per_um(nm), &densities);
+                    // Density and step have a product at infinity.
+                    let slope = of_row.tail() / (per_um(nm) * U_HALF_UM * (COLUMNS - 1) as f64);
+                    sums[COLUMNS - 1][3 + c] += weight * slope;
+                }
+            }
+        });
+        for (column, sum) in sums.iter_mut().enumerate() {
+            let u_um = columns_um[column];
+            for c in 0..3 {
+                sum[c] = channels[c][column];
+                if u_um.is_finite() {
+                    sum[3 + c] = channels[3 + c][column] * column_step_um(u_um);
+                }
+            }
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
+use hairline_cpu::unrounded_light;
 use hairline_image::Display;
 use hairline_image::output::write_atomically;
 use hairline_memory::{available_bytes, budget_bytes};
@@ -13,11 +14,14 @@ use hairline_reference::{Integrator, Model, SceneIndex, Settings};
 use hairline_scene::estimate::{Estimate, scratches_bytes, textures_bytes};
 use hairline_scene::gltf_scene::Export;
 use hairline_scene::inputs::is_same_file;
-use hairline_scene::{Description, Error, Loader, Scene, SceneBuilder, Stage, reading};
+use hairline_scene::{
+    Description, Error, Loader, Scene, SceneBuilder, ScratchTables, Stage, reading,
+};
 use hairline_work::Listener;
 use hairline_work::backend::{self, Backend, BouncesWithoutShadows, Painter, Rendered, Task};
 use hairline_work::failure::Failure;
 use hairline_work::reference::{self, Limits, identity};
+use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -165,6 +169,8 @@ pub(crate) struct Builder {
     builder: Mutex<SceneBuilder>,
     /// Look-up structures of the last scene's references.
     last: Mutex<Option<(Scene, Arc<OnceLock<SceneIndex>>)>>,
+    /// Tables of the last scene whose light was asked for with all digits.
+    smooth: Arc<Mutex<Option<Arc<ScratchTables>>>>,
 }
 
 #[pymethods]
@@ -225,6 +231,7 @@ impl Builder {
             (Ok(_), Some(interrupt)) => Err(interrupt),
             (Ok(scene), None) => Ok(Built {
                 parts: self.parts(&scene),
+                smooth: self.smooth.clone(),
                 scene,
                 description,
                 folder,
@@ -252,6 +259,7 @@ impl Builder {
 pub(crate) struct Built {
     scene: Scene,
     parts: Arc<OnceLock<SceneIndex>>,
+    smooth: Arc<Mutex<Option<Arc<ScratchTables>>>>,
     description: Description,
     folder: PathBuf,
     stock: Stock,
@@ -362,6 +370,32 @@ impl Built {
         }
     }
 
+    /// Light of the base and of the scratches with all digits: height x width x 3 each, by the closed forms without shadows. The scratches of a layer
+    /// count `weight` times.
+    fn light<'py>(
+        &self,
+        layer: Option<u32>,
+        weight: f64,
+        host: &Bound<'py, PyAny>,
+    ) -> PyResult<[Bound<'py, PyArray3<f64>>; 2]> {
+        let ended = watched::run(host, |told| {
+            let weight = |of| if layer == Some(of) { weight } else { 1.0 };
+            let tables = self.smooth_tables();
+            unrounded_light(&self.scene, tables, &weight, &|| told.is_cancelled())
+        })?;
+        if let Some(interrupt) = ended.interrupt {
+            return Err(interrupt);
+        }
+        let light = ended.made.ok_or_else(errors::internal)?;
+        let [width, height] = self.scene.render.size_px.map(|px| px as usize);
+        let of = |part: usize| {
+            let values = light.iter().flat_map(|parts| parts[part].to_array());
+            let values: Vec<f64> = values.collect();
+            values.into_pyarray(host.py()).reshape([height, width, 3])
+        };
+        Ok([of(0)?, of(1)?])
+    }
+
     /// Samples by Monte Carlo; see `Scene.reference`.
     #[expect(
         clippy::too_many_arguments,
@@ -431,6 +465,15 @@ impl Built {
         Display {
             exposure_ev: self.scene.camera.exposure_ev,
             tone_map: self.scene.render.tone_map,
+        }
+    }
+
+    /// Tables of the scene with all digits.
+    fn smooth_tables(&self) -> Arc<ScratchTables> {
+        let mut kept = self.smooth.lock().unwrap_or_else(|left| left.into_inner());
+        match kept.as_ref().filter(|tables| tables.are_of(&self.scene)) {
+            Some(tables) => tables.clone(),
+            None => (kept.insert(Arc::new(ScratchTables::new(&self.scene).smooth()))).clone(),
         }
     }
 

@@ -203,6 +203,19 @@ impl ScratchTables {
         Some(Self { tables, ..all })
     }
 
+    /// The same with [smooth](ScratchTable::smooth) tables of scratches. Those of gratings stay.
+    #[must_use]
+    pub fn smooth(mut self) -> Self {
+        let shapes: Vec<_> = self.shapes.shapes().collect();
+        let scratches = self.grating_tables_at();
+        for (at, table) in self.tables[..scratches].iter_mut().enumerate() {
+            let metal = self.metals[at / shapes.len()];
+            let of_metal = |nm| reflectance(metal, nm);
+            *table = Arc::new(ScratchTable::smooth(&shapes[at % shapes.len()], of_metal));
+        }
+        self
+    }
+
     /// Whether these are the tables of a scene.
     pub fn are_of(&self, scene: &Scene) -> bool {
         self.of == scene.materials

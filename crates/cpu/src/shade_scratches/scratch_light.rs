@@ -16,7 +16,7 @@ use hairline_optics::band::{
 use hairline_optics::band_environment::{EnvironmentCell, environment_cells, row_cells};
 use hairline_optics::grating::IncidenceRow;
 use hairline_optics::scratch::oblique_depth_nm;
-use hairline_optics::table::{ScratchTable, TableRow};
+use hairline_optics::table::{ScratchTable, SmoothRow, TableRow};
 use hairline_scene::Environment;
 
 /// Energy that a scratch takes from the reflection in the mirror's direction, where both cosines are the viewer's. Twin: `scratch_energy`.
@@ -33,6 +33,7 @@ pub(super) fn scratch_energy(
 pub(super) enum GrooveRow<'a> {
     Depth(TableRow<'a>),
     Incidence(IncidenceRow<'a>),
+    Smooth(SmoothRow<'a>),
 }
 
 impl GrooveRow<'_> {
@@ -41,6 +42,7 @@ impl GrooveRow<'_> {
         match self {
             Self::Depth(row) => row.at(u_um),
             Self::Incidence(row) => row.at(u_um),
+            Self::Smooth(row) => row.at(u_um),
         }
     }
 }
@@ -138,15 +140,22 @@ impl<'a> ScratchLight<'a> {
 
     /// T over u for light with a cosine to the normal.
     pub(super) fn row(&self, cos_i: f64) -> GrooveRow<'a> {
-        match self.table.by_incidence {
-            true => GrooveRow::Incidence(self.incidence_row()),
-            false => GrooveRow::Depth(self.depth_row(cos_i)),
+        if self.table.by_incidence {
+            return GrooveRow::Incidence(self.incidence_row());
+        }
+        let depth_nm = self.depth_nm(cos_i);
+        match self.table.smooth_row(depth_nm) {
+            Some(row) => GrooveRow::Smooth(row),
+            None => GrooveRow::Depth(self.table.at_depth(depth_nm)),
         }
     }
 
+    fn depth_nm(&self, cos_i: f64) -> f64 {
+        oblique_depth_nm(self.profile.depth_nm.into(), cos_i, self.wo.z)
+    }
+
     fn depth_row(&self, cos_i: f64) -> TableRow<'a> {
-        let depth_nm = oblique_depth_nm(self.profile.depth_nm.into(), cos_i, self.wo.z);
-        self.table.at_depth(depth_nm)
+        self.table.at_depth(self.depth_nm(cos_i))
     }
 
     fn incidence_row(&self) -> IncidenceRow<'a> {

@@ -199,6 +199,10 @@ class Built:
         transparent: bool,
         host: Host,
     ) -> Image: ...
+    def light(self, layer: Optional[int], weight: float, host: Host) -> list[_Floats]:
+        """Light of the base and of the scratches with all digits: height x width x 3 each, by the closed forms without shadows. The scratches of a
+        layer count `weight` times."""
+
     def reference(
         self,
         model: str,

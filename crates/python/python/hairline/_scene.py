@@ -8,7 +8,7 @@ import re
 import warnings
 from collections.abc import Iterable, Mapping
 from pathlib import Path as FilePath
-from typing import Any, NamedTuple, Optional, TypeVar, Union
+from typing import Any, Callable, NamedTuple, Optional, TypeVar, Union
 
 from . import _hairline as core
 from ._changes import changed, found
@@ -76,12 +76,18 @@ def render_arguments(
     )
 
 
-_DRAWN = ("count", "density_per_m2", "seed", "length_m", "jitter_deg", "spread", "density_per_m")
+_DRAWN = ("seed", "length_m", "jitter_deg", "spread")
 """Keys whose change draws other scratches."""
 
+_DENSITY = re.compile(r"scratches\[(\d+)\]\.(count|density_per_m2|density_per_m)$")
+"""Keys that the number of a layer's scratches is in proportion to."""
 
-_LEAST_DEPTH_STEP_NM = 8.0
-"""Two rows of the tables that pictures are made with: between rows they are linear."""
+_OF_MATERIAL = re.compile(r"material\[\d+\]\.")
+"""Keys that lobes are tabulated by: their steps are small against those of the tables."""
+
+_EIGHTH = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
+_FOURTH = {1: 2 / 3, 2: -1 / 12}
+"""Weights of central differences over those of so many steps, by their order."""
 
 
 class Gradient(NamedTuple):
@@ -302,55 +308,73 @@ class Scene:
         by: Iterable[str],
         *,
         size: Optional[tuple[int, int]] = None,
-        relative_step: float = 0.02,
+        relative_step: Optional[float] = None,
         progress: Progress = False,
     ) -> dict[str, Gradient]:
         """Pictures of derivatives of the closed forms, without shadows.
 
-        A closed form has no noise, and a seed lays the same scratches whatever their sizes: so differences of pictures are derivatives, here of
-        the fourth order. What bounds them are single precision, and for depths the tables that pictures are made with, linear between rows 4 nm
-        apart (docs/python.md has figures).
+        A closed form has no noise, and a seed lays the same scratches whatever their sizes: so differences of its light, here in double precision
+        and of high orders, are its derivatives, to 1e-5 (docs/python.md has figures).
 
-        :param by: ways to numbers: ``"scratches[0].depth_nm"``, ``"scratches[0].width_um.mean"``, ``"light[0].center_m[2]"``,
-            ``"light[0].radiance"``, ``"material[0].roughness"``. Not those that draw other scratches: counts, densities and seeds.
-        :param relative_step: of each number; of its camera's distance from the target, for coordinates.
+        :param by: ways to numbers: ``"scratches[0].depth_nm"``, ``"scratches[0].width_um.mean"``, ``"scratches[0].density_per_m2"``,
+            ``"light[0].center_m[2]"``, ``"light[0].radiance"``, ``"material[0].roughness"``. Not those that draw other scratches: lengths and
+            seeds. By a density or a count each scratch that is there counts for more: where scratches do not weaken one another, the derivative's
+            mean over seeds is that of the mean picture.
+        :param relative_step: of each number; of a tenth of the camera's distance from the target, for coordinates. Default: 1/100, and 1/1000 for
+            keys of materials.
         """
         step = relative_step
-        if isinstance(step, bool) or not isinstance(step, (int, float)) or not 1e-4 <= step <= 0.2:
-            raise argument_error("relative_step", f"found {step!r}", "must be a number from 0.0001 to 0.2")
+        if step is not None and (isinstance(step, bool) or not isinstance(step, (int, float)) or not 1e-4 <= step <= 0.05):
+            raise argument_error("relative_step", f"found {step!r}", "must be a number from 0.0001 to 0.05")
         ways = [_name("by", way) for way in by]
         table = self.to_dict()
         away = math.dist(table["camera"]["position_m"], table["camera"]["target_m"])
         made: dict[str, Gradient] = {}
         host = Host(progress)
+
+        def difference(h: float, weights: dict[int, float], light: Callable[[float], list[Any]]) -> Gradient:
+            base: Any = 0.0
+            scratches: Any = 0.0
+            for i, (at, weight) in enumerate(weights.items()):
+                host.progress("rendering", (len(made) + i / len(weights)) / len(ways))
+                for sign in (1, -1):
+                    lights = light(sign * at * h)
+                    base = base + lights[0] * (sign * weight / h)
+                    scratches = scratches + lights[1] * (sign * weight / h)
+            return Gradient(base, scratches)
+
         try:
-            for i, way in enumerate(ways):
+            for way in ways:
                 last = re.sub(r"\[\d+\]", "", way).rsplit(".", 1)[-1]
                 value = found(table, way)
+                way_to = way
                 if isinstance(value, dict) and "mean" in value:
                     way_to, value = f"{way}.mean", value["mean"]
-                else:
-                    way_to = way
                 if last in _DRAWN:
-                    raise argument_error(way, "found what other scratches are drawn by", "must be a size, a roughness or a part of a light")
+                    raise argument_error(way, "found what other scratches are drawn by", "must be a size, a density, a roughness or a part of a light")
                 if isinstance(value, bool) or not isinstance(value, (int, float)):
                     raise argument_error(way, f"found {value!r}", "must lead to a number")
                 is_place = "[" in way_to.rsplit(".", 1)[-1]
-                h = step * (0.1 * away if is_place else abs(value))
-                if last == "depth_nm" or way_to.endswith("depth_nm.mean"):
-                    h = max(h, min(_LEAST_DEPTH_STEP_NM, 0.4 * abs(value)))
-                if h == 0:
+                whole = 0.1 * away if is_place else abs(value)
+                if whole == 0:
                     raise argument_error(way, "found 0, of which no step is a share", "must not be 0")
-                base: Any = 0.0
-                scratches: Any = 0.0
-                for at, weight in ((-2, 1), (-1, -8), (1, 8), (2, -1)):
-                    host.progress("rendering", (i + (at + 2) / 5) / len(ways))
-                    scene = Scene._of(core.check(changed(table, {way_to: value + at * h})), self.folder)
+                density = _DENSITY.match(way_to)
+                if density is not None:
+                    built = self._built(size, Host(False))
+                    layer = int(density[1])
+                    of_one = difference(1 / 64, _FOURTH, lambda by: built.light(layer, 1 + by, host))
+                    made[way] = Gradient(of_one.base / value, of_one.scratches / value)
+                    continue
+
+                def moved(by: float, to: str = way_to, value: float = value) -> list[Any]:
+                    scene = Scene._of(core.check(changed(table, {to: value + by})), self.folder)
                     scene._builder = self._builder
-                    image = scene.render(size=size, backend="cpu", shadows=False, samples=1)
-                    base = base + image.base.astype("f8") * (weight / (12 * h))
-                    scratches = scratches + image.scratches.astype("f8") * (weight / (12 * h))
-                made[way] = Gradient(base, scratches)
+                    return scene._built(size, Host(False)).light(None, 1.0, host)
+
+                # Wide steps of a high order: scenes hold sizes of scratches in single precision, and light leaves a scratch's band at once.
+                is_fine = _OF_MATERIAL.match(way_to) is not None
+                share = step if step is not None else (1e-3 if is_fine else 1e-2)
+                made[way] = difference(share * whole, _FOURTH if is_fine else _EIGHTH, moved)
         finally:
             host.close()
         return made
