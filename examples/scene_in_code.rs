@@ -33,6 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         },
         environment: None,
         textures: Arc::default(),
+        observer: Default::default(),
         materials: vec![Material::plain(
             "gold".into(),
             Base::Metal(Metal::Gold),

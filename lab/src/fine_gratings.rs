@@ -6,7 +6,7 @@ use std::time::Instant;
 use hairline_optics::grating::{GRATING_WIDTH_UM, Grating, IncidenceRow, RigorousGrating};
 use hairline_optics::metal::Metal;
 use hairline_optics::rigorous::{CoupledWaves, Efficiencies, FineGrooves, Medium, Relief};
-use hairline_optics::spectrum;
+use hairline_optics::spectrum::{self, Observer};
 use hairline_scene::FINE_PITCH_UM;
 use rayon::prelude::*;
 
@@ -68,6 +68,7 @@ pub(crate) fn measured() -> String {
                 let table = RigorousGrating {
                     row,
                     efficiencies: &found,
+                    observer: Observer::eye(),
                     medium,
                     is_colored: false,
                     cover: None,

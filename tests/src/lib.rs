@@ -66,6 +66,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
         notes: Vec::new(),
         environment: None,
         textures: Arc::default(),
+        observer: Default::default(),
         materials: vec![Material::plain("base".into(), base, 0.05)],
         objects: vec![Object {
             name: "square".into(),

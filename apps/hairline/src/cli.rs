@@ -174,6 +174,10 @@ pub struct Render {
     /// is not seen.
     #[arg(long)]
     pub transparent: bool,
+    /// Render bands of the spectrum in place of colours, a channel each: from A to B nm by equal steps. Writes an .exr. What has a colour and no spectrum
+    /// is refused: lamps and surfaces must be grey, or measured metals.
+    #[arg(long, value_name = "A:B:STEP", value_parser = parse_bands, conflicts_with_all = ["frames", "labels", "watch", "transparent"])]
+    pub bands: Option<Bands>,
     /// Write which scratches each pixel shows too, to an .exr by the convention of Cryptomatte.
     #[arg(long, value_name = "FILE")]
     pub labels: Option<PathBuf>,
@@ -496,6 +500,27 @@ fn parse_times(text: &str) -> Result<[f64; 2], String> {
         "write seconds from 0 to 1e6, as in 1.5, or with --frames two of them, FROM:TO, as in 0:2"
             .to_owned()
     })
+}
+
+/// Bands of the spectrum, each from one wavelength to a longer one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bands(pub Vec<[f64; 2]>);
+
+fn parse_bands(text: &str) -> Result<Bands, String> {
+    let numbers: Option<Vec<f64>> = text.split(':').map(|part| part.parse().ok()).collect();
+    let Some([from, to, step]) = numbers.as_deref() else {
+        return Err("write three numbers, as in 400:700:10".to_owned());
+    };
+    let count = ((to - from) / step).round();
+    // Also false for NaN.
+    let is_whole = (count * step - (to - from)).abs() < 1e-6;
+    if !(step >= &1.0 && (1.0..=400.0).contains(&count) && is_whole) {
+        return Err("write from where to where by which step, nm: the step is 1 or more, and fits a whole number of times".to_owned());
+    }
+    let at = |i: usize| from + step * i as f64;
+    Ok(Bands(
+        (0..count as usize).map(|i| [at(i), at(i + 1)]).collect(),
+    ))
 }
 
 fn parse_duration(text: &str) -> Result<Duration, String> {

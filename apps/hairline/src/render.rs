@@ -22,6 +22,7 @@ use crate::switch::Switch;
 use crate::{cli, method_flags};
 use goals::Goals;
 use hairline_work::backend::{self, BouncesWithoutShadows, Painter, Rendered, Task};
+use hairline_work::bands;
 use hairline_work::failure::Failure;
 use hairline_work::labels;
 use motion::Motion;
@@ -44,6 +45,12 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         None => Target::One(single(arguments)?),
         Some(motion) => Target::Many(motion, Goals::check(arguments, motion.frames)?),
     };
+    if let (Target::One(output), Some(_)) = (&target, &arguments.bands)
+        && output.format() != Format::Exr
+    {
+        let path = output.path().display();
+        return Err(Failure::Input(anyhow!("{path}: --bands needs an .exr")));
+    }
     let labels = labels_goal(arguments, &target)?;
     let overrides = Overrides {
         size_px: arguments.size,
@@ -73,6 +80,9 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     match target {
         Target::One(output) => {
             let scene = &loaded.scene;
+            if let Some(cli::Bands(bands_nm)) = &arguments.bands {
+                return write_bands(scene, bands_nm, task, &output);
+            }
             let shadows = task.transport.shadows;
             let mut painter = Painter::open(scene, task, &terminal)?;
             let interrupt = match shadows {
@@ -120,6 +130,28 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
             )
         }
     }
+}
+
+fn write_bands(
+    scene: &Scene,
+    bands_nm: &[[f64; 2]],
+    task: Task,
+    output: &Output,
+) -> Result<(), Failure> {
+    let interrupt = Interrupt::listen().map_err(cannot_listen)?;
+    let progress = Progress::start("rendering bands");
+    let is_stopped = || interrupt.is_asked();
+    let set = |share| progress.set(share);
+    let picture = bands::render(
+        scene,
+        bands_nm,
+        task,
+        &Terminal::default(),
+        &is_stopped,
+        &set,
+    )?;
+    drop(progress);
+    Ok(picture.write(output.path())?)
 }
 
 /// Where labels go, if they are asked for.

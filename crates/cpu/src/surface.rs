@@ -6,6 +6,7 @@ use hairline_optics::facets::{FacetAxes, anisotropic_alpha};
 use hairline_optics::filtered_lobe::PixelSlopes;
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_alpha;
+use hairline_optics::spectrum::Observer;
 use hairline_scene::texture_lookup::{TextureSampler, blend, texture_footprint};
 use hairline_scene::{COAT_F0, Mesh, Scene, ScratchTables, Texture};
 
@@ -58,6 +59,8 @@ pub struct SurfacePoint<'a> {
     pub triangle: u32,
     /// Standard deviation of the coherence window.
     pub coherence_um: f64,
+    /// What the channels of the picture are.
+    pub observer: &'a Observer,
     /// Index of the scratch table.
     pub table: usize,
 }
@@ -170,7 +173,7 @@ pub(crate) const MIN_VIEW_COS: f64 = 0.01;
 /// The surface at a hit, seen from the unit direction `to_viewer`. `footprint` gives, for a plane of a given unit normal
 /// through the hit, how the hit moves by one standard deviation of the pixel's filter to the right and down, metres.
 pub fn surface_point<'a>(
-    scene: &Scene,
+    scene: &'a Scene,
     tables: &'a ScratchTables,
     position_m: DVec3,
     to_viewer: DVec3,
@@ -340,6 +343,7 @@ pub fn surface_point<'a>(
         material: material_index,
         triangle: hit.triangle,
         coherence_um: material.coherence_um,
+        observer: &scene.observer,
         table: optics.table as usize,
     }
 }

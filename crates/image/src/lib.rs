@@ -14,6 +14,7 @@
 #![warn(unreachable_pub)]
 
 mod animation;
+mod bands;
 mod batches;
 pub mod cryptomatte;
 mod error;
@@ -32,6 +33,7 @@ pub mod tone_map;
 mod tones;
 
 pub use animation::{Animation, FPS_MAX};
+pub use bands::BandImage;
 pub use batches::{BATCH_ROUNDS, BATCH_SAMPLES, Batch, Batches, add_batch};
 pub use error::Error;
 pub use exr_file::Notes;

@@ -20,7 +20,7 @@ mod tube;
 pub use drawn::DrawnChord;
 pub use lines::{
     Along, BAND_REACH_STD, BAND_STD_MAX, BandLines, BandMotion, BandPlace, BandStds, MovedBand,
-    band_is_whole, band_lines, band_moves, band_stds, moved_band,
+    band_is_whole, band_lines, band_moves, band_stds, band_stds_seen_by, moved_band,
 };
 pub use outline::{Outline, OutlineEdge, OutlineRoots};
 pub use tube::{TUBE_CORNERS, TubeOutline, tube_outline};

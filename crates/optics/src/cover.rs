@@ -5,7 +5,7 @@
 
 use crate::fresnel;
 use crate::metal::Metal;
-use crate::spectrum;
+use crate::spectrum::Observer;
 
 /// A clear plate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,10 +37,20 @@ impl Cover {
 
     /// Reflectance of a metal under it in linear Rec.709, with the outer face, and with all that goes back and forth in the plate.
     pub fn reflectance_rgb(&self, metal: Metal, cos_theta: f64) -> [f64; 3] {
+        self.reflectance_seen_by(Observer::eye(), metal, cos_theta)
+    }
+
+    /// [`Self::reflectance_rgb`] in the channels of an observer.
+    pub fn reflectance_seen_by(
+        &self,
+        observer: &Observer,
+        metal: Metal,
+        cos_theta: f64,
+    ) -> [f64; 3] {
         let (outer, passed) = (self.outer(cos_theta), self.passed(cos_theta));
         let crossed = self.crossed(cos_theta);
         let inner_cos = fresnel::inner_cos(cos_theta, self.ior);
-        let under = spectrum::rgb_from_spectral_rgb(|nm| {
+        let under = observer.channels_of(|nm| {
             let (n, k) = metal.n_k(nm);
             let metal = fresnel::conductor(inner_cos, n / self.ior, k / self.ior);
             let back = |c: usize| outer * metal * crossed[c] * crossed[c];

@@ -12,8 +12,9 @@ mod smooth;
 use crate::groove_spectrum::{GrooveSpectrum, Places, add_times};
 use crate::scratch::DEPTH_MAX_NM;
 use crate::section::GrooveShape;
+use crate::spectrum::Observer;
 use crate::vectors::with_widest;
-use crate::{diffraction, scratch, spectrum};
+use crate::{diffraction, scratch};
 use rayon::prelude::*;
 use smooth::SmoothTable;
 
@@ -77,28 +78,40 @@ impl ScratchTable {
     /// The table of a material. `reflectance` is spectral at normal incidence; the channels are divided by its colour, so
     /// that T(infinity) - T(-infinity) is the share of a reflected white that a scratch scatters.
     pub fn new(reflectance: impl Fn(f64) -> f64 + Sync) -> Self {
-        Self::from_rows(rows_of_rectangle(reflectance))
+        Self::seen_by(Observer::eye(), None, reflectance)
     }
 
     /// The table of grooves of a shape. Wide ones are looked up by the width of a [part](crate::section::Section::parts).
     pub fn of_shape(shape: &GrooveShape, reflectance: impl Fn(f64) -> f64 + Sync) -> Self {
         match *shape == GrooveShape::default() {
             true => Self::new(reflectance),
-            false => Self::of_spectrum(&GrooveSpectrum::new(shape), reflectance),
+            false => {
+                let grid = GrooveSpectrum::new(shape);
+                Self::seen_by(Observer::eye(), Some(&grid), reflectance)
+            }
         }
     }
 
-    /// The table of the grooves of a spectrum, as [`Self::of_shape`] makes it.
-    pub fn of_spectrum(grid: &GrooveSpectrum, reflectance: impl Fn(f64) -> f64 + Sync) -> Self {
-        Self::from_rows(rows_of_spectrum(grid, reflectance))
+    /// The table of the grooves of a spectrum, or of narrow rectangles, for the channels of an observer.
+    pub fn seen_by(
+        observer: &Observer,
+        grid: Option<&GrooveSpectrum>,
+        reflectance: impl Fn(f64) -> f64 + Sync,
+    ) -> Self {
+        match grid {
+            Some(grid) => Self::from_rows(rows_of_spectrum(observer, grid, reflectance)),
+            None => Self::from_rows(rows_of_rectangle(observer, reflectance)),
+        }
     }
 
     /// The table of [`Self::of_shape`] with its [smooth rows](Self::smooth_row): three times as large.
     pub fn smooth(shape: &GrooveShape, reflectance: impl Fn(f64) -> f64 + Sync) -> Self {
+        let observer = Observer::eye();
         let smooth = match *shape == GrooveShape::default() {
-            true => SmoothTable::from_rows(rows_of_rectangle(reflectance)),
+            true => SmoothTable::from_rows(rows_of_rectangle(observer, reflectance)),
             false => {
-                SmoothTable::from_rows(rows_of_spectrum(&GrooveSpectrum::new(shape), reflectance))
+                let grid = GrooveSpectrum::new(shape);
+                SmoothTable::from_rows(rows_of_spectrum(observer, &grid, reflectance))
             }
         };
         let rounded = Self::from_rows(|row, sums| sums.copy_from_slice(smooth.row(row)));
@@ -190,10 +203,11 @@ impl ScratchTable {
 
 /// Rows of a material's table, for [`ScratchTable::from_rows`].
 fn rows_of_rectangle(
+    observer: &Observer,
     reflectance: impl Fn(f64) -> f64 + Sync,
 ) -> impl Fn(usize, &mut [[f64; 6]]) + Sync {
-    let samples = spectrum::samples();
-    let f0 = spectrum::rgb_from_reflectance(&reflectance);
+    let samples = observer.samples();
+    let f0 = observer.channels(&reflectance);
     // Both factors of T are tables over wavelength; T is their product.
     let chords: Vec<[[f64; 2]; COLUMNS]> = samples
         .iter()
@@ -226,13 +240,14 @@ fn rows_of_rectangle(
 
 /// Rows of the table of the grooves of a spectrum.
 fn rows_of_spectrum(
+    observer: &Observer,
     grid: &GrooveSpectrum,
     reflectance: impl Fn(f64) -> f64 + Sync,
 ) -> impl Fn(usize, &mut [[f64; 6]]) + Sync {
     let widths = grid.shape.widths_of_part();
     let part_count = grid.shape.part_count() as f64;
-    let samples = spectrum::samples();
-    let f0 = spectrum::rgb_from_reflectance(&reflectance);
+    let samples = observer.samples();
+    let f0 = observer.channels(&reflectance);
     let per_um = move |nm: f64| widths * 1e3 / nm;
     let columns_um: [f64; COLUMNS] = std::array::from_fn(|column| column_u_um(column as f64));
     let places: Vec<Places> = samples
@@ -344,6 +359,7 @@ fn column_step_um(u_um: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::metal::Metal;
+    use crate::spectrum;
     use std::sync::LazyLock;
 
     static MIRROR: LazyLock<ScratchTable> = LazyLock::new(|| ScratchTable::new(|_| 1.0));

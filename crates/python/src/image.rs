@@ -2,10 +2,13 @@
 
 use std::path::PathBuf;
 
-use hairline_image::{Display, Layer, Layers, Notes, Output, exr_file, png};
+use hairline_image::{BandImage, Display, Format, Layer, Layers, Notes, Output, exr_file, png};
 use hairline_work::reference::identity;
-use numpy::ndarray::{ArrayView2, ArrayView3};
-use numpy::{Element, IntoPyArray, PyArray2, PyArray3, PyArrayMethods};
+use numpy::ndarray::{ArrayView2, ArrayView3, Axis};
+use numpy::{
+    Element, IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray3,
+    PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyImportError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -28,6 +31,40 @@ pub(crate) struct Image {
     beauty: PyOnceLock<Py<PyArray3<f32>>>,
     /// Labels that were rendered with it.
     labels: PyOnceLock<Py<Labels>>,
+}
+
+/// Writes an .exr of bands of the spectrum: arrays of height x width x bands.
+#[pyfunction]
+pub(crate) fn write_bands(
+    py: Python<'_>,
+    path: PathBuf,
+    bands_nm: Vec<[f64; 2]>,
+    base: PyReadonlyArray3<'_, f32>,
+    scratches: PyReadonlyArray3<'_, f32>,
+) -> PyResult<()> {
+    let [height, width, _] = *base.shape() else {
+        return Err(errors::internal());
+    };
+    let channels = |of: &PyReadonlyArray3<'_, f32>| {
+        let layers = of.as_array();
+        let bands = layers.axis_iter(Axis(2));
+        bands.map(|band| band.iter().copied().collect()).collect()
+    };
+    let picture = BandImage {
+        size_px: [width as u32, height as u32],
+        bands_nm,
+        base: channels(&base),
+        scratches: channels(&scratches),
+    };
+    let write = || match Output::check(&path)?.format() {
+        Format::Exr => picture.write(&path),
+        Format::Png => Err(hairline_image::Error::CannotWrite {
+            path: path.clone(),
+            reason: "bands need an .exr".to_owned(),
+        }),
+    };
+    py.detach(write)
+        .map_err(|error| errors::of_image(py, &error))
 }
 
 /// Reads a layered EXR that `Image.save`, `hairline render` or `hairline reference` wrote.

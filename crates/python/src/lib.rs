@@ -57,6 +57,7 @@ fn _hairline(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(scene::to_toml, module)?)?;
     module.add_function(wrap_pyfunction!(scene::export, module)?)?;
     module.add_function(wrap_pyfunction!(image::read_image, module)?)?;
+    module.add_function(wrap_pyfunction!(image::write_bands, module)?)?;
     module.add_function(wrap_pyfunction!(strips::assemble, module)?)?;
     module.add_function(wrap_pyfunction!(strips::picture_from_state, module)?)?;
     module.add_function(wrap_pyfunction!(strips::picture_state, module)?)?;

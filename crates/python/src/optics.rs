@@ -121,6 +121,14 @@ fn spectrum_samples(py: Python<'_>) -> (Bound<'_, PyArray1<f64>>, Bound<'_, PyAr
     (wavelengths_nm.into_pyarray(py), weights.into_pyarray(py))
 }
 
+/// Rows of a wavelength, the CIE 1931 observer's functions and D65's power, and the matrix from XYZ to Rec.709.
+#[pyfunction]
+fn cie(py: Python<'_>) -> (Bound<'_, PyArray1<f64>>, Bound<'_, PyArray1<f64>>) {
+    let rows: Vec<f64> = spectrum::cie().as_flattened().to_vec();
+    let matrix = spectrum::REC709_FROM_XYZ.as_flattened().to_vec();
+    (rows.into_pyarray(py), matrix.into_pyarray(py))
+}
+
 /// The spectrum of grooves in a metal, by u and depth.
 #[pyclass(frozen, module = "hairline._hairline")]
 struct ScratchTable {
@@ -201,5 +209,6 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(metal_names, module)?)?;
     module.add_function(wrap_pyfunction!(depth_coherence, module)?)?;
     module.add_function(wrap_pyfunction!(spectrum_samples, module)?)?;
+    module.add_function(wrap_pyfunction!(cie, module)?)?;
     module.add_function(wrap_pyfunction!(coherent_response, module)?)
 }

@@ -235,7 +235,7 @@ impl Builder {
                 scene,
                 description,
                 folder,
-                stock,
+                stock: stock.into(),
             }),
         }
     }
@@ -262,7 +262,7 @@ pub(crate) struct Built {
     smooth: Arc<Mutex<Option<Arc<ScratchTables>>>>,
     description: Description,
     folder: PathBuf,
-    stock: Stock,
+    stock: Arc<Stock>,
 }
 
 #[pymethods]
@@ -368,6 +368,21 @@ impl Built {
             Some(interrupt) if !is_whole && !has_some => Err(interrupt),
             _ => Ok(Image::new(image, self.display(), notes, is_whole)),
         }
+    }
+
+    /// The scene in bands of the spectrum, three at a time.
+    fn in_bands(&self, py: Python<'_>, bands_nm: Vec<[f64; 2]>) -> PyResult<Vec<Self>> {
+        let scenes = self.scene.in_bands(&bands_nm);
+        let scenes = scenes.map_err(|error| errors::of_scene(py, &error))?;
+        let built = |scene| Self {
+            scene,
+            parts: Arc::default(),
+            smooth: Arc::default(),
+            description: self.description.clone(),
+            folder: self.folder.clone(),
+            stock: self.stock.clone(),
+        };
+        Ok(scenes.into_iter().map(built).collect())
     }
 
     /// Light of the base and of the scratches with all digits: height x width x 3 each, by the closed forms without shadows. The scratches of a layer

@@ -74,7 +74,9 @@ impl SceneIndex {
         grooves: Arc<SegmentTree<Groove>>,
         tables: Arc<ScratchTables>,
     ) -> Self {
-        let reflectances: Vec<_> = scene.materials.par_iter().map(Reflectance::new).collect();
+        let reflectances: Vec<_> = (scene.materials.par_iter())
+            .map(|material| Reflectance::new(&scene.observer, material))
+            .collect();
         let coats: Vec<_> = scene
             .materials
             .par_iter()
@@ -108,6 +110,7 @@ impl SceneIndex {
         };
         Arc::ptr_eq(&a.textures, &b.textures)
             && a.materials == b.materials
+            && a.observer == b.observer
             && a.objects.len() == b.objects.len()
             && a.objects.iter().zip(&b.objects).all(|(a, b)| alike(a, b))
     }

@@ -90,6 +90,7 @@ impl Orders {
 mod tests {
     use super::*;
     use crate::wavelengths::Wavelengths;
+    use hairline_optics::spectrum::Observer;
 
     #[test]
     fn samples_follow_their_density() {
@@ -100,7 +101,7 @@ mod tests {
             depth_spread: 0.0,
             jitter_um: 0.05,
         };
-        let Wavelengths { nm, .. } = Wavelengths::new(0.4);
+        let Wavelengths { nm, .. } = Wavelengths::new(Observer::eye(), 0.4);
         let std = [0.01; 8];
         for (low, high) in [(-1.2, 1.4), (0.3, 0.36), (1.9, 1.95)] {
             let orders =

@@ -7,7 +7,7 @@ use hairline_optics::facets::Facets;
 use hairline_optics::fresnel::{dielectric, schlick_weight};
 use hairline_optics::ggx::{ggx_alpha, ggx_mean};
 use hairline_optics::metal::Metal;
-use hairline_optics::spectrum::rgb_from_reflectance;
+use hairline_optics::spectrum::Observer;
 use hairline_scene::{COAT_F0, Material, Reflector};
 
 /// The reflectance of a material.
@@ -79,33 +79,43 @@ impl ReflectanceEnds {
 }
 
 impl Reflectance {
-    pub(crate) fn new(material: &Material) -> Self {
+    pub(crate) fn new(observer: &Observer, material: &Material) -> Self {
         let map = material.metallic_roughness_texture;
-        Self::mapped(Reflector::new(material), material.roughness, map)
+        Self::mapped(observer, Reflector::new(material), material.roughness, map)
     }
 
     /// Reflectance of a material's coat.
     pub(crate) fn of_coat(material: &Material) -> Option<Self> {
         let coat = material.coat?;
         let [_, map] = material.coat_textures;
-        Some(Self::mapped(Reflector::COAT, coat.roughness, map))
+        Some(Self::mapped(
+            Observer::eye(),
+            Reflector::COAT,
+            coat.roughness,
+            map,
+        ))
     }
 
     /// Reflectance for one roughness, or for all where a texture gives it.
-    fn mapped(reflector: Reflector, roughness: f64, map: Option<usize>) -> Self {
+    fn mapped(
+        observer: &Observer,
+        reflector: Reflector,
+        roughness: f64,
+        map: Option<usize>,
+    ) -> Self {
         if map.is_none() {
-            return Self::at(reflector, &[roughness]);
+            return Self::at(observer, reflector, &[roughness]);
         }
         let step = |i: usize| i as f64 / ROUGHNESS_STEPS as f64;
         let all: Vec<f64> = (0..=ROUGHNESS_STEPS).map(step).collect();
-        Self::at(reflector, &all)
+        Self::at(observer, reflector, &all)
     }
 
     /// Reflectance for these roughnesses, in ascending order.
-    pub(crate) fn at(reflector: Reflector, roughness: &[f64]) -> Self {
+    pub(crate) fn at(observer: &Observer, reflector: Reflector, roughness: &[f64]) -> Self {
         let metal = match reflector {
-            Reflector::Metal(metal) => curve(metal),
-            Reflector::Covered(metal, cover) => covered_curve(metal, cover),
+            Reflector::Metal(metal) => curve(observer, metal),
+            Reflector::Covered(metal, cover) => covered_curve(observer, metal, cover),
             _ => Vec::new(),
         };
         let mut reflectance = Self {
@@ -200,22 +210,22 @@ impl Reflectance {
 }
 
 /// Light that facets scatter once more meets the plate once more.
-fn covered_curve(metal: Metal, cover: Cover) -> Vec<[DVec3; 2]> {
-    let straight = DVec3::from(cover.reflectance_rgb(metal, 1.0));
+fn covered_curve(observer: &Observer, metal: Metal, cover: Cover) -> Vec<[DVec3; 2]> {
+    let straight = DVec3::from(cover.reflectance_seen_by(observer, metal, 1.0));
     let node = |i: usize| {
         let root = i as f64 / (METAL_NODES - 1) as f64;
-        let once = DVec3::from(cover.reflectance_rgb(metal, root * root));
+        let once = DVec3::from(cover.reflectance_seen_by(observer, metal, root * root));
         [once, once * straight]
     };
     (0..METAL_NODES).map(node).collect()
 }
 
-fn curve(metal: Metal) -> Vec<[DVec3; 2]> {
+fn curve(observer: &Observer, metal: Metal) -> Vec<[DVec3; 2]> {
     let node = |i: usize| {
         let root = i as f64 / (METAL_NODES - 1) as f64;
         let at = |nm: f64| metal.reflectance(root * root, nm);
-        let once = rgb_from_reflectance(at);
-        let twice = rgb_from_reflectance(|nm| at(nm) * metal.reflectance(1.0, nm));
+        let once = observer.channels(at);
+        let twice = observer.channels(|nm| at(nm) * metal.reflectance(1.0, nm));
         [once, twice].map(DVec3::from)
     };
     (0..METAL_NODES).map(node).collect()
@@ -278,7 +288,10 @@ mod tests {
         material.coat_textures[1] = Some(0);
         let all = Reflectance::of_coat(&material).unwrap();
         for roughness in [0.25, 0.5] {
-            let exact = albedo(&Reflectance::at(Reflector::COAT, &[roughness]), roughness);
+            let exact = albedo(
+                &Reflectance::at(Observer::eye(), Reflector::COAT, &[roughness]),
+                roughness,
+            );
             assert!((albedo(&all, roughness) / exact - 1.0).abs() < 1e-6);
             assert!((albedo(&one, roughness) / exact - 1.0).abs() > 0.1);
         }

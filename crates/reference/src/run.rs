@@ -173,7 +173,7 @@ impl Integrator<'_> {
                 false => self.camera,
             };
             let direction = camera.camera_ray(place).normalize();
-            let wavelengths = Wavelengths::new(w);
+            let wavelengths = Wavelengths::new(&self.scene.observer, w);
             let one = self.arrive(camera.position_m, direction, &wavelengths, random);
             light.base += one.base;
             light.scratches += one.scratches;

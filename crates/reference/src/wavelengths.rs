@@ -4,14 +4,11 @@ use super::reflectance::{Reflectance, ReflectanceEnds};
 use glam::DVec3;
 use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::metal::Metal;
-use hairline_optics::spectrum;
+use hairline_optics::spectrum::{Observer, WAVELENGTH_MAX_NM};
 use hairline_scene::{Base, MaterialOptics};
 
 /// Wavelengths in a sample: all of them see the same directions, which costs little and keeps colour noise low.
 pub(super) const WAVELENGTHS: usize = 8;
-
-const FIRST_NM: f64 = 380.0;
-const LAST_NM: f64 = 780.0;
 
 /// One number for each wavelength of a sample.
 pub(super) type Spectrum<T> = [T; WAVELENGTHS];
@@ -25,17 +22,18 @@ pub(super) struct Wavelengths {
 }
 
 impl Wavelengths {
-    /// One in each eighth of the visible; `u` in [0, 1) moves them all.
-    pub(crate) fn new(u: f64) -> Self {
-        let step = (LAST_NM - FIRST_NM) / WAVELENGTHS as f64;
-        let nm = std::array::from_fn(|j| FIRST_NM + step * (j as f64 + u));
-        let weight = nm.map(|nm| step * DVec3::from(spectrum::weight_per_nm(nm)));
+    /// One in each eighth of what an observer sees; `u` in [0, 1) moves them all.
+    pub(crate) fn new(observer: &Observer, u: f64) -> Self {
+        let [first_nm, last_nm] = observer.range_nm();
+        let step = (last_nm - first_nm) / WAVELENGTHS as f64;
+        let nm = std::array::from_fn(|j| first_nm + step * (j as f64 + u));
+        let weight = nm.map(|nm| step * DVec3::from(observer.weight_per_nm(nm)));
         Self { nm, weight }
     }
 }
 
 /// Wavelength by whose band, the widest one, directions are drawn.
-pub(super) const WIDEST_NM: f64 = LAST_NM;
+pub(super) const WIDEST_NM: f64 = WAVELENGTH_MAX_NM;
 
 /// Reflection off the floor of a groove and off the smooth base.
 #[derive(Clone, Copy)]
@@ -129,7 +127,7 @@ mod tests {
     fn samples_add_up_to_white() {
         let count = 1000;
         let sum: DVec3 = (0..count)
-            .map(|i| Wavelengths::new((i as f64 + 0.5) / count as f64))
+            .map(|i| Wavelengths::new(Observer::eye(), (i as f64 + 0.5) / count as f64))
             .map(|w| w.weight.iter().sum::<DVec3>())
             .sum();
         // Same tolerance as for the weights themselves: spectrum.rs, `weights_as_a_density_integrate_to_one`.

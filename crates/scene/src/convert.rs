@@ -8,6 +8,7 @@ use hairline_model::surface::world_from_object;
 use hairline_optics::cover::Cover;
 use hairline_optics::grating::Grating as Row;
 use hairline_optics::metal::Metal;
+use hairline_optics::spectrum::Observer;
 
 use crate::Environment;
 use crate::description::references::find;
@@ -33,6 +34,7 @@ pub(crate) fn without_surfaces(description: &Description) -> Scene {
         environment: None,
         textures: Arc::default(),
         materials: description.materials.iter().map(material).collect(),
+        observer: Observer::default(),
         objects: Vec::new(),
         lights: lights.map(description::Light::in_scene).collect(),
         notes: description.notes.clone(),

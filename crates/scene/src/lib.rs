@@ -21,6 +21,7 @@
 #![warn(unreachable_pub)]
 
 mod arrays;
+mod bands;
 mod builder;
 pub mod camera;
 mod convert;

@@ -11,6 +11,7 @@ use hairline_optics::groove_spectrum::GrooveSpectrum;
 use hairline_optics::metal::Metal;
 use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
 use hairline_optics::section::GrooveShape;
+use hairline_optics::spectrum::Observer;
 use hairline_optics::table::ScratchTable;
 use std::cell::OnceCell;
 use std::collections::VecDeque;
@@ -62,12 +63,14 @@ impl Reflector {
     /// Reflector of every coat.
     pub const COAT: Self = Self::Dielectric(COAT_IOR);
 
-    fn curve(self) -> FresnelCurve {
+    fn curve(self, observer: &Observer) -> FresnelCurve {
         match self {
             Self::Schlick => FresnelCurve::schlick().clone(),
-            Self::Metal(metal) => metal.fresnel_curve(),
+            Self::Metal(metal) => FresnelCurve::new(|cos_theta| {
+                observer.channels(|nm| metal.reflectance(cos_theta, nm))
+            }),
             Self::Covered(metal, cover) => {
-                FresnelCurve::new(|cos_theta| cover.reflectance_rgb(metal, cos_theta))
+                FresnelCurve::new(|cos_theta| cover.reflectance_seen_by(observer, metal, cos_theta))
             }
             Self::Dielectric(ior) => FresnelCurve::dielectric(ior),
         }
@@ -94,6 +97,8 @@ pub struct ScratchTables {
     efficiencies: Vec<Option<Arc<Efficiencies>>>,
     /// The scene's materials.
     of: Vec<Material>,
+    /// What the channels are.
+    observer: Observer,
 }
 
 /// Everything that the table of a grating depends on.
@@ -113,11 +118,16 @@ pub struct GratingSpectrum {
 
 impl GratingSpectrum {
     /// The grooves with their efficiencies.
-    fn rigorous<'a>(&self, efficiencies: &'a Efficiencies) -> Option<RigorousGrating<'a>> {
+    fn rigorous<'a>(
+        &self,
+        efficiencies: &'a Efficiencies,
+        observer: &'a Observer,
+    ) -> Option<RigorousGrating<'a>> {
         let medium = self.fine?.medium;
         Some(RigorousGrating {
             row: self.row,
             efficiencies,
+            observer,
             medium,
             is_colored: matches!(medium, Medium::Metal(_)) && self.metal.is_none(),
             cover: self.cover,
@@ -163,7 +173,12 @@ impl ScratchTables {
                 let curve = curve_of(Reflector::new(material));
                 MaterialOptics {
                     coat_curve: material.coat.map(|_| curve_of(Reflector::COAT)),
-                    ..material_optics(material, (table * shape_count) as u32, curve)
+                    ..material_optics(
+                        material,
+                        &scene.observer,
+                        (table * shape_count) as u32,
+                        curve,
+                    )
                 }
             })
             .collect();
@@ -172,7 +187,7 @@ impl ScratchTables {
             if cancelled() {
                 return None;
             }
-            of_shapes.push(shaped_tables(&metals, &shape));
+            of_shapes.push(shaped_tables(&scene.observer, &metals, &shape));
         }
         let of_metal = |i: usize| of_shapes.iter().map(move |tables| Arc::clone(&tables[i]));
         let mut tables: Vec<_> = (0..metals.len()).flat_map(of_metal).collect();
@@ -181,9 +196,13 @@ impl ScratchTables {
             grating_spectra: Vec::new(),
             efficiencies: Vec::new(),
             of: scene.materials.clone(),
+            observer: scene.observer.clone(),
             metals,
             shapes,
-            curves: reflectors.iter().map(|r| r.curve()).collect(),
+            curves: reflectors
+                .iter()
+                .map(|r| r.curve(&scene.observer))
+                .collect(),
             reflectors,
             materials,
         };
@@ -193,9 +212,12 @@ impl ScratchTables {
                 Some(fine) => Some(efficiencies(fine, cancelled)?),
                 None => None,
             };
-            let table = match efficiencies.as_ref().and_then(|it| of.rigorous(it)) {
+            let observer = &scene.observer;
+            let rigorous = (efficiencies.as_ref()).and_then(|it| of.rigorous(it, observer));
+            let table = match rigorous {
                 Some(rigorous) => rigorous.table(of.coherence_um),
-                None => (of.row).table(of.coherence_um, |nm| reflectance(of.metal, nm)),
+                None => (of.row)
+                    .table_seen_by(observer, of.coherence_um, |nm| reflectance(of.metal, nm)),
             };
             tables.push(Arc::new(table));
             all.efficiencies.push(efficiencies);
@@ -219,6 +241,7 @@ impl ScratchTables {
     /// Whether these are the tables of a scene.
     pub fn are_of(&self, scene: &Scene) -> bool {
         self.of == scene.materials
+            && self.observer == scene.observer
             && self.shapes == GrooveShapes::new(scene)
             && self.grating_spectra == self.spectra(scene)
     }
@@ -277,7 +300,7 @@ impl ScratchTables {
     /// The grating of a table of one, with its efficiencies; none where they are scalar.
     pub fn rigorous(&self, table: usize) -> Option<RigorousGrating<'_>> {
         let at = table - self.grating_tables_at();
-        self.grating_spectra[at].rigorous(self.efficiencies[at].as_ref()?)
+        self.grating_spectra[at].rigorous(self.efficiencies[at].as_ref()?, &self.observer)
     }
 }
 
@@ -307,14 +330,25 @@ fn scratch_table(metal: Option<Metal>) -> Arc<ScratchTable> {
 const KEPT_TABLES: usize = 24;
 
 /// The tables of grooves of a shape in metals. What the shape sends is computed once for all of them.
-fn shaped_tables(metals: &[Option<Metal>], shape: &GrooveShape) -> Vec<Arc<ScratchTable>> {
+fn shaped_tables(
+    observer: &Observer,
+    metals: &[Option<Metal>],
+    shape: &GrooveShape,
+) -> Vec<Arc<ScratchTable>> {
     let grid = OnceCell::new();
-    let table = |metal: &Option<Metal>| match *shape == GrooveShape::default() {
-        true => scratch_table(*metal),
-        false => kept_table(*metal, shape, || {
-            let grid = grid.get_or_init(|| GrooveSpectrum::new(shape));
-            ScratchTable::of_spectrum(grid, |nm| reflectance(*metal, nm))
-        }),
+    let made = |metal: Option<Metal>| {
+        let is_rectangle = *shape == GrooveShape::default();
+        let grid = (!is_rectangle).then(|| grid.get_or_init(|| GrooveSpectrum::new(shape)));
+        ScratchTable::seen_by(observer, grid, |nm| reflectance(metal, nm))
+    };
+    let table = |metal: &Option<Metal>| {
+        if observer.is_of_bands() {
+            return Arc::new(made(*metal));
+        }
+        match *shape == GrooveShape::default() {
+            true => scratch_table(*metal),
+            false => kept_table(*metal, shape, || made(*metal)),
+        }
     };
     metals.iter().map(table).collect()
 }
@@ -346,7 +380,12 @@ fn reflectance(metal: Option<Metal>, wavelength_nm: f64) -> f64 {
     metal.map_or(1.0, |m| m.reflectance(1.0, wavelength_nm))
 }
 
-fn material_optics(material: &Material, table: u32, curve: u32) -> MaterialOptics {
+fn material_optics(
+    material: &Material,
+    observer: &Observer,
+    table: u32,
+    curve: u32,
+) -> MaterialOptics {
     let metal = |base_color| MaterialOptics {
         base_color,
         metallic: 1.0,
@@ -357,8 +396,8 @@ fn material_optics(material: &Material, table: u32, curve: u32) -> MaterialOptic
     };
     match material.base {
         Base::Mirror => metal([1.0; 3]),
-        Base::Metal(m) => metal(m.reflectance_rgb(1.0)),
-        Base::Covered { metal: m, cover } => metal(cover.reflectance_rgb(m, 1.0)),
+        Base::Metal(m) => metal(observer.channels(|nm| m.reflectance(1.0, nm))),
+        Base::Covered { metal: m, cover } => metal(cover.reflectance_seen_by(observer, m, 1.0)),
         Base::ColoredMetal { base_color } => metal(base_color),
         Base::Dielectric { ior, base_color } => MaterialOptics {
             metallic: 0.0,

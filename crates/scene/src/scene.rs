@@ -6,6 +6,7 @@
 
 use glam::{DVec2, DVec3, Vec3};
 use hairline_image::Batches;
+use hairline_optics::spectrum::Observer;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -74,6 +75,8 @@ pub struct Scene {
     pub textures: Arc<Vec<Texture>>,
     /// Materials that the triangles of the objects refer to.
     pub materials: Vec<Material>,
+    /// What the channels of pictures are: colours, or bands of the spectrum.
+    pub observer: Observer,
     /// Objects in world space.
     pub objects: Vec<Object>,
     /// Area lights, without those of the environment: see [`Scene::all_lights`].

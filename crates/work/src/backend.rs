@@ -168,6 +168,26 @@ impl<'a> Painter<'a> {
         })
     }
 
+    /// A painter of a scene that differs in its observer alone: it shares the trees. None on a graphics adapter.
+    pub fn seen_by<'b>(&self, scene: &'b Scene) -> Option<Painter<'b>>
+    where
+        'a: 'b,
+    {
+        let OpenRenderer::Cpu(first) = &self.on else {
+            return None;
+        };
+        let (triangles, scratches) = (first.triangles().clone(), first.scratches().clone());
+        let tables = ScratchTables::new(scene).into();
+        let prepared = Prepared::from_parts(scene, triangles, scratches, tables);
+        Some(Painter {
+            scene,
+            task: self.task.clone(),
+            listener: self.listener,
+            on: OpenRenderer::Cpu(Box::new(prepared)),
+            triangles: OnceCell::new(),
+        })
+    }
+
     /// Renders `scene`, which is the one that this was opened with but for its camera. What fails on a graphics adapter that was
     /// not asked for is done on the CPU, from then on. Shadows and what is out of focus add up in batches of samples: once `is_stopped` says so there will be no
     /// further one, and the picture is that of the batches before. Without them a picture that was stopped on the CPU is black where

@@ -4,6 +4,7 @@
 #![warn(unreachable_pub)]
 
 pub mod backend;
+pub mod bands;
 pub mod failure;
 pub mod labels;
 mod listener;

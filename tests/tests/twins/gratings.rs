@@ -12,6 +12,7 @@ use hairline_optics::grating::{
 use hairline_optics::metal::Metal;
 use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
 use hairline_optics::scratch::oblique_depth_nm;
+use hairline_optics::spectrum::Observer;
 use hairline_optics::table::{COLUMNS, ROWS, ScratchTable};
 use hairline_scene::{Bearing, Grating, GrooveField, GrooveGround, Mesh};
 use std::sync::LazyLock;
@@ -379,6 +380,7 @@ fn fine_gratings_by_incidence() {
     let rigorous = RigorousGrating {
         row,
         efficiencies: &efficiencies,
+        observer: Observer::eye(),
         medium,
         is_colored: false,
         cover: None,

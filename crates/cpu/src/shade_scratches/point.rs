@@ -3,7 +3,7 @@
 use crate::light_view::LightViews;
 use crate::surface::SurfacePoint;
 use glam::DVec2;
-use hairline_optics::band::{BandStds, band_stds};
+use hairline_optics::band::{BandStds, band_stds_seen_by};
 use hairline_optics::footprint::ScratchShare;
 
 /// A point of a surface with scratches, in the picture.
@@ -49,7 +49,7 @@ impl Frame {
                 .footprint_axes_m
                 .map(|step| (point.surface_from_world(step) * 1e6).truncate()),
             window_um2: 0.5 * point.coherence_um * point.coherence_um,
-            stds: band_stds(point.coherence_um),
+            stds: band_stds_seen_by(point.observer, point.coherence_um),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::BandLine;
 use crate::gaussian::gaussian;
 use crate::scratch::band_std;
-use crate::spectrum::{CHANNEL_MEAN_NM, WAVELENGTH_MEAN_NM};
+use crate::spectrum::Observer;
 use glam::{DVec2, DVec3};
 
 /// The band is cut off at this many standard deviations; 6e-5 of its energy lies beyond, 5e-4 in red.
@@ -20,9 +20,14 @@ pub struct BandStds {
 
 /// The band of a scratch on a surface of the given coherence.
 pub fn band_stds(coherence_um: f64) -> BandStds {
+    band_stds_seen_by(Observer::eye(), coherence_um)
+}
+
+/// [`band_stds`] in the channels of an observer.
+pub fn band_stds_seen_by(observer: &Observer, coherence_um: f64) -> BandStds {
     BandStds {
-        mean: band_std(coherence_um, WAVELENGTH_MEAN_NM),
-        channels: CHANNEL_MEAN_NM.map(|nm| band_std(coherence_um, nm)),
+        mean: band_std(coherence_um, observer.mean_nm),
+        channels: (observer.channel_mean_nm).map(|nm| band_std(coherence_um, nm)),
     }
 }
 

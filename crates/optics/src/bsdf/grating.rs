@@ -7,10 +7,10 @@ use super::conductor::Conductor;
 use super::spectral_mode::SpectralMode;
 use crate::grating::Grating;
 use crate::scratch::band_std;
-use crate::spectrum::{self, CHANNEL_MEAN_NM, WAVELENGTH_MEAN_NM, WAVELENGTH_MIN_NM};
+use crate::spectrum::{
+    self, CHANNEL_MEAN_NM, WAVELENGTH_MAX_NM, WAVELENGTH_MEAN_NM, WAVELENGTH_MIN_NM,
+};
 
-/// Longest tabulated wavelength.
-const WAVELENGTH_MAX_NM: f64 = 780.0;
 /// Orders beyond this are not drawn by themselves.
 const MOST_ORDERS: i32 = 64;
 /// Probability of drawing about the mirror's direction, for what grooves send each for itself.

@@ -6,7 +6,7 @@ use super::Grating;
 use super::table::{Columns, Rise};
 use crate::cover::Cover;
 use crate::rigorous::{Efficiencies, Medium};
-use crate::spectrum;
+use crate::spectrum::Observer;
 use crate::table::{COLUMNS, ROWS, ScratchTable, TableRow};
 use std::f64::consts::FRAC_PI_2;
 
@@ -23,6 +23,8 @@ pub struct RigorousGrating<'a> {
     pub row: Grating,
     /// Their efficiencies, without what displaces them or spreads their depths.
     pub efficiencies: &'a Efficiencies,
+    /// What the channels are.
+    pub observer: &'a Observer,
     /// Material whose efficiencies they are.
     pub medium: Medium,
     /// Whether the grooves are in a material of another colour, which its shading brings.
@@ -63,7 +65,7 @@ impl RigorousGrating<'_> {
     /// As [`Grating::table`], of which it has the columns; a row is an [incidence](IncidenceRow). The last column has half of what is missing in the
     /// mirror's direction, over the light that a flat surface sends there.
     pub fn table(&self, coherence_um: f64) -> ScratchTable {
-        let samples = spectrum::samples();
+        let samples = self.observer.samples();
         let columns = Columns::new();
         let nodes: Vec<f64> = samples.iter().map(|s| s.wavelength_nm).collect();
         let count = columns.q.len();
@@ -113,7 +115,7 @@ impl RigorousGrating<'_> {
         sums: &mut [[f64; 6]],
     ) {
         let count = columns.q.len();
-        let samples = spectrum::samples();
+        let samples = self.observer.samples();
         let left = 1.0 - along * along;
         let cos_of = |across: f64| (left - across * across).max(0.0).sqrt();
         let cos_o = cos_of(across);
@@ -218,7 +220,7 @@ impl RigorousGrating<'_> {
             (Some(cover), Medium::Metal(metal)) => {
                 let outer = cover.outer(cos_o);
                 cover
-                    .reflectance_rgb(metal, cos_o)
+                    .reflectance_seen_by(self.observer, metal, cos_o)
                     .map(|all| 1.0 - outer / all)
             }
             _ => [1.0; 3],
@@ -345,6 +347,7 @@ mod tests {
     use super::*;
     use crate::metal::Metal;
     use crate::rigorous::FineGrooves;
+    use crate::spectrum;
 
     /// Sums over its efficiencies are what a row of a table sends to all places of an order, and what it takes; between rows nearly.
     #[test]
@@ -369,6 +372,7 @@ mod tests {
             row,
             efficiencies: &efficiencies,
             medium,
+            observer: Observer::eye(),
             is_colored: false,
             cover: None,
         };

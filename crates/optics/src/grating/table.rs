@@ -6,7 +6,7 @@ use crate::diffraction::{sinc, sinc_squared_integral};
 use crate::gaussian::gaussian;
 use crate::scratch::DEPTH_MAX_NM;
 use crate::scratch::band_std;
-use crate::spectrum::{self, WAVELENGTH_MIN_NM, WAVELENGTH_STEP_NM};
+use crate::spectrum::{Observer, WAVELENGTH_MIN_NM, WAVELENGTH_STEP_NM};
 use crate::table::{COLUMNS, ROWS, ScratchTable, U_HALF_UM, column_u_um};
 use std::f64::consts::PI;
 
@@ -73,8 +73,18 @@ impl Grating {
         coherence_um: f64,
         reflectance: impl Fn(f64) -> f64 + Sync,
     ) -> ScratchTable {
-        let samples = spectrum::samples();
-        let f0 = spectrum::rgb_from_reflectance(&reflectance);
+        self.table_seen_by(Observer::eye(), coherence_um, reflectance)
+    }
+
+    /// [`Self::table`] for the channels of an observer.
+    pub fn table_seen_by(
+        &self,
+        observer: &Observer,
+        coherence_um: f64,
+        reflectance: impl Fn(f64) -> f64 + Sync,
+    ) -> ScratchTable {
+        let samples = observer.samples();
+        let f0 = observer.channels(&reflectance);
         let columns = Columns::new();
         let count = columns.q.len();
         let nodes: Vec<f64> = samples.iter().map(|s| s.wavelength_nm).collect();

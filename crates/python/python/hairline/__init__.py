@@ -19,6 +19,7 @@ if sys.platform == "linux":
     # most programs have one thread: others may read the environment later.
     os.environ.setdefault("XDG_RUNTIME_DIR", "/nonexistent")
 
+from ._bands import Bands
 from ._compare import Comparison, compare
 from ._errors import Error, InterruptedWarning, SceneError, WorkError
 from ._hairline import Image, Labels, __version__, read_image, threads
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     from . import bsdf, cluster, editing, inspect, measured, mitsuba, optics
 
 __all__ = [
+    "Bands",
     "Camera",
     "Comparison",
     "DiskLight",

@@ -26,6 +26,7 @@ __all__ = [
     "set_threads",
     "threads",
     "read",
+    "write_bands",
     "check",
     "to_toml",
     "export",
@@ -51,6 +52,7 @@ __all__ = [
     "metal_names",
     "depth_coherence",
     "spectrum_samples",
+    "cie",
     "coherent_response",
     "controls",
     "presets",
@@ -199,6 +201,9 @@ class Built:
         transparent: bool,
         host: Host,
     ) -> Image: ...
+    def in_bands(self, bands_nm: list[tuple[float, float]]) -> list[Built]:
+        """The scene in bands of the spectrum, three at a time."""
+
     def light(self, layer: Optional[int], weight: float, host: Host) -> list[_Floats]:
         """Light of the base and of the scratches with all digits: height x width x 3 each, by the closed forms without shadows. The scratches of a
         layer count `weight` times."""
@@ -300,6 +305,9 @@ def set_threads(count: int) -> None:
 def threads() -> int:
     """Number of threads that work runs on."""
 
+def write_bands(
+    path: _Path, bands_nm: list[tuple[float, float]], base: _Singles, scratches: _Singles
+) -> None: ...
 def read(path: _Path) -> tuple[dict[str, Any], str, list[str]]: ...
 def check(table: dict[str, Any], alone: bool = False) -> dict[str, Any]: ...
 def to_toml(table: dict[str, Any]) -> str: ...
@@ -327,6 +335,7 @@ coherent_response: Callable[..., _Floats]
 
 def depth_coherence(depths_nm: _Floats, weights: _Floats) -> float: ...
 def spectrum_samples() -> tuple[_Floats, _Floats]: ...
+def cie() -> tuple[_Floats, _Floats]: ...
 def digest(table: dict[str, Any]) -> str: ...
 def inputs(table: dict[str, Any], folder: _Path) -> list[str]: ...
 def assemble(strips: list[Image]) -> Image: ...

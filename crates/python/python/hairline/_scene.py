@@ -11,6 +11,7 @@ from pathlib import Path as FilePath
 from typing import Any, Callable, NamedTuple, Optional, TypeVar, Union
 
 from . import _hairline as core
+from ._bands import Bands
 from ._changes import changed, found
 from ._errors import InterruptedWarning, argument_error
 from ._hairline import Image, Labels
@@ -302,6 +303,70 @@ class Scene:
         finally:
             host.close()
         return _told(image)
+
+    def render_bands(
+        self,
+        bands_nm: Iterable[tuple[float, float]],
+        *,
+        size: Optional[tuple[int, int]] = None,
+        samples: int = core.DEFAULT_SAMPLES,
+        shadows: Optional[bool] = None,
+        bounces: Optional[int] = None,
+        progress: Progress = False,
+    ) -> Bands:
+        """Renders the picture in bands of the spectrum, on the CPU: ``scene.render_bands([(400, 410), (410, 420)])``.
+
+        Metals, scratches, gratings and plates have their spectra. A colour has none: lamps, surfaces, textures and the environment must be grey,
+        which is the same in all bands; others are refused.
+
+        :param bands_nm: from one wavelength to a longer one, at least 1 nm wide, within 380 to 780 nm.
+        """
+        settings = render_arguments(backend="cpu", samples=samples, shadows=shadows, bounces=bounces)
+        return self._in_bands(bands_nm, size, progress, lambda built, host: built.render(*settings, host))
+
+    def reference_bands(
+        self,
+        bands_nm: Iterable[tuple[float, float]],
+        *,
+        size: Optional[tuple[int, int]] = None,
+        model: str = "separable",
+        samples: int = 1024,
+        shadows: bool = False,
+        bounces: int = 0,
+        sample_seed: int = 0,
+        progress: Progress = False,
+    ) -> Bands:
+        """Samples the picture of :meth:`render_bands` by Monte Carlo; arguments as of :meth:`reference`."""
+        samples, bounces = _whole("samples", samples, 1, 1 << 24), _whole("bounces", bounces, 0, 64)
+        seed = _whole("sample_seed", sample_seed, 0, (1 << 64) - 1)
+        settings = (_name("model", model), samples, None, _switch("shadows", shadows), bounces, "energy", seed, None, None)
+        return self._in_bands(bands_nm, size, progress, lambda built, host: built.reference(*settings, host))
+
+    def _in_bands(
+        self,
+        bands_nm: Iterable[tuple[float, float]],
+        size: Optional[tuple[int, int]],
+        progress: Progress,
+        draw: Callable[[core.Built, Host], Image],
+    ) -> Bands:
+        bands = tuple((float(low), float(high)) for low, high in bands_nm)
+        if not bands:
+            raise argument_error("bands_nm", "found no band", "must be pairs of wavelengths")
+        host = Host(progress)
+        try:
+            scenes = self._built(size, host).in_bands(list(bands))
+            images = [draw(built, host) for built in scenes]
+        finally:
+            host.close()
+        if not all(image.is_complete for image in images):
+            raise KeyboardInterrupt
+
+        def of(layer: str) -> Any:
+            import numpy as np
+
+            return np.ascontiguousarray(np.concatenate([getattr(image, layer) for image in images], axis=2)[..., : len(bands)])
+
+        return Bands(bands, of("base"), of("scratches"))
 
     def gradients(
         self,

@@ -3,6 +3,7 @@ use std::sync::Mutex;
 
 use glam::{DMat3, DVec2, DVec3};
 use hairline_optics::metal::Metal;
+use hairline_optics::spectrum::Observer;
 use hairline_scene::Reflector;
 
 use super::BaseLobes;
@@ -28,8 +29,11 @@ fn reflectance(reflector: Reflector, alpha: f64) -> &'static Reflectance {
     if let Some((.., found)) = made.iter().find(|m| (m.0, m.1) == (reflector, alpha)) {
         return found;
     }
-    let new: &'static Reflectance =
-        Box::leak(Box::new(Reflectance::at(reflector, &[alpha.sqrt()])));
+    let new: &'static Reflectance = Box::leak(Box::new(Reflectance::at(
+        Observer::eye(),
+        reflector,
+        &[alpha.sqrt()],
+    )));
     made.push((reflector, alpha, new));
     new
 }
