@@ -7,12 +7,14 @@ mod conductor;
 mod grating;
 mod layer;
 mod point;
+mod profile;
 mod spectral_mode;
 
 pub use conductor::Conductor;
 pub use grating::GratingLobe;
 pub use layer::{Groove, LayerLobe};
 pub use point::PointScratch;
+pub use profile::Profile;
 pub use spectral_mode::SpectralMode;
 
 use std::sync::Arc;
@@ -22,7 +24,7 @@ use glam::{DVec2, DVec3};
 use crate::footprint::ScratchShare;
 use crate::ggx::{ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
 use crate::mask::{Mask, Masked, ScratchSums};
-use crate::scratch::{oblique_depth_nm, phase_step_energy};
+use crate::scratch::oblique_depth_nm;
 
 /// Reflection, in parts that add up.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -89,7 +91,7 @@ impl ScratchedBsdf {
                 SpectralMode::Rgb => scratch.energy_rgb(&self.conductor, wo.z),
                 SpectralMode::Wavelength(nm) => {
                     let depth_nm = oblique_depth_nm(scratch.depth_nm, wo.z, wo.z);
-                    DVec3::splat(phase_step_energy(depth_nm, nm))
+                    DVec3::splat(scratch.profile.energy(depth_nm, nm))
                 }
             };
             energy(&at, scratch.share, &mut sums);

@@ -2,12 +2,15 @@
 
 use glam::{DMat2, DVec2, DVec3};
 use hairline_optics::bsdf::{
-    Conductor, GratingLobe, Groove, LayerLobe, PointScratch, Reflected, ScratchedBsdf, SpectralMode,
+    Conductor, GratingLobe, Groove, LayerLobe, PointScratch, Profile, Reflected, ScratchedBsdf,
+    SpectralMode,
 };
 use hairline_optics::footprint::{Footprint, ScratchShare, ends, scratch_share};
 use hairline_optics::grating::Grating;
 use hairline_optics::mask::depth_coherence;
+use hairline_optics::section::Section;
 use hairline_scene::description;
+use hairline_scene::schema::scratches::PROFILE;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -27,17 +30,53 @@ const ENDLESS_UM: f64 = 1e9;
 /// Direction of a sample that none was drawn for: it has neither light nor density.
 pub(crate) const BELOW: [f64; 3] = [0.0, 0.0, -1.0];
 
-/// A layer: its share, direction and spread in radians, its grooves as (part, width, depth).
-type Layer = (f64, f64, f64, Vec<(f64, f64, f64)>);
+/// A layer: its share, direction and spread in radians, its grooves as (part, width, depth), and their cross section.
+type Layer = (f64, f64, f64, Vec<(f64, f64, f64)>, ProfileKey);
 /// A grating: share, direction and spread in radians, then those of [`Grating`].
 type Row = (f64, f64, f64, [f64; 5]);
 /// A scratch: angle in radians, offset, start and end, width, depth.
 type Scratch = [f64; 6];
 
+/// A cross section as scene files have it.
+#[derive(FromPyObject)]
+enum ProfileKey {
+    Name(String),
+    Depths(Vec<f64>),
+}
+
+/// Strips of one depth that stand for a section in the coherence of depths.
+const STRIPS: usize = 16;
+
+impl ProfileKey {
+    fn section(&self) -> PyResult<Section> {
+        let depths = match self {
+            Self::Name(name) => {
+                return names::named("profile", name, &description::profile_names());
+            }
+            Self::Depths(depths) => depths,
+        };
+        let is_within = depths
+            .iter()
+            .all(|depth| PROFILE.bounds.ends().contains(depth));
+        let is_flat = depths.iter().all(|depth| *depth == 0.0);
+        if !(2..=64).contains(&depths.len()) || !is_within || is_flat {
+            let right = "must be a name, or 2 to 64 numbers from -1 to 1, not all 0";
+            return Err(errors::of_argument(
+                "profile",
+                format!("found {depths:?}"),
+                right,
+            ));
+        }
+        Ok(Section::Listed(depths.as_slice().into()))
+    }
+}
+
 /// A scratched metal.
 #[pyclass(frozen, module = "hairline._hairline")]
 pub(crate) struct Bsdf {
     bsdf: ScratchedBsdf,
+    /// What is seen through a footprint.
+    scratches: Vec<Scratch>,
 }
 
 /// Parts of the reflection that are asked for.
@@ -102,8 +141,9 @@ impl Bsdf {
         layers: Vec<Layer>,
         gratings: Vec<Row>,
         scratches: Vec<Scratch>,
-        footprint_um2: [f64; 3],
     ) -> PyResult<Self> {
+        let sections = layers.iter().map(|layer| layer.4.section());
+        let sections: Vec<Section> = sections.collect::<PyResult<_>>()?;
         let conductor = match n_k {
             Some(n_k) => Conductor::new(n_k, roughness).ok_or_else(errors::internal)?,
             None => {
@@ -112,14 +152,19 @@ impl Bsdf {
             }
         };
         let made = py.detach(|| {
-            let grooves = layers.iter().flat_map(|(share, .., grooves)| {
-                grooves
+            let mut depths: Vec<(f64, f64)> = scratches.iter().map(|it| (it[5], it[4])).collect();
+            for ((share, .., grooves, _), section) in layers.iter().zip(&sections) {
+                let strips = section.strips(STRIPS);
+                for ((part, _, depth_nm), (_, of_depth)) in grooves
                     .iter()
-                    .map(move |(part, _, depth)| (*depth, share * part))
-            });
-            let listed = scratches.iter().map(|it| (it[5], it[4]));
-            let depth_coherence = depth_coherence(grooves.chain(listed));
-            let layers = layers.iter().map(|(share, direction, spread, grooves)| {
+                    .flat_map(|it| strips.iter().map(move |strip| (it, strip)))
+                {
+                    depths.push((depth_nm * of_depth, share * part / strips.len() as f64));
+                }
+            }
+            let depth_coherence = depth_coherence(depths.iter().copied());
+            let lobes = layers.iter().zip(&sections);
+            let layers = lobes.map(|((share, direction, spread, grooves, _), section)| {
                 let groove = |&(part, width_um, depth_nm): &(f64, f64, f64)| Groove {
                     part,
                     width_um,
@@ -130,6 +175,7 @@ impl Bsdf {
                     &conductor,
                     *share,
                     grooves,
+                    Profile::new(section),
                     *direction,
                     *spread,
                     coherence_um,
@@ -146,20 +192,32 @@ impl Bsdf {
                 };
                 GratingLobe::new(&conductor, row, *share, *direction, *spread, coherence_um)
             });
-            let points = scratches
-                .iter()
-                .map(|it| point_scratch(it, footprint_um2, coherence_um));
             ScratchedBsdf {
                 layers: layers.collect(),
                 gratings: gratings.collect(),
-                points: points.collect(),
+                points: Vec::new(),
                 conductor: conductor.into(),
                 roughness,
                 coherence_um,
                 depth_coherence,
             }
         });
-        Ok(Self { bsdf: made })
+        Ok(Self {
+            bsdf: made,
+            scratches,
+        })
+    }
+
+    /// The same with its single scratches as they are seen through a footprint of the variances xx, xy and yy.
+    fn seen_through(&self, footprint_um2: [f64; 3]) -> Self {
+        let seen = |it| point_scratch(it, footprint_um2, self.bsdf.coherence_um);
+        Self {
+            bsdf: ScratchedBsdf {
+                points: self.scratches.iter().map(seen).collect(),
+                ..self.bsdf.clone()
+            },
+            scratches: self.scratches.clone(),
+        }
     }
 
     /// Reflection of rows of directions: three numbers a row, or one where wavelengths are given.
@@ -280,6 +338,7 @@ fn point_scratch(
         tangent,
         width_um,
         depth_nm,
+        profile: Profile::default(),
         share,
     }
 }

@@ -63,10 +63,6 @@ pub(crate) fn laid<'py>(
     made.set_item("depth_nm", numbers(|profile| profile.depth_nm))?;
     let scratch: Vec<u32> = pieces().map(|(i, ..)| i as u32).collect();
     made.set_item("scratch", scratch.into_pyarray(py))?;
-    let rectangle: Vec<bool> = pieces()
-        .map(|(_, it, _)| it.profile.section == Default::default())
-        .collect();
-    made.set_item("is_rectangle", rectangle.into_pyarray(py))?;
     let layer: Vec<u32> = pieces().map(|(_, it, _)| it.layer).collect();
     made.set_item("layer", layer.into_pyarray(py))?;
     made.set_item("area_m2", area_m2(object))?;

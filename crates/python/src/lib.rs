@@ -17,6 +17,10 @@ mod strips;
 mod values;
 mod watched;
 
+use hairline_optics::scratch::DEPTH_MAX_NM;
+use hairline_optics::section::NARROW;
+use hairline_optics::spectrum::{WAVELENGTH_MAX_NM, WAVELENGTH_MIN_NM};
+use hairline_scene::schema::scratches::WIDTH_UM;
 use pyo3::prelude::*;
 
 /// Has all that follows run on so many threads. It must come before any work.
@@ -42,6 +46,10 @@ fn threads() -> usize {
 fn _hairline(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("DEFAULT_SAMPLES", hairline_scene::DEFAULT_SAMPLES)?;
+    module.add("WIDEST_UM", WIDTH_UM.bounds.ends().end())?;
+    module.add("DEEPEST_NM", DEPTH_MAX_NM)?;
+    module.add("NARROW", NARROW)?;
+    module.add("WAVELENGTHS_NM", (WAVELENGTH_MIN_NM, WAVELENGTH_MAX_NM))?;
     module.add_class::<arrays::MeshArray>()?;
     module.add_class::<bsdf::Bsdf>()?;
     module.add_class::<arrays::ScratchArray>()?;

@@ -2,10 +2,10 @@
 
 use glam::{DVec2, DVec3, Vec3};
 use hairline_index::{Groove, ScratchIndex, SegmentTree, groove_index};
-use hairline_optics::bsdf::{Conductor, PointScratch, ScratchedBsdf, SpectralMode};
+use hairline_optics::bsdf::{Conductor, PointScratch, Profile, ScratchedBsdf, SpectralMode};
 use hairline_optics::scratch::piece_share;
 use hairline_optics::section::NARROW;
-use hairline_scene::{Base, Scene};
+use hairline_scene::{Base, GrooveShapes, Scene};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -29,6 +29,8 @@ pub(crate) struct SceneBsdf {
     grooves: SegmentTree<Groove>,
     object: usize,
     bare: ScratchedBsdf,
+    /// Of each shape of the scene's grooves.
+    profiles: Vec<Profile>,
 }
 
 impl SceneBsdf {
@@ -48,13 +50,6 @@ impl SceneBsdf {
                 "must be an object of kind = \"metal\"",
             ));
         };
-        let is_rectangle =
-            |scratch: &hairline_scene::Scratch| scratch.profile.section == Default::default();
-        if !of.scratches.iter().all(is_rectangle) {
-            let found = format!("found \"{}\", whose scratches have other profiles", of.name);
-            let right = "must be an object of rectangular grooves alone";
-            return Err(errors::of_argument("object", found, right));
-        }
         let is_narrow = |scratch: &hairline_scene::Scratch| {
             f64::from(scratch.profile.width_um) <= NARROW * material.coherence_um
         };
@@ -85,6 +80,9 @@ impl SceneBsdf {
             grooves: groove_index::build(scene),
             object,
             bare,
+            profiles: (GrooveShapes::new(scene).shapes())
+                .map(|shape| Profile::new(&shape.section))
+                .collect(),
         })
     }
 
@@ -95,11 +93,10 @@ impl SceneBsdf {
         let reach_m = Vec3::splat((1e-6 * reach_um) as f32);
         self.grooves
             .gather(self.object, point.position_m.as_vec3(), reach_m, |i| {
-                bsdf.points.extend(point.scratch(
-                    &self.grooves.segments[i],
-                    reach_um,
-                    bsdf.coherence_um,
-                ));
+                let groove = &self.grooves.segments[i];
+                let profile = &self.profiles[usize::from(groove.shape)];
+                let seen = point.scratch(groove, profile, reach_um, bsdf.coherence_um);
+                bsdf.points.extend(seen);
             });
         bsdf
     }
@@ -112,7 +109,13 @@ struct Point {
 }
 
 impl Point {
-    fn scratch(&self, groove: &Groove, reach_um: f64, coherence_um: f64) -> Option<PointScratch> {
+    fn scratch(
+        &self,
+        groove: &Groove,
+        profile: &Profile,
+        reach_um: f64,
+        coherence_um: f64,
+    ) -> Option<PointScratch> {
         if groove.normal.as_dvec3().dot(self.axes[2]) < FACING {
             return None;
         }
@@ -137,6 +140,7 @@ impl Point {
             tangent,
             width_um,
             depth_nm: f64::from(groove.profile.depth_nm),
+            profile: profile.clone(),
             share: piece_share(width_um, offset_um, piece_um, whole_um, coherence_um),
         })
     }

@@ -17,6 +17,8 @@ MATERIALS = {
     "bare": Scratched("steel", roughness=0.3),
     "all ways": Scratched("steel", roughness=0.3, layers=[LAYER]),
     "one way": Scratched("gold", roughness=0.3, layers=[Layer(2.0, 150.0, 0.04, direction_deg=20, spread_deg=3)]),
+    "round ones": Scratched("steel", roughness=0.3, layers=[Layer(2.0, 200.0, 0.04, profile="round")]),
+    "listed one way": Scratched("gold", layers=[Layer(2.0, 150.0, 0.04, direction_deg=20, spread_deg=3, profile=(1, 0.7, 0, -0.3, 0))], roughness=0.3),
     "row": Scratched("steel", roughness=0.3, gratings=[ROW]),
     "row without orders": Scratched("steel", roughness=0.3, gratings=[Grating(10.0, 3.0, 200.0, coverage=0.3, jitter_um=20.0)]),
     "point": Scratched("steel", roughness=0.3, scratches=POINT),
@@ -182,6 +184,43 @@ def test_the_share_of_a_layer_is_that_of_its_grooves():
     assert layer.share == pytest.approx(1e6 * 0.01 * (10 + 2 * 5) / 3 * 1e-6)
 
 
+@pytest.mark.parametrize("profile, depth_share", [("v", lambda x: 1 - x), ("round", lambda x: 1 - x * x), ((1, -0.5), lambda x: 1 - 1.5 * x)])
+def test_a_profile_sends_the_transform_of_its_phases(profile, depth_share):
+    nm, width, depth = 550.0, 2.0, 240.0
+    wi, wo = direction(0.30, 1.5), direction(0.1, -1.5)
+    q = np.linalg.norm((wi + wo)[:2])
+    x = (np.arange(20_000) + 0.5) / 20_000 - 0.5
+    path = 4 * np.pi * depth * 0.5 * (wi[2] + wo[2]) / nm
+    wave = np.exp(2e3j * np.pi / nm * width * q * x)
+
+    def sent(depth_shares):
+        return abs(np.mean((1 - np.exp(-1j * path * depth_shares)) * wave)) ** 2
+
+    def of(profile):
+        layer = Layer(width, depth, 1e-6, profile=profile)
+        return Scratched("steel", layers=[layer]).eval(wi, wo, wavelength_nm=nm, part="scratches")
+
+    right = sent(depth_share(2 * abs(x))) / sent(np.ones_like(x))
+    assert of(profile) / of("rectangle") == pytest.approx(right, rel=3e-3)
+    assert abs(right - 1) > 0.1
+
+
+def test_another_footprint_is_that_of_a_new_material():
+    wi, wo = direction(0.30, 1.5), direction(0.1, -1.5)
+    material = Scratched("steel", layers=[LAYER], scratches=POINT)
+    each = [material.eval(wi, wo, footprint) for footprint in (0.0, 40.0, 0.0)]
+    np.testing.assert_array_equal(each[0], each[2])
+    np.testing.assert_array_equal(each[1], Scratched("steel", layers=[LAYER], scratches=POINT).eval(wi, wo, 40.0))
+    assert (each[0] != each[1]).any()
+
+
+def test_layers_of_a_scene_have_its_profiles(scene):
+    scene.scratches[0].profile = "round"
+    material = Scratched.from_scene(scene, "plate")
+    assert material.layers[0].profile == "round"
+    assert pickle.loads(pickle.dumps(material)).layers == material.layers
+
+
 @pytest.mark.parametrize(
     "call, message",
     [
@@ -202,6 +241,8 @@ def test_the_share_of_a_layer_is_that_of_its_grooves():
         (lambda m: Scratched(layers=[ROW]), "layers[0]: found an object of type Grating; must be a hairline.bsdf.Layer"),
         (lambda m: Scratched(scratches=[[0, 0, 5, 1, 2, 100]]), "scratches: found a scratch that is none"),
         (lambda m: Layer(width_um=0.0, coverage=0.1), "width_um: found 0.0; must be a number from 0.05 to 100"),
+        (lambda m: Scratched(layers=[Layer(coverage=0.1, profile="w")]), 'profile: found "w"; must be one of "rectangle"'),
+        (lambda m: Scratched(layers=[Layer(coverage=0.1, profile=(0, 0))]), "profile: found [0.0, 0.0]; must be a name, or 2 to 64"),
         (lambda m: Layer(), "coverage: found coverage=None"),
         (lambda m: Layer(coverage=0.1, length_m=0.1), "coverage: found coverage=0.1"),
         (lambda m: Layer(coverage=0.1, spread_deg=10.0), "spread_deg: found 10 without direction_deg"),

@@ -53,7 +53,7 @@ pub use scratches::{
 };
 pub use shapes::Shape;
 pub use studio::{Ground, Studio};
-pub use values::metal_names;
+pub use values::{metal_names, profile_names};
 
 /// A whole scene file.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -4,13 +4,14 @@
 //! R. von Mises (1918), exactly; if the directions of the scratches are one too, so is their mean, and its sum has a closed form.
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use spec_math::cephes64::{i0e, i1e};
 use std::f64::consts::PI;
 
 use super::conductor::Conductor;
+use super::profile::{Across, Profile};
 use super::spectral_mode::SpectralMode;
-use crate::diffraction::sinc;
-use crate::scratch::{band_std, phase_step_energy};
+use crate::scratch::band_std;
 use crate::spectrum::{self, CHANNEL_MEAN_NM, WAVELENGTH_MEAN_NM};
 
 /// Columns of the table, over |xi|; rows, over half the sum of the cosines.
@@ -43,6 +44,7 @@ pub struct Groove {
 pub struct LayerLobe {
     share: f64,
     grooves: Vec<Groove>,
+    profile: Profile,
     coherence_um: f64,
     /// Unit vector along the mean direction of the scratches.
     along: DVec2,
@@ -92,6 +94,7 @@ impl LayerLobe {
         conductor: &Conductor,
         share: f64,
         grooves: Vec<Groove>,
+        profile: Profile,
         direction_rad: f64,
         spread_rad: f64,
         coherence_um: f64,
@@ -100,11 +103,12 @@ impl LayerLobe {
         let mean_width_um: f64 = grooves.iter().map(|it| it.part * it.width_um).sum();
         let stds = CHANNEL_MEAN_NM.map(|nm| band_std(coherence_um, nm));
         let half_xi = HALF_UM / mean_width_um;
-        let (table, energies) = tabulated(conductor, &grooves, half_xi);
+        let (table, energies) = tabulated(conductor, &grooves, &profile, half_xi);
         let concentration_i0e = i0e(concentration);
         Self {
             share,
             grooves,
+            profile,
             coherence_um,
             along: DVec2::from_angle(direction_rad),
             concentration,
@@ -132,7 +136,7 @@ impl LayerLobe {
                 self.energies[row].lerp(self.energies[row + 1], share)
             }
             SpectralMode::Wavelength(nm) => {
-                let energy = |it: &Groove| it.part * phase_step_energy(it.depth_nm * cos, nm);
+                let energy = |it: &Groove| it.part * self.profile.energy(it.depth_nm * cos, nm);
                 DVec3::splat(self.grooves.iter().map(energy).sum())
             }
         }
@@ -154,11 +158,9 @@ impl LayerLobe {
             SpectralMode::Wavelength(nm) => {
                 let std = band_std(self.coherence_um, nm);
                 let factor = 1.0 / ((2.0 * PI).sqrt() * std * self.concentration_i0e);
-                let per_um = 1e3 / nm;
                 let across = self.grooves.iter().map(|it| {
-                    let slit = sinc(PI * it.width_um * per_um * xi2.sqrt());
-                    let energy = phase_step_energy(it.depth_nm * depth_share, nm);
-                    it.part * energy * it.width_um * per_um * slit * slit
+                    let depth_nm = it.depth_nm * depth_share;
+                    it.part * (self.profile).density(it.width_um, depth_nm, nm, xi2.sqrt())
                 });
                 let across: f64 = across.sum();
                 DVec3::splat(self.share * across * band(1.0 / (std * std), factor))
@@ -286,72 +288,55 @@ fn row_at(depth_share: f64) -> (usize, f64) {
 fn tabulated(
     conductor: &Conductor,
     grooves: &[Groove],
+    profile: &Profile,
     half_xi: f64,
 ) -> (Vec<[f32; 3]>, Vec<DVec3>) {
     let samples = spectrum::samples();
-    let shapes: Vec<DVec3> = samples
+    // Each kind of groove in each wavelength.
+    let kinds: Vec<(DVec3, f64, &Groove)> = samples
         .iter()
-        .map(|s| DVec3::from(s.weight) * conductor.shape(s.wavelength_nm))
-        .collect();
-    let span = MOST_XI / (MOST_XI + half_xi);
-    // What each groove sends to a column, by wavelength.
-    let across: Vec<f64> = (0..COLUMNS)
-        .flat_map(|column| {
-            let x = span * column as f64 / (COLUMNS - 1) as f64;
-            let xi = half_xi * x / (1.0 - x);
-            samples.iter().flat_map(move |s| {
-                let per_um = 1e3 / s.wavelength_nm;
-                grooves.iter().map(move |it| {
-                    let slit = sinc(PI * it.width_um * per_um * xi);
-                    it.part * it.width_um * per_um * slit * slit
-                })
-            })
+        .flat_map(|s| {
+            let shape = DVec3::from(s.weight) * conductor.shape(s.wavelength_nm);
+            let kind = move |it| (shape, s.wavelength_nm, it);
+            grooves.iter().map(kind)
         })
         .collect();
-    let stride = samples.len() * grooves.len();
-    let (mut table, mut energies) = (Vec::new(), Vec::new());
-    for row in 0..ROWS {
+    let span = MOST_XI / (MOST_XI + half_xi);
+    let columns: Vec<f64> = (0..COLUMNS)
+        .map(|column| {
+            let x = span * column as f64 / (COLUMNS - 1) as f64;
+            half_xi * x / (1.0 - x)
+        })
+        .collect();
+    let across: Vec<Across> = (kinds.iter())
+        .map(|(_, nm, it)| profile.across(it.width_um, *nm, &columns))
+        .collect();
+    let row = |row: usize| {
         let depth_share = row as f64 / (ROWS - 1) as f64;
-        let energy: Vec<f64> = samples
-            .iter()
-            .flat_map(|s| {
-                let of =
-                    |it: &Groove| phase_step_energy(it.depth_nm * depth_share, s.wavelength_nm);
-                grooves.iter().map(of)
-            })
-            .collect();
-        table.extend(across.chunks_exact(stride).map(|across| {
-            let parts = across
-                .chunks_exact(grooves.len())
-                .zip(energy.chunks_exact(grooves.len()));
-            let sum: DVec3 = parts
-                .zip(&shapes)
-                .map(|((across, energy), shape)| {
-                    shape * across.iter().zip(energy).map(|(a, e)| a * e).sum::<f64>()
-                })
-                .sum();
-            sum.to_array().map(|c| c as f32)
-        }));
-        let by_wavelength = energy.chunks_exact(grooves.len()).zip(&shapes);
-        let mean = by_wavelength.map(|(energy, shape)| {
-            shape
-                * grooves
-                    .iter()
-                    .zip(energy)
-                    .map(|(it, e)| it.part * e)
-                    .sum::<f64>()
-        });
-        energies.push(mean.sum());
-    }
-    (table, energies)
+        let mut texels = vec![DVec3::ZERO; COLUMNS];
+        let mut energy = DVec3::ZERO;
+        for ((shape, nm, it), across) in kinds.iter().zip(&across) {
+            let depth_nm = it.depth_nm * depth_share;
+            energy += shape * it.part * profile.energy(depth_nm, *nm);
+            let weight = shape * it.part;
+            profile.add(across, depth_nm, *nm, weight, &mut texels);
+        }
+        let texels: Vec<[f32; 3]> = texels.iter().map(|it| it.as_vec3().to_array()).collect();
+        (texels, energy)
+    };
+    let (texels, energies): (Vec<_>, Vec<_>) = (0..ROWS).into_par_iter().map(row).unzip();
+    (texels.into_iter().flatten().collect(), energies)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diffraction::sinc;
     use crate::metal::Metal;
+    use crate::scratch::phase_step_energy;
+    use crate::section::Section;
 
-    fn layer(spread_rad: f64) -> LayerLobe {
+    fn layer(profile: Profile, spread_rad: f64) -> LayerLobe {
         let steel = Conductor::of_metal(Metal::StainlessSteel, 0.2);
         let groove = |part, width_um, depth_nm| Groove {
             part,
@@ -359,7 +344,7 @@ mod tests {
             depth_nm,
         };
         let grooves = vec![groove(0.3, 1.0, 120.0), groove(0.7, 3.0, 260.0)];
-        LayerLobe::new(&steel, 0.02, grooves, 0.4, spread_rad, 20.0)
+        LayerLobe::new(&steel, 0.02, grooves, profile, 0.4, spread_rad, 20.0)
     }
 
     /// The mean over the directions by quadrature, each scratch as (4) has it, with its own q.
@@ -368,7 +353,7 @@ mod tests {
         let nm = 550.0;
         let s = band_std(20.0, nm);
         for spread in [f64::INFINITY, 0.5, 0.1, 0.01] {
-            let layer = layer(spread);
+            let layer = layer(Profile::default(), spread);
             let k = layer.concentration;
             for (length, angle) in [
                 (0.001, 0.3),
@@ -413,26 +398,30 @@ mod tests {
     /// Colours by the table are the sum over the spectrum, each wavelength with the band of its channel.
     #[test]
     fn the_table_is_the_sum_over_wavelengths() {
-        let layer = layer(f64::INFINITY);
-        let steel = Conductor::of_metal(Metal::StainlessSteel, 0.2);
-        let (mut error, mut size) = (DVec3::ZERO, DVec3::ZERO);
-        for i in 0..500 {
-            let golden = |k: f64| (k * f64::from(i)).fract();
-            let xi = (0.02 + 1.2 * golden(0.618_034)) * DVec2::from_angle(golden(0.414_214) * PI);
-            let share = 0.2 + 0.8 * golden(0.732_051);
-            let sum: DVec3 = spectrum::samples()
-                .iter()
-                .map(|s| {
-                    let at = layer.density(xi, share, SpectralMode::Wavelength(s.wavelength_nm));
-                    DVec3::from(s.weight) * steel.shape(s.wavelength_nm) * at
-                })
-                .sum();
-            let off = layer.density(xi, share, SpectralMode::Rgb) - sum;
-            error += off * off;
-            size += sum * sum;
+        for section in [Section::Rectangle, Section::V] {
+            let layer = layer(Profile::new(&section), f64::INFINITY);
+            let steel = Conductor::of_metal(Metal::StainlessSteel, 0.2);
+            let (mut error, mut size) = (DVec3::ZERO, DVec3::ZERO);
+            for i in 0..500 {
+                let golden = |k: f64| (k * f64::from(i)).fract();
+                let xi =
+                    (0.02 + 1.2 * golden(0.618_034)) * DVec2::from_angle(golden(0.414_214) * PI);
+                let share = 0.2 + 0.8 * golden(0.732_051);
+                let sum: DVec3 = spectrum::samples()
+                    .iter()
+                    .map(|s| {
+                        let at =
+                            layer.density(xi, share, SpectralMode::Wavelength(s.wavelength_nm));
+                        DVec3::from(s.weight) * steel.shape(s.wavelength_nm) * at
+                    })
+                    .sum();
+                let off = layer.density(xi, share, SpectralMode::Rgb) - sum;
+                error += off * off;
+                size += sum * sum;
+            }
+            let rms = (error / size).map(f64::sqrt);
+            assert!(rms.max_element() < 4e-3, "{section:?}: {rms}");
         }
-        let rms = (error / size).map(f64::sqrt);
-        assert!(rms.max_element() < 4e-3, "{rms}");
     }
 
     #[test]

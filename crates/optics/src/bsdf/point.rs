@@ -4,17 +4,17 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 use super::conductor::Conductor;
+use super::profile::Profile;
 use super::spectral_mode::SpectralMode;
-use crate::diffraction::sinc;
 use crate::footprint::ScratchShare;
-use crate::scratch::{band_std, phase_step_energy};
+use crate::scratch::band_std;
 use crate::spectrum::{self, CHANNEL_MEAN_NM, WAVELENGTH_MEAN_NM};
 
 /// Half width over which q is drawn times the width, um: about that of sinc^2 at green.
 const DRAWN_UM: f64 = 0.2;
 
 /// A scratch.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct PointScratch {
     /// Unit vector along it.
     pub tangent: DVec2,
@@ -22,6 +22,8 @@ pub struct PointScratch {
     pub width_um: f64,
     /// Depth of the groove.
     pub depth_nm: f64,
+    /// Its cross section.
+    pub profile: Profile,
     /// Share of the coherence window, or of its mean over a footprint, (20).
     pub share: ScratchShare,
 }
@@ -31,7 +33,7 @@ impl PointScratch {
     pub(super) fn energy_rgb(&self, conductor: &Conductor, cos: f64) -> DVec3 {
         let samples = spectrum::samples().iter();
         let of = samples.map(|s| {
-            let energy = phase_step_energy(self.depth_nm * cos, s.wavelength_nm);
+            let energy = (self.profile).energy(self.depth_nm * cos, s.wavelength_nm);
             DVec3::from(s.weight) * conductor.shape(s.wavelength_nm) * energy
         });
         of.sum()
@@ -47,11 +49,8 @@ impl PointScratch {
         mode: SpectralMode,
     ) -> DVec3 {
         let (t, q) = (xi.dot(self.tangent), self.tangent.perp_dot(xi));
-        let across = |nm: f64| {
-            let slit = sinc(PI * self.width_um * 1e3 / nm * q);
-            let energy = phase_step_energy(self.depth_nm * depth_share, nm);
-            energy * self.width_um * 1e3 / nm * slit * slit
-        };
+        let depth_nm = self.depth_nm * depth_share;
+        let across = |nm: f64| self.profile.density(self.width_um, depth_nm, nm, q);
         let band = |nm: f64| {
             let s = band_std(coherence_um, nm);
             (-0.5 * t * t / (s * s)).exp() / ((2.0 * PI).sqrt() * s)

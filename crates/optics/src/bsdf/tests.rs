@@ -1,6 +1,7 @@
 use super::*;
 use crate::grating::Grating;
 use crate::metal::Metal;
+use crate::section::Section;
 use crate::spectrum;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -15,7 +16,15 @@ fn materials() -> Vec<(&'static str, ScratchedBsdf)> {
     };
     let layer = |share, spread| {
         let grooves = vec![groove(0.5, 1.5, 120.0), groove(0.5, 2.5, 200.0)];
-        LayerLobe::new(&conductor, share, grooves, 0.3, spread, 20.0)
+        LayerLobe::new(
+            &conductor,
+            share,
+            grooves,
+            Profile::default(),
+            0.3,
+            spread,
+            20.0,
+        )
     };
     let row = Grating {
         pitch_um: 1.6,
@@ -29,6 +38,7 @@ fn materials() -> Vec<(&'static str, ScratchedBsdf)> {
         tangent: glam::DVec2::from_angle(1.1),
         width_um: 2.0,
         depth_nm: 150.0,
+        profile: Profile::default(),
         share: ScratchShare {
             segment: 0.03,
             line: 0.05,
@@ -75,7 +85,26 @@ fn materials() -> Vec<(&'static str, ScratchedBsdf)> {
         (
             "point",
             ScratchedBsdf {
-                points: vec![point],
+                points: vec![point.clone()],
+                ..bare.clone()
+            },
+        ),
+        (
+            "round ones and a V",
+            ScratchedBsdf {
+                layers: vec![LayerLobe::new(
+                    &conductor,
+                    0.03,
+                    vec![groove(1.0, 2.0, 200.0)],
+                    Profile::new(&Section::Round),
+                    0.3,
+                    f64::INFINITY,
+                    20.0,
+                )],
+                points: vec![PointScratch {
+                    profile: Profile::new(&Section::V),
+                    ..point.clone()
+                }],
                 ..bare.clone()
             },
         ),
@@ -235,7 +264,8 @@ fn scratches_are_reciprocal_but_for_fresnel_and_the_mask() {
             width_um: 2.0,
             depth_nm: 150.0,
         }];
-        LayerLobe::new(&material.conductor, 1e-6, grooves, 0.3, 0.2, 20.0)
+        let profile = Profile::default();
+        LayerLobe::new(&material.conductor, 1e-6, grooves, profile, 0.3, 0.2, 20.0)
     };
     let mode = SpectralMode::Wavelength(550.0);
     let [_, a, b] = views();

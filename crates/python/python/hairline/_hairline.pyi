@@ -15,6 +15,10 @@ _Singles = npt.NDArray[np.float32]
 __all__ = [
     "__version__",
     "DEFAULT_SAMPLES",
+    "WIDEST_UM",
+    "DEEPEST_NM",
+    "NARROW",
+    "WAVELENGTHS_NM",
     "Bsdf",
     "MeshArray",
     "ScratchArray",
@@ -61,6 +65,10 @@ __all__ = [
 
 __version__: str
 DEFAULT_SAMPLES: int
+WIDEST_UM: float
+DEEPEST_NM: float
+NARROW: float
+WAVELENGTHS_NM: tuple[float, float]
 
 @final
 class Bsdf:
@@ -70,11 +78,13 @@ class Bsdf:
         n_k: Optional[list[list[float]]],
         roughness: float,
         coherence_um: float,
-        layers: list[tuple[float, float, float, tuple[tuple[float, float, float], ...]]],
+        layers: list[tuple[float, float, float, tuple[tuple[float, float, float], ...], Union[str, list[float]]]],
         gratings: list[tuple[float, float, float, list[float]]],
         scratches: list[list[float]],
-        footprint_um2: list[float],
     ) -> Bsdf: ...
+    def seen_through(self, footprint_um2: tuple[float, float, float]) -> Bsdf:
+        """The same with its single scratches as they are seen through a footprint of the variances xx, xy and yy."""
+
     def eval(self, wi: _Floats, wo: _Floats, wavelength_nm: Optional[_Floats], part: str) -> _Floats:
         """Reflection of rows of directions: three numbers a row, or one where wavelengths are given."""
 

@@ -33,11 +33,8 @@ Size = Union[float, tuple[float, float]]
 """A number, or a mean and a spread as those of scene files: log-normal."""
 
 _Grooves = tuple[tuple[float, float, float], ...]
-_WAVELENGTHS_NM = (380.0, 780.0)
-_WIDTHS_UM = (0.05, 100.0)
-_DEPTHS_NM = (0.0, 2000.0)
-_NARROW = 0.4
-"""Widths up to this share of ``coherence_um`` reflect as wholes; wider ones only at their edges, which is not part of this model."""
+_WIDTHS_UM = (0.05, core.WIDEST_UM)
+_DEPTHS_NM = (0.0, core.DEEPEST_NM)
 _NODES = 5
 """Of the rule over a spread of widths or depths."""
 
@@ -76,6 +73,7 @@ class Layer:
         place ``density_per_m2`` and ``length_m``.
     :param direction_deg: mean direction, from the x axis. None: all directions are as frequent.
     :param spread_deg: standard deviation of the directions.
+    :param profile: cross section of the grooves, as ``profile`` of scene files: a name, or depths from the middle to the rim.
     """
 
     width_um: Size = 1.5
@@ -87,6 +85,7 @@ class Layer:
     spread_deg: float = 0.0
     grooves: Optional[_Grooves] = None
     """In place of width and depth: the part, the width and the depth of each kind of groove."""
+    profile: Union[str, tuple[float, ...]] = "rectangle"
 
     def __post_init__(self) -> None:
         _size("width_um", self.width_um, *_WIDTHS_UM)
@@ -132,7 +131,7 @@ class Layer:
         assert self.density_per_m2 is not None and self.length_m is not None
         return self.density_per_m2 * self.length_m * mean * 1e-6
 
-    def _row(self) -> tuple[float, float, float, _Grooves]:
+    def _row(self) -> tuple[float, float, float, _Grooves, Union[str, list[float]]]:
         grooves = self.grooves
         if grooves is None:
             widths, by_width = _nodes(*_size("width_um", self.width_um, *_WIDTHS_UM), *_WIDTHS_UM)
@@ -142,7 +141,8 @@ class Layer:
                 (float(p * q), float(w), float(d)) for p, w in zip(parts, widths) for q, d in zip(by_depth, depths)
             )
         spread = math.inf if self.direction_deg is None else math.radians(self.spread_deg)
-        return self.share, math.radians(self.direction_deg or 0.0), spread, grooves
+        profile = self.profile if isinstance(self.profile, str) else [float(depth) for depth in self.profile]
+        return self.share, math.radians(self.direction_deg or 0.0), spread, grooves, profile
 
 
 @dataclass(frozen=True)
@@ -242,28 +242,24 @@ class Scratched:
             right = "must have a width above 0, a depth of 0 or more, and an end behind the start"
             raise argument_error("scratches", "found a scratch that is none", right)
         self.scratches = listed
-        widest = _NARROW * self.coherence_um
+        # Wider ones reflect at their edges alone, which is not part of this model.
+        widest = core.NARROW * self.coherence_um
         wide = [width for layer in self.layers for _, width, _ in layer._row()[3] if width > widest]
         wide += listed[listed[:, 4] > widest, 4].tolist()
         if wide:
-            right = f"must be {widest:g} at most, 0.4 of coherence_um: wider grooves are lit at their edges, which is not part of this model"
+            right = f"must be {widest:g} at most, {core.NARROW:g} of coherence_um: wider grooves are lit at their edges, which is not part of this model"
             raise argument_error("width_um", f"found {max(wide):.4g}", right)
 
-        @lru_cache(maxsize=8)
-        def made(footprint: tuple[float, float, float]) -> core.Bsdf:
-            return core.Bsdf(
-                metal if isinstance(metal, str) else "",
-                None if n_k is None else n_k.tolist(),
-                self.roughness,
-                self.coherence_um,
-                [layer._row() for layer in self.layers],
-                [row._row() for row in self.gratings],
-                listed.tolist(),
-                list(footprint),
-            )
-
-        self._made = made
-        made((0.0, 0.0, 0.0))
+        bare = core.Bsdf(
+            metal if isinstance(metal, str) else "",
+            None if n_k is None else n_k.tolist(),
+            self.roughness,
+            self.coherence_um,
+            [layer._row() for layer in self.layers],
+            [row._row() for row in self.gratings],
+            listed.tolist(),
+        )
+        self._made = lru_cache(maxsize=8)(bare.seen_through)
 
     @classmethod
     def from_scene(cls, scene: Scene, object: str, *, coherence_um: Optional[float] = None) -> Scratched:
@@ -283,9 +279,6 @@ class Scratched:
                 raise argument_error("object", f"found {object!r}, whose material has {key}", "must be bare metal")
         built = scene.build()
         laid = built.laid(object)
-        if not laid["is_rectangle"].all():
-            found = f"found {object!r}, whose scratches have other profiles"
-            raise argument_error("object", found, "must be an object of rectangular grooves alone")
         along = laid["end_m"] - laid["start_m"]
         length = np.linalg.norm(along, axis=1)
         layers = []
@@ -296,6 +289,7 @@ class Scratched:
             doubled = np.sum(area * np.exp(2j * np.arctan2(along[own, 1], along[own, 0]))) / area.sum()
             # Random directions agree by about 1 / sqrt(n) by chance.
             agreement = min(abs(doubled), 1 - 1e-15)
+            profile = scene.scratches[int(layer)].profile
             is_one_way = agreement > min(4 / math.sqrt(len(np.unique(laid["scratch"][own])) + 1), 0.95)
             layers.append(
                 Layer(
@@ -303,6 +297,7 @@ class Scratched:
                     direction_deg=math.degrees(0.5 * float(np.angle(doubled))) if is_one_way else None,
                     spread_deg=min(math.degrees(math.sqrt(-0.5 * math.log(agreement))), 90.0) if is_one_way else 0.0,
                     grooves=_binned(width, depth, area),
+                    profile=profile if isinstance(profile, str) else tuple(profile),
                 )
             )
         sigma = coherence_um if coherence_um is not None else float(material.coherence_um)
@@ -392,9 +387,10 @@ def _rows(
     nm = None
     if wavelength_nm is not None:
         nm = np.asarray(_numbers("wavelength_nm", wavelength_nm), dtype=np.float64)
-        wrong = ~((nm >= _WAVELENGTHS_NM[0]) & (nm <= _WAVELENGTHS_NM[1]))
+        least, most = core.WAVELENGTHS_NM
+        wrong = ~((nm >= least) & (nm <= most))
         if wrong.any():
-            raise argument_error("wavelength_nm", f"found {nm[wrong].flat[0]:g}", "must be from 380 to 780")
+            raise argument_error("wavelength_nm", f"found {nm[wrong].flat[0]:g}", f"must be from {least:g} to {most:g}")
         shapes.append(nm.shape)
     try:
         shape = np.broadcast_shapes(*shapes)

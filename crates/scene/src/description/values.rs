@@ -83,6 +83,11 @@ pub(crate) const SECTIONS: [(&str, Section); 4] = [
     (PROFILES[3], Section::Shoulders),
 ];
 
+/// Names of the cross sections of grooves in scene files.
+pub fn profile_names() -> [(&'static str, Section); 4] {
+    SECTIONS
+}
+
 /// Writes the name, or the depths.
 pub(super) fn serialize_section<S: Serializer>(
     section: &Section,
