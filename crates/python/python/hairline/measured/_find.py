@@ -42,6 +42,23 @@ class _Ridges(NamedTuple):
         return np.array(self.tree.query_ball_point(place, reach, return_sorted=True), dtype=np.intp)
 
 
+class _Valley(NamedTuple):
+    """What lies across a line, before a groove is fitted to it."""
+
+    ends: Floats
+    """From one end to the other, (row, column)."""
+    offset_um: Floats
+    heights_nm: Floats
+    middle_um: float
+    width_um: float
+
+    def line(self, step: float) -> _Line:
+        """The line with the groove that fits best: what takes most of the time."""
+        groove = fitted(self.offset_um, self.heights_nm, step, self.width_um, middle_um=self.middle_um)
+        profile = np.stack([self.offset_um - groove.middle_um, self.heights_nm - groove.base_nm], axis=1)
+        return _Line(self.ends, groove, profile)
+
+
 class _Line(NamedTuple):
     """From one end to the other, (row, column)."""
 
@@ -130,27 +147,27 @@ def _lines(heights: Floats, step: float, ridges: _Ridges, length_px: float, leas
         ends = _grown(ridges, free, seed, length_px)
         if ends is None:
             continue
-        line = _measured(heights, step, ends, widths_um, least_nm)
-        if line is None:
+        valley = _measured(heights, step, ends, widths_um, least_nm)
+        if valley is None:
             _take(ridges, free, ends, _OFF_PX)
-        else:
-            _take(ridges, free, line.ends, 0.5 * line.groove.width_um / step + 2)
-            if _accepted(line, step, length_px, least_nm, widths_um) and _within(line, lines, step) < _WITHIN:
+            continue
+        _take(ridges, free, valley.ends, 0.5 * valley.width_um / step + 2)
+        # Most are short or parts of others, and need no fit.
+        if np.hypot(*(valley.ends[1] - valley.ends[0])) >= length_px and _within(valley.ends, lines, step) < _WITHIN:
+            line = valley.line(step)
+            if _accepted(line.groove, least_nm, widths_um):
                 lines.append(line)
     return lines
 
 
-def _accepted(line: _Line, step: float, length_px: float, least_nm: float, widths_um: tuple[float, float]) -> bool:
-    long = np.hypot(*(line.ends[1] - line.ends[0])) >= length_px
-    groove = line.groove
+def _accepted(groove: Groove, least_nm: float, widths_um: tuple[float, float]) -> bool:
     within = 0.7 * widths_um[0] <= groove.width_um <= 1.4 * widths_um[1]
-    stands_out = groove.depth_nm >= max(least_nm, 5 * groove.residual_nm)
-    return bool(long and within and stands_out)
+    return within and groove.depth_nm >= max(least_nm, 5 * groove.residual_nm)
 
 
-def _within(line: _Line, others: list[_Line], step: float) -> float:
+def _within(ends: Floats, others: list[_Line], step: float) -> float:
     """The share of a line that lies in the grooves of others."""
-    points = line.ends[0] + np.linspace(0, 1, 101)[:, None] * (line.ends[1] - line.ends[0])
+    points = ends[0] + np.linspace(0, 1, 101)[:, None] * (ends[1] - ends[0])
     inside = np.zeros(101, dtype=bool)
     for other in others:
         way = other.ends[1] - other.ends[0]
@@ -254,8 +271,8 @@ def _middle_profile(strip: Floats) -> Optional[Floats]:
     return made
 
 
-def _measured(heights: Floats, step: float, ends: Floats, widths_um: tuple[float, float], least_nm: float) -> Optional[_Line]:
-    """A line moved to the middle of its groove, with the groove's profile and ends."""
+def _measured(heights: Floats, step: float, ends: Floats, widths_um: tuple[float, float], least_nm: float) -> Optional[_Valley]:
+    """A line moved to the middle of its groove, with what lies across it."""
     widths = np.geomspace(0.7 * widths_um[0], 1.4 * widths_um[1], 12)
     # Half a point of the grid is what it softens walls by.
     wall = 0.5 * step
@@ -285,8 +302,7 @@ def _measured(heights: Floats, step: float, ends: Floats, widths_um: tuple[float
         if turn != 1:
             ends = _ends(heights, step, ends, width, wall, depth)
     assert profile is not None
-    groove = fitted(offset, profile, step, width, middle_um=middle)
-    return _Line(ends, groove, np.stack([offset - groove.middle_um, profile - groove.base_nm], axis=1))
+    return _Valley(ends, offset, profile, middle, width)
 
 
 def _ends(heights: Floats, step: float, ends: Floats, width_um: float, wall_um: float, depth_nm: float) -> Floats:

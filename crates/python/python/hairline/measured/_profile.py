@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -32,16 +33,24 @@ def shape(offset_um: Floats, width_um: float, wall_um: float) -> Floats:
     return made
 
 
+@lru_cache(maxsize=256)
+def _boxes(offsets_um: bytes, widths_um: bytes, wall_um: float) -> tuple[Floats, Floats, Floats, Floats]:
+    """Middles, a straight base, the boxes of all widths and middles without their part in it, and the square of each: lines of one width ask for
+    the same ones."""
+    offset, widths = np.frombuffer(offsets_um), np.frombuffer(widths_um)
+    reach = float(offset.max())
+    middles = np.linspace(-0.5 * reach, 0.5 * reach, 41 if len(widths) > 1 else 161)
+    off = offset - middles[:, None]
+    boxes = np.concatenate([shape(off, width, wall_um) for width in widths])
+    line = np.linalg.qr(np.stack([np.ones_like(offset), offset], axis=1))[0]
+    boxes = boxes - (boxes @ line) @ line.T
+    return middles, line, boxes, np.maximum((boxes**2).sum(axis=1), 1e-9)
+
+
 def located(offset_um: Floats, heights_nm: Floats, widths_um: Floats, wall_um: float) -> tuple[float, float, float]:
     """Middle, width and depth of the groove of one of some widths that leaves least of a profile, on a base that may slope: the best of a grid."""
-    reach = float(offset_um.max())
-    middles = np.linspace(-0.5 * reach, 0.5 * reach, 41 if len(widths_um) > 1 else 161)
-    off = offset_um - middles[:, None]
-    boxes = np.concatenate([shape(off, width, wall_um) for width in widths_um])
-    line = np.linalg.qr(np.stack([np.ones_like(offset_um), offset_um], axis=1))[0]
-    boxes = boxes - (boxes @ line) @ line.T
+    middles, line, boxes, norm = _boxes(offset_um.tobytes(), widths_um.tobytes(), wall_um)
     target = heights_nm - line @ (line.T @ heights_nm)
-    norm = np.maximum((boxes**2).sum(axis=1), 1e-9)
     depths = -(boxes @ target) / norm
     best = int(np.argmax(np.maximum(depths, 0) ** 2 * norm))
     return float(middles[best % len(middles)]), float(widths_um[best // len(middles)]), float(depths[best])
@@ -70,6 +79,22 @@ def fitted(offset_um: Floats, heights_nm: Floats, step_um: float, width_um: floa
         made: Floats = level - deep * boxes + (0 if pitch_um else slope) * offset_um
         return made
 
+    def slopes(of: Floats) -> Floats:
+        """Derivatives of the heights by each of these."""
+        middle, width, deep, wall, _, _ = of
+        off, scale = places - middle, np.sqrt(2) * wall
+        ends = (off + 0.5 * width) / scale, (off - 0.5 * width) / scale
+        near, far = (np.exp(-end * end) / np.sqrt(np.pi) for end in ends)
+        by_middle = (far - near).sum(axis=0) / scale
+        by_width = 0.5 * (near + far).sum(axis=0) / scale
+        by_wall = (far * ends[1] - near * ends[0]).sum(axis=0) / wall
+        boxes = 0.5 * (erf(ends[0]) - erf(ends[1])).sum(axis=0)
+        by_slope = np.zeros_like(offset_um) if pitch_um else offset_um
+        made: Floats = np.stack(
+            [-deep * by_middle, -deep * by_width, -boxes, -deep * by_wall, np.ones_like(offset_um), by_slope], axis=1
+        )
+        return made
+
     low = [float(offset_um.min()), 0.5 * step_um, 0.0, 0.25 * step_um, -np.inf, -np.inf]
     high = [float(offset_um.max()), most_wide, 10 * depth, 0.5 * most_wide, np.inf, np.inf]
     scale = [step_um, step_um, depth, step_um, depth, depth / reach]
@@ -78,7 +103,7 @@ def fitted(offset_um: Floats, heights_nm: Floats, step_um: float, width_um: floa
         wide = float(np.clip(factor * width_um, 0.6 * step_um, 0.9 * most_wide))
         start = [middle_um, wide, depth, min(0.5 * step_um, 0.4 * most_wide), base, 0.0]
         done = scipy("optimize").least_squares(
-            lambda of: heights(of) - heights_nm, start, bounds=(low, high), x_scale=scale, max_nfev=60, ftol=1e-6, xtol=1e-6
+            lambda of: heights(of) - heights_nm, start, slopes, bounds=(low, high), x_scale=scale, max_nfev=60, ftol=1e-6, xtol=1e-6
         )
         if done.cost < least:
             best, least = done.x, float(done.cost)
