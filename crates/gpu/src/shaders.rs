@@ -95,8 +95,10 @@ modules! {
     BRUSHED_LOBE = "physics/brushed_lobe" needs [FACETS, FILTERED_LOBE];
     /// The GGX lobe over an environment, by round lobes in a row.
     ENVIRONMENT_LOBE = "physics/environment_lobe" needs [LTC];
+    /// Slopes by which a pixel mirrors lights.
+    PIXEL_SLOPES = "physics/pixel_slopes" needs [];
     /// A shading point and its frame.
-    SURFACE_POINT = "physics/surface_point" needs [];
+    SURFACE_POINT = "physics/surface_point" needs [PIXEL_SLOPES];
     /// Light from all around: look-ups in the maps.
     ENVIRONMENT = "physics/environment" needs [];
     /// Tone curves, from linear radiance to the display.
@@ -114,7 +116,7 @@ modules! {
     /// Search for scratches under a footprint, for other engines.
     SCRATCH_TREE = "engine/scratch_tree" needs [SCRATCH];
     /// The base of a point under lights, for other engines.
-    LIT_BASE = "engine/lit_base" needs [FILTERED_LOBE, BAND, OUTLINE_LIGHT];
+    LIT_BASE = "engine/lit_base" needs [FILTERED_LOBE, PIXEL_SLOPES, BAND, OUTLINE_LIGHT];
     /// The base of brushed metal, for other engines.
     BRUSHED_BASE = "engine/brushed_base" needs [BRUSHED_OUTLINE, LIT_BASE];
     /// All scratches of a point under lights, for other engines.

@@ -18,7 +18,7 @@ fn hairline_fresnel_rgb(surface: vec4f, more: vec3f) -> FresnelRgb {
   return FresnelRgb(surface.xyz, more.y, u32(more.x));
 }
 fn hairline_base(here: PixelFrame, surface: vec4f, more: vec3f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>) -> LitBase {
-  return lit_base(normalize(here.view.to_viewer_m), surface.w, hairline_fresnel_rgb(surface, more), pixel_spread(here, more.z), shapes, albedo, curves);
+  return lit_base(normalize(here.view.to_viewer_m), surface.w, hairline_fresnel_rgb(surface, more), pixel_slopes(here, more.z), shapes, albedo, curves);
 }
 fn hairline_brushed(
   here: PixelFrame, surface: vec4f, more: vec3f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>, facets: vec4f,
@@ -27,7 +27,7 @@ fn hairline_brushed(
   let length_sq = dot(along, along);
   let unit = select(vec2f(1.0, 0.0), along * inverseSqrt(max(length_sq, 1e-30)), length_sq > 1e-12);
   let fresnel = hairline_fresnel_rgb(surface, more);
-  return brushed_base(normalize(here.view.to_viewer_m), surface.w, unit, facets.w, fresnel, pixel_spread(here, more.z), shapes, albedo, curves);
+  return brushed_base(normalize(here.view.to_viewer_m), surface.w, unit, facets.w, fresnel, pixel_slopes(here, more.z), shapes, albedo, curves);
 }
 fn hairline_grooves(field: mat4x4f) -> Grooves {
   let rows = GrooveField(field[0].xyz, u32(field[0].w), field[2].xy, field[1].w, field[2].z, field[2].w);
@@ -141,7 +141,8 @@ function baseFunctions(name, parameters, made, module, lit = 'base') {
   ${given}
   let seen = hairline_outline(here, outline, view_from_light);
   let view = outline_view(vertices, seen.light, seen.point_m, seen.surface, vec2f(1.0, 0.0));
-  let lit = ${module}_outline(base, curves, vertices, view);
+  let per_m = light_per_distance(around.xyz - seen.point_m, around.w);
+  let lit = ${module}_outline(base, curves, vertices, view, per_m);
   return vec4f(lit.specular, lit.form_factor);
 }`, [library]),
     reflected: wgslFn(`fn hairline_${name}_reflected(${parameters}, specular: vec3f) -> vec3f {

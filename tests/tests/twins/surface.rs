@@ -90,13 +90,10 @@ fn slopes_of_a_pixel() {
         })
         .collect();
     Twin {
-        name: "surface_slope_spread",
-        modules: &[&shaders::SURFACE],
-        snippet: "var point: SurfacePoint;
-            point.turn_x = vec2f(x[0], x[1]); point.turn_y = vec2f(x[2], x[3]);
-            point.footprint_x_um = 1e4 * vec2f(x[1], x[2]); point.footprint_y_um = 1e4 * vec2f(x[3], x[0]);
-            point.wo.z = x[4]; point.distance_m = x[5]; point.slope_std = x[7];
-            let s = surface_slope_spread(point, x[6]); y[0] = s.x; y[1] = s.y; y[2] = s.z;",
+        name: "pixel_slopes_towards",
+        modules: &[&shaders::PIXEL_SLOPES],
+        snippet: "let slopes = PixelSlopes(vec2f(x[0], x[1]), vec2f(x[2], x[3]), 1e4 * vec2f(x[1], x[2]), 1e4 * vec2f(x[3], x[0]), x[4], x[5], x[7] * x[7]);
+            let s = pixel_slopes_towards(slopes, x[6]); y[0] = s.x; y[1] = s.y; y[2] = s.z;",
         tables: &[],
         expected: &|[a, b, c, d, cos_o, viewer_m, per_m, map_std]: [f64; 8]| {
             let slopes = PixelSlopes {

@@ -4,7 +4,8 @@
 
 struct BrushedBase {
     lit: LitBase,                   // with the albedo of the brushed lobe
-    lobe: BrushedLobe,
+    wo: vec3f,
+    axes: FacetAxes,
 }
 
 // `along` is the unit vector across the brushing, in the plane of the surface; `anisotropy` that of KHR_materials_anisotropy.
@@ -14,19 +15,23 @@ fn brushed_base(
     along: vec2f,
     anisotropy: f32,
     fresnel: FresnelRgb,
-    spread: vec3f,
+    slopes: PixelSlopes,
     shapes: texture_2d<f32>,
     albedo: texture_2d<f32>,
     curves: texture_2d<f32>,
 ) -> BrushedBase {
     let alpha = ggx_alpha(roughness);
     let axes = FacetAxes(along, vec2f(max(anisotropic_alpha(alpha, anisotropy), alpha), alpha));
-    let lobe = brushed_lobe(wo, axes, spread);
-    let around = brushed_albedo(lobe, fresnel, curves);
-    var lit = lit_base(wo, roughness, fresnel, spread, shapes, albedo, curves);
+    let around = brushed_albedo(brushed_lobe(wo, axes, pixel_slopes_towards(slopes, 0.0)), fresnel, curves);
+    var lit = lit_base(wo, roughness, fresnel, slopes, shapes, albedo, curves);
     lit.sharp.albedo = around.w;
     lit.reflecting.albedo = around.xyz;
-    return BrushedBase(lit, lobe);
+    return BrushedBase(lit, wo, axes);
+}
+
+// The lobe for a light at 1 / `per_m` metres.
+fn brushed_base_lobe(base: BrushedBase, per_m: f32) -> BrushedLobe {
+    return brushed_lobe(base.wo, base.axes, pixel_slopes_towards(base.lit.slopes, per_m));
 }
 
 fn brushed_base_sphere(base: BrushedBase, curves: texture_2d<f32>, center_m: vec3f, radius_m: f32) -> BaseLit {
@@ -35,15 +40,16 @@ fn brushed_base_sphere(base: BrushedBase, curves: texture_2d<f32>, center_m: vec
     }
     let cap = sphere_cap(center_m, radius_m);
     let sin_sq = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
-    let specular = brushed_sphere(base.lobe, cap.axis, sin_sq, base.lit.reflecting.fresnel, curves);
+    let lobe = brushed_base_lobe(base, light_per_distance(center_m, radius_m));
+    let specular = brushed_sphere(lobe, cap.axis, sin_sq, base.lit.reflecting.fresnel, curves);
     return BaseLit(specular, lambert_sphere(cap.axis, sin_sq));
 }
 
-// A polygon of any number of corners or a tube, as outline_view() sees it with the tangent (1, 0).
-fn brushed_base_outline(base: BrushedBase, curves: texture_2d<f32>, vertices: texture_2d<u32>, view: OutlineView) -> BaseLit {
+// A polygon of any number of corners or a tube at 1 / `per_m` metres, as outline_view() sees it with the tangent (1, 0).
+fn brushed_base_outline(base: BrushedBase, curves: texture_2d<f32>, vertices: texture_2d<u32>, view: OutlineView, per_m: f32) -> BaseLit {
     if view.facing == 0.0 {
         return BaseLit(vec3f(0.0), 0.0);
     }
-    let specular = brushed_outline(base.lobe, base.lit.reflecting.fresnel, curves, vertices, view);
+    let specular = brushed_outline(brushed_base_lobe(base, per_m), base.lit.reflecting.fresnel, curves, vertices, view);
     return BaseLit(specular, lambert_outline(vertices, view));
 }

@@ -1,17 +1,17 @@
-// The base between the scratches as an engine shades it: a GGX lobe over a white body, widened for pixels whose normals differ.
+// The base between the scratches as an engine shades it: a GGX lobe over a white body, widened by what a pixel sees.
 //
-// Needs: filtered_lobe, band, scratch_light (QuadLight), outline_light. Frame: the surface's, z along the shading normal, the viewer in the x-z plane.
+// Needs: filtered_lobe, pixel_slopes, band, scratch_light (QuadLight), outline_light. Frame: the surface's, z along the shading normal, the viewer in the x-z plane.
 // Positions of lights are relative to the point, in metres. Textures: `shapes`, `albedo` and `curves` of the package's tables.
 //
-//   let base = lit_base(wo, roughness, fresnel, slope_spread(turn_x, turn_y), shapes, albedo, curves);    // once
-//   let lit = lit_base_sphere(base, curves, center, r);                                                    // for each light
+//   let base = lit_base(wo, roughness, fresnel, slopes, shapes, albedo, curves);    // once; PixelSlopes of pixel_slopes
+//   let lit = lit_base_sphere(base, curves, center, r);                             // for each light
 //   specular += radiance * lit.specular;
 //   diffuse += radiance * lit.form_factor;
 //   colour = lit_base_reflected(base, specular) + albedo * lit_base_body(base) * diffuse;
 
 struct LitBase {
     sharp: LtcLobe,
-    filtered: FilteredLobe,
+    slopes: PixelSlopes,
     reflecting: LobeFresnel,
 }
 
@@ -21,23 +21,22 @@ struct BaseLit {
     form_factor: f32,               // of the body: times its albedo it is its radiance
 }
 
-// Variances of the slopes that a pixel sees in the plane of view and normal, and across it; their covariance. The turns of the normal are
-// those of a standard deviation of the pixel's filter.
-fn slope_spread(turn_x: vec2f, turn_y: vec2f) -> vec3f {
-    return vec3f(turn_x * turn_x + turn_y * turn_y, turn_x.x * turn_x.y + turn_y.x * turn_y.y);
-}
-
 fn lit_base(
     wo: vec3f,
     roughness: f32,
     fresnel: FresnelRgb,
-    spread: vec3f,
+    slopes: PixelSlopes,
     shapes: texture_2d<f32>,
     albedo: texture_2d<f32>,
     curves: texture_2d<f32>,
 ) -> LitBase {
     let sharp = ltc_lobe(wo, roughness, shapes, albedo);
-    return LitBase(sharp, filtered_lobe(sharp.alpha, spread, wo.z), lobe_fresnel(fresnel, wo, roughness, curves));
+    return LitBase(sharp, slopes, lobe_fresnel(fresnel, wo, roughness, curves));
+}
+
+// The lobe for a light at 1 / `per_m` metres.
+fn lit_base_filtered(base: LitBase, per_m: f32) -> FilteredLobe {
+    return filtered_lobe(base.sharp.alpha, pixel_slopes_towards(base.slopes, per_m), base.slopes.cos_o);
 }
 
 // Multiple scattering added.
@@ -58,14 +57,15 @@ fn lit_base_sphere(base: LitBase, curves: texture_2d<f32>, center_m: vec3f, radi
     let cap = sphere_cap(center_m, radius_m);
     // A cap that holds every direction stands for a sphere around the point.
     let sin_sq = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
+    let filtered = lit_base_filtered(base, light_per_distance(center_m, radius_m));
     var specular = vec3f(0.0);
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
-        let part = filtered_lobe_part(base.sharp, base.filtered, p);
+        let part = filtered_lobe_part(base.sharp, filtered, p);
         if !filtered_lobe_counts(part) {
             break;
         }
         let vector = ltc_sphere_vector(part.lobe, cap.axis, sin_sq);
-        specular += filtered_lobe_weight(base.filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
+        specular += filtered_lobe_weight(filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
     }
     return BaseLit(specular, lambert_sphere(cap.axis, sin_sq));
 }
@@ -75,10 +75,11 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
     if polygon_facing(light.normal, light.a_m, light.two_sided) == 0.0 || top <= 0.0 {
         return BaseLit(vec3f(0.0), 0.0);
     }
+    let filtered = lit_base_filtered(base, light_per_distance(light.center_m, light.radius_m));
     var specular = vec3f(0.0);
     var form_factor = 0.0;
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
-        let part = filtered_lobe_part(base.sharp, base.filtered, p);
+        let part = filtered_lobe_part(base.sharp, filtered, p);
         if !filtered_lobe_counts(part) {
             break;
         }
@@ -95,20 +96,21 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
             corners = mat4x3f(corners[1], corners[2], corners[3], corners[0]);
         }
         let vector = irradiance_end(reflected);
-        specular += filtered_lobe_weight(base.filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
+        specular += filtered_lobe_weight(filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
         form_factor = lambert_end(body);
     }
     return BaseLit(specular, form_factor);
 }
 
-// A polygon of any number of corners or a tube, as outline_view() sees it with the tangent (1, 0).
-fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d<u32>, view: OutlineView) -> BaseLit {
+// A polygon of any number of corners or a tube at 1 / `per_m` metres, as outline_view() sees it with the tangent (1, 0).
+fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d<u32>, view: OutlineView, per_m: f32) -> BaseLit {
+    let filtered = lit_base_filtered(base, per_m);
     var specular = vec3f(0.0);
     if view.facing == 0.0 {
         return BaseLit(specular, 0.0);
     }
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
-        let part = filtered_lobe_part(base.sharp, base.filtered, p);
+        let part = filtered_lobe_part(base.sharp, filtered, p);
         if !filtered_lobe_counts(part) {
             break;
         }
@@ -120,7 +122,7 @@ fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d
             a = b;
         }
         let vector = irradiance_end(reflected);
-        specular += filtered_lobe_weight(base.filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
+        specular += filtered_lobe_weight(filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
     }
     return BaseLit(specular, lambert_outline(vertices, view));
 }

@@ -76,13 +76,22 @@ fn pixel_turn(moves: mat2x2f, turns: mat2x3f, way: vec2f) -> vec3f {
     return turns * clamp(shares, vec2f(-4.0), vec2f(4.0));
 }
 
-// Spread of the slopes that the pixel sees, with those of a normal map of a variance in each direction.
-fn pixel_spread(here: PixelFrame, variance: f32) -> vec3f {
-    let smooth_spread = slope_spread(SCRATCHED_FILTER_STD * here.view.turn_x.xy, SCRATCHED_FILTER_STD * here.view.turn_y.xy);
-    return smooth_spread + vec3f(variance, variance, 0.0);
+// Slopes that the pixel sees, with those of a normal map of a variance in each direction.
+fn pixel_slopes(here: PixelFrame, variance: f32) -> PixelSlopes {
+    let view = here.view;
+    let viewer_m = length(view.to_viewer_m);
+    return PixelSlopes(
+        SCRATCHED_FILTER_STD * view.turn_x.xy,
+        SCRATCHED_FILTER_STD * view.turn_y.xy,
+        1e6 * SCRATCHED_FILTER_STD * view.footprint_x_m.xy,
+        1e6 * SCRATCHED_FILTER_STD * view.footprint_y_m.xy,
+        view.to_viewer_m.z / max(viewer_m, 1e-30),
+        viewer_m,
+        variance,
+    );
 }
 
-// The base at the pixel, its lobe as wide as the normals that the pixel sees.
+// The base at the pixel, its lobe as wide as what the pixel sees.
 fn pixel_base(
     here: PixelFrame,
     roughness: f32,
@@ -91,5 +100,5 @@ fn pixel_base(
     albedo: texture_2d<f32>,
     curves: texture_2d<f32>,
 ) -> LitBase {
-    return lit_base(normalize(here.view.to_viewer_m), roughness, fresnel, pixel_spread(here, 0.0), shapes, albedo, curves);
+    return lit_base(normalize(here.view.to_viewer_m), roughness, fresnel, pixel_slopes(here, 0.0), shapes, albedo, curves);
 }

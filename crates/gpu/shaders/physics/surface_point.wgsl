@@ -44,14 +44,18 @@ fn world_from_surface(point: SurfacePoint, v: vec3f) -> vec3f {
     return point.axis_x * v.x + point.axis_y * v.y + point.normal * v.z;
 }
 
-// Variances of the slopes by which a pixel mirrors a light at 1 / `per_m` metres, in the plane of view and normal, and across it; their
-// covariance. Twin: PixelSlopes::towards of optics/src/filtered_lobe.rs.
+// Variances of the slopes by which a pixel mirrors a light at 1 / `per_m` metres, and their covariance: pixel_slopes_towards().
 fn surface_slope_spread(point: SurfacePoint, per_m: f32) -> vec3f {
-    let cos_o = max(point.wo.z, MIN_VIEW_COS);
-    let per_step = 5e-7 * (1.0 / max(point.distance_m, 1e-6) + per_m) * vec2f(cos_o, 1.0 / cos_o);
-    let x = point.turn_x + per_step * point.footprint_x_um;
-    let y = point.turn_y + per_step * point.footprint_y_um;
-    return vec3f(x * x + y * y + point.slope_std * point.slope_std, x.x * x.y + y.x * y.y);
+    let slopes = PixelSlopes(
+        point.turn_x,
+        point.turn_y,
+        point.footprint_x_um,
+        point.footprint_y_um,
+        point.wo.z,
+        point.distance_m,
+        point.slope_std * point.slope_std,
+    );
+    return pixel_slopes_towards(slopes, per_m);
 }
 
 // Beyond this many standard deviations nothing of a footprint is told apart from a Gaussian's tail.

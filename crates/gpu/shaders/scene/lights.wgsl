@@ -41,9 +41,8 @@ fn light_cap(point: SurfacePoint, light: Light) -> Cap {
     return sphere_cap(surface_from_world(point, light.center_m - point.position_m), light.radius_m);
 }
 
-// One over the distance of a light's middle, held at its radius or above.
 fn light_per_m(light: Light, position_m: vec3f) -> f32 {
-    return 1.0 / max(max(length(light.center_m - position_m), light.radius_m), 1e-30);
+    return light_per_distance(light.center_m - position_m, light.radius_m);
 }
 
 // A light with an outline, for its look by a scratch. Whether it is a tube may be known where a pass is compiled.
