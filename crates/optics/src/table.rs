@@ -7,6 +7,7 @@
 //! turns the light integral of any scratch into differences of two look-ups, whatever the number of wavelengths.
 //! R/F0 carries the correlation of the metal's colour with the scratch's; the caller multiplies by Fresnel in RGB.
 
+mod grid;
 mod smooth;
 
 use crate::groove_spectrum::{GrooveSpectrum, Places, add_times};
@@ -18,19 +19,9 @@ use crate::{diffraction, scratch};
 use rayon::prelude::*;
 use smooth::SmoothTable;
 
+pub(crate) use grid::U_HALF_UM;
+pub use grid::{COLUMNS, ENGINE_COLUMNS, ENGINE_ROWS, ROWS};
 pub use smooth::SmoothRow;
-
-/// Columns, over u.
-pub const COLUMNS: usize = 1024;
-/// Rows, over depth.
-pub const ROWS: usize = 512;
-/// Columns and rows of the tables that other engines look up: a quarter of the memory.
-pub const ENGINE_COLUMNS: usize = 512;
-/// Rows over depth. Tables by incidence keep all of theirs.
-pub const ENGINE_ROWS: usize = 256;
-/// The u of the middle column. Columns are even in u/(u + U_HALF_UM), so that the last one lies at infinity: fine where
-/// the colours are (one fringe spans about 0.5 um of u), coarse where they have blurred into the tail.
-pub(crate) const U_HALF_UM: f64 = 2.0;
 
 /// T and its slope at every (u, d), 16 bytes each.
 #[derive(Clone, Debug)]

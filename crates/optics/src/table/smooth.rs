@@ -1,7 +1,7 @@
 //! A table with all its digits and without kinks, for derivatives of pictures: differences of [`super::ScratchTable`] show the rounding of its
 //! texels and the lines between its rows.
 
-use super::{COLUMNS, ROWS, U_HALF_UM};
+use super::grid::{COLUMNS, ROWS, U_HALF_UM};
 use crate::scratch::DEPTH_MAX_NM;
 use rayon::prelude::*;
 
