@@ -175,7 +175,7 @@ pub struct Render {
     #[arg(long)]
     pub transparent: bool,
     /// Render bands of the spectrum in place of colours, a channel each: from A to B nm by equal steps. Writes an .exr. What has a colour and no spectrum
-    /// is refused: lamps and surfaces must be grey, or measured metals.
+    /// is refused: lamps must be grey or have a temperature, surfaces be grey or measured metals.
     #[arg(long, value_name = "A:B:STEP", value_parser = parse_bands, conflicts_with_all = ["frames", "labels", "watch", "transparent"])]
     pub bands: Option<Bands>,
     /// Write which scratches each pixel shows too, to an .exr by the convention of Cryptomatte.

@@ -206,16 +206,25 @@ pub fn rgb_from_reflectance(reflectance: impl Fn(f64) -> f64) -> [f64; 3] {
 ///
 /// Planck's law with CODATA's second radiation constant.
 pub fn black_body_rgb(temperature_k: f64) -> [f64; 3] {
+    black_body_seen_by(Observer::eye(), temperature_k)
+}
+
+/// [`black_body_rgb`] in the channels of an observer, of luminance 1 to the eye.
+pub fn black_body_seen_by(observer: &Observer, temperature_k: f64) -> [f64; 3] {
     const SECOND_RADIATION_NM_K: f64 = 1.438_776_877e7;
-    let rgb = samples().iter().fold([0.0; 3], |sum, s| {
-        let x = SECOND_RADIATION_NM_K / (s.wavelength_nm * temperature_k);
-        // Over that of the wavelength in the middle, which keeps low temperatures from vanishing.
-        let middle = SECOND_RADIATION_NM_K / (WAVELENGTH_MEAN_NM * temperature_k);
-        let power = (WAVELENGTH_MEAN_NM / s.wavelength_nm).powi(5) * (middle.exp_m1() / x.exp_m1());
-        std::array::from_fn(|c| sum[c] + s.weight[c] * power / s.daylight)
-    });
+    let seen_by = |samples: &[SpectralSample]| {
+        samples.iter().fold([0.0; 3], |sum: [f64; 3], s| {
+            let x = SECOND_RADIATION_NM_K / (s.wavelength_nm * temperature_k);
+            // Over that of the wavelength in the middle, which keeps low temperatures from vanishing.
+            let middle = SECOND_RADIATION_NM_K / (WAVELENGTH_MEAN_NM * temperature_k);
+            let power =
+                (WAVELENGTH_MEAN_NM / s.wavelength_nm).powi(5) * (middle.exp_m1() / x.exp_m1());
+            std::array::from_fn(|c| sum[c] + s.weight[c] * power / s.daylight)
+        })
+    };
+    let rgb = seen_by(samples());
     let luminance = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-    rgb.map(|c: f64| (c / luminance).max(0.0))
+    seen_by(observer.samples()).map(|c: f64| (c / luminance).max(0.0))
 }
 
 /// The weights at any wavelength, as a density per nm, which a Monte Carlo estimate over wavelength divides by its pdf. Zero outside 380 to 780

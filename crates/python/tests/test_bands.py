@@ -36,6 +36,24 @@ def test_bands_by_the_eyes_curves_are_the_colours(scene):
         assert np.sqrt(np.mean((wrong - right) ** 2) / np.mean(right**2)) > 0.1
 
 
+def test_lamps_by_temperature_are_black_bodies(scene):
+    """On a mirror, where light keeps its spectrum: of a colour times a metal's the picture in colour knows no more than three numbers."""
+    scene.scratches = []
+    scene.materials[0].update(kind="mirror", metal=None)
+    scene.lights[0].temperature_k = 2700
+    bands = scene.render_bands(ALL, size=(24, 16), shadows=False, samples=1)
+    colours = scene.render(size=(24, 16), backend="cpu", shadows=False, samples=1).beauty
+    np.testing.assert_allclose(bands.rgb(), colours, rtol=5e-3, atol=1e-3 * colours.max())
+    # It is no grey one.
+    scene.lights[0].temperature_k = None
+    white = scene.render_bands(ALL, size=(24, 16), shadows=False, samples=1).rgb()
+    assert np.sqrt(np.mean((white - colours) ** 2) / np.mean(colours**2)) > 0.3
+    # One whose colour is another than the body's has no spectrum.
+    scene.lights[0].update(temperature_k=2700, color=(1.0, 0.5, 0.2))
+    with pytest.raises(hairline.SceneError, match="the radiance of light 0"):
+        scene.render_bands([(400, 410)])
+
+
 def test_illuminants_have_their_white_on_a_mirror(scene):
     scene.scratches = []
     scene.materials[0].update(kind="mirror", metal=None)

@@ -1,10 +1,13 @@
 //! Scenes seen in bands of the spectrum. What is given in Rec.709 has a spectrum only where it is grey: a lamp then has that of white, a surface
-//! reflects all wavelengths alike.
+//! reflects all wavelengths alike. A lamp by its temperature is a black body.
 
 use crate::error::Error;
+use crate::light::Light;
 use crate::scene::{Base, Scene};
 use hairline_model::texture::Texture;
-use hairline_optics::spectrum::{Observer, WAVELENGTH_MAX_NM, WAVELENGTH_MIN_NM};
+use hairline_optics::spectrum::{
+    Observer, WAVELENGTH_MAX_NM, WAVELENGTH_MIN_NM, black_body_rgb, black_body_seen_by,
+};
 
 /// Narrowest band that is drawn: spectra are tabulated every 5 nm.
 const NARROWEST_NM: f64 = 1.0;
@@ -30,9 +33,17 @@ impl Scene {
             }
         }
         self.check_spectra()?;
-        let scene = |bands: &[[f64; 2]]| Self {
-            observer: Observer::of_bands([0, 1, 2].map(|c| bands[c.min(bands.len() - 1)])),
-            ..self.clone()
+        let scene = |bands: &[[f64; 2]]| {
+            let observer = Observer::of_bands([0, 1, 2].map(|c| bands[c.min(bands.len() - 1)]));
+            let mut scene = self.clone();
+            for light in &mut scene.lights {
+                if let Some(temperature_k) = light.temperature_k {
+                    let [_, of_white, _] = white_balanced(light);
+                    let body = black_body_seen_by(&observer, temperature_k);
+                    light.radiance = body.map(|c| c * of_white);
+                }
+            }
+            Self { observer, ..scene }
         };
         Ok(bands_nm.chunks(3).map(scene).collect())
     }
@@ -43,7 +54,7 @@ impl Scene {
             false => Err(without_spectrum(format!("{what} {rgb:?}"))),
         };
         for (i, light) in self.lights.iter().enumerate() {
-            colour(&format!("the radiance of light {i}"), light.radiance)?;
+            colour(&format!("the radiance of light {i}"), white_balanced(light))?;
         }
         for material in &self.materials {
             let name = &material.name;
@@ -80,6 +91,17 @@ impl Scene {
         }
         Ok(())
     }
+}
+
+/// Radiance of a light over its black body's, where it has one.
+fn white_balanced(light: &Light) -> [f64; 3] {
+    let body = light.temperature_k.map_or([1.0; 3], black_body_rgb);
+    let green = light.radiance[1] / body[1];
+    // A channel of which the body has nothing tells nothing.
+    [0, 1, 2].map(|c| match body[c] > 0.0 {
+        true => light.radiance[c] / body[c],
+        false => green,
+    })
 }
 
 fn without_spectrum(what: String) -> Error {

@@ -17,6 +17,8 @@ pub struct Light {
     /// A picture on it: an index into [`Scene::textures`](crate::scene::Scene::textures), whose values are factors on the radiance. Of a
     /// rectangle alone: the picture's left lower corner is at its first vertex, the right lower one at its second.
     pub picture: Option<usize>,
+    /// Temperature of the black body whose colour the radiance has, times a grey or a colour.
+    pub temperature_k: Option<f64>,
 }
 
 /// A cone of directions with a soft rim.
@@ -130,6 +132,7 @@ impl Light {
             radiance,
             cone: None,
             picture: None,
+            temperature_k: None,
         }
     }
 
@@ -154,6 +157,7 @@ impl Light {
             radiance,
             cone: None,
             picture: None,
+            temperature_k: None,
         }
     }
 
@@ -164,6 +168,7 @@ impl Light {
             radiance,
             cone: None,
             picture: None,
+            temperature_k: None,
         }
     }
 

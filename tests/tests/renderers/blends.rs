@@ -170,6 +170,7 @@ fn sheets_take_their_share_of_the_light() {
         },
         cone: None,
         picture: None,
+        temperature_k: None,
     });
     let mut covered = open.clone();
     let mut black = clear(&covered, [0.0; 3], 0.4);

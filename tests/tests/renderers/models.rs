@@ -34,6 +34,7 @@ fn white() -> Scene {
         },
         cone: None,
         picture: None,
+        temperature_k: None,
     });
     scene
 }

@@ -4,6 +4,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod bands;
 mod bench;
 mod cli;
 mod commands;

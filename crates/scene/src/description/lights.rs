@@ -229,6 +229,7 @@ impl Light {
         let radiance = std::array::from_fn(|c| self.color[c] * tint[c] * radiance);
         scene::Light {
             cone: self.cone_in_scene(),
+            temperature_k: self.temperature_k,
             ..self.kind.in_scene(radiance)
         }
     }
