@@ -170,6 +170,7 @@ impl ScratchTable {
     }
 
     /// T_c(., d) with all digits and without kinks, of a table made by [`Self::smooth`].
+    #[inline]
     pub fn smooth_row(&self, depth_nm: f64) -> Option<SmoothRow<'_>> {
         Some(self.smooth.as_ref()?.at_depth(depth_nm))
     }
@@ -182,6 +183,7 @@ impl ScratchTable {
     }
 
     /// T(infinity, d) - T(-infinity, d): the mean of |D|^2 in each channel, which the mask of section 3 needs.
+    #[inline]
     pub fn scratch_table_total(&self, depth_nm: f64) -> [f64; 3] {
         if let Some(row) = self.smooth_row(depth_nm) {
             return row.at(f64::INFINITY).map(|half| 2.0 * half);

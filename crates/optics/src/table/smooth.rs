@@ -28,6 +28,9 @@ impl SmoothTable {
         &self.sums[row * COLUMNS..][..COLUMNS]
     }
 
+    /// Out of the way of pictures, whose look-ups are in the same loops.
+    #[cold]
+    #[inline(never)]
     pub(super) fn at_depth(&self, depth_nm: f64) -> SmoothRow<'_> {
         let y = depth_nm.clamp(0.0, DEPTH_MAX_NM) * ((ROWS - 1) as f64 / DEPTH_MAX_NM);
         let before = (y as usize).saturating_sub(ROWS_AT_ONCE / 2 - 1);
@@ -56,6 +59,8 @@ pub struct SmoothRow<'a> {
 
 impl SmoothRow<'_> {
     /// T_c(u, d), by Hermite's cubic between columns. Odd in u.
+    #[cold]
+    #[inline(never)]
     pub fn at(&self, u_um: f64) -> [f64; 3] {
         let u = u_um.abs().min(1e300);
         let x = u / (u + U_HALF_UM) * (COLUMNS - 1) as f64;
