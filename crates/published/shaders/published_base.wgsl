@@ -32,23 +32,22 @@ fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
     if HAS_ANISOTROPY && layer.is_brushed {
         return brushed_lit(point, layer, vec2u(0u, frame.base_light_count), true);
     }
-    var sum: BaseRadiance;
-    for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
-        let part = filtered_lobe_part(layer.sharp, layer.filtered, p);
-        if !filtered_lobe_counts(part) {
-            break;
-        }
-        // The pivot transform knows round lobes alone.
-        let alphas = part.lobe.alphas;
-        let pivot = sptd_lobe(point.wo, min(sqrt(sqrt(alphas.x * alphas.y)), 1.0), lobe_sptd, lobe_albedo);
-        var light = base_surroundings(point, part.lobe, layer.reflecting);
-        light.specular *= part.core;
-        for (var l = 0u; l < frame.base_light_count; l += 1u) {
-            let source = light_at(l);
-            let radiance = published_light_radiance(source, point.position_m);
+    var sum = layer_surrounded(point, layer);
+    for (var l = 0u; l < frame.base_light_count; l += 1u) {
+        let source = light_at(l);
+        let radiance = published_light_radiance(source, point.position_m);
+        let filtered = layer_filtered(point, layer, light_per_m(source, point.position_m));
+        for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
+            let part = filtered_lobe_part(layer.sharp, filtered, p);
+            if !filtered_lobe_counts(part) {
+                break;
+            }
             var share: vec4f;
             var vector: vec3f;
             if BASE_HAS_SPHERES && source.kind == LIGHT_SPHERE {
+                // The pivot transform knows round lobes alone.
+                let alphas = part.lobe.alphas;
+                let pivot = sptd_lobe(point.wo, min(sqrt(sqrt(alphas.x * alphas.y)), 1.0), lobe_sptd, lobe_albedo);
                 share = published_base_sphere(point, part.lobe, layer.reflecting, pivot, source);
                 vector = base_sphere(point, part.lobe, source).vector;
             }
@@ -57,10 +56,9 @@ fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
                 vector = seen.vector;
                 share = vec4f(ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector), seen.form_factor);
             }
-            light.specular += filtered_lobe_weight(layer.filtered, part, vector) * radiance * share.xyz;
-            light.diffuse += radiance * share.w;
+            sum.specular += filtered_lobe_weight(filtered, part, vector) * radiance * share.xyz;
+            sum.diffuse += select(vec3f(0.0), radiance * share.w, p == 0u);
         }
-        sum = BaseRadiance(sum.specular + light.specular, light.diffuse);
     }
     return sum;
 }

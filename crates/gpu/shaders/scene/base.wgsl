@@ -257,13 +257,10 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
     return base;
 }
 
-// Light that a lobe reflects, single scattering, and that falls on a body under it.
-fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
-    if HAS_ANISOTROPY && layer.is_brushed {
-        return brushed_lit(point, layer, of_lights, surrounded);
-    }
+// Light from all around that a round lobe reflects, single scattering, and that falls on a body under it.
+fn layer_surrounded(point: SurfacePoint, layer: Layer) -> BaseRadiance {
     var sum: BaseRadiance;
-    if surrounded && HAS_ENVIRONMENT {
+    if HAS_ENVIRONMENT {
         let filtered = layer_filtered(point, layer, 0.0);
         for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
             let part = filtered_lobe_part(layer.sharp, filtered, p);
@@ -275,6 +272,18 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
             // The body's light is the same by every part.
             sum.diffuse = light.diffuse;
         }
+    }
+    return sum;
+}
+
+// Light that a lobe reflects, single scattering, and that falls on a body under it.
+fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
+    if HAS_ANISOTROPY && layer.is_brushed {
+        return brushed_lit(point, layer, of_lights, surrounded);
+    }
+    var sum: BaseRadiance;
+    if surrounded {
+        sum = layer_surrounded(point, layer);
     }
     for (var l = of_lights.x; l < of_lights.y; l += 1u) {
         let source = light_at(l);
