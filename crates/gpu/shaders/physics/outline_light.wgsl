@@ -143,7 +143,8 @@ fn scratch_outline(
             integral += parted_chord(tables, point, seen, line, depths, ends.x, ends.y);
             a = b;
         }
-        integral *= view.facing;
+        // A tube that is seen faces the point, which spares a register where a pass is compiled for tubes.
+        integral *= select(view.facing, 1.0, view.light.is_tube);
         if range.wraps {
             integral += parted_chord(tables, point, seen, line, depths, band_q_start(line), band_q_end(line));
         }
