@@ -53,6 +53,7 @@ impl<'a> Shadows<'a> {
         // Rays meet other places each: the scratches of one place stand for those of a wide footprint, which are many.
         let scratches_m = width(0.0).min(point.coherence_um * 1e-6);
         point.footprint_axes_m = across(point.normal, scratches_m);
+        point.distance_m = viewer_m(at.point, hit.distance_m, direction);
         views.look_from(&point);
         let ray = 2 * at.rounds.now.first + number;
         let seed = (at.seed ^ ray.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) ^ at.depth;
@@ -97,11 +98,27 @@ const MIN_COS: f64 = 0.25;
 /// distance, by how the mirror's normals turn, and by the solid angle that the ray stands for (as path differentials: F. Suykens and Y.
 /// Willems, 2001).
 fn width_m(point: &SurfacePoint, distance_m: f64, direction: DVec3, solid_angle_sr: f64) -> f64 {
-    let [right, down] = point.footprint_axes_m;
-    let here_m = (right.cross(down).dot(direction)).abs().sqrt();
-    let turns = point.normal_turns.map(DVec3::length_squared);
+    let here_m = here_m(point, direction);
     // Spread of a disk of this solid angle: half its radius.
     let drawn_rad2 = 0.25 * solid_angle_sr / std::f64::consts::PI;
-    let spread_rad = here_m / point.distance_m + (2.0 * (turns[0] + turns[1]) + drawn_rad2).sqrt();
+    let spread_rad = here_m / point.distance_m + (turned_rad2(point) + drawn_rad2).sqrt();
     here_m + distance_m * spread_rad
+}
+
+/// Distance of the viewer's image in the mirror from a hit: where the directions to the viewer meet that a footprint there has.
+fn viewer_m(point: &SurfacePoint, distance_m: f64, direction: DVec3) -> f64 {
+    let turned_per_m = turned_rad2(point).sqrt() / here_m(point, direction).max(1e-30);
+    distance_m + 1.0 / (1.0 / point.distance_m + turned_per_m)
+}
+
+/// Standard deviation of the footprint of a point, across a ray from there.
+fn here_m(point: &SurfacePoint, direction: DVec3) -> f64 {
+    let [right, down] = point.footprint_axes_m;
+    right.cross(down).dot(direction).abs().sqrt()
+}
+
+/// Spread by the turns of the normal under a point, squared.
+fn turned_rad2(point: &SurfacePoint) -> f64 {
+    let turns = point.normal_turns.map(DVec3::length_squared);
+    2.0 * (turns[0] + turns[1])
 }

@@ -32,25 +32,29 @@ fn base_lobes_above(lobes: BaseLobes, wi: vec3f) -> bool {
     return wi.z > 0.0 || (HAS_COAT_NORMALS && base_lobes_under_coat(lobes, wi).z > 0.0);
 }
 
-// The pixel's normals widen a lobe.
-fn base_lobes_alpha(alpha: f32, spread: vec3f) -> f32 {
-    return min(sqrt(alpha * alpha + 2.0 * (spread.x + spread.y)), 1.0);
+// Sum of the variances of a pixel's normals in the plane of view and normal and across it, which widen a lobe.
+fn base_lobes_turns(point: SurfacePoint) -> f32 {
+    return dot(point.turn_x, point.turn_x) + dot(point.turn_y, point.turn_y) + 2.0 * point.slope_std * point.slope_std;
+}
+
+fn base_lobes_alpha(alpha: f32, turns: f32) -> f32 {
+    return min(sqrt(alpha * alpha + 2.0 * turns), 1.0);
 }
 
 fn base_lobes(on_top: SurfacePoint) -> BaseLobes {
     let point = surface_under_coat(on_top);
     let layer = base_layer(point);
     let specular = rgb_luminance(layer.albedo);
-    let spread = surface_slope_spread(point, 0.0);
+    let turns = base_lobes_turns(point);
     var lobes: BaseLobes;
     lobes.wo = point.wo;
-    lobes.alpha = base_lobes_alpha(layer.sharp.alpha, spread);
+    lobes.alpha = base_lobes_alpha(layer.sharp.alpha, turns);
     if HAS_ANISOTROPY {
         var axes = facets_round(layer.sharp.alpha);
         if layer.is_brushed {
             axes = base_facets(point);
         }
-        lobes.facets = facets_of(facet_axes_spread_by(axes, 2.0 * (spread.x + spread.y)));
+        lobes.facets = facets_of(facet_axes_spread_by(axes, 2.0 * turns));
     }
     lobes.fresnel = layer.reflecting.fresnel;
     lobes.body = base_body(point, layer);
@@ -62,7 +66,7 @@ fn base_lobes(on_top: SurfacePoint) -> BaseLobes {
     lobes.coat_share = surface_coat(point.coat).x;
     if HAS_COATS && lobes.coat_share > 0.0 {
         let coat = coat_layer(on_top);
-        lobes.coat_alpha = base_lobes_alpha(coat.sharp.alpha, surface_slope_spread(surface_of_coat(on_top), 0.0));
+        lobes.coat_alpha = base_lobes_alpha(coat.sharp.alpha, base_lobes_turns(surface_of_coat(on_top)));
         lobes.coat_albedo = coat.albedo;
         lobes.coat_lobe_albedo = coat.sharp.albedo;
         // Faint as it is, its highlights are the strongest.
