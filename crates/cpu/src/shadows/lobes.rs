@@ -43,7 +43,9 @@ impl<'a> DrawnLobe<'a> {
         share: f64,
     ) -> Self {
         // By turns of the normal alone: a wider GGX has higher tails, which would find more of bright walls than the sharp lobe.
-        let turns = point.normal_turns.map(|turn| turn.truncate().length_squared());
+        let turns = point
+            .normal_turns
+            .map(|turn| turn.truncate().length_squared());
         let added = 2.0 * (turns[0] + turns[1] + 2.0 * slope_std * slope_std);
         Self {
             wo: point.wo,
