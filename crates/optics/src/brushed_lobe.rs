@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use crate::facets::{FacetAxes, Facets};
-use crate::filtered_lobe::{SlopeSpread, filtered_facets, filtered_tails};
+use crate::filtered_lobe::{SlopeSpread, excess_tails, filtered_facets, filtered_tails};
 use crate::fresnel::FresnelRgb;
 use crate::ggx::GGX_MIN_ALPHA;
 use crate::ltc::{LtcLobe, ltc_lobe};
@@ -311,7 +311,8 @@ impl BrushedLobe {
         if self.excess == 0.0 {
             return 1.0;
         }
-        let tails = filtered_tails((slopes / self.facets[0].alphas).length());
+        let widths = (slopes / self.facets[0].alphas).length();
+        let tails = excess_tails(self.excess) * filtered_tails(widths);
         match k {
             0 => (1.0 + self.excess) * (1.0 - tails),
             1 => -self.excess * (1.0 - tails),

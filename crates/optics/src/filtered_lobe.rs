@@ -23,7 +23,8 @@ const BEND2: f64 = 0.25;
 const MIN_VIEWER_M: f64 = 1e-6;
 /// Least cosine of the view in [`PixelSlopes::towards`].
 const MIN_COS: f64 = 0.01;
-/// Below this excess the wider lobe is left out.
+/// Below this excess the wider lobe is left out; from twice as much on it counts in full. Between them it sets in smoothly: a step would be a line in
+/// the tails of highlights.
 const MIN_EXCESS: f64 = 0.02;
 
 /// Distances from the first lobe's middle, in its widths, between which the lobe changes to the sharp one. Chosen by the errors that the test
@@ -130,13 +131,26 @@ pub(crate) fn filtered_facets(
         along: turn.rotate(surface.along),
         alphas: DVec2::new(long2.sqrt(), (product / long2).sqrt()),
     };
-    (axes, if excess < MIN_EXCESS { 0.0 } else { excess })
+    (axes, set_in(excess))
 }
 
 /// Share, 0 to 1, that the sharp lobe has taken over at so many widths from the first lobe's middle.
 pub(crate) fn filtered_tails(widths: f64) -> f64 {
-    let [from, to] = TAILS;
-    let t = ((widths - from) / (to - from)).clamp(0.0, 1.0);
+    smoothstep(TAILS, widths)
+}
+
+/// The excess as it counts.
+fn set_in(excess: f64) -> f64 {
+    excess * smoothstep([MIN_EXCESS, 2.0 * MIN_EXCESS], excess)
+}
+
+/// Share, 0 to 1, of the sharp lobe's tails that are there at an excess as it counts.
+pub(crate) fn excess_tails(excess: f64) -> f64 {
+    smoothstep([0.0, 2.0 * MIN_EXCESS], excess)
+}
+
+fn smoothstep([from, to]: [f64; 2], x: f64) -> f64 {
+    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
@@ -182,7 +196,7 @@ pub fn filtered_lobe(alpha: f64, spread: SlopeSpread, cos_o: f64) -> FilteredLob
         alphas: DVec2::new(alpha_x, alpha_y),
         shear: turn.y / (alpha_x * alpha_y),
         bent: bend2 / (bend2 + BEND2),
-        excess: if excess < MIN_EXCESS { 0.0 } else { excess },
+        excess: set_in(excess),
     }
 }
 
@@ -232,7 +246,7 @@ impl FilteredLobe {
             tails,
             first,
         };
-        let tails = if self.excess > 0.0 { 1.0 } else { 0.0 };
+        let tails = excess_tails(self.excess);
         [
             part(wide(1.0), 1.0 + self.excess, 1.0 - tails),
             part(wide(SQRT_2), -self.excess, 0.0),

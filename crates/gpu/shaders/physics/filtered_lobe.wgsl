@@ -40,7 +40,12 @@ fn filtered_lobe(alpha: f32, spread: vec3f, cos_o: f32) -> FilteredLobe {
     // Distance, in slopes, from the chord to the arc to which such normals reflect.
     let bend = vec2f(cos2 * variance.y, covariance);
     let bend2 = max(1.0 - cos2, 0.0) / max(cos2 * sharp2, 1e-12) * dot(bend, bend);
-    return FilteredLobe(vec2f(alpha_x, alpha_y), turn.y / (alpha_x * alpha_y), bend2 / (bend2 + 0.25), select(excess, 0.0, excess < 0.02));
+    return FilteredLobe(vec2f(alpha_x, alpha_y), turn.y / (alpha_x * alpha_y), bend2 / (bend2 + 0.25), excess * smoothstep(0.02, 0.04, excess));
+}
+
+// Share of the sharp lobe's tails that are there at an excess.
+fn excess_tails(excess: f32) -> f32 {
+    return smoothstep(0.0, 0.04, excess);
 }
 
 // Largest number of lobes whose sum it is.
@@ -54,7 +59,7 @@ struct FilteredLobePart {
 }
 
 fn filtered_lobe_part(sharp: LtcLobe, filtered: FilteredLobe, i: u32) -> FilteredLobePart {
-    let tails = select(0.0, 1.0, filtered.excess > 0.0);
+    let tails = excess_tails(filtered.excess);
     if i == 2u {
         return FilteredLobePart(sharp, 0.0, tails);
     }
