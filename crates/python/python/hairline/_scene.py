@@ -84,6 +84,9 @@ _DENSITY = re.compile(r"scratches\[(\d+)\]\.(count|density_per_m2|density_per_m)
 """Keys that the number of a layer's scratches is in proportion to."""
 
 _OF_MATERIAL = re.compile(r"material\[\d+\]\.")
+_OF_LIGHT = re.compile(r"light\[\d+\]\.")
+# Steps over the number.
+_WIDE, _NARROW = 1e-2, 3e-4
 """Keys that lobes are tabulated by: their steps are small against those of the tables."""
 
 _EIGHTH = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
@@ -385,8 +388,8 @@ class Scene:
             ``"light[0].center_m[2]"``, ``"light[0].radiance"``, ``"material[0].roughness"``. Not those that draw other scratches: lengths and
             seeds. By a density or a count each scratch that is there counts for more: where scratches do not weaken one another, the derivative's
             mean over seeds is that of the mean picture.
-        :param relative_step: of each number; of a tenth of the camera's distance from the target, for coordinates. Default: 1/100, and 1/1000 for
-            keys of materials.
+        :param relative_step: of each number; of a tenth of the camera's distance from the target, for coordinates. Default: 1/100, and 3/10000 for
+            keys of materials and for the base by keys of lights.
         """
         step = relative_step
         if step is not None and (isinstance(step, bool) or not isinstance(step, (int, float)) or not 1e-4 <= step <= 0.05):
@@ -436,10 +439,13 @@ class Scene:
                     scene._builder = self._builder
                     return scene._built(size, Host(False)).light(None, 1.0, host)
 
-                # Wide steps of a high order: scenes hold sizes of scratches in single precision, and light leaves a scratch's band at once.
-                is_fine = _OF_MATERIAL.match(way_to) is not None
-                share = step if step is not None else (1e-3 if is_fine else 1e-2)
-                made[way] = difference(share * whole, _FOURTH if is_fine else _EIGHTH, moved)
+                # Wide steps of a high order: scenes hold sizes of scratches in single precision, and light leaves a scratch's band at once. The base
+                # of a highlight is smooth over narrow ones alone: its second derivatives jump where the tails begin.
+                is_of_material = _OF_MATERIAL.match(way_to) is not None
+                share = step if step is not None else _NARROW if is_of_material else _WIDE
+                made[way] = difference(share * whole, _FOURTH if is_of_material else _EIGHTH, moved)
+                if step is None and _OF_LIGHT.match(way_to):
+                    made[way] = made[way]._replace(base=difference(_NARROW * whole, _FOURTH, moved).base)
         finally:
             host.close()
         return made
