@@ -91,7 +91,18 @@ pub struct Export {
     /// Whether the scratches are in it as they lie too, 44 bytes for each straight piece: programs that lay none by themselves show these.
     #[arg(long, value_enum, default_value_t = Switch::On)]
     pub laid: Switch,
-    /// Other scratches of the same kinds, as for `render`: added to the seed of each layer.
+    /// The time of the models' animations, seconds, at which the scratches lie, in place of the scene's.
+    #[arg(long, value_name = "SECONDS", value_parser = parse_time)]
+    pub time: Option<f64>,
+    /// Which scratches, view and lamps of the scene.
+    #[command(flatten)]
+    pub scene_flags: SceneFlags,
+}
+
+/// Which scratches, view and lamps of a scene: flags of several commands.
+#[derive(Args, Debug)]
+pub struct SceneFlags {
+    /// Other scratches of the same kinds: added to the seed of each layer.
     #[arg(
         long,
         value_name = "N",
@@ -99,13 +110,11 @@ pub struct Export {
         allow_negative_numbers = true
     )]
     pub seed: u64,
-    /// The time of the models' animations, seconds, at which the scratches lie, in place of the scene's.
-    #[arg(long, value_name = "SECONDS", value_parser = parse_time)]
-    pub time: Option<f64>,
     /// See by this camera of a model's file: its name, or its number from 0.
     #[arg(long, value_name = "CAMERA")]
     pub camera: Option<String>,
-    /// Light the scene for its scratches, as for `render`.
+    /// Light the scene for its scratches, in the place of its lights and its environment: up to three small hard lamps whose highlights lie where
+    /// most of the surface shows the colours around them, two dim strips and a dark room. A model without lights of its own is lit so anyway.
     #[arg(long)]
     pub show_scratches: bool,
 }
@@ -181,14 +190,6 @@ pub struct Render {
     /// Write which scratches each pixel shows too, to an .exr by the convention of Cryptomatte.
     #[arg(long, value_name = "FILE")]
     pub labels: Option<PathBuf>,
-    /// Other scratches of the same kinds: added to the seed of each layer.
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_t = 0,
-        allow_negative_numbers = true
-    )]
-    pub seed: u64,
     /// Exposure in stops, in place of the scene's: radiances are multiplied by 2^EV before the tone map of a .png.
     #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = parse_exposure)]
     pub exposure: Option<f64>,
@@ -199,17 +200,13 @@ pub struct Render {
     /// B in the last one, by equal steps.
     #[arg(long, value_name = "A[:B]", allow_negative_numbers = true, value_parser = parse_times)]
     pub time: Option<[f64; 2]>,
-    /// See by this camera of a model's file: its name, or its number from 0.
-    #[arg(long, value_name = "CAMERA")]
-    pub camera: Option<String>,
     /// Put the highlight here: move a light so that its mirror image lies at this pixel of the picture, counted from the upper left
     /// corner. The first light that is not hidden, or the one of this name.
-    #[arg(long, value_name = "X,Y[,LIGHT]", value_parser = highlight::parse)]
+    #[arg(long, value_name = "X,Y[,LIGHT]", value_parser = highlight::parse, conflicts_with = "show_scratches")]
     pub highlight: Option<highlight::Highlight>,
-    /// Light the scene for its scratches, in the place of its lights and its environment: up to three small hard lamps whose highlights lie where
-    /// most of the surface shows the colours around them, two dim strips and a dark room. A model without lights of its own is lit so anyway.
-    #[arg(long, conflicts_with = "highlight")]
-    pub show_scratches: bool,
+    /// Which scratches, view and lamps of the scene.
+    #[command(flatten)]
+    pub scene_flags: SceneFlags,
     /// Render again whenever the scene or one of its files changes, until Ctrl-C.
     #[arg(long, conflicts_with_all = ["frames", "turntable", "zoom", "animation", "stability"])]
     pub watch: bool,

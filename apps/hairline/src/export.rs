@@ -24,10 +24,10 @@ pub fn run(arguments: &cli::Export) -> Result<(), Failure> {
     }
     check_writable(output)?;
     let overrides = Overrides {
-        scratch_seed: arguments.seed,
+        scratch_seed: arguments.scene_flags.seed,
         time_s: arguments.time,
-        camera: arguments.camera.as_deref(),
-        is_lit_for_scratches: arguments.show_scratches,
+        camera: arguments.scene_flags.camera.as_deref(),
+        is_lit_for_scratches: arguments.scene_flags.show_scratches,
         ..Overrides::default()
     };
     let loaded = scene_file::load(Some(&arguments.scene), &overrides, &[output])?;

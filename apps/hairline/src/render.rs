@@ -55,12 +55,12 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     let overrides = Overrides {
         size_px: arguments.size,
         exposure_ev: arguments.exposure,
-        scratch_seed: arguments.seed,
+        scratch_seed: arguments.scene_flags.seed,
         tone_map: arguments.tone_map,
         time_s: arguments.time.map(|[from, _]| from),
-        camera: arguments.camera.as_deref(),
+        camera: arguments.scene_flags.camera.as_deref(),
         highlight: arguments.highlight.as_ref(),
-        is_lit_for_scratches: arguments.show_scratches,
+        is_lit_for_scratches: arguments.scene_flags.show_scratches,
     };
     let mut outputs = target.paths();
     outputs.extend(labels.as_ref().map(Output::path));
