@@ -7,7 +7,7 @@ fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFre
         return vec4f(0.0);
     }
     let cap = light_cap(point, light);
-    let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
+    let sin2 = cap_sin_sq(cap);
     // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
     let specular = reflecting.albedo * (sptd_sphere_published(pivot, cap.axis, sin2) / max(lobe.albedo, 1e-30));
     return vec4f(specular, base_lambert_sphere(cap.axis, sin2));

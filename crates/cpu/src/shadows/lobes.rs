@@ -42,7 +42,7 @@ impl<'a> DrawnLobe<'a> {
         fresnel: FresnelRgb<'a>,
         share: f64,
     ) -> Self {
-        // By turns of the normal alone: a wider GGX has higher tails, which would find more of bright walls than the sharp lobe.
+        // By turns of the normal and not by the footprint: a wider GGX has higher tails, which would find more of bright walls than the sharp lobe.
         let turns = point
             .normal_turns
             .map(|turn| turn.truncate().length_squared());

@@ -39,7 +39,7 @@ fn brushed_base_sphere(base: BrushedBase, curves: texture_2d<f32>, center_m: vec
         return BaseLit(vec3f(0.0), 0.0);
     }
     let cap = sphere_cap(center_m, radius_m);
-    let sin_sq = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
+    let sin_sq = cap_sin_sq(cap);
     let lobe = brushed_base_lobe(base, light_per_distance(center_m, radius_m));
     let specular = brushed_sphere(lobe, cap.axis, sin_sq, base.lit.reflecting.fresnel, curves);
     return BaseLit(specular, lambert_sphere(cap.axis, sin_sq));

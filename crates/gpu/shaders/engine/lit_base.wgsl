@@ -55,8 +55,7 @@ fn lit_base_sphere(base: LitBase, curves: texture_2d<f32>, center_m: vec3f, radi
         return BaseLit(vec3f(0.0), 0.0);
     }
     let cap = sphere_cap(center_m, radius_m);
-    // A cap that holds every direction stands for a sphere around the point.
-    let sin_sq = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
+    let sin_sq = cap_sin_sq(cap);
     let filtered = lit_base_filtered(base, light_per_distance(center_m, radius_m));
     var specular = vec3f(0.0);
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
@@ -104,11 +103,11 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
 
 // A polygon of any number of corners or a tube at 1 / `per_m` metres, as outline_view() sees it with the tangent (1, 0).
 fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d<u32>, view: OutlineView, per_m: f32) -> BaseLit {
+    if view.facing == 0.0 {
+        return BaseLit(vec3f(0.0), 0.0);
+    }
     let filtered = lit_base_filtered(base, per_m);
     var specular = vec3f(0.0);
-    if view.facing == 0.0 {
-        return BaseLit(specular, 0.0);
-    }
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, filtered, p);
         if !filtered_lobe_counts(part) {

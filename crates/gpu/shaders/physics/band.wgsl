@@ -173,6 +173,11 @@ fn sphere_cap(center: vec3f, radius: f32) -> Cap {
     return Cap(center * inverseSqrt(distance2), sqrt(sin2), sqrt(1.0 - sin2));
 }
 
+// The squared sine of its radius; a cap that holds every direction stands for a sphere around the point.
+fn cap_sin_sq(cap: Cap) -> f32 {
+    return select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
+}
+
 // A cap of the surface's frame in that of a scratch.
 fn cap_turned(tangent: vec2f, cap: Cap) -> Cap {
     return Cap(band_from_surface(tangent, cap.axis), cap.sin_radius, cap.cos_radius);

@@ -19,8 +19,7 @@ fn base_sphere(point: SurfacePoint, lobe: LtcLobe, light: Light) -> LightOnBase 
         return LightOnBase(vec3f(0.0), 0.0);
     }
     let cap = sphere_cap(center, light.radius_m);
-    // A cap that holds every direction stands for a sphere around the point.
-    let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
+    let sin2 = cap_sin_sq(cap);
     return LightOnBase(ltc_sphere_vector(lobe, cap.axis, sin2), base_lambert_sphere(cap.axis, sin2));
 }
 
@@ -136,17 +135,6 @@ fn base_environment(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel)
     }
     let normal = reflecting.fresnel.at_normal * lobe.albedo;
     return BaseRadiance(normal * all + (reflecting.albedo - normal) * grazing, scene_irradiance(point.normal) / 3.14159265);
-}
-
-// base_environment() for any scene.
-fn base_surroundings(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel) -> BaseRadiance {
-    var light: BaseRadiance;
-    if HAS_ENVIRONMENT {
-        light = base_environment(point, lobe, reflecting);
-        light.specular *= point.open;
-        light.diffuse *= point.open;
-    }
-    return light;
 }
 
 // A lobe of a point.
@@ -267,10 +255,10 @@ fn layer_surrounded(point: SurfacePoint, layer: Layer) -> BaseRadiance {
             if part.core == 0.0 {
                 break;
             }
-            let light = base_surroundings(point, part.lobe, layer.reflecting);
-            sum.specular += part.core * light.specular;
+            let light = base_environment(point, part.lobe, layer.reflecting);
+            sum.specular += part.core * (light.specular * point.open);
             // The body's light is the same by every part.
-            sum.diffuse = light.diffuse;
+            sum.diffuse = light.diffuse * point.open;
         }
     }
     return sum;
@@ -363,7 +351,7 @@ fn brushed_light_sphere(point: SurfacePoint, lobe: BrushedLobe, fresnel: Fresnel
         return vec3f(0.0);
     }
     let cap = sphere_cap(center, light.radius_m);
-    let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
+    let sin2 = cap_sin_sq(cap);
     return brushed_sphere(lobe, cap.axis, sin2, fresnel, fresnel_curves);
 }
 

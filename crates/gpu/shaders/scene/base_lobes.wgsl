@@ -32,7 +32,8 @@ fn base_lobes_above(lobes: BaseLobes, wi: vec3f) -> bool {
     return wi.z > 0.0 || (HAS_COAT_NORMALS && base_lobes_under_coat(lobes, wi).z > 0.0);
 }
 
-// Sum of the variances of a pixel's normals in the plane of view and normal and across it, which widen a lobe.
+// Sum of the variances of a pixel's normals in the plane of view and normal and across it, which widen a lobe. Its footprint does not: a wider GGX has
+// higher tails, which would find more of bright walls than the sharp lobe.
 fn base_lobes_turns(point: SurfacePoint) -> f32 {
     return dot(point.turn_x, point.turn_x) + dot(point.turn_y, point.turn_y) + 2.0 * point.slope_std * point.slope_std;
 }
