@@ -4,6 +4,7 @@
 
 use crate::light_view::LightViews;
 use crate::resolve::{PointLight, Sample};
+use crate::shade_base::PixelBase;
 use crate::shade_scratches::{Picks, ScratchPoint, pick_one_pair};
 use crate::shadows::{HitRoom, MetObject, Rounds, ShadowPoint, Shadows};
 use crate::surface::{SurfacePoint, surface_point};
@@ -73,7 +74,11 @@ impl<'a> Shadows<'a> {
         };
         let mut sums = ScratchSums::default();
         let mut light = PointLight {
-            base: self.base(&onwards, rooms),
+            base: self.base(
+                &onwards,
+                &PixelBase::of_point(onwards.point, onwards.views),
+                rooms,
+            ),
             ..PointLight::default()
         };
         if is_scratched {

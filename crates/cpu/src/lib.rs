@@ -34,6 +34,7 @@ mod light_view;
 pub mod method;
 mod options;
 mod picture;
+mod pixel_parts;
 mod prepared;
 mod project;
 pub mod read_pixel;

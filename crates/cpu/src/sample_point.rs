@@ -115,6 +115,8 @@ pub(crate) enum SampleView<'a> {
     Surface {
         hit: Hit,
         point: SurfacePoint<'a>,
+        /// Parts of the sample's filter that its base is a mean over, with their weights; none for the point alone.
+        parts: Vec<(f64, SurfacePoint<'a>)>,
         /// Depth along the view axis.
         depth_m: f64,
     },

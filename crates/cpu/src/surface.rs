@@ -1,6 +1,6 @@
 //! Stage 2, surface: the surface under a sample: position, frame, footprint, material with its textures. Twin: surface.wgsl.
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3, DVec4};
 use hairline_index::Hit;
 use hairline_optics::facets::{FacetAxes, anisotropic_alpha};
 use hairline_optics::filtered_lobe::PixelSlopes;
@@ -170,6 +170,15 @@ impl SurfacePoint<'_> {
 /// bent back.
 pub(crate) const MIN_VIEW_COS: f64 = 0.01;
 
+/// How the bumps of a normal map under a footprint widen the lobe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum BumpSlopes {
+    /// As a spread that is the same in all directions.
+    Spread,
+    /// As turns of the normal along the footprint, over which bumps hardly bend. What is finer than a texel spreads.
+    Turns,
+}
+
 /// The surface at a hit, seen from the unit direction `to_viewer`. `footprint` gives, for a plane of a given unit normal
 /// through the hit, how the hit moves by one standard deviation of the pixel's filter to the right and down, metres.
 pub fn surface_point<'a>(
@@ -180,11 +189,25 @@ pub fn surface_point<'a>(
     footprint: impl Fn(DVec3) -> [DVec3; 2],
     hit: &Hit,
 ) -> SurfacePoint<'a> {
+    let bumps = BumpSlopes::Spread;
+    surface_seen_as(scene, tables, position_m, to_viewer, footprint, hit, bumps)
+}
+
+/// [`surface_point`] with bumps as asked.
+pub(crate) fn surface_seen_as<'a>(
+    scene: &'a Scene,
+    tables: &'a ScratchTables,
+    position_m: DVec3,
+    to_viewer: DVec3,
+    footprint: impl Fn(DVec3) -> [DVec3; 2],
+    hit: &Hit,
+    bumps: BumpSlopes,
+) -> SurfacePoint<'a> {
     let mesh = &scene.objects[hit.object as usize].mesh;
     let triangle = mesh.triangles[hit.triangle as usize];
     let [u, v] = hit.barycentric;
     let weights = [1.0 - u - v, u, v];
-    let corners = triangle.map(|i| mesh.positions_m[i as usize].as_dvec3());
+    let corners = mesh.corners_m(hit.triangle as usize);
     let geometric = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     // Either side of a sheet is a surface of its own.
     let side = if geometric.dot(to_viewer) < 0.0 {
@@ -202,17 +225,19 @@ pub fn surface_point<'a>(
     let material = &scene.materials[material_index];
     let optics = &tables.materials[material_index];
     let axes = footprint(side * smooth);
-    let looked_up = |index: Option<usize>, sample: TextureSampler| {
+    let looked_up_at = |index: Option<usize>, sample: TextureSampler, step: DVec2| {
         index.map(|i| {
             let texture = &scene.textures[i];
             let [a, b, c] = mesh.corner_uvs(triangle, texture);
-            let uv = a * weights[0] + b * weights[1] + c * weights[2];
+            let at = DVec2::new(u, v) + step;
+            let uv = a + (b - a) * at.x + (c - a) * at.y;
             let uv_area = (b - a).perp_dot(c - a).abs();
             let texel_scale = texture_footprint(uv_area, &corners, axes);
             texture.filtered(uv, texel_scale, sample)
         })
     };
-    let texture = |index: Option<usize>| looked_up(index, Texture::at_level);
+    let texture = |index: Option<usize>| looked_up_at(index, Texture::at_level, DVec2::ZERO);
+    let axis_steps = || axes.map(|axis| mesh.barycentric_step(hit.triangle, axis));
 
     let tangents = || {
         let tangents = triangle.map(|i| mesh.tangents[i as usize].as_dvec4());
@@ -222,22 +247,45 @@ pub fn surface_point<'a>(
         [tangent, smooth.cross(tangent) * tangents[0].w]
     };
 
+    // A point has one normal.
+    let is_wide = axes != [DVec3::ZERO; 2];
+    // A coat with a normal map of its own turns another way than what is under it.
+    let has_coat = material.coat.is_some_and(|coat| coat.weight > 0.0);
+    let as_turns = bumps == BumpSlopes::Turns && !(has_coat && material.has_coat_normals());
     let mapped = |map: Option<(usize, f64)>| {
+        let none = (smooth, 0.0, [DVec3::ZERO; 2]);
         let Some((index, scale)) = map else {
-            return (smooth, 0.0);
+            return none;
         };
-        let Some(texel) = looked_up(Some(index), sample_normals) else {
-            return (smooth, 0.0);
+        let sample: TextureSampler = match as_turns {
+            true => Texture::at_level,
+            false => sample_normals,
         };
         let [tangent, bitangent] = tangents();
-        let n = texel.truncate() * 2.0 - DVec3::ONE;
-        let normal = (tangent * (n.x * scale) + bitangent * (n.y * scale) + smooth * n.z)
-            .normalize_or(smooth);
-        // A point has one normal.
-        let is_wide = axes != [DVec3::ZERO; 2];
-        (normal, if is_wide { texel.w * scale.abs() } else { 0.0 })
+        let normal = |texel: DVec4| {
+            let n = texel.truncate() * 2.0 - DVec3::ONE;
+            (tangent * (n.x * scale) + bitangent * (n.y * scale) + smooth * n.z)
+                .normalize_or(smooth)
+        };
+        let looked_up = |step| looked_up_at(Some(index), sample, step);
+        let Some(texel) = looked_up(DVec2::ZERO) else {
+            return none;
+        };
+        let turns = match as_turns {
+            true => axis_steps().map(|step| {
+                let [after, before] =
+                    [2.0 * step, -2.0 * step].map(|step| looked_up(step).map_or(smooth, normal));
+                0.25 * (after - before)
+            }),
+            false => [DVec3::ZERO; 2],
+        };
+        (
+            normal(texel),
+            if is_wide { texel.w * scale.abs() } else { 0.0 },
+            turns,
+        )
     };
-    let (under_coat, slope_std) = mapped(material.normal_texture);
+    let (under_coat, slope_std, bump_turns) = mapped(material.normal_texture);
     let mut coat = optics.coat_curve.zip(material.coat).map(|(curve, coat)| {
         let [weight, roughness] = material.coat_textures.map(texture);
         PointCoat {
@@ -255,7 +303,7 @@ pub fn surface_point<'a>(
     if let Some(coat) = coat.as_mut().filter(|coat| coat.weight > 0.0)
         && material.has_coat_normals()
     {
-        (normal, coat.slope_std) = mapped(material.coat_normal_texture);
+        (normal, coat.slope_std, _) = mapped(material.coat_normal_texture);
     }
     let brushed = material.anisotropy.filter(|it| it.strength > 0.0);
     let anisotropy = brushed.map(|it| {
@@ -285,11 +333,13 @@ pub fn surface_point<'a>(
         * DVec3::from(material.emission);
     // Most triangles of what is flat have one normal.
     let is_flat = normals[0] == normals[1] && normals[0] == normals[2];
-    let normal_turns = if is_flat {
-        [DVec3::ZERO; 2]
-    } else {
-        axes.map(|axis| normal_turn(&corners, &normals, geometric, interpolated, axis))
-    };
+    let normal_turns: [DVec3; 2] = std::array::from_fn(|i| {
+        let smooth_turn = match is_flat {
+            true => DVec3::ZERO,
+            false => normal_turn(&normals, interpolated, axis_steps()[i]),
+        };
+        smooth_turn + bump_turns[i]
+    });
     let [specular_texel, specular_color_texel] = material.specular_textures.map(texture);
     let specular = material.specular.weight * specular_texel.map_or(1.0, |t| t.w);
     let color = DVec3::from(material.specular.color)
@@ -379,21 +429,10 @@ fn raised(position_m: DVec3, hit: &Hit, mesh: &Mesh, side: f64) -> DVec3 {
     position_m + rises.sum::<DVec3>()
 }
 
-/// Turn of the interpolated normal of a triangle along a step on its plane. `geometric` is the cross product of the first two edges,
-/// `interpolated` the normal before it was made a unit vector.
-fn normal_turn(
-    corners: &[DVec3; 3],
-    normals: &[DVec3; 3],
-    geometric: DVec3,
-    interpolated: DVec3,
-    step: DVec3,
-) -> DVec3 {
-    let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
-    let area2 = geometric.length_squared();
-    // Barycentric coordinates of the step.
-    let u = step.cross(e2).dot(geometric) / area2;
-    let v = e1.cross(step).dot(geometric) / area2;
-    let change = (normals[1] - normals[0]) * u + (normals[2] - normals[0]) * v;
+/// Turn of the interpolated normal of a triangle over a step of the barycentric coordinates. `interpolated` is the normal before it was made a unit
+/// vector.
+fn normal_turn(normals: &[DVec3; 3], interpolated: DVec3, step: DVec2) -> DVec3 {
+    let change = (normals[1] - normals[0]) * step.x + (normals[2] - normals[0]) * step.y;
     let length2 = interpolated.length_squared();
     if length2 < 1e-12 {
         return DVec3::ZERO;
@@ -427,7 +466,7 @@ fn interpolate(weights: [f64; 3], corners: [DVec3; 3]) -> DVec3 {
 }
 
 /// Looks up a normal map; w is the standard deviation of the slopes, over the texels and over the part of the map that the pixel sees.
-fn sample_normals(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -> glam::DVec4 {
+fn sample_normals(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -> DVec4 {
     let (texels, t) = texture.four_texels(level, uv, texels_std);
     let mut mean = blend(texels, t);
     let right = (texels[1] - texels[0]).lerp(texels[3] - texels[2], t[1]);

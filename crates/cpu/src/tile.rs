@@ -6,10 +6,11 @@ use crate::counts::Counts;
 use crate::light_view::LightViews;
 use crate::method::PointShader;
 use crate::options::RenderOptions;
+use crate::pixel_parts::{MOST_PARTS, pixel_parts};
 use crate::prepared::Prepared;
 use crate::resolve::{Pixel, PointLight, Sample};
 use crate::sample_point::{SamplePoint, SampleView, Shared};
-use crate::shade_base::{Base, transformed_sphere};
+use crate::shade_base::{PixelBase, transformed_sphere};
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{BATCH, Picks, ScratchPoint, ScratchShader};
 use crate::shadows::{HitRoom, Rounds, Shadows};
@@ -66,6 +67,8 @@ pub(crate) struct Tile<'a> {
     batch: Vec<SamplePoint<'a>>,
     /// The lights from each point of the batch.
     views: Vec<LightViews<'a>>,
+    /// The lights from each part of the point in hand.
+    part_views: Vec<LightViews<'a>>,
     sums: Vec<ScratchSums>,
     /// Picks of each point, if there are shadows.
     picks: Option<Vec<Picks>>,
@@ -85,6 +88,9 @@ impl<'a> Tile<'a> {
             rays: CameraBeam::default(),
             batch: Vec::with_capacity(BATCH),
             views: (0..BATCH)
+                .map(|_| LightViews::new(picture.prepared.scene))
+                .collect(),
+            part_views: (0..MOST_PARTS)
                 .map(|_| LightViews::new(picture.prepared.scene))
                 .collect(),
             sums: vec![ScratchSums::default(); BATCH],
@@ -287,8 +293,13 @@ impl<'a> Tile<'a> {
                 SampleView::Surface {
                     hit,
                     point: at,
+                    parts,
                     depth_m,
                 } => {
+                    for ((_, part), views) in parts.iter().zip(&mut self.part_views) {
+                        views.look_from(part);
+                    }
+                    let base = PixelBase::new(at, views, parts, &self.part_views);
                     let has_gratings = prepared.has_gratings(hit);
                     let samples = match point.scratches {
                         Shared::Among(samples) => f64::from(samples),
@@ -303,7 +314,7 @@ impl<'a> Tile<'a> {
                                 continue;
                             };
                             let mut light = PointLight {
-                                base: shadows.base(&shadow_point, &mut self.rooms),
+                                base: shadows.base(&shadow_point, &base, &mut self.rooms),
                                 ..PointLight::default()
                             };
                             if let Some(picks) = &self.picks
@@ -327,16 +338,14 @@ impl<'a> Tile<'a> {
                             let gratings = has_gratings.then(|| {
                                 ShadedGratings::new(prepared, at, hit.object, views, None)
                             });
-                            let base = Base::new(at);
-                            let base = base.radiance(environment, views, transformed_sphere);
+                            let base = base.radiance(environment, transformed_sphere);
                             let mut light = PointLight::open(base, &sums, gratings);
                             light.scratches = light.scratches.times(DVec3::splat(samples));
                             (sums.resolve(mask, coherence), light)
                         }
                         (PictureMethod::Other(method), _) => {
                             let masked = method.scratches(at, hit, views);
-                            let base = Base::new(at);
-                            let base = base.radiance(environment, views, |lobe, of, sphere| {
+                            let base = base.radiance(environment, |lobe, of, sphere| {
                                 method.base_sphere(lobe, of, sphere)
                             });
                             sums.radiance = masked.scratches;
@@ -428,7 +437,7 @@ impl<'a> Picture<'a> {
     }
 
     /// The surface under one of `samples` samples of a pixel.
-    pub(crate) fn surface(&self, at_px: DVec2, samples: u32, hit: Option<Hit>) -> SampleView<'_> {
+    pub(crate) fn surface(&self, at_px: DVec2, samples: u32, hit: Option<Hit>) -> SampleView<'a> {
         let Prepared { scene, tables, .. } = self.prepared;
         let ray = self.camera.camera_ray(at_px);
         let direction = ray.normalize();
@@ -446,9 +455,11 @@ impl<'a> Picture<'a> {
         };
         let position_m = self.camera.position_m + ray * depth_m;
         let point = surface_point(scene, tables, position_m, -direction, footprint, &hit);
+        let parts = pixel_parts(self.prepared, &self.camera, &hit, &point, std_px);
         SampleView::Surface {
             hit,
             point,
+            parts,
             depth_m,
         }
     }

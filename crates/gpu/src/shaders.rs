@@ -157,6 +157,8 @@ modules! {
     SCRATCH_PICTURE = "scene/scratch_picture" needs [PICTURE_LIGHT, SCRATCH_LIGHT];
     /// Conversion of a triangle's hit to the surface point.
     HIT = "scene/hit" needs [SCENE, SURFACE_POINT, CAMERA, COAT];
+    /// Parts of a pixel whose base is the mean over them.
+    PIXEL_PARTS = "scene/pixel_parts" needs [HIT, GGX];
     /// A segment in the picture, and the tiles and pixels that it comes near to.
     PROJECTED = "scene/projected" needs [ROWS, SEGMENTS, FILM];
     /// Test of which pixels see a segment.
@@ -180,7 +182,7 @@ modules! {
     /// Pass: the same of objects that are cut out.
     VISIBILITY_CUTOUTS = "passes/visibility_cutouts" needs [VISIBILITY, CUTOUTS];
     /// Pass: from the triangle that a pixel sees to its surface point.
-    SURFACE = "passes/surface" needs [HIT, FILM, PIXEL_POINT, COVERAGE];
+    SURFACE = "passes/surface" needs [PIXEL_PARTS, FILM, PIXEL_POINT, COVERAGE];
     /// Pass: which samples of a pixel share scratches.
     SHARE_SCRATCHES = "passes/share_scratches" needs [FILM, PIXEL_POINT];
     /// Pass: the pixels of each tile that have an edge or a crease.
@@ -214,7 +216,7 @@ modules! {
     /// Pass: the light of gratings.
     SHADE_GRATINGS = "passes/shade_gratings" needs [GRATING_PAIRS, PAIR_LIGHT, PICKS, FILM, COAT];
     /// Pass: the radiance of the base.
-    SHADE_BASE = "passes/shade_base" needs [BASE, FILM, PIXEL_POINT];
+    SHADE_BASE = "passes/shade_base" needs [BASE, PIXEL_PARTS, FILM, PIXEL_POINT];
     /// The lobes of the base, to draw directions from.
     BASE_LOBES = "scene/base_lobes" needs [BASE, LUMINANCE];
     /// Directions to area lights.

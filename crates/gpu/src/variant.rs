@@ -37,6 +37,8 @@ pub(crate) struct Contents {
     /// Lights with barn doors.
     pub doors: bool,
     pub textures: bool,
+    /// Surfaces with normal maps.
+    pub bumps: bool,
     pub colors: bool,
     pub cutouts: bool,
     /// Materials that are not metal through and through.
@@ -80,6 +82,8 @@ impl Contents {
                 .iter()
                 .any(|light| lights::doors(light).is_some()),
             textures: !scene.textures.is_empty(),
+            bumps: (scene.materials.iter())
+                .any(|it| it.normal_texture.is_some() || it.coat_normal_texture.is_some()),
             colors: scene.objects.iter().any(|o| !o.mesh.colors.is_empty()),
             cutouts: scene.materials.iter().any(|it| it.cutout.is_some()),
             bodies: (scene.materials.iter().zip(&tables.materials)).any(|(material, optics)| {
@@ -167,6 +171,7 @@ pub fn pipeline_variants(
         base_lights: Kinds::ALL,
         doors: true,
         textures: true,
+        bumps: true,
         colors: true,
         cutouts: true,
         bodies: true,
@@ -229,6 +234,7 @@ impl ShadeVariant {
             ("HAS_GROOVE_SPOTS", has.groove_spots.into()),
             ("HAS_DOORS", has.doors.into()),
             ("HAS_TEXTURES", has.textures.into()),
+            ("HAS_BUMPS", has.bumps.into()),
             ("HAS_COLORS", has.colors.into()),
             ("HAS_CUTOUTS", has.cutouts.into()),
             ("HAS_BODIES", has.bodies.into()),

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use glam::{DVec3, Vec2, Vec3, Vec4};
+use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 
 /// Largest coordinate, metres: beyond it single precision leaves less than a coherence width between neighbouring coordinates.
 pub const LARGEST_M: f64 = 1e3;
@@ -42,6 +42,18 @@ impl Mesh {
     /// A triangle's corners in double precision, metres.
     pub fn corners_m(&self, triangle: usize) -> [DVec3; 3] {
         self.triangles[triangle].map(|v| self.positions_m[v as usize].as_dvec3())
+    }
+
+    /// Change of the barycentric coordinates of the second and third vertex over a step in the plane of a triangle.
+    pub fn barycentric_step(&self, triangle: u32, step_m: DVec3) -> DVec2 {
+        let [a, b, c] = self.corners_m(triangle as usize);
+        let (e1, e2) = (b - a, c - a);
+        let geometric = e1.cross(e2);
+        let along = DVec2::new(
+            step_m.cross(e2).dot(geometric),
+            e1.cross(step_m).dot(geometric),
+        );
+        along / geometric.length_squared()
     }
 
     /// The vertices that stand farthest out, one for each of some directions: a frame around them is one around the mesh, to a few

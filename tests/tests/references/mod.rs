@@ -3,6 +3,7 @@
 
 mod bounced;
 mod bounced_on_gpu;
+mod bumps;
 mod chance;
 mod closed_form;
 mod contact;

@@ -1,8 +1,11 @@
 //! Contents of models: images beyond their borders and by other coordinates, colours of vertices, surfaces without light, and cutouts.
 
+use std::path::Path;
 use std::sync::Arc;
 
-use conformance::two_renderers::{compare, compare_pixels, on_the_cpu, on_the_gpu, on_the_gpu_by};
+use conformance::two_renderers::{
+    at_width, compare, compare_pixels, on_the_cpu, on_the_gpu, on_the_gpu_by,
+};
 use conformance::{Sequence, square};
 use glam::{DVec3, Vec2, Vec3, Vec4, vec2};
 use hairline_cpu::closed_form;
@@ -479,6 +482,31 @@ fn brushed_balls() {
         if let Some(gpu) = on_the_gpu(&scene, 1) {
             let name = format!("{metallic} {roughness} {strength} {direction_deg}");
             compare(&name, &scene, &gpu, &cpu).unwrap();
+        }
+    }
+}
+
+/// Under bumps that are about as wide as a pixel its base is a mean over parts, under a coat as well.
+#[test]
+fn bumps_as_wide_as_a_pixel() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("peers/scenes/bumpy-ball-lamps.toml");
+    let bare = at_width(Scene::load(path).unwrap(), 96);
+    let mut coated = bare.clone();
+    let material = &mut coated.materials[0];
+    material.coat = Some(Coat {
+        weight: 0.7,
+        roughness: 0.1,
+    });
+    // As it is without a map of its own.
+    material.coat_normal_texture = material.normal_texture;
+    let mut own = coated.clone();
+    own.materials[0].coat_normal_texture = None;
+    for (name, scene) in [("bare", bare), ("coated", coated), ("own normals", own)] {
+        for samples in [1, 4] {
+            let cpu = on_the_cpu(&scene, samples);
+            if let Some(gpu) = on_the_gpu(&scene, samples) {
+                compare(&format!("bumps, {name}, {samples}"), &scene, &gpu, &cpu).unwrap();
+            }
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::found::{BaseLight, LayerRays};
 use crate::light_view::LightViews;
 use crate::sampling::lights::LightHit;
 use crate::sampling::luminance;
-use crate::shade_base::{Base, BaseRadiance, transformed_sphere};
+use crate::shade_base::{Base, BaseRadiance, PixelBase, transformed_sphere};
 use crate::shade_scratches::Choice;
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
@@ -67,13 +67,14 @@ const FAINT: f64 = 0.02;
 
 impl<'a> Shadows<'a> {
     /// Returns the base's light that is not hidden, and the light of other objects.
-    pub fn base(&self, at: &ShadowPoint, rooms: &mut [HitRoom<'a>]) -> BaseLight {
-        let base = Base::new(at.point);
-        let lobes = Lobes::new(&base, at.point);
+    pub fn base(&self, at: &ShadowPoint, base: &PixelBase, rooms: &mut [HitRoom<'a>]) -> BaseLight {
+        let lobes = Lobes::new(&base.whole, at.point);
         let sources = if at.depth == 0 {
-            self.sources(at, &base)
+            self.sources(base)
         } else {
-            self.one_source(at, &base, &lobes).into_iter().collect()
+            self.one_source(at, &base.whole, &lobes)
+                .into_iter()
+                .collect()
         };
         let open = sources.iter().fold(BaseRadiance::default(), |sum, it| {
             sum + it.open.times(DVec3::splat(it.per_chance))
@@ -98,17 +99,12 @@ impl<'a> Shadows<'a> {
     }
 
     /// The sources that light the base.
-    fn sources(&self, at: &ShadowPoint, base: &Base) -> Vec<Source> {
-        let lights = at.views.on_base();
-        let by_light = |light| {
-            (
-                Some(light),
-                base.by_light(light, at.views, transformed_sphere),
-            )
-        };
+    fn sources(&self, base: &PixelBase) -> Vec<Source> {
+        let lights = base.lights();
+        let by_light = |light| (Some(light), base.by_light(light, transformed_sphere));
         let environment = self.prepared.scene.environment.as_ref();
         let around = environment.map(|environment| (None, base.by_environment(environment)));
-        (lights.map(by_light).chain(around))
+        (lights.into_iter().map(by_light).chain(around))
             .map(|(light, open)| Source {
                 light,
                 open,

@@ -46,7 +46,7 @@ fn bounce_surface(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
     }
     let right = surface_any_across(ray.direction);
     let all_m = max(width_m(points[at], ray.direction, ray.distance_m, ray.solid_angle_sr), 1e-12);
-    var point = hit_surface(ray.triangle, ray.place, HitView(ray.direction, 1.0, right, cross(ray.direction, right), all_m, HIT_LEAST_COS));
+    var point = hit_surface(ray.triangle, ray.place, HitView(ray.direction, 1.0, right, cross(ray.direction, right), all_m, HIT_LEAST_COS, false));
     point.distance_m = viewer_m(points[at], ray.direction, ray.distance_m);
     // Rays meet other places each: the scratches of one place stand for those of a wide footprint, which are many.
     let scratches_m = min(width_m(points[at], ray.direction, ray.distance_m, 0.0), 1e-6 * point.coherence_um);

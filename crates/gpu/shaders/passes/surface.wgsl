@@ -45,5 +45,8 @@ fn surface(@builtin(global_invocation_id) id: vec3u) {
     if HAS_CUTOUTS && material_at(vertices[3u * (seen.x - 1u)].material & ~VERTEX_BITANGENT_FLIPPED).threshold == ALPHA_IS_SHARE {
         points[at].table_and_place |= PIXEL_PARTIAL;
     }
+    if HAS_BUMPS {
+        points[at].table_and_place |= pixel_parts_bits(parts_along(point));
+    }
     paints[at] = pixel_paint_pack(point, seen.x - 1u);
 }

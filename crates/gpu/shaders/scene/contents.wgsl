@@ -28,6 +28,8 @@ override BASE_HAS_POLYGONS: bool = true;
 override HAS_DOORS: bool = true;
 override HAS_PICTURES: bool = true;
 override HAS_TEXTURES: bool = true;
+// Surfaces with normal maps.
+override HAS_BUMPS: bool = true;
 // Colours of vertices.
 override HAS_COLORS: bool = true;
 // Surfaces with cutouts.

@@ -9,6 +9,7 @@ struct HitView {
     down: vec3f,
     stds: f32,                  // standard deviations of the filter, in such changes
     least_cos: f32,             // footprints are no longer than at this cosine
+    bumps_turn: bool,           // whether bumps of normal maps turn the normal over the footprint, and what is finer than a texel alone spreads
 }
 
 fn hit_axis(view: HitView, normal: vec3f, change: vec3f) -> vec3f {
@@ -49,17 +50,18 @@ fn vertex_color(vertex: Vertex) -> vec4f {
     return vec4f(unpack2x16unorm(vertex.color.x), unpack2x16unorm(vertex.color.y));
 }
 
-// Turn of the interpolated normal of a triangle along a step on its plane; `interpolated` is not yet a unit vector.
-fn hit_normal_turn(a: Vertex, b: Vertex, c: Vertex, geometric: vec3f, interpolated: vec3f, step: vec3f) -> vec3f {
-    let e1 = b.position_m - a.position_m;
-    let e2 = c.position_m - a.position_m;
-    let length2 = dot(interpolated, interpolated);
+// Change of the barycentric coordinates of the second and third vertex over a step in the plane of a triangle with these edges.
+fn hit_barycentric_step(e1: vec3f, e2: vec3f, geometric: vec3f, step: vec3f) -> vec2f {
     // Unit geometric normal over twice the area, each factor by itself within the range of single precision.
     let twice_area = max(length(geometric), 1e-30);
     let unit = geometric / twice_area;
-    let u = dot(cross(step, e2), unit) / twice_area;
-    let v = dot(cross(e1, step), unit) / twice_area;
-    let change = (b.normal - a.normal) * u + (c.normal - a.normal) * v;
+    return vec2f(dot(cross(step, e2), unit), dot(cross(e1, step), unit)) / twice_area;
+}
+
+// Turn of the interpolated normal of a triangle over a step of the barycentric coordinates; `interpolated` is not yet a unit vector.
+fn hit_normal_turn(a: Vertex, b: Vertex, c: Vertex, interpolated: vec3f, step: vec2f) -> vec3f {
+    let length2 = dot(interpolated, interpolated);
+    let change = (b.normal - a.normal) * step.x + (c.normal - a.normal) * step.y;
     if length2 < 1e-12 {
         return vec3f(0.0);
     }
@@ -117,18 +119,47 @@ fn hit_tangents(a: Vertex, b: Vertex, c: Vertex, weights: vec3f, smooth_normal: 
     return HitTangents(along, cross(smooth_normal, along) * flip);
 }
 
-// Normal by a normal map, if there is one, and the spread of its slopes there.
-fn hit_normal(map: vec2u, scale: f32, a: Vertex, b: Vertex, c: Vertex, weights: vec3f, place: TexturePlace, smooth_normal: vec3f) -> vec4f {
+// Whether the normals of its coat are not those of what is under it.
+fn hit_has_coat_normals(material: Material) -> bool {
+    let has_coat = HAS_COAT_NORMALS && unpack2x16unorm(material.coat).x > 0.0;
+    return has_coat && any(material.coat_normal_texture != material.normal_texture);
+}
+
+// Normal of a texel of a normal map.
+fn hit_texel_normal(looked_up: vec4f, scale: f32, tangents: HitTangents, smooth_normal: vec3f) -> vec3f {
+    let texel = looked_up.xyz * 2.0 - 1.0;
+    let slopes = tangents.along * (texel.x * scale) + tangents.across * (texel.y * scale);
+    return surface_normalize_or(slopes + smooth_normal * texel.z, smooth_normal);
+}
+
+// Normal by a normal map, if there is one, and the spread of its slopes there: `as_turns` of what is finer than a texel.
+fn hit_normal(map: vec2u, scale: f32, a: Vertex, b: Vertex, c: Vertex, weights: vec3f, place: TexturePlace, smooth_normal: vec3f, as_turns: bool) -> vec4f {
     if !hit_has_texture(map) {
         return vec4f(smooth_normal, 0.0);
     }
     let tangents = hit_tangents(a, b, c, weights, smooth_normal);
-    let there = hit_place(map, place);
-    let lod = surface_texture_lod(there.z, scene_texture_size(map), scene_texture_levels(map));
-    let looked_up = scene_normals(map, there.xy, lod, there.z);
-    let texel = looked_up.xyz * 2.0 - 1.0;
-    let slopes = tangents.along * (texel.x * scale) + tangents.across * (texel.y * scale);
-    return vec4f(surface_normalize_or(slopes + smooth_normal * texel.z, smooth_normal), looked_up.w * abs(scale));
+    var looked_up: vec4f;
+    if as_turns {
+        looked_up = hit_texture(map, place);
+    } else {
+        let there = hit_place(map, place);
+        let lod = surface_texture_lod(there.z, scene_texture_size(map), scene_texture_levels(map));
+        looked_up = scene_normals(map, there.xy, lod, there.z);
+    }
+    return vec4f(hit_texel_normal(looked_up, scale, tangents, smooth_normal), looked_up.w * abs(scale));
+}
+
+// Turn of the normal by a normal map over a step of the barycentric coordinates.
+fn hit_bump_turn(map: vec2u, scale: f32, a: Vertex, b: Vertex, c: Vertex, weights: vec3f, place: TexturePlace, smooth_normal: vec3f, step: vec2f) -> vec3f {
+    let tangents = hit_tangents(a, b, c, weights, smooth_normal);
+    let uv = 2.0 * (vec2f(b.u - a.u, b.v - a.v) * step.x + vec2f(c.u - a.u, c.v - a.v) * step.y);
+    let other_uv = 2.0 * ((b.other_uv - a.other_uv) * step.x + (c.other_uv - a.other_uv) * step.y);
+    var turn = vec3f(0.0);
+    for (var sign = -1.0; sign < 1.5; sign += 2.0) {
+        let there = TexturePlace(place.uv + sign * uv, place.filter_side, place.other_uv + sign * other_uv, place.other_side);
+        turn += 0.25 * sign * hit_texel_normal(hit_texture(map, there), scale, tangents, smooth_normal);
+    }
+    return turn;
 }
 
 // Sets the direction in which its facets lean most, and their alphas.
@@ -199,7 +230,7 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     let position_m = a.position_m + (b.position_m - a.position_m) * bary.x + (c.position_m - a.position_m) * bary.y;
     let depth = dot(position_m - frame.camera_m, frame.forward);
     *depth_m = depth;
-    let view = HitView(ray, depth, frame.per_px_x, frame.per_px_y, frame.footprint_std_px, MIN_FOOTPRINT_COS);
+    let view = HitView(ray, depth, frame.per_px_x, frame.per_px_y, frame.footprint_std_px, MIN_FOOTPRINT_COS, false);
     var point = hit_surface(triangle, bary, view);
     point.distance_m = depth * length(ray);
     return point;
@@ -237,13 +268,15 @@ fn hit_surface(triangle: u32, bary: vec2f, view: HitView) -> SurfacePoint {
     );
 
     let there = hit_textured(material, place);
-    let mapped = hit_normal(material.normal_texture, material.normal_scale, a, b, c, weights, place, smooth_normal);
+    // A coat with a normal map of its own turns another way than what is under it.
+    let as_turns = HAS_BUMPS && view.bumps_turn && !hit_has_coat_normals(material);
+    let mapped = hit_normal(material.normal_texture, material.normal_scale, a, b, c, weights, place, smooth_normal, as_turns);
     point.slope_std = mapped.w;
     var normal = surface_face_viewer(side * mapped.xyz, to_viewer);
     point.under_coat = UNDER_COAT_ALIKE;
     point.coat_slope_std = point.slope_std;
     if HAS_COAT_NORMALS && unpack2x16unorm(there.coat).x > 0.0 {
-        let mapped_coat = hit_normal(material.coat_normal_texture, material.coat_normal_scale, a, b, c, weights, place, smooth_normal);
+        let mapped_coat = hit_normal(material.coat_normal_texture, material.coat_normal_scale, a, b, c, weights, place, smooth_normal, false);
         point.coat_slope_std = mapped_coat.w;
         let of_coat = surface_face_viewer(side * mapped_coat.xyz, to_viewer);
         if any(of_coat != normal) {
@@ -261,8 +294,16 @@ fn hit_surface(triangle: u32, bary: vec2f, view: HitView) -> SurfacePoint {
     if hit_has_texture(material.occlusion_texture) {
         point.open += material.occlusion_strength * (hit_texture(material.occlusion_texture, place).x - 1.0);
     }
-    let turn_x = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_x);
-    let turn_y = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_y);
+    let e1 = b.position_m - a.position_m;
+    let e2 = c.position_m - a.position_m;
+    let step_x = hit_barycentric_step(e1, e2, geometric, smooth_x);
+    let step_y = hit_barycentric_step(e1, e2, geometric, smooth_y);
+    var turn_x = side * hit_normal_turn(a, b, c, interpolated, step_x);
+    var turn_y = side * hit_normal_turn(a, b, c, interpolated, step_y);
+    if as_turns && hit_has_texture(material.normal_texture) {
+        turn_x += side * hit_bump_turn(material.normal_texture, material.normal_scale, a, b, c, weights, place, smooth_normal, step_x);
+        turn_y += side * hit_bump_turn(material.normal_texture, material.normal_scale, a, b, c, weights, place, smooth_normal, step_y);
+    }
     point.turn_x = vec2f(dot(turn_x, point.axis_x), dot(turn_x, point.axis_y));
     point.turn_y = vec2f(dot(turn_y, point.axis_x), dot(turn_y, point.axis_y));
     return point;

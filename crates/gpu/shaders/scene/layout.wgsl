@@ -181,7 +181,7 @@ struct PixelPoint {
     turns: vec4f,               // how the smooth normal turns over each of them, in the surface frame
     cos_o: f32,                 // of the viewer to the normal
     distance_m: f32,            // to the viewer
-    table_and_place: u32,       // layer of the scratch tables in 16 bits; the pixel's place in its tile, in 6; who has its scratches, in 6; PIXEL_PARTIAL
+    table_and_place: u32,       // layer of the scratch tables in 16 bits; the pixel's place in its tile, in 6; who has its scratches, in 6; pixel_parts_along(); PIXEL_PARTIAL
     leaves: f32,                // how far the surface may be off the plane of shading for each length along it
 }
 

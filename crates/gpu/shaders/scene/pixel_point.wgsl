@@ -118,6 +118,15 @@ fn pixel_place(pixel: PixelPoint) -> u32 {
 // Bit of table_and_place: samples of a pixel that see the same surface share scratches; one of them has these for all.
 const PIXEL_SHARES: u32 = 0x08000000u;
 
+// Number of parts along each axis of the filter whose mean the base is: in 3 bits; 0 without any. Samples that rays see have none.
+fn pixel_parts_bits(along: u32) -> u32 {
+    return along << 28u;
+}
+
+fn pixel_parts_along(pixel: PixelPoint) -> u32 {
+    return extractBits(pixel.table_and_place, 28u, 3u);
+}
+
 // The sample that has them lies so many places behind this one.
 fn pixel_shared(offset: i32) -> u32 {
     return PIXEL_SHARES | ((bitcast<u32>(offset) & 31u) << 22u);
