@@ -6,6 +6,7 @@ use crate::surface::{PointCoat, SurfacePoint};
 use glam::DVec3;
 use hairline_optics::band::Cap;
 use hairline_optics::brushed_lobe::BrushedLobe;
+use hairline_optics::coat::CoatPart;
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
 use hairline_optics::facets::FacetAxes;
 use hairline_optics::filtered_lobe::{LobePart, PixelSlopes, filtered_lobe};
@@ -182,8 +183,8 @@ pub(crate) struct Base<'p, 'a> {
     under_coat: Option<SurfacePoint<'a>>,
     /// The lobe over the body.
     pub lobe: Layer<'a>,
-    /// The layer over both, with its share of the surface.
-    pub coat: Option<(f64, Layer<'a>)>,
+    /// The layer over both, with its part.
+    pub coat: Option<(CoatPart, Layer<'a>)>,
     /// Share of the light in the body that leaves it again.
     pub body: DVec3,
 }
@@ -204,7 +205,10 @@ impl<'p, 'a> Base<'p, 'a> {
             // The body gets the light that the surface does not reflect.
             body: point.diffuse * (DVec3::ONE - lobe.albedo).max(DVec3::ZERO),
             lobe,
-            coat: coat.map(|it| (it.weight, layer(it))),
+            coat: coat.map(|it| {
+                let layer = layer(it);
+                (CoatPart::new(it.weight, layer.albedo), layer)
+            }),
         }
     }
 
@@ -220,14 +224,12 @@ impl<'p, 'a> Base<'p, 'a> {
         base: BaseRadiance,
         by_coat: impl FnOnce(&Layer) -> DVec3,
     ) -> BaseRadiance {
-        let Some((weight, coat)) = &self.coat else {
+        let Some((part, coat)) = &self.coat else {
             return base;
         };
-        let passed = *weight * (DVec3::ONE - coat.albedo).max(DVec3::ZERO);
-        let bare = 1.0 - weight;
         BaseRadiance {
-            specular: base.specular * bare + *weight * by_coat(coat),
-            diffuse: base.diffuse * (passed + bare) + base.specular * passed,
+            specular: part.reflected(by_coat(coat), base.specular),
+            diffuse: part.below(base.specular, base.diffuse),
         }
     }
 

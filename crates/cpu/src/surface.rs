@@ -2,13 +2,14 @@
 
 use glam::{DMat3, DVec2, DVec3, DVec4};
 use hairline_index::Hit;
+use hairline_optics::coat::COAT_F0;
 use hairline_optics::facets::{FacetAxes, anisotropic_alpha};
 use hairline_optics::filtered_lobe::PixelSlopes;
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_alpha;
 use hairline_optics::spectrum::Observer;
 use hairline_scene::texture_lookup::{TextureSampler, blend, texture_footprint};
-use hairline_scene::{COAT_F0, Mesh, Scene, ScratchTables, Texture};
+use hairline_scene::{Mesh, Scene, ScratchTables, Texture};
 
 /// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane. Of a surface under a coat it is that of the
 /// coat; [`SurfacePoint::under_coat`] has that of what is under it.

@@ -130,7 +130,7 @@ pub struct Anisotropy {
     pub direction_deg: f64,
 }
 
-/// A layer of lacquer over a base, as of cars and phones: refractive index [`COAT_IOR`], without a colour (KHR_materials_clearcoat).
+/// A layer of lacquer over a base, as of cars and phones: refractive index [`COAT_IOR`](hairline_optics::coat::COAT_IOR), without a colour (KHR_materials_clearcoat).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Coat {
     /// `clearcoat`: the share of the surface that it covers, in [0, 1].
@@ -140,11 +140,6 @@ pub struct Coat {
     #[serde(rename = "clearcoat_roughness")]
     pub roughness: f64,
 }
-
-/// The refractive index of a [`Coat`].
-pub const COAT_IOR: f64 = 1.5;
-/// Reflectance of a coat at normal incidence.
-pub const COAT_F0: f64 = 0.04;
 
 /// Reflectance at normal incidence of a glTF dielectric without extensions: [`Material::dielectric_f0`].
 pub const GLTF_DIELECTRIC_F0: f64 = 0.04;

@@ -3,15 +3,18 @@
 //!
 //! Directions are unit vectors in the local frame, z = normal. All values hold the cosine of `wi`; densities are per steradian.
 
+mod coat;
 mod conductor;
 mod grating;
 mod layer;
+mod nodes;
 mod point;
 mod profile;
 mod spectral_mode;
 
-pub use conductor::Conductor;
-pub use grating::GratingLobe;
+pub use coat::CoatLobe;
+pub use conductor::{Conductor, Overlay};
+pub use grating::{FineGrating, GratingLobe};
 pub use layer::{Groove, LayerLobe};
 pub use point::PointScratch;
 pub use profile::Profile;
@@ -25,6 +28,7 @@ use crate::footprint::ScratchShare;
 use crate::ggx::{ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
 use crate::mask::{Mask, Masked, ScratchSums};
 use crate::scratch::oblique_depth_nm;
+use coat::CoatView;
 
 /// Reflection, in parts that add up.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,7 +42,7 @@ pub struct Reflected {
 /// A scratched metal.
 #[derive(Clone, Debug)]
 pub struct ScratchedBsdf {
-    /// The metal.
+    /// The metal, with what lies over it.
     pub conductor: Arc<Conductor>,
     /// Perceptual roughness of its base, as in glTF.
     pub roughness: f64,
@@ -67,9 +71,9 @@ struct View<'a> {
     kept: f64,
     left: DVec3,
     left_by_gratings: DVec3,
+    /// Reflectance of the layer in which scratches lie.
     fresnel: DVec3,
-    /// Probability of drawing from the base.
-    base_pick: f64,
+    coat: Option<CoatView>,
 }
 
 impl ScratchedBsdf {
@@ -98,14 +102,12 @@ impl ScratchedBsdf {
         }
         let Masked { kept, taken, .. } = sums.resolve(Mask::Energy, self.depth_coherence);
         let left = DVec3::ONE - DVec3::from(taken);
-        let taken_by_gratings: DVec3 = self.gratings.iter().map(|it| it.taken(wo, mode)).sum();
+        let of_grating = |it: &GratingLobe| it.taken(&self.conductor, wo, mode);
+        let taken_by_gratings: DVec3 = self.gratings.iter().map(of_grating).sum();
         let left_by_gratings = (DVec3::ONE - taken_by_gratings).max(DVec3::ZERO);
-        let bright = ((left * left_by_gratings).element_sum() / 3.0).max(0.0);
-        let base_pick =
-            match self.layers.is_empty() && self.points.is_empty() && self.gratings.is_empty() {
-                true => 1.0,
-                false => bright.clamp(LEAST_PICK, 1.0 - LEAST_PICK),
-            };
+        let coat = self.conductor.coat().map(|coat| coat.view(wo));
+        let bare = self.conductor.reflectance(wo.z, mode);
+        let fresnel = coat.as_ref().map_or(bare, |coat| coat.reflectance(bare));
         View {
             of: self,
             mode,
@@ -114,8 +116,8 @@ impl ScratchedBsdf {
             kept,
             left,
             left_by_gratings,
-            fresnel: self.conductor.reflectance(wo.z, mode),
-            base_pick,
+            fresnel,
+            coat,
         }
     }
 
@@ -166,11 +168,35 @@ impl View<'_> {
     fn eval(&self, wi: DVec3) -> Reflected {
         let h = (wi + self.wo).normalize_or(DVec3::Z);
         let facet = self.of.conductor.facet(wi.dot(h), self.gain(), self.mode);
-        let base = facet * ggx_eval(wi, self.wo, self.alpha);
+        let metal = facet * ggx_eval(wi, self.wo, self.alpha);
+        // What shines from under a coat passes the scratches in it.
+        let (reflected, below) = match &self.coat {
+            Some(coat) => {
+                let reflected = coat.part.reflected(coat.eval(wi), metal);
+                (reflected, coat.part.below(metal, DVec3::ZERO))
+            }
+            None => (metal, DVec3::ZERO),
+        };
         Reflected {
-            base: base * self.left * self.left_by_gratings,
+            base: reflected * self.left * self.left_by_gratings + below,
             scratches: self.scratches(wi),
         }
+    }
+
+    /// Probability of drawing from the base or its coat: about their part of all light.
+    fn base_pick(&self) -> f64 {
+        let of = self.of;
+        if of.layers.is_empty() && of.points.is_empty() && of.gratings.is_empty() {
+            return 1.0;
+        }
+        let below = self.coat.as_ref().map_or(DVec3::ZERO, |coat| {
+            let bare = of.conductor.reflectance(self.wo.z, self.mode);
+            coat.part.below(bare, DVec3::ZERO)
+        });
+        let base = self.fresnel * self.left * self.left_by_gratings + below;
+        let all = (self.fresnel + below).max(DVec3::splat(1e-30));
+        let bright = (base / all).element_sum() / 3.0;
+        bright.clamp(LEAST_PICK, 1.0 - LEAST_PICK)
     }
 
     /// Relative light that multiple scattering adds to a white base, over F0.
@@ -191,7 +217,7 @@ impl View<'_> {
         }
         let mut rows = DVec3::ZERO;
         for row in &of.gratings {
-            rows += row.density(&of.conductor, xi, depth_share, mode);
+            rows += row.density(&of.conductor, wi, wo, mode);
         }
         // Densities are per d xi, which is the cosine of `wi` times the solid angle.
         self.fresnel * (scratches * self.kept + rows * self.left) * wi.z
@@ -208,9 +234,15 @@ impl View<'_> {
     }
 
     fn pdf(&self, wi: DVec3) -> f64 {
-        let base = self.base_pick * ggx_pdf(wi, self.wo, self.alpha);
+        let metal = ggx_pdf(wi, self.wo, self.alpha);
+        let base = self
+            .coat
+            .as_ref()
+            .map_or(metal, |coat| metal + coat.pick * (coat.pdf(wi) - metal));
+        let base_pick = self.base_pick();
+        let base = base_pick * base;
         let all: f64 = self.shares().sum();
-        if self.base_pick == 1.0 || all <= 0.0 {
+        if base_pick == 1.0 || all <= 0.0 {
             return base;
         }
         let (of, wo, xi) = (self.of, self.wo, (wi + self.wo).truncate());
@@ -222,15 +254,19 @@ impl View<'_> {
             .iter()
             .map(|it| it.share * it.pdf(xi, self.mode));
         let drawn: f64 = layers.sum::<f64>() + points.sum::<f64>() + rows.sum::<f64>();
-        base + (1.0 - self.base_pick) * drawn / all * wi.z
+        base + (1.0 - base_pick) * drawn / all * wi.z
     }
 
     fn sample(&self, pick: f64, u: DVec2) -> Option<DVec3> {
         let (of, wo) = (self.of, self.wo);
-        if pick < self.base_pick {
-            return Some(ggx_sample(wo, self.alpha, u));
+        let base_pick = self.base_pick();
+        if pick < base_pick {
+            return Some(match &self.coat {
+                Some(coat) if pick < coat.pick * base_pick => coat.sample(u),
+                _ => ggx_sample(wo, self.alpha, u),
+            });
         }
-        let rest = ((pick - self.base_pick) / (1.0 - self.base_pick)).min(1.0 - f64::EPSILON);
+        let rest = ((pick - base_pick) / (1.0 - base_pick)).min(1.0 - f64::EPSILON);
         let all: f64 = self.shares().sum();
         let mut left = rest * all;
         for (i, share) in self.shares().enumerate() {

@@ -35,6 +35,35 @@ impl Cover {
         self.color.map(|color| color.powf(way_mm))
     }
 
+    /// The part of `reflected`, which a metal under it sends with its outer face, that comes from below that face.
+    pub fn part_below(&self, reflected: [f64; 3], cos_theta: f64) -> [f64; 3] {
+        let outer = self.outer(cos_theta);
+        // A black plate of the index of air sends nothing.
+        reflected.map(|all| if all > 0.0 { 1.0 - outer / all } else { 0.0 })
+    }
+
+    /// Whether its colour is the same in all channels, and so at all wavelengths.
+    pub fn is_grey(&self) -> bool {
+        let [r, g, b] = self.color;
+        r == g && g == b
+    }
+
+    /// Reflectance of a metal of the index n + i k under it at a wavelength. The plate [is grey](Self::is_grey).
+    pub fn reflectance(&self, n_k: [f64; 2], cos_theta: f64) -> f64 {
+        let ([passed, ..], [crossed, ..]) = (self.passed(cos_theta), self.crossed(cos_theta));
+        let under = self.under(n_k, cos_theta).seen_through(crossed);
+        self.outer(cos_theta) + passed * passed * under
+    }
+
+    /// A metal under it.
+    fn under(&self, [n, k]: [f64; 2], cos_theta: f64) -> UnderCover {
+        let inner_cos = fresnel::inner_cos(cos_theta, self.ior);
+        UnderCover {
+            metal: fresnel::conductor(inner_cos, n / self.ior, k / self.ior),
+            outer: self.outer(cos_theta),
+        }
+    }
+
     /// Reflectance of a metal under it in linear Rec.709, with the outer face, and with all that goes back and forth in the plate.
     pub fn reflectance_rgb(&self, metal: Metal, cos_theta: f64) -> [f64; 3] {
         self.reflectance_seen_by(Observer::eye(), metal, cos_theta)
@@ -49,14 +78,24 @@ impl Cover {
     ) -> [f64; 3] {
         let (outer, passed) = (self.outer(cos_theta), self.passed(cos_theta));
         let crossed = self.crossed(cos_theta);
-        let inner_cos = fresnel::inner_cos(cos_theta, self.ior);
         let under = observer.channels_of(|nm| {
-            let (n, k) = metal.n_k(nm);
-            let metal = fresnel::conductor(inner_cos, n / self.ior, k / self.ior);
-            let back = |c: usize| outer * metal * crossed[c] * crossed[c];
-            std::array::from_fn(|c| metal / (1.0 - back(c)))
+            let under = self.under(metal.n_k(nm).into(), cos_theta);
+            crossed.map(|crossed| under.seen_through(crossed))
         });
         std::array::from_fn(|c| outer + passed[c] * passed[c] * under[c])
+    }
+}
+
+/// Reflectances that light meets in a plate: of the metal below, and of the outer face.
+struct UnderCover {
+    metal: f64,
+    outer: f64,
+}
+
+impl UnderCover {
+    /// Light that comes up to the outer face for the first time and after each way back, where a crossing leaves the share `crossed`.
+    fn seen_through(&self, crossed: f64) -> f64 {
+        self.metal / (1.0 - self.outer * self.metal * crossed * crossed)
     }
 }
 

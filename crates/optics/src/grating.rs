@@ -12,6 +12,7 @@ mod table;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
+use crate::cover::Cover;
 use crate::diffraction::sinc;
 use crate::spectrum::WAVELENGTH_MIN_NM;
 
@@ -41,6 +42,15 @@ impl Grating {
     /// W / pitch: the share of the surface that lies in grooves.
     pub fn fill(&self) -> f64 {
         self.width_um / self.pitch_um
+    }
+
+    /// The same row as waves see it in a plate, in which they are shorter: for the scalar step of its floors.
+    #[must_use]
+    pub fn in_cover(self, cover: &Cover) -> Self {
+        Self {
+            depth_nm: self.depth_nm * cover.ior,
+            ..self
+        }
     }
 
     /// E D: the mean over the grooves of the change of the reflection coefficient by a floor, (3). `depth_share` is the factor on depths by which

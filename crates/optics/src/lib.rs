@@ -24,6 +24,7 @@ pub mod band;
 pub mod band_environment;
 pub mod brushed_lobe;
 pub mod bsdf;
+pub mod coat;
 pub mod coherent;
 pub mod cover;
 pub mod diffraction;

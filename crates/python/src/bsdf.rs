@@ -2,15 +2,19 @@
 
 use glam::{DMat2, DVec2, DVec3};
 use hairline_optics::bsdf::{
-    Conductor, GratingLobe, Groove, LayerLobe, PointScratch, Profile, Reflected, ScratchedBsdf,
-    SpectralMode,
+    CoatLobe, Conductor, FineGrating, GratingLobe, Groove, LayerLobe, Overlay, PointScratch,
+    Profile, Reflected, ScratchedBsdf, SpectralMode,
 };
+use hairline_optics::cover::Cover;
 use hairline_optics::footprint::{Footprint, ScratchShare, ends, scratch_share};
 use hairline_optics::grating::Grating;
 use hairline_optics::mask::depth_coherence;
+use hairline_optics::metal::Metal;
+use hairline_optics::rigorous::Medium;
 use hairline_optics::section::Section;
 use hairline_scene::description;
 use hairline_scene::schema::scratches::PROFILE;
+use hairline_scene::{efficiencies, fine_row};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -32,8 +36,10 @@ pub(crate) const BELOW: [f64; 3] = [0.0, 0.0, -1.0];
 
 /// A layer: its share, direction and spread in radians, its grooves as (part, width, depth), and their cross section.
 type Layer = (f64, f64, f64, Vec<(f64, f64, f64)>, ProfileKey);
-/// A grating: share, direction and spread in radians, then those of [`Grating`].
-type Row = (f64, f64, f64, [f64; 5]);
+/// A grating: share, direction and spread in radians, those of [`Grating`], and whether it is rigorous where it is fine.
+type Row = (f64, f64, f64, [f64; 5], bool);
+/// A plate: index, thickness in mm, colour.
+type Plate = (f64, f64, [f64; 3]);
 /// A scratch: angle in radians, offset, start and end, width, depth.
 type Scratch = [f64; 6];
 
@@ -75,6 +81,8 @@ impl ProfileKey {
 #[pyclass(frozen, module = "hairline._hairline")]
 pub(crate) struct Bsdf {
     bsdf: ScratchedBsdf,
+    /// Whether it has a spectrum: colours of plates have none.
+    is_spectral: bool,
     /// What is seen through a footprint.
     scratches: Vec<Scratch>,
 }
@@ -126,7 +134,7 @@ fn modes<'a>(wavelengths_nm: Option<&'a [f64]>) -> impl Fn(usize) -> SpectralMod
 
 #[pymethods]
 impl Bsdf {
-    /// `n_k` every 5 nm takes the place of a metal's name.
+    /// `n_k`, rows of a wavelength in nm, n and k, takes the place of a metal's name. `coat` is a share of the surface and a roughness.
     #[new]
     #[expect(
         clippy::too_many_arguments,
@@ -135,23 +143,34 @@ impl Bsdf {
     fn new(
         py: Python<'_>,
         metal: &str,
-        n_k: Option<Vec<[f64; 2]>>,
+        n_k: Option<Vec<[f64; 3]>>,
         roughness: f64,
         coherence_um: f64,
+        coat: Option<(f64, f64)>,
+        cover: Option<Plate>,
         layers: Vec<Layer>,
         gratings: Vec<Row>,
         scratches: Vec<Scratch>,
     ) -> PyResult<Self> {
         let sections = layers.iter().map(|layer| layer.4.section());
         let sections: Vec<Section> = sections.collect::<PyResult<_>>()?;
-        let conductor = match n_k {
-            Some(n_k) => Conductor::new(n_k, roughness).ok_or_else(errors::internal)?,
-            None => {
-                let metal = names::named("metal", metal, description::metal_names())?;
-                Conductor::of_metal(metal, roughness)
-            }
+        let metal = match n_k {
+            Some(rows) if rows.is_empty() => return Err(errors::internal()),
+            Some(rows) => Metal::own(&rows),
+            None => names::named("metal", metal, description::metal_names())?,
         };
+        let cover = cover.map(|(ior, thickness_mm, color)| Cover {
+            ior,
+            thickness_mm,
+            color,
+        });
         let made = py.detach(|| {
+            let overlay = match (coat, cover) {
+                (Some((weight, roughness)), _) => Overlay::Coat(CoatLobe::new(weight, roughness)),
+                (None, Some(cover)) => Overlay::Cover(cover),
+                (None, None) => Overlay::Bare,
+            };
+            let conductor = Conductor::new(metal, overlay, roughness);
             let mut depths: Vec<(f64, f64)> = scratches.iter().map(|it| (it[5], it[4])).collect();
             for ((share, .., grooves, _), section) in layers.iter().zip(&sections) {
                 let strips = section.strips(STRIPS);
@@ -181,17 +200,44 @@ impl Bsdf {
                     coherence_um,
                 )
             });
-            let gratings = gratings.iter().map(|(share, direction, spread, row)| {
-                let [pitch_um, width_um, depth_nm, depth_spread, jitter_um] = *row;
-                let row = Grating {
-                    pitch_um,
-                    width_um,
-                    depth_nm,
-                    depth_spread,
-                    jitter_um,
-                };
-                GratingLobe::new(&conductor, row, *share, *direction, *spread, coherence_um)
-            });
+            let gratings = gratings
+                .iter()
+                .map(|(share, direction, spread, row, is_rigorous)| {
+                    let [pitch_um, width_um, depth_nm, depth_spread, jitter_um] = *row;
+                    let row = Grating {
+                        pitch_um,
+                        width_um,
+                        depth_nm,
+                        depth_spread,
+                        jitter_um,
+                    };
+                    let medium = Medium::Metal(metal);
+                    // What lies in a coat is scalar.
+                    let is_rigorous = *is_rigorous && coat.is_none();
+                    let fine =
+                        (is_rigorous.then(|| fine_row(&row, medium, cover.as_ref()))).flatten();
+                    let fine = fine.and_then(|fine| {
+                        Some(FineGrating {
+                            efficiencies: efficiencies(&fine, &|| false)?,
+                            medium,
+                            cover,
+                        })
+                    });
+                    let row = match (&fine, cover) {
+                        (None, Some(cover)) => row.in_cover(&cover),
+                        _ => row,
+                    };
+                    let (share, direction, spread) = (*share, *direction, *spread);
+                    GratingLobe::new(
+                        &conductor,
+                        row,
+                        fine,
+                        share,
+                        direction,
+                        spread,
+                        coherence_um,
+                    )
+                });
             ScratchedBsdf {
                 layers: layers.collect(),
                 gratings: gratings.collect(),
@@ -204,6 +250,7 @@ impl Bsdf {
         });
         Ok(Self {
             bsdf: made,
+            is_spectral: cover.is_none_or(|cover| cover.is_grey()),
             scratches,
         })
     }
@@ -217,6 +264,7 @@ impl Bsdf {
                 ..self.bsdf.clone()
             },
             scratches: self.scratches.clone(),
+            is_spectral: self.is_spectral,
         }
     }
 
@@ -236,7 +284,7 @@ impl Bsdf {
         ];
         let part = names::named("part", part, &parts)?;
         let (wi, wo) = (directions("wi", &wi)?, directions("wo", &wo)?);
-        let nm = wavelength_nm.as_ref().map(slice).transpose()?;
+        let nm = self.wavelengths(wavelength_nm.as_ref())?;
         let values: Vec<f64> = py.detach(|| {
             let mode = modes(nm);
             let rows = (0..wi.len()).into_par_iter().with_min_len(FEWEST);
@@ -261,7 +309,7 @@ impl Bsdf {
         wavelength_nm: Option<Numbers<'py>>,
     ) -> PyResult<Made<'py>> {
         let (wi, wo) = (directions("wi", &wi)?, directions("wo", &wo)?);
-        let nm = wavelength_nm.as_ref().map(slice).transpose()?;
+        let nm = self.wavelengths(wavelength_nm.as_ref())?;
         let values: Vec<f64> = py.detach(|| {
             let mode = modes(nm);
             let rows = (0..wi.len()).into_par_iter().with_min_len(FEWEST);
@@ -281,7 +329,7 @@ impl Bsdf {
     ) -> PyResult<(Made<'py>, Made<'py>, Made<'py>)> {
         let wo = directions("wo", &wo)?;
         let (u, _) = slice(&u)?.as_chunks::<3>();
-        let nm = wavelength_nm.as_ref().map(slice).transpose()?;
+        let nm = self.wavelengths(wavelength_nm.as_ref())?;
         let (wi, (pdf, value)): (Vec<_>, (Vec<_>, Vec<_>)) = py.detach(|| {
             let mode = modes(nm);
             let rows = (0..wo.len()).into_par_iter().with_min_len(FEWEST);
@@ -305,6 +353,17 @@ impl Bsdf {
             pdf.into_pyarray(py),
             value.into_pyarray(py),
         ))
+    }
+}
+
+impl Bsdf {
+    fn wavelengths<'a>(&self, nm: Option<&'a Numbers<'_>>) -> PyResult<Option<&'a [f64]>> {
+        if nm.is_some() && !self.is_spectral {
+            let found = "found wavelengths for a cover of a colour, which has no spectrum";
+            let right = "leave them out, or give the cover a grey color";
+            return Err(errors::of_argument("wavelength_nm", found, right));
+        }
+        nm.map(slice).transpose()
     }
 }
 

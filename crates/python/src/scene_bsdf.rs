@@ -2,7 +2,9 @@
 
 use glam::{DVec2, DVec3, Vec3};
 use hairline_index::{Groove, ScratchIndex, SegmentTree, groove_index};
-use hairline_optics::bsdf::{Conductor, PointScratch, Profile, ScratchedBsdf, SpectralMode};
+use hairline_optics::bsdf::{
+    CoatLobe, Conductor, Overlay, PointScratch, Profile, ScratchedBsdf, SpectralMode,
+};
 use hairline_optics::scratch::piece_share;
 use hairline_optics::section::NARROW;
 use hairline_scene::{Base, GrooveShapes, Scene};
@@ -42,7 +44,7 @@ impl SceneBsdf {
             .triangle_materials
             .first()
             .map_or(0, |i| *i as usize)];
-        let Base::Metal(metal) = material.base else {
+        let (Base::Metal(metal) | Base::Covered { metal, .. }) = material.base else {
             let found = format!("found \"{}\", whose material is no measured metal", of.name);
             return Err(errors::of_argument(
                 "object",
@@ -54,7 +56,6 @@ impl SceneBsdf {
             f64::from(scratch.profile.width_um) <= NARROW * material.coherence_um
         };
         let left_out = [
-            (material.coat.is_some(), "a clearcoat"),
             (material.anisotropy.is_some(), "anisotropy"),
             (!of.gratings.is_empty(), "gratings"),
             (
@@ -64,11 +65,16 @@ impl SceneBsdf {
         ];
         if let Some((_, what)) = left_out.iter().find(|it| it.0) {
             let found = format!("found \"{}\", which has {what}", of.name);
-            let right = "must be bare metal with narrow scratches alone";
+            let right = "must be metal with narrow scratches alone";
             return Err(errors::of_argument("object", found, right));
         }
+        let overlay = match (material.coat, material.base) {
+            (Some(coat), _) => Overlay::Coat(CoatLobe::new(coat.weight, coat.roughness)),
+            (None, Base::Covered { cover, .. }) => Overlay::Cover(cover),
+            _ => Overlay::Bare,
+        };
         let bare = ScratchedBsdf {
-            conductor: Conductor::of_metal(metal, material.roughness).into(),
+            conductor: Conductor::new(metal, overlay, material.roughness).into(),
             roughness: material.roughness,
             coherence_um: material.coherence_um,
             layers: Vec::new(),

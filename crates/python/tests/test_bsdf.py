@@ -2,6 +2,7 @@
 
 import math
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +12,9 @@ from hairline import optics
 from hairline.bsdf import Grating, Layer, Scratched
 
 LAYER = Layer(width_um=(2.0, 0.2), depth_nm=(160.0, 0.2), coverage=0.03)
-ROW = Grating(pitch_um=1.6, width_um=0.6, depth_nm=110.0, coverage=0.5, direction_deg=30, angle_std_deg=1)
+ROW = Grating(pitch_um=1.6, width_um=0.6, depth_nm=110.0, coverage=0.5, direction_deg=30, angle_std_deg=1, theory="scalar")
+FINE = Grating(pitch_um=0.74, width_um=0.3, depth_nm=60.0, coverage=0.5, direction_deg=30, angle_std_deg=1)
+PLATE = {"ior": 1.58, "thickness_mm": 1.2, "color": (0.8, 0.8, 0.8)}
 POINT = [[0.7, 3.0, -400.0, 90.0, 2.0, 150.0]]
 MATERIALS = {
     "bare": Scratched("steel", roughness=0.3),
@@ -23,7 +26,23 @@ MATERIALS = {
     "row without orders": Scratched("steel", roughness=0.3, gratings=[Grating(10.0, 3.0, 200.0, coverage=0.3, jitter_um=20.0)]),
     "point": Scratched("steel", roughness=0.3, scratches=POINT),
     "together": Scratched("steel", roughness=0.3, layers=[LAYER], gratings=[ROW], scratches=POINT),
+    "in a coat": Scratched("steel", roughness=0.3, layers=[LAYER], gratings=[ROW], scratches=POINT, clearcoat=1, clearcoat_roughness=0.2),
+    "in half a coat": Scratched("gold", roughness=0.3, layers=[LAYER], clearcoat=0.5, clearcoat_roughness=0.2),
+    "under a plate": Scratched("gold", roughness=0.3, layers=[LAYER], gratings=[ROW], cover=PLATE),
+    "fine row": Scratched("gold", roughness=0.3, gratings=[FINE]),
+    "fine row under a plate": Scratched("gold", roughness=0.3, gratings=[replace(FINE, jitter_um=0.05)], layers=[LAYER], cover=PLATE),
 }
+
+
+def bare_of(material):
+    """The same metal, coat and plate without scratches and gratings."""
+    return Scratched(
+        material.metal,
+        roughness=material.roughness,
+        clearcoat=material.clearcoat,
+        clearcoat_roughness=material.clearcoat_roughness,
+        cover=material.cover,
+    )
 
 
 def direction(theta, phi=0.0):
@@ -102,7 +121,7 @@ def test_weights_of_samples_are_values_over_densities(name):
 @pytest.mark.parametrize("name", MATERIALS)
 def test_no_light_is_made_or_lost(name):
     random = np.random.default_rng(2)
-    bare = Scratched(MATERIALS[name].metal, roughness=0.3)
+    bare = bare_of(MATERIALS[name])
     for theta in (0.0, 0.7):
         wo = direction(theta)
 
@@ -111,6 +130,10 @@ def test_no_light_is_made_or_lost(name):
             kept = drawn.pdf > 0
             return np.sum(drawn.value[kept] / drawn.pdf[kept, None], axis=0) / 300_000
 
+        if "fine" in name:
+            # Fine grooves absorb; how much, says a test of the crate by their efficiencies.
+            assert (albedo(MATERIALS[name]) < 1.005 * albedo(bare)).all()
+            continue
         # 1 % and the noise of the samples.
         np.testing.assert_allclose(albedo(MATERIALS[name]), albedo(bare), rtol=0.02)
 
@@ -252,6 +275,16 @@ def test_layers_of_a_scene_have_its_profiles(scene):
         (lambda m: Scratched(layers=[Layer(30.0, 100.0, 0.1)]), "width_um: found 30; must be 8 at most, 0.4 of coherence_um"),
         (lambda m: Scratched(scratches=[[0, 0, -math.inf, math.inf, 2, math.inf]]), "scratches: found NaN or an infinite number"),
         (lambda m: Scratched([[550, 1.0, 0.0]]), "metal: found n = 1 and k = 0 in all rows, which is air"),
+        (lambda m: Scratched(clearcoat=1.5), "clearcoat: found 1.5; must be from 0 to 1"),
+        (lambda m: Scratched(clearcoat=1, clearcoat_roughness=-1), "clearcoat_roughness: found -1; must be from 0 to 1"),
+        (lambda m: Scratched(clearcoat_roughness=0.2), "clearcoat_roughness: found no `clearcoat` beside it"),
+        (lambda m: Scratched(clearcoat=1, cover=PLATE), "cover: found a `clearcoat` beside it; leave one of them out"),
+        (lambda m: Scratched(cover={"ior": 0.5}), "cover.ior: found 0.5; must be from 1 to 4"),
+        (lambda m: Scratched(cover={"ior": math.nan}), "cover.ior: found NaN"),
+        (lambda m: Scratched(cover={"index": 1.5}), "cover.index: unknown key"),
+        (lambda m: Scratched(cover=1.58), "cover: found the number 1.58; must be a table"),
+        (lambda m: Scratched(cover={"color": (1, 1, 0.5)}).pdf([0, 0, 1], [0, 0, 1], wavelength_nm=500), "wavelength_nm: found wavelengths for a cover of a colour"),
+        (lambda m: replace(FINE, theory="vector"), "theory: found 'vector'; must be \"rigorous\" or \"scalar\""),
         (lambda m: Grating(1.6, 2.0, 100), "width_um: found 2.0; must be a number from 0.01 to 1.6"),
     ],
 )

@@ -123,8 +123,9 @@ def test_the_plugin_passes_mitsubas_own_test():
         assert test.run(), test.messages
 
 
-def test_scalar_variants_have_the_same_values():
-    of = Scratched("steel", roughness=0.3, layers=[Layer(2.0, 150.0, 0.05)])
+@pytest.mark.parametrize("over", [{}, {"clearcoat": 0.8, "clearcoat_roughness": 0.1}, {"cover": {"ior": 1.5}}], ids=["bare", "coat", "cover"])
+def test_scalar_variants_have_the_same_values(over):
+    of = Scratched("steel", roughness=0.3, layers=[Layer(2.0, 150.0, 0.05)], **over)
     wi, wo = np.array([0.1, 0.2, 0.0]), np.array([-0.15, -0.1, 0.0])
     wi[2], wo[2] = np.sqrt(1 - wi @ wi), np.sqrt(1 - wo @ wo)
     right = of.eval(wo, wi)

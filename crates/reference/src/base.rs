@@ -6,6 +6,7 @@
 use std::f64::consts::PI;
 
 use glam::{DMat3, DVec2, DVec3};
+use hairline_optics::coat::CoatPart;
 use hairline_optics::facets::Facets;
 use hairline_optics::ggx::ggx_alpha;
 
@@ -34,15 +35,12 @@ pub(crate) struct BaseLobes<'a> {
 /// A clear layer over the base (29a).
 #[derive(Clone, Copy)]
 struct CoatLobe<'a> {
-    /// The share of the surface that it covers.
-    weight: f64,
+    part: CoatPart,
     /// Viewer's direction in the coat's own frame.
     wo: DVec3,
     facets: Facets,
     reflectance: &'a Reflectance,
     gain: f64,
-    /// Share of the light that passes through the coat.
-    passed: DVec3,
     /// Probability of sampling the coat's lobe.
     share: f64,
 }
@@ -78,12 +76,11 @@ impl<'a> BaseLobes<'a> {
         let of_lobe = reflectance.albedo(roughness, wo.z);
         let albedo = of_lobe.reflected(ReflectanceEnds::COAT);
         let coat = CoatLobe {
-            weight,
+            part: CoatPart::new(weight, albedo),
             wo,
             facets: Facets::round(ggx_alpha(roughness)),
             reflectance,
             gain: of_lobe.gain(),
-            passed: (DVec3::ONE - albedo).max(DVec3::ZERO),
             // Faint as it is, its highlights are the strongest.
             share: 0.3 * weight,
         };
@@ -168,11 +165,8 @@ impl<'a> BaseLobes<'a> {
         };
         let (ends, facets) = (ReflectanceEnds::COAT, &coat.facets);
         let by_coat = reflected(coat.reflectance, ends, coat.gain, facets, wi, coat.wo);
-        let bare = 1.0 - coat.weight;
-        (
-            bare * specular + coat.weight * by_coat,
-            bare * diffuse + coat.weight * coat.passed * (specular + diffuse),
-        )
+        let below = coat.part.below(specular, diffuse);
+        (coat.part.reflected(by_coat, specular), below)
     }
 
     /// A direction above the horizon of the lobe that was picked; `pick` and `u` are in [0, 1). None where that of facets lies below: such a sample

@@ -76,7 +76,7 @@ impl<'a> RowView<'a> {
             };
             let table = tables.grating_table(grating, point.material)?;
             return Some(Self {
-                row: grating.row,
+                row: tables.row(table),
                 rigorous: tables.rigorous(table),
                 frame,
                 wo: frame.band_from_surface(point.wo),

@@ -2,13 +2,14 @@
 
 use glam::DVec3;
 use hairline_cpu::surface::SurfacePoint;
+use hairline_optics::coat::COAT_F0;
 use hairline_optics::cover::Cover;
 use hairline_optics::facets::Facets;
 use hairline_optics::fresnel::{dielectric, schlick_weight};
 use hairline_optics::ggx::{ggx_alpha, ggx_mean};
 use hairline_optics::metal::Metal;
 use hairline_optics::spectrum::Observer;
-use hairline_scene::{COAT_F0, Material, Reflector};
+use hairline_scene::{Material, Reflector};
 
 /// The reflectance of a material.
 pub(crate) struct Reflectance {

@@ -38,9 +38,10 @@ pub(super) const WIDEST_NM: f64 = WAVELENGTH_MAX_NM;
 /// Reflection off the floor of a groove and off the smooth base.
 #[derive(Clone, Copy)]
 pub(super) struct SpectralFresnel<'a> {
-    metal: Option<Metal>,
-    /// The metal's colour before textures; 1 without a metal.
-    metal_f0: DVec3,
+    /// The metal of the floors, with its colour before textures. None in a coat, and of what has no spectrum.
+    spectrum: Option<(Metal, DVec3)>,
+    /// Whether nothing lies over the metal.
+    is_bare: bool,
     reflectance: &'a Reflectance,
     ends: ReflectanceEnds,
     cos_o: f64,
@@ -57,13 +58,17 @@ impl<'a> SpectralFresnel<'a> {
         coat: Option<&'a Reflectance>,
     ) -> Self {
         let coat = point.coat.map(|it| it.weight).zip(coat);
-        let (metal, metal_f0) = match base {
-            Base::Metal(metal) if coat.is_none() => (Some(*metal), DVec3::from(optics.base_color)),
-            _ => (None, DVec3::ONE),
+        let spectrum = match base {
+            Base::Metal(metal) if coat.is_none() => Some((*metal, optics.base_color.into())),
+            Base::Covered { metal, .. } => {
+                let f0 = point.observer.channels(|nm| metal.reflectance(1.0, nm));
+                Some((*metal, f0.into()))
+            }
+            _ => None,
         };
         Self {
-            metal,
-            metal_f0,
+            spectrum,
+            is_bare: matches!(base, Base::Metal(_)),
             reflectance,
             ends: ReflectanceEnds::of(point),
             cos_o: point.wo.z,
@@ -88,10 +93,10 @@ impl<'a> SpectralFresnel<'a> {
 
     /// Weights with the shape of the reflectance's spectrum alone: they add up to white.
     pub(crate) fn shape(&self, wavelengths: &Wavelengths) -> Spectrum<DVec3> {
-        std::array::from_fn(|j| match self.metal {
-            Some(metal) => {
+        std::array::from_fn(|j| match self.spectrum {
+            Some((metal, f0)) => {
                 let reflectance = metal.reflectance(1.0, wavelengths.nm[j]);
-                wavelengths.weight[j] * reflectance / self.metal_f0
+                wavelengths.weight[j] * reflectance / f0
             }
             None => wavelengths.weight[j],
         })
@@ -101,19 +106,19 @@ impl<'a> SpectralFresnel<'a> {
     /// reciprocal, and equal to Fresnel's in the mirror's direction.
     pub(crate) fn coherent(&self, wavelengths: &Wavelengths, cos_i: f64) -> Spectrum<DVec3> {
         let cos_o = self.cos_o;
-        match self.metal {
-            Some(metal) => {
-                let tint = self.ends.f0 / self.metal_f0;
+        match self.spectrum {
+            Some((metal, f0)) if self.is_bare => {
+                let tint = self.ends.f0 / f0;
                 std::array::from_fn(|j| {
                     let nm = wavelengths.nm[j];
                     let r = metal.reflectance(cos_i, nm) * metal.reflectance(cos_o, nm);
                     wavelengths.weight[j] * tint * r.sqrt()
                 })
             }
-            None => {
+            _ => {
                 let both = self.at(cos_i) * self.at(cos_o);
                 let mean = both.max(DVec3::ZERO).map(f64::sqrt);
-                wavelengths.weight.map(|weight| weight * mean)
+                self.shape(wavelengths).map(|weight| weight * mean)
             }
         }
     }

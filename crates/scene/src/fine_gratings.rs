@@ -6,6 +6,7 @@ use crate::grating::Grating;
 use crate::scene::{Base, Material};
 use hairline_image::output::write_atomically;
 use hairline_optics::cover::Cover;
+use hairline_optics::grating::Grating as Row;
 use hairline_optics::metal::Metal;
 use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
 use std::fs;
@@ -38,15 +39,20 @@ pub(crate) fn fine_grooves(grating: &Grating, material: &Material) -> Option<Fin
             Some(Medium::Dielectric((1.0 + root) / (1.0 - root)))
         }
     };
-    let row = grating.row;
+    let medium = medium.filter(|_| grating.is_rigorous)?;
+    fine_row(&grating.row, medium, cover(material).as_ref())
+}
+
+/// The grooves of a row whose efficiencies are rigorous, if it is fine. A coat has none over them.
+pub fn fine_row(row: &Row, medium: Medium, cover: Option<&Cover>) -> Option<FineGrooves> {
     // The solver has no code that all browsers run.
     let is_known = !cfg!(target_arch = "wasm32");
-    (is_known && grating.is_rigorous && row.pitch_um < FINE_PITCH_UM).then_some(FineGrooves {
+    (is_known && row.pitch_um < FINE_PITCH_UM).then_some(FineGrooves {
         pitch_um: row.pitch_um,
         width_um: row.width_um,
         depth_nm: row.depth_nm,
-        above: cover(material).map_or(1.0, |cover| cover.ior),
-        medium: medium?,
+        above: cover.map_or(1.0, |cover| cover.ior),
+        medium,
     })
 }
 
@@ -58,8 +64,8 @@ pub(crate) fn cover(material: &Material) -> Option<Cover> {
     }
 }
 
-/// The efficiencies of grooves; none where `cancelled` says so, which is asked from any thread.
-pub(crate) fn efficiencies(
+/// The efficiencies of grooves, computed or kept from before: seconds. None where `cancelled` says so, which is asked from any thread.
+pub fn efficiencies(
     grooves: &FineGrooves,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Option<Arc<Efficiencies>> {

@@ -68,7 +68,7 @@ pub use camera::CameraFrame;
 pub use description::Description;
 pub use environment::Environment;
 pub use error::Error;
-pub use fine_gratings::FINE_PITCH_UM;
+pub use fine_gratings::{FINE_PITCH_UM, efficiencies, fine_row};
 pub use grating::{
     Bearing, Grating, GrooveField, GrooveGround, GroovePicture, GroovePlace, UvField,
 };

@@ -3,7 +3,8 @@
 use crate::fine_gratings::{cover, efficiencies, fine_grooves};
 use crate::grating::Grating;
 use crate::groove_shapes::GrooveShapes;
-use crate::scene::{Base, COAT_IOR, Material, Scene};
+use crate::scene::{Base, Material, Scene};
+use hairline_optics::coat::COAT_IOR;
 use hairline_optics::cover::Cover;
 use hairline_optics::fresnel::FresnelCurve;
 use hairline_optics::grating::{Grating as Row, RigorousGrating};
@@ -265,13 +266,11 @@ impl ScratchTables {
     fn spectrum(&self, grating: &Grating, material: usize) -> GratingSpectrum {
         let material_of = &self.of[material];
         let (cover, fine) = (cover(material_of), fine_grooves(grating, material_of));
-        let mut row = grating.row;
-        if let (Some(cover), None) = (cover, fine) {
-            // The scalar step of a floor in the plate.
-            row.depth_nm *= cover.ior;
-        }
         GratingSpectrum {
-            row,
+            row: match (cover, fine) {
+                (Some(cover), None) => grating.row.in_cover(&cover),
+                _ => grating.row,
+            },
             metal: self.metals[self.materials[material].table as usize / self.shape_count()],
             coherence_um: self.of[material].coherence_um,
             fine,
@@ -295,6 +294,11 @@ impl ScratchTables {
     /// Index of the first table of a grating.
     fn grating_tables_at(&self) -> usize {
         self.metals.len() * self.shape_count()
+    }
+
+    /// The grooves of a table of one, those of a scalar one as they are in a cover.
+    pub fn row(&self, table: usize) -> Row {
+        self.grating_spectra[table - self.grating_tables_at()].row
     }
 
     /// The grating of a table of one, with its efficiencies; none where they are scalar.

@@ -82,7 +82,8 @@ impl<'l, 'a> Lobes<'l, 'a> {
             1.0
         };
         let coat = point.coat.zip(base.coat.as_ref());
-        let coat = coat.map(|(it, (weight, layer))| {
+        let coat = coat.map(|(it, (part, layer))| {
+            let weight = part.weight;
             // Faint as it is, its highlights are the strongest.
             let share = (weight * luminance(layer.albedo)).max(0.3 * weight);
             DrawnLobe::new(point, round(it.roughness), it.slope_std, it.fresnel, share)

@@ -2,9 +2,12 @@
 
 use glam::DVec3;
 
+use super::coat::CoatLobe;
+use super::nodes::place;
 use super::spectral_mode::{SpectralMode, rgb};
+use crate::cover::Cover;
 use crate::fresnel;
-use crate::ggx::{ggx_albedo, ggx_alpha, unit_clamp};
+use crate::ggx::{ggx_albedo, ggx_alpha};
 use crate::metal::Metal;
 use crate::spectrum::{WAVELENGTH_COUNT, WAVELENGTH_MIN_NM, WAVELENGTH_STEP_NM};
 
@@ -14,58 +17,85 @@ const NODES: usize = 513;
 const ALBEDO_NODES: usize = 65;
 const ALBEDO_STEPS: usize = 64;
 
+/// The clear layer over a metal.
+#[derive(Clone, Debug)]
+pub enum Overlay {
+    /// None.
+    Bare,
+    /// A coat. Scratches and gratings lie in it, and send white's spectrum.
+    Coat(CoatLobe),
+    /// A plate, which light passes to and fro. At wavelengths it has to be grey.
+    Cover(Cover),
+}
+
 /// A metal.
 #[derive(Clone, Debug)]
 pub struct Conductor {
     /// n and k every 5 nm from 380 to 780 nm.
     n_k: Vec<[f64; 2]>,
+    overlay: Overlay,
     /// Reflectance in colour, and that times the reflectance at normal incidence.
     nodes: Vec<[DVec3; 2]>,
-    /// Reflectance at normal incidence in colour.
+    /// Reflectance of the bare metal at normal incidence in colour.
     f0: DVec3,
     /// Albedo of the lobe of F = 1 at one roughness, and that roughness.
     albedo: (f64, Vec<f64>),
 }
 
 impl Conductor {
-    /// A metal of n and k every 5 nm from 380 to 780 nm, under a base of this roughness. None where their number is another.
-    pub fn new(n_k: Vec<[f64; 2]>, roughness: f64) -> Option<Self> {
-        if n_k.len() != WAVELENGTH_COUNT {
-            return None;
-        }
-        let at = |cos: f64, nm: f64| reflectance(&n_k, cos, nm);
+    /// A metal under a layer, as a base of this roughness.
+    pub fn new(metal: Metal, overlay: Overlay, roughness: f64) -> Self {
+        let nm = |i: usize| WAVELENGTH_MIN_NM + i as f64 * WAVELENGTH_STEP_NM;
+        let n_k: Vec<_> = (0..WAVELENGTH_COUNT)
+            .map(|i| metal.n_k(nm(i)).into())
+            .collect();
+        let bare = |cos: f64, nm: f64| bare(&n_k, cos, nm);
         let nodes = (0..NODES).map(|i| {
             let root = i as f64 / (NODES - 1) as f64;
-            let once = rgb(|nm| at(root * root, nm));
-            [once, rgb(|nm| at(root * root, nm) * at(1.0, nm))]
+            let cos = root * root;
+            if let Overlay::Cover(cover) = &overlay {
+                // Light that facets scatter once more meets the plate once more.
+                let [once, straight] =
+                    [cos, 1.0].map(|cos| cover.reflectance_rgb(metal, cos).into());
+                return [once, once * straight];
+            }
+            let once = rgb(|nm| bare(cos, nm));
+            [once, rgb(|nm| bare(cos, nm) * bare(1.0, nm))]
         });
-        let nodes: Vec<_> = nodes.collect();
-        let f0 = rgb(|nm| at(1.0, nm));
+        let nodes: Vec<[DVec3; 2]> = nodes.collect();
+        let f0 = rgb(|nm| bare(1.0, nm));
         let albedos = (0..ALBEDO_NODES).map(|i| {
             let root = i as f64 / (ALBEDO_NODES - 1) as f64;
             ggx_albedo(root * root, ggx_alpha(roughness), ALBEDO_STEPS)
         });
         let albedo = (roughness, albedos.collect());
-        Some(Self {
+        Self {
             n_k,
+            overlay,
             nodes,
             f0,
             albedo,
-        })
+        }
     }
 
-    /// A measured metal.
+    /// A bare metal.
     pub fn of_metal(metal: Metal, roughness: f64) -> Self {
-        let nm = |i: usize| WAVELENGTH_MIN_NM + i as f64 * WAVELENGTH_STEP_NM;
-        let n_k = (0..WAVELENGTH_COUNT).map(|i| metal.n_k(nm(i)).into());
-        Self::new(n_k.collect(), roughness).expect("as many as there are wavelengths")
+        Self::new(metal, Overlay::Bare, roughness)
+    }
+
+    /// The coat over it.
+    pub(super) fn coat(&self) -> Option<&CoatLobe> {
+        match &self.overlay {
+            Overlay::Coat(coat) => Some(coat),
+            _ => None,
+        }
     }
 
     /// Reflectance of a flat surface.
     pub(super) fn reflectance(&self, cos: f64, mode: SpectralMode) -> DVec3 {
         match mode {
             SpectralMode::Rgb => self.node(cos)[0],
-            SpectralMode::Wavelength(nm) => DVec3::splat(reflectance(&self.n_k, cos, nm)),
+            SpectralMode::Wavelength(nm) => DVec3::splat(self.at_wavelength(cos, nm)),
         }
     }
 
@@ -77,15 +107,19 @@ impl Conductor {
                 once + twice * gain
             }
             SpectralMode::Wavelength(nm) => {
-                let straight = reflectance(&self.n_k, 1.0, nm);
-                DVec3::splat(reflectance(&self.n_k, cos, nm) * (1.0 + straight * gain))
+                let straight = self.at_wavelength(1.0, nm);
+                DVec3::splat(self.at_wavelength(cos, nm) * (1.0 + straight * gain))
             }
         }
     }
 
-    /// Reflectance at normal incidence at a wavelength, over that in each channel: the shape of the spectrum.
+    /// The spectrum of scratches and gratings, over its mean in each channel: that of the metal's reflectance at normal incidence, or white's in a
+    /// coat.
     pub(super) fn shape(&self, nm: f64) -> DVec3 {
-        reflectance(&self.n_k, 1.0, nm) / self.f0
+        match &self.overlay {
+            Overlay::Coat(_) => DVec3::ONE,
+            _ => bare(&self.n_k, 1.0, nm) / self.f0,
+        }
     }
 
     /// Light of multiple scattering over that of single scattering where F = 1, at the roughness that it was made for.
@@ -96,23 +130,39 @@ impl Conductor {
         1.0 / e0.clamp(1e-3, 1.0) - 1.0
     }
 
+    /// The part of a flat surface's reflection that comes from below the outer face of a cover.
+    pub(super) fn part_below(&self, cos: f64, mode: SpectralMode) -> DVec3 {
+        match &self.overlay {
+            Overlay::Cover(cover) => {
+                let all = self.reflectance(cos, mode);
+                cover.part_below(all.into(), cos).into()
+            }
+            _ => DVec3::ONE,
+        }
+    }
+
     fn node(&self, cos: f64) -> [DVec3; 2] {
         let (i, share) = place(cos, NODES);
         [0, 1].map(|k| self.nodes[i][k].lerp(self.nodes[i + 1][k], share))
     }
+
+    fn at_wavelength(&self, cos: f64, nm: f64) -> f64 {
+        match &self.overlay {
+            Overlay::Cover(cover) => cover.reflectance(n_k_at(&self.n_k, nm), cos),
+            _ => bare(&self.n_k, cos, nm),
+        }
+    }
 }
 
-fn place(cos: f64, nodes: usize) -> (usize, f64) {
-    let at = unit_clamp(cos).sqrt() * (nodes - 1) as f64;
-    let i = (at as usize).min(nodes - 2);
-    (i, at - i as f64)
+fn bare(n_k: &[[f64; 2]], cos: f64, nm: f64) -> f64 {
+    let [n, k] = n_k_at(n_k, nm);
+    fresnel::conductor(cos, n, k)
 }
 
-fn reflectance(n_k: &[[f64; 2]], cos: f64, nm: f64) -> f64 {
+fn n_k_at(n_k: &[[f64; 2]], nm: f64) -> [f64; 2] {
     let last = (n_k.len() - 1) as f64;
     let at = ((nm - WAVELENGTH_MIN_NM) / WAVELENGTH_STEP_NM).clamp(0.0, last);
     let i = (at as usize).min(n_k.len() - 2);
     let share = at - i as f64;
-    let [n, k] = [0, 1].map(|j| n_k[i][j] + share * (n_k[i + 1][j] - n_k[i][j]));
-    fresnel::conductor(cos, n, k)
+    [0, 1].map(|j| n_k[i][j] + share * (n_k[i + 1][j] - n_k[i][j]))
 }

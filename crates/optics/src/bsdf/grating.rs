@@ -1,14 +1,18 @@
 //! A row of parallel grooves: its orders in closed form, one wavelength at each place.
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use super::conductor::Conductor;
 use super::spectral_mode::SpectralMode;
-use crate::grating::Grating;
+use crate::cover::Cover;
+use crate::grating::{Grating, RigorousGrating};
+use crate::rigorous::{Efficiencies, Medium};
 use crate::scratch::band_std;
 use crate::spectrum::{
-    self, CHANNEL_MEAN_NM, WAVELENGTH_MAX_NM, WAVELENGTH_MEAN_NM, WAVELENGTH_MIN_NM,
+    self, CHANNEL_MEAN_NM, Observer, WAVELENGTH_MAX_NM, WAVELENGTH_MEAN_NM, WAVELENGTH_MIN_NM,
 };
 
 /// Orders beyond this are not drawn by themselves.
@@ -19,13 +23,32 @@ const REST_PICK: f64 = 0.1;
 const DRAWN_UM: f64 = 0.2;
 /// Nodes of what a row takes, over either component of the viewer, from -1 to 1.
 const TAKEN_NODES: usize = 33;
+/// Nodes of rigorous ones, which change at once where an order sets.
+const FINE_TAKEN_NODES: usize = 129;
+/// Probability of drawing any of the orders alike; of rigorous ones, whose energies change over the angle.
+const EVENLY: f64 = 0.02;
+const FINE_EVENLY: f64 = 0.2;
+/// Wavelength at which energies of rigorous orders are those that they are drawn by.
+const DRAWN_NM: f64 = 550.0;
 /// Steps of the sum over what grooves send each for themselves.
 const REST_STEPS: usize = 64;
 
-/// A grating by its scalar theory, (42).
+/// Rigorous efficiencies of a fine grating, with what they depend on besides the grooves.
+#[derive(Clone, Debug)]
+pub struct FineGrating {
+    /// The efficiencies.
+    pub efficiencies: Arc<Efficiencies>,
+    /// Metal of the grooves.
+    pub medium: Medium,
+    /// A plate over the grooves.
+    pub cover: Option<Cover>,
+}
+
+/// A grating by its scalar theory, (42), or by rigorous efficiencies.
 #[derive(Clone, Debug)]
 pub struct GratingLobe {
     row: Grating,
+    fine: Option<FineGrating>,
     /// Share of the surface that it covers.
     pub share: f64,
     /// Unit vector along the grooves.
@@ -36,15 +59,17 @@ pub struct GratingLobe {
     conductor_shape: Vec<DVec3>,
     /// Probability of each order that is drawn, and the sum up to it.
     orders: Vec<(i32, f64, f64)>,
-    /// What it takes of the mirror's direction in colour, by the viewer's components along and across the grooves.
+    /// What it takes of the mirror's direction in colour, over the light that comes from below the outer face of a cover; by the viewer's components
+    /// along and across the grooves.
     taken: Vec<DVec3>,
 }
 
 impl GratingLobe {
-    /// A grating on a metal.
+    /// A grating on a metal, scalar where it is not `fine`. The row of a scalar one under a cover is that [in the cover](Grating::in_cover).
     pub fn new(
         conductor: &Conductor,
         row: Grating,
+        fine: Option<FineGrating>,
         share: f64,
         direction_rad: f64,
         angle_std_rad: f64,
@@ -52,12 +77,18 @@ impl GratingLobe {
     ) -> Self {
         let farthest = (2e3 * row.pitch_um / WAVELENGTH_MIN_NM).floor() as i32;
         let most = farthest.clamp(1, MOST_ORDERS);
+        let rigorous = fine.as_ref().map(|fine| fine.of(row));
+        let drawn = |m| match &rigorous {
+            Some(rigorous) => rigorous.energy(m, DRAWN_NM, [0.0; 2], 1.0),
+            None => row.order_weight(m),
+        };
         let weights = (1..=most).flat_map(|m| [m, -m]);
-        let weights: Vec<_> = weights.map(|m| (m, row.order_weight(m))).collect();
+        let weights: Vec<_> = weights.map(|m| (m, drawn(m))).collect();
+        let evenly = if fine.is_some() { FINE_EVENLY } else { EVENLY };
         let all: f64 = weights.iter().map(|(_, w)| w).sum();
         // Rows whose light goes nowhere in orders draw all of them alike.
         let (by_weight, evenly) = match all > 1e-30 {
-            true => (0.98 / all, 0.02),
+            true => ((1.0 - evenly) / all, evenly),
             false => (0.0, 1.0),
         };
         let least = evenly / weights.len() as f64;
@@ -72,6 +103,7 @@ impl GratingLobe {
         let shape = samples.iter().map(|s| conductor.shape(s.wavelength_nm));
         let mut made = Self {
             row,
+            fine,
             share,
             along: DVec2::from_angle(direction_rad),
             angle_std_rad,
@@ -80,10 +112,10 @@ impl GratingLobe {
             orders,
             taken: Vec::new(),
         };
-        let component = |i: usize| 2.0 * i as f64 / (TAKEN_NODES - 1) as f64 - 1.0;
-        let nodes = 0..TAKEN_NODES * TAKEN_NODES;
-        let nodes = nodes.map(|i| {
-            let wo = DVec2::new(component(i / TAKEN_NODES), component(i % TAKEN_NODES));
+        let per_side = made.taken_nodes();
+        let component = |i: usize| 2.0 * i as f64 / (per_side - 1) as f64 - 1.0;
+        let nodes = (0..per_side * per_side).into_par_iter().map(|i| {
+            let wo = DVec2::new(component(i / per_side), component(i % per_side));
             let colours = samples.iter().zip(&made.conductor_shape);
             colours
                 .map(|(s, shape)| {
@@ -95,10 +127,24 @@ impl GratingLobe {
         made
     }
 
-    /// Light of one wavelength that all orders but 0 send whose directions lie above the horizon, for a viewer by its components along and
-    /// across the grooves; and what grooves send each for itself.
+    fn rigorous(&self) -> Option<RigorousGrating<'_>> {
+        self.fine.as_ref().map(|fine| fine.of(self.row))
+    }
+
+    fn taken_nodes(&self) -> usize {
+        match self.fine {
+            Some(_) => FINE_TAKEN_NODES,
+            None => TAKEN_NODES,
+        }
+    }
+
+    /// What is missing in the mirror's direction at one wavelength, for a viewer by its components along and across the grooves: the light of all
+    /// other orders whose directions lie above the horizon, and what grooves send each for itself; of a rigorous one also what they absorb.
     fn taken_of(&self, wo: DVec2, nm: f64) -> f64 {
         let cos_o = (1.0 - wo.length_squared()).max(0.0).sqrt();
+        if let Some(rigorous) = self.rigorous() {
+            return (1.0 - rigorous.energy(0, nm, [wo.y, wo.x], cos_o)).max(0.0);
+        }
         let farthest = (2e3 * self.row.pitch_um / nm).floor() as i32;
         let together: f64 = (-farthest..=farthest)
             .filter(|order| *order != 0)
@@ -137,20 +183,30 @@ impl GratingLobe {
     }
 
     /// Share of the base's light that the grating takes for a viewer.
-    pub(super) fn taken(&self, wo: DVec3, mode: SpectralMode) -> DVec3 {
+    pub(super) fn taken(&self, conductor: &Conductor, wo: DVec3, mode: SpectralMode) -> DVec3 {
+        let share = self.share * self.by_grooves(conductor, wo.z, mode);
         let wo = self.in_frame(wo.truncate());
         match mode {
-            SpectralMode::Wavelength(nm) => DVec3::splat(self.share * self.taken_of(wo, nm)),
+            SpectralMode::Wavelength(nm) => share * self.taken_of(wo, nm),
             SpectralMode::Rgb => {
-                let at = (wo + 1.0) * (0.5 * (TAKEN_NODES - 1) as f64);
+                let per_side = self.taken_nodes();
+                let at = (wo + 1.0) * (0.5 * (per_side - 1) as f64);
                 let low = at
                     .floor()
-                    .clamp(DVec2::ZERO, DVec2::splat((TAKEN_NODES - 2) as f64));
+                    .clamp(DVec2::ZERO, DVec2::splat((per_side - 2) as f64));
                 let f = (at - low).clamp(DVec2::ZERO, DVec2::ONE);
-                let first = low.x as usize * TAKEN_NODES + low.y as usize;
+                let first = low.x as usize * per_side + low.y as usize;
                 let pair = |i: usize| self.taken[i].lerp(self.taken[i + 1], f.y);
-                self.share * pair(first).lerp(pair(first + TAKEN_NODES), f.x)
+                share * pair(first).lerp(pair(first + per_side), f.x)
             }
+        }
+    }
+
+    /// The part of the metal's reflection that a cover's outer face does not send; all of it for scalar rows, as in pictures.
+    fn by_grooves(&self, conductor: &Conductor, cos_o: f64, mode: SpectralMode) -> DVec3 {
+        match self.fine {
+            Some(_) => conductor.part_below(cos_o, mode),
+            None => DVec3::ONE,
         }
     }
 
@@ -163,17 +219,33 @@ impl GratingLobe {
     pub(super) fn density(
         &self,
         conductor: &Conductor,
-        xi: DVec2,
-        depth_share: f64,
+        wi: DVec3,
+        wo: DVec3,
         mode: SpectralMode,
     ) -> DVec3 {
-        let at = self.in_frame(xi);
+        let at = self.in_frame((wi + wo).truncate());
         let (t, q) = (at.x, at.y);
+        let depth_share = 0.5 * (wi.z + wo.z);
         let band = |nm: f64| normal(t, self.along_std(q, nm));
+        let rigorous = self.rigorous();
+        let to_viewer = self.in_frame(wo.truncate());
+        let viewer = [to_viewer.y, to_viewer.x];
+        // Light goes through a cover twice.
+        let share = match &rigorous {
+            Some(rigorous) => {
+                let passed = DVec3::from(rigorous.passed(wi.z, wo.z));
+                self.share * passed * self.by_grooves(conductor, wo.z, mode)
+            }
+            None => DVec3::splat(self.share),
+        };
         match mode {
             SpectralMode::Wavelength(nm) => {
                 let s = band_std(self.coherence_um, nm);
-                DVec3::splat(self.share * self.row.density(q, depth_share, nm, s) * band(nm))
+                let across = match &rigorous {
+                    Some(rigorous) => rigorous.density(q, viewer, depth_share, nm, s),
+                    None => self.row.density(q, depth_share, nm, s),
+                };
+                share * across * band(nm)
             }
             SpectralMode::Rgb => {
                 let orders: DVec3 = self
@@ -181,17 +253,20 @@ impl GratingLobe {
                     .map(|(order, nm)| {
                         // One wavelength of the order leaves here; its spectrum is wider than the order.
                         let weight = DVec3::from(spectrum::weight_per_nm(nm)) * conductor.shape(nm);
-                        let energy = self.row.order_energy(order, depth_share, nm);
+                        let energy = match &rigorous {
+                            Some(rigorous) => rigorous.energy(order, nm, viewer, depth_share),
+                            None => self.row.order_energy(order, depth_share, nm),
+                        };
                         let per_q = 1e3 * self.row.pitch_um / f64::from(order.abs());
                         weight * (energy * per_q * band(nm))
                     })
                     .sum();
                 let bands = DVec3::from_array(CHANNEL_MEAN_NM.map(band));
                 let rest = match self.has_rest() && bands.max_element() > 0.0 {
-                    true => self.rest(q, depth_share),
+                    true => self.rest(q, viewer, depth_share),
                     false => DVec3::ZERO,
                 };
-                self.share * (orders + rest * bands)
+                share * (orders + rest * bands)
             }
         }
     }
@@ -210,11 +285,14 @@ impl GratingLobe {
     }
 
     /// What grooves send each for itself, in colour.
-    fn rest(&self, q: f64, depth_share: f64) -> DVec3 {
+    fn rest(&self, q: f64, viewer: [f64; 2], depth_share: f64) -> DVec3 {
+        let rigorous = self.rigorous();
+        let at = |nm: f64| match &rigorous {
+            Some(rigorous) => rigorous.rest_density(q, viewer, depth_share, nm),
+            None => self.row.rest_density(q, depth_share, nm),
+        };
         let colours = spectrum::samples().iter().zip(&self.conductor_shape);
-        let each = colours.map(|(s, shape)| {
-            DVec3::from(s.weight) * shape * self.row.rest_density(q, depth_share, s.wavelength_nm)
-        });
+        let each = colours.map(|(s, shape)| DVec3::from(s.weight) * shape * at(s.wavelength_nm));
         each.sum()
     }
 
@@ -287,6 +365,19 @@ impl GratingLobe {
         };
         let t = quantile(self.drawn_std(q, mode), u.y);
         t * self.along + q * self.along.perp()
+    }
+}
+
+impl FineGrating {
+    fn of(&self, row: Grating) -> RigorousGrating<'_> {
+        RigorousGrating {
+            row,
+            efficiencies: &self.efficiencies,
+            observer: Observer::eye(),
+            medium: self.medium,
+            is_colored: false,
+            cover: self.cover,
+        }
     }
 }
 

@@ -172,6 +172,9 @@ impl LayerLobe {
     fn band_times_i0e(&self, xi2: f64, along2: f64, per_variance: f64) -> f64 {
         let k = self.concentration;
         let sum = 0.25 * xi2 * per_variance + k;
+        if k == 0.0 {
+            return i0e_near(sum);
+        }
         // What the length of the sum of both loses where they disagree.
         let lost = k * along2 * per_variance;
         let length = (sum * sum - lost).max(0.0).sqrt();

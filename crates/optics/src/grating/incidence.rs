@@ -218,10 +218,8 @@ impl RigorousGrating<'_> {
     pub fn by_grooves(&self, cos_o: f64) -> [f64; 3] {
         match (self.cover, self.medium) {
             (Some(cover), Medium::Metal(metal)) => {
-                let outer = cover.outer(cos_o);
-                cover
-                    .reflectance_seen_by(self.observer, metal, cos_o)
-                    .map(|all| 1.0 - outer / all)
+                let all = cover.reflectance_seen_by(self.observer, metal, cos_o);
+                cover.part_below(all, cos_o)
             }
             _ => [1.0; 3],
         }
@@ -262,13 +260,15 @@ impl RigorousGrating<'_> {
     ) -> f64 {
         let orders = self.row.orders_about(q, nm, band_std);
         let peaks = orders.map(|(order, peak)| self.energy(order, nm, viewer, depth_share) * peak);
-        let rest = self.row.rest_density(q, depth_share, nm);
-        let scale = if rest == 0.0 {
-            0.0
-        } else {
-            self.rest_scale(nm, viewer)
-        };
-        peaks.sum::<f64>() + scale * rest
+        peaks.sum::<f64>() + self.rest_density(q, viewer, depth_share, nm)
+    }
+
+    /// The light that grooves send each for itself, as [`Self::density`].
+    pub(crate) fn rest_density(&self, q: f64, viewer: [f64; 2], depth_share: f64, nm: f64) -> f64 {
+        match self.row.rest_density(q, depth_share, nm) {
+            0.0 => 0.0,
+            rest => self.rest_scale(nm, viewer) * rest,
+        }
     }
 
     /// Ratio of the light of rigorous orders to that of scalar ones: what displaced grooves take of them, they send elsewhere.

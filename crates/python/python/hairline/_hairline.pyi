@@ -78,8 +78,10 @@ class Bsdf:
         n_k: Optional[list[list[float]]],
         roughness: float,
         coherence_um: float,
+        coat: Optional[tuple[float, float]],
+        cover: Optional[tuple[float, float, list[float]]],
         layers: list[tuple[float, float, float, tuple[tuple[float, float, float], ...], Union[str, list[float]]]],
-        gratings: list[tuple[float, float, float, list[float]]],
+        gratings: list[tuple[float, float, float, list[float], bool]],
         scratches: list[list[float]],
     ) -> Bsdf: ...
     def seen_through(self, footprint_um2: tuple[float, float, float]) -> Bsdf:

@@ -12,7 +12,7 @@ viewer; values hold the cosine of ``wi``; densities are per solid angle. Arrays 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
@@ -21,8 +21,9 @@ import numpy as np
 
 from . import _hairline as core
 from ._arrays import ArrayLike, Floats, _numbers, floats
-from ._errors import argument_error
-from .optics import n_k_rows, spectrum
+from ._errors import SceneError, argument_error
+from ._keys import Material
+from .optics import n_k_rows
 
 if TYPE_CHECKING:
     from ._scene import Scene
@@ -147,7 +148,7 @@ class Layer:
 
 @dataclass(frozen=True)
 class Grating:
-    """A row of parallel grooves, as ``[[grating]]`` of scene files, by its scalar theory.
+    """A row of parallel grooves, as ``[[grating]]`` of scene files.
 
     :param pitch_um: from one groove to the next.
     :param width_um: width of a groove, at most the pitch.
@@ -157,6 +158,8 @@ class Grating:
     :param angle_std_deg: standard deviation of that at any place.
     :param depth_spread: standard deviation of a depth, a share of it.
     :param jitter_um: standard deviation of how far a groove is off its place.
+    :param theory: ``"rigorous"``: below 4 um of pitch, and not in a coat, the orders have the energies of coupled waves, which take seconds to compute
+        and are kept for the next time. ``"scalar"``: each floor mirrors by itself.
     """
 
     pitch_um: float
@@ -167,6 +170,7 @@ class Grating:
     angle_std_deg: float = 0.0
     depth_spread: float = 0.0
     jitter_um: float = 0.0
+    theory: str = "rigorous"
 
     def __post_init__(self) -> None:
         _number("pitch_um", self.pitch_um, 0.1, 1000)
@@ -177,10 +181,12 @@ class Grating:
         _number("angle_std_deg", self.angle_std_deg, 0, 90)
         _number("depth_spread", self.depth_spread, 0, 3)
         _number("jitter_um", self.jitter_um, 0, 1000)
+        if self.theory not in ("rigorous", "scalar"):
+            raise argument_error("theory", f"found {self.theory!r}", 'must be "rigorous" or "scalar"')
 
-    def _row(self) -> tuple[float, float, float, list[float]]:
+    def _row(self) -> tuple[float, float, float, list[float], bool]:
         row = [self.pitch_um, self.width_um, self.depth_nm, self.depth_spread, self.jitter_um]
-        return self.coverage, math.radians(self.direction_deg), math.radians(self.angle_std_deg), row
+        return self.coverage, math.radians(self.direction_deg), math.radians(self.angle_std_deg), row, self.theory == "rigorous"
 
 
 class Sample(NamedTuple):
@@ -206,6 +212,10 @@ class Scratched:
         normal, its start and its end along the tangent, its width, all in micrometres, then its depth in nanometres; as of
         :func:`hairline.optics.coherent_response`.
     :param coherence_um: standard deviation of the coherence window.
+    :param clearcoat: the share of the surface under a clear coat, from 0 to 1; scratches and gratings lie in the coat.
+    :param clearcoat_roughness: of the coat.
+    :param cover: a clear plate over the metal and its gratings, ``{"ior": .., "thickness_mm": .., "color": ..}`` as in scene files, in place of a coat.
+        A colour has no spectrum: with one there are no values at wavelengths.
     """
 
     def __init__(
@@ -217,13 +227,13 @@ class Scratched:
         gratings: Iterable[Grating] = (),
         scratches: Optional[ArrayLike] = None,
         coherence_um: float = 20.0,
+        clearcoat: Optional[float] = None,
+        clearcoat_roughness: float = 0.0,
+        cover: Optional[Mapping[str, Any]] = None,
     ) -> None:
         self.metal: Any = metal
-        n_k = None
-        if not isinstance(metal, str):
-            rows = n_k_rows("metal", metal)
-            nm = spectrum().wavelength_nm
-            n_k = np.stack([np.interp(nm, rows[:, 0], rows[:, i]) for i in (1, 2)], axis=1)
+        n_k = None if isinstance(metal, str) else n_k_rows("metal", metal)
+        self.clearcoat, self.clearcoat_roughness, self.cover = _layer_over(clearcoat, clearcoat_roughness, cover)
         self.roughness = _number("roughness", roughness, 0, 1)
         self.coherence_um = _number("coherence_um", coherence_um, 1, 1000)
         self.layers, self.gratings = tuple(layers), tuple(gratings)
@@ -255,6 +265,8 @@ class Scratched:
             None if n_k is None else n_k.tolist(),
             self.roughness,
             self.coherence_um,
+            None if self.clearcoat is None else (self.clearcoat, self.clearcoat_roughness),
+            None if self.cover is None else (self.cover["ior"], self.cover["thickness_mm"], self.cover["color"]),
             [layer._row() for layer in self.layers],
             [row._row() for row in self.gratings],
             listed.tolist(),
@@ -266,7 +278,7 @@ class Scratched:
         """The mean of what lies on an object: a layer for each table of scratches, of the directions, widths and depths that were laid.
 
         Directions are those in the world's x and y of a surface that faces z: of a plate. On other surfaces take layers without a direction. The
-        material's metal and roughness are those of the object's; gratings stay out.
+        material's metal, roughness, coat and cover are those of the object's; gratings stay out.
         """
         if object not in [str(one.name) for one in scene.objects]:
             raise argument_error("object", f"found {object!r}", "must be the name of an object of the scene")
@@ -274,9 +286,8 @@ class Scratched:
         if name is None:
             raise argument_error("object", f"found {object!r}, which has materials of its file", "must be an object of a material of the scene")
         material = scene.materials.named(str(name))
-        for key in ("clearcoat", "anisotropy", "cover"):
-            if getattr(material, key, None):
-                raise argument_error("object", f"found {object!r}, whose material has {key}", "must be bare metal")
+        if material.anisotropy:
+            raise argument_error("object", f"found {object!r}, whose material has anisotropy", "must be metal that is alike all ways")
         built = scene.build()
         laid = built.laid(object)
         along = laid["end_m"] - laid["start_m"]
@@ -304,7 +315,15 @@ class Scratched:
         metal = material.metal if material.n_k is None else material.n_k
         if metal is None:
             raise argument_error("object", f"found {object!r}, whose material is no metal by n and k", 'must be of metal = ".." or n_k = [..]')
-        return cls(metal, roughness=float(material.roughness), layers=layers, coherence_um=sigma)
+        return cls(
+            metal,
+            roughness=float(material.roughness),
+            layers=layers,
+            coherence_um=sigma,
+            clearcoat=material.clearcoat,
+            clearcoat_roughness=float(material.clearcoat_roughness or 0.0),
+            cover=material.cover,
+        )
 
     def eval(
         self,
@@ -364,13 +383,26 @@ class Scratched:
         return f"<hairline.bsdf.Scratched: {metal}, {counts}>"
 
     def __reduce__(self) -> Any:
-        return _scratched, (self.metal, self.roughness, self.layers, self.gratings, self.scratches, self.coherence_um)
+        keys = ("roughness", "layers", "gratings", "scratches", "coherence_um", "clearcoat", "clearcoat_roughness", "cover")
+        return _scratched, (self.metal, {key: getattr(self, key) for key in keys})
 
 
-def _scratched(metal: Any, roughness: float, layers: Any, gratings: Any, scratches: Any, coherence_um: float) -> Scratched:
-    return Scratched(
-        metal, roughness=roughness, layers=layers, gratings=gratings, scratches=scratches, coherence_um=coherence_um
-    )
+def _scratched(metal: Any, keys: dict[str, Any]) -> Scratched:
+    return Scratched(metal, **keys)
+
+
+def _layer_over(
+    clearcoat: Optional[float], clearcoat_roughness: float, cover: Optional[Mapping[str, Any]]
+) -> tuple[Optional[float], float, Optional[dict[str, Any]]]:
+    """A coat, its roughness, and a plate, checked and completed as those of a scene's material."""
+    keys: dict[str, Any] = {"clearcoat": clearcoat, "cover": cover}
+    if clearcoat is not None or clearcoat_roughness != 0:
+        keys["clearcoat_roughness"] = clearcoat_roughness
+    try:
+        checked = Material(name="plate", kind="metal", metal="steel", **keys).to_dict()
+    except SceneError as error:
+        raise argument_error(error.key.replace("material.", "", 1), error.found, error.right) from None
+    return checked.get("clearcoat"), float(checked.get("clearcoat_roughness", 0.0)), checked.get("cover")
 
 
 def _rows(
