@@ -55,7 +55,7 @@ def labelled(target):
 
     with tempfile.TemporaryDirectory() as folder:
         made = inspect.dataset(
-            segmentation.plate(), folder, count=5, defects=[segmentation.GOUGE], variation=segmentation.VARIATION, shadows=False, samples=4
+            segmentation.plate(), folder, count=5, seed=4, defects=[segmentation.GOUGE], variation=segmentation.VARIATION, **segmentation.RENDERED
         )
         fig, axes = plt.subplots(2, 5, figsize=(13, 5.3))
         for number, (picture, mask) in enumerate(axes.T):

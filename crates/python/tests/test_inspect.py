@@ -213,12 +213,20 @@ def test_wrong_defects_and_variations_are_told():
         (lambda: inspect.Defect("a", "plate", count=(3, 1)), "defect.count: found (3, 1)"),
         (lambda: inspect.Defect("a", "plate", width_um=200), "defect.width_um: found 200; must be a number or two"),
         (lambda: inspect.Defect("a", "plate", depth_nm=math.nan), "defect.depth_nm: found nan"),
+        (lambda: inspect.Defect("a", "plate", profile="w"), 'defect.profile: found the text "w"; must be one of `rectangle`'),
+        (lambda: inspect.Defect("a", "plate", profile=(0, 0)), "defect.profile: found"),
         (lambda: inspect.Variation(camera_turn_deg=400), "variation.camera_turn_deg: found 400"),
         (lambda: inspect.Variation(wear=(2, 1)), "variation.wear: found (2, 1)"),
     ):
         with pytest.raises(hairline.SceneError) as raised:
             call()
         assert message in str(raised.value)
+
+
+def test_defects_have_their_profile(scene):
+    gouge = inspect.Defect("gouge", "plate", count=2, profile=(1.0, 0.5, -0.2))
+    changed, told = inspect.drawn(scene, 1, defects=[gouge])
+    assert [changed.scratches[one["layer"]].profile for one in told["defects"]] == [gouge.profile] * 2
 
 
 def test_rectangles_turn_with_the_other_lights():

@@ -26,7 +26,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _hairline as core
-from ._errors import argument_error
+from ._errors import SceneError, argument_error
 from ._host import Host, Progress
 from ._scene import Scene, _switch, _whole
 from ._table import Path
@@ -64,6 +64,7 @@ class Defect:
     :param length_m: range of lengths, drawn evenly in their logarithm, as the sizes below.
     :param width_um: from 0.05 to 100.
     :param depth_nm: from 1 to 2000.
+    :param profile: cross section, as ``profile`` of scene files: a name, or depths from the middle to the rim.
     """
 
     name: str
@@ -72,6 +73,7 @@ class Defect:
     length_m: Union[float, Span] = (5e-3, 2e-2)
     width_um: Union[float, Span] = (10.0, 30.0)
     depth_nm: Union[float, Span] = (800.0, 1800.0)
+    profile: Union[str, tuple[float, ...]] = "rectangle"
 
     def __post_init__(self) -> None:
         for key in ("name", "object"):
@@ -83,6 +85,10 @@ class Defect:
         _span("defect.length_m", self.length_m, 1e-6, 1000)
         _span("defect.width_um", self.width_um, 0.05, 100)
         _span("defect.depth_nm", self.depth_nm, 1, 2000)
+        try:
+            Scratches(object=self.object, pattern="random", count=1, profile=self.profile)
+        except SceneError as error:
+            raise argument_error("defect.profile", error.found, error.right) from None
 
     def _laid(self, random: np.random.Generator) -> list[Scratches]:
         low, high = (int(end) for end in _span("count", self.count, 0, 1000))
@@ -93,7 +99,8 @@ class Defect:
                 least, most = _span(key, getattr(self, key), 1e-9, 1e9)
                 sizes[key] = float(np.exp(random.uniform(math.log(least), math.log(most))))
             seed = int(random.integers(2**62))
-            made.append(Scratches(name=f"defect {self.name}", object=self.object, pattern="random", count=1, seed=seed, **sizes))
+            keys: dict[str, Any] = {"object": self.object, "pattern": "random", "count": 1, "seed": seed, "profile": self.profile}
+            made.append(Scratches(name=f"defect {self.name}", **keys, **sizes))
         return made
 
 
