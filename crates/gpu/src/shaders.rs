@@ -92,9 +92,9 @@ modules! {
     /// Facets that lean further one way than across it.
     FACETS = "physics/facets" needs [GGX];
     /// Their lobe over lights, slice by slice.
-    BRUSHED_LOBE = "physics/brushed_lobe" needs [FACETS, FILTERED_LOBE];
+    BRUSHED_LOBE = "physics/brushed_lobe" needs [FACETS, FILTERED_LOBE, ENVIRONMENT];
     /// The GGX lobe over an environment, by round lobes in a row.
-    ENVIRONMENT_LOBE = "physics/environment_lobe" needs [LTC];
+    ENVIRONMENT_LOBE = "physics/environment_lobe" needs [LTC, ENVIRONMENT];
     /// Slopes by which a pixel mirrors lights.
     PIXEL_SLOPES = "physics/pixel_slopes" needs [];
     /// A shading point and its frame.
@@ -116,7 +116,7 @@ modules! {
     /// Search for scratches under a footprint, for other engines.
     SCRATCH_TREE = "engine/scratch_tree" needs [SCRATCH];
     /// The base of a point under lights, for other engines.
-    LIT_BASE = "engine/lit_base" needs [FILTERED_LOBE, PIXEL_SLOPES, BAND, OUTLINE_LIGHT];
+    LIT_BASE = "engine/lit_base" needs [FILTERED_LOBE, PIXEL_SLOPES, BAND, OUTLINE_LIGHT, ENVIRONMENT_LOBE];
     /// The base of brushed metal, for other engines.
     BRUSHED_BASE = "engine/brushed_base" needs [BRUSHED_OUTLINE, LIT_BASE];
     /// All scratches of a point under lights, for other engines.
@@ -285,7 +285,6 @@ pub static FOR_ENGINES: &[&Module] = &[
     &BRUSHED_BASE,
     &GRATED_SURFACE,
     &PIXEL_FRAME,
-    &ENVIRONMENT_LOBE,
 ];
 
 /// `modules` and everything that they need, each once and after its own needs.

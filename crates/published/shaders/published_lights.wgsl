@@ -93,7 +93,7 @@ fn published_sphere(point: SurfacePoint, view: PublishedView, light: Light) -> v
 
 // Radiance of a scratch by one polygon, triangle by triangle, per unit of its share and of the light's radiance.
 fn published_polygon(point: SurfacePoint, view: PublishedView, light: Light) -> vec3f {
-    let outline = light_outline(point, light);
+    let outline = surface_outline(point, light);
     if outline.facing == 0.0 {
         return vec3f(0.0);
     }
@@ -101,9 +101,9 @@ fn published_polygon(point: SurfacePoint, view: PublishedView, light: Light) -> 
     for (var t = 0u; t + 2u < light.vertex_count; t += 1u) {
         let vertices = published_triangle(light, t);
         let clipped = clip_triangle(array<vec3f, 3>(
-            light_vertex(point, light, outline, vertices.x),
-            light_vertex(point, light, outline, vertices.y),
-            light_vertex(point, light, outline, vertices.z),
+            outline_corner_m(lights, outline, vertices.x),
+            outline_corner_m(lights, outline, vertices.y),
+            outline_corner_m(lights, outline, vertices.z),
         ));
         let a = band_from_surface(view.tangent, clipped.corners[0]);
         for (var i = 2u; i < clipped.count; i += 1u) {

@@ -53,3 +53,9 @@ fn brushed_base_outline(base: BrushedBase, curves: texture_2d<f32>, vertices: te
     let specular = brushed_outline(brushed_base_lobe(base, per_m), base.lit.reflecting.fresnel, curves, vertices, view);
     return BaseLit(specular, lambert_outline(vertices, view));
 }
+
+// An environment; arguments as of lit_base_environment().
+fn brushed_base_environment(base: BrushedBase, curves: texture_2d<f32>, levels: texture_2d<f32>, map_from_surface: mat3x3f) -> vec3f {
+    let mean = brushed_around(brushed_base_lobe(base, 0.0), base.lit.reflecting.fresnel, curves, levels, map_from_surface);
+    return base.lit.reflecting.albedo * mean;
+}

@@ -81,6 +81,14 @@ fn grated_outline(
     return point.seen.share.segment * scratch_outline(tables, vertices, point.lit, point.seen, view, center_m, around.w);
 }
 
+// Light of an environment; arguments as of scratched_environment().
+fn grated_environment(tables: texture_2d_array<u32>, point: GratedPoint, levels: texture_2d<f32>, map_from_surface: mat3x3f) -> vec3f {
+    if point.seen.share.segment <= 0.0 {
+        return vec3f(0.0);
+    }
+    return point.seen.share.segment * row_environment(tables, point.lit, point.seen, levels, map_from_surface);
+}
+
 // One of the ROW_CELLS cells of its band, for an engine that looks its environment up by itself: `response` has the share.
 fn grated_cell(tables: texture_2d_array<u32>, point: GratedPoint, i: u32) -> ScratchedCell {
     let cell = row_cell(i, band_line_at(band_from_surface(point.seen.tangent, point.lit.wo), 0.0));

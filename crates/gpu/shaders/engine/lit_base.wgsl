@@ -1,6 +1,6 @@
 // The base between the scratches as an engine shades it: a GGX lobe over a white body, widened by what a pixel sees.
 //
-// Needs: filtered_lobe, pixel_slopes, band, scratch_light (QuadLight), outline_light. Frame: the surface's, z along the shading normal, the viewer in the x-z plane.
+// Needs: filtered_lobe, pixel_slopes, band, scratch_light (QuadLight), outline_light, environment_lobe. Frame: the surface's, z along the shading normal, the viewer in the x-z plane.
 // Positions of lights are relative to the point, in metres. Textures: `shapes`, `albedo` and `curves` of the package's tables.
 //
 //   let base = lit_base(wo, roughness, fresnel, slopes, shapes, albedo, curves);    // once; PixelSlopes of pixel_slopes
@@ -124,6 +124,21 @@ fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d
         specular += filtered_lobe_weight(filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
     }
     return BaseLit(specular, lambert_outline(vertices, view));
+}
+
+// What the lobe reflects of an environment of prefiltered levels, single scattering; `map_from_surface` turns directions into the frame of the map. The
+// form factor of the body is a colour: environment_mean_by_cosine(levels, map_from_surface[2]).
+fn lit_base_environment(base: LitBase, shapes: texture_2d<f32>, levels: texture_2d<f32>, map_from_surface: mat3x3f) -> vec3f {
+    let filtered = lit_base_filtered(base, 0.0);
+    var specular = vec3f(0.0);
+    for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
+        let part = filtered_lobe_part(base.sharp, filtered, p);
+        if part.core == 0.0 {
+            break;
+        }
+        specular += part.core * environment_reflected(part.lobe, base.reflecting, shapes, levels, map_from_surface);
+    }
+    return specular;
 }
 
 // Form factor of an outline that faces the point.

@@ -365,6 +365,26 @@ fn brushed_tap(lobe: BrushedLobe, i: u32, fresnel: FresnelRgb, curves: texture_2
     return tap;
 }
 
+// The mean of an environment over the lobe, as its facets reflect it. `map_from_surface` turns directions into the frame of the map.
+fn brushed_around(
+    lobe: BrushedLobe,
+    fresnel: FresnelRgb,
+    curves: texture_2d<f32>,
+    levels: texture_2d<f32>,
+    map_from_surface: mat3x3f,
+) -> vec3f {
+    var mean = vec3f(0.0);
+    var weights = vec3f(1e-30);
+    for (var i = 0u; i < BRUSHED_TAPS; i += 1u) {
+        let tap = brushed_tap(lobe, i, fresnel, curves);
+        let radiance = environment_prefiltered(levels, map_from_surface * tap.direction, tap.roughness);
+        weights += tap.reflected;
+        // Running means, which of equal values are exact.
+        mean += (radiance - mean) * (tap.reflected / weights);
+    }
+    return mean;
+}
+
 // A sphere in the lobe's frame: a direction with slopes x and y is inside where a2 y^2 + 2 a1 y + a0 is above zero, with a1 = b.x + b.y x and
 // a0 = e.x + e.y x + e.z x^2.
 struct BrushedSphere {

@@ -1,4 +1,4 @@
-// The GGX lobe over an environment: a few round lobes in a row. Needs ltc. Twin: optics::environment_lobe, which explains it.
+// The GGX lobe over an environment: a few round lobes in a row. Needs ltc, environment. Twin: optics::environment_lobe, which explains it.
 
 const ENVIRONMENT_TAPS: u32 = 5u;
 const ENVIRONMENT_MIN_COSINE_OVER_ALPHA: f32 = 20.0;
@@ -79,4 +79,30 @@ fn environment_masking(cosine: f32, alpha: f32) -> f32 {
 fn environment_turned(mirror: vec2f, slope: f32) -> vec2f {
     let turn = vec2f(2.0 * slope, 1.0 - slope * slope) / (1.0 + slope * slope);
     return vec2f(mirror.x * turn.y + mirror.y * turn.x, mirror.y * turn.y - mirror.x * turn.x);
+}
+
+// What the lobe reflects of an environment, single scattering. `map_from_surface` turns directions into the frame of the map.
+fn environment_reflected(
+    lobe: LtcLobe,
+    reflecting: LobeFresnel,
+    shapes: texture_2d<f32>,
+    levels: texture_2d<f32>,
+    map_from_surface: mat3x3f,
+) -> vec3f {
+    let looked_up = environment_lobe(lobe, shapes);
+    var all = vec3f(0.0);
+    var grazing = vec3f(0.0);
+    var weights = 0.0;
+    var grazing_weights = 0.0;
+    for (var i = 0u; i < ENVIRONMENT_TAPS; i += 1u) {
+        let tap = environment_tap(looked_up, shapes, i);
+        let radiance = environment_prefiltered(levels, map_from_surface * tap.direction, tap.roughness);
+        weights += tap.weight;
+        grazing_weights += tap.grazing_weight;
+        // Running means, which of equal values are exact.
+        all += (radiance - all) * (tap.weight / weights);
+        grazing += (radiance - grazing) * (tap.grazing_weight / grazing_weights);
+    }
+    let normal = reflecting.fresnel.at_normal * lobe.albedo;
+    return normal * all + (reflecting.albedo - normal) * grazing;
 }

@@ -32,16 +32,16 @@ fn base_lambert_sphere(axis: vec3f, sin2: f32) -> f32 {
 }
 
 fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> LightOnBase {
-    let outline = light_outline(point, light);
+    let outline = surface_outline(point, light);
     if outline.facing == 0.0 {
         return LightOnBase(vec3f(0.0), 0.0);
     }
     var specular = ltc_begin();
     var diffuse = lambert_begin();
-    var a = light_vertex(point, light, outline, 0u);
+    var a = outline_corner_m(lights, outline, 0u);
     var highest_z = a.z;
     for (var i = 0u; i < light.vertex_count; i += 1u) {
-        let b = light_vertex(point, light, outline, i + 1u);
+        let b = outline_corner_m(lights, outline, i + 1u);
         ltc_edge(&specular, lobe, a, b);
         if HAS_BODIES {
             lambert_edge(&diffuse, a, b);
@@ -64,7 +64,7 @@ struct PictureOnBase {
 // Part by part. Twins: on_lobe and on_body of cpu/src/picture.rs.
 fn base_picture(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, light: Light) -> PictureOnBase {
     var on: PictureOnBase;
-    if light_outline(point, light).facing == 0.0 {
+    if surface_outline(point, light).facing == 0.0 {
         return on;
     }
     let picture = light_picture(light);
@@ -117,24 +117,15 @@ fn picture_irradiance(plane: PicturePlane, corners: u32) -> vec3f {
     return irradiance_end(state);
 }
 
-// Light of radiance 1 from all around that the lobe reflects, single scattering, and that falls on the body.
+// From the point's frame to that of the environment's maps.
+fn base_map_from_surface(point: SurfacePoint) -> mat3x3f {
+    return frame.environment_from_world * mat3x3f(point.axis_x, point.axis_y, point.normal);
+}
+
+// Light from all around that the lobe reflects, single scattering, and that falls on the body.
 fn base_environment(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel) -> BaseRadiance {
-    let looked_up = environment_lobe(lobe, lobe_shapes);
-    var all = vec3f(0.0);
-    var grazing = vec3f(0.0);
-    var weights = 0.0;
-    var grazing_weights = 0.0;
-    for (var i = 0u; i < ENVIRONMENT_TAPS; i += 1u) {
-        let tap = environment_tap(looked_up, lobe_shapes, i);
-        let radiance = scene_prefiltered(world_from_surface(point, tap.direction), tap.roughness);
-        weights += tap.weight;
-        grazing_weights += tap.grazing_weight;
-        // Running means, which of equal values are exact.
-        all += (radiance - all) * (tap.weight / weights);
-        grazing += (radiance - grazing) * (tap.grazing_weight / grazing_weights);
-    }
-    let normal = reflecting.fresnel.at_normal * lobe.albedo;
-    return BaseRadiance(normal * all + (reflecting.albedo - normal) * grazing, scene_irradiance(point.normal) / 3.14159265);
+    let reflected = environment_reflected(lobe, reflecting, lobe_shapes, environment_levels, base_map_from_surface(point));
+    return BaseRadiance(frame.environment_texel_radiance * reflected, scene_irradiance(point.normal) / 3.14159265);
 }
 
 // A lobe of a point.
@@ -311,7 +302,8 @@ fn brushed_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: 
     var sum: BaseRadiance;
     if surrounded && HAS_ENVIRONMENT {
         let lobe = base_brushed_lobe(point, 0.0);
-        sum.specular = layer.reflecting.albedo * brushed_around(point, lobe, fresnel) * point.open;
+        let mean = brushed_around(lobe, fresnel, fresnel_curves, environment_levels, base_map_from_surface(point));
+        sum.specular = layer.reflecting.albedo * mean * (frame.environment_texel_radiance * point.open);
         sum.diffuse = scene_irradiance(point.normal) / 3.14159265 * point.open;
     }
     for (var l = of_lights.x; l < of_lights.y; l += 1u) {
@@ -353,18 +345,4 @@ fn brushed_light_sphere(point: SurfacePoint, lobe: BrushedLobe, fresnel: Fresnel
     let cap = sphere_cap(center, light.radius_m);
     let sin2 = cap_sin_sq(cap);
     return brushed_sphere(lobe, cap.axis, sin2, fresnel, fresnel_curves);
-}
-
-// The mean of the environment over the lobe, as its facets reflect it.
-fn brushed_around(point: SurfacePoint, lobe: BrushedLobe, fresnel: FresnelRgb) -> vec3f {
-    var mean = vec3f(0.0);
-    var weights = vec3f(1e-30);
-    for (var i = 0u; i < BRUSHED_TAPS; i += 1u) {
-        let tap = brushed_tap(lobe, i, fresnel, fresnel_curves);
-        let radiance = scene_prefiltered(world_from_surface(point, tap.direction), tap.roughness);
-        weights += tap.reflected;
-        // Running means, which of equal values are exact.
-        mean += (radiance - mean) * (tap.reflected / weights);
-    }
-    return mean;
 }

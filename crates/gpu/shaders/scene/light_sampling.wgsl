@@ -82,15 +82,15 @@ fn spherical_triangle_draw(triangle: SphericalTriangle, part: f32, u: f32) -> ve
 }
 
 // A polygon, or the outline of a tube.
-fn outline_draw(point: SurfacePoint, light: Light, outline: LightOutline, u: vec2f) -> DrawnToLight {
+fn outline_draw(point: SurfacePoint, light: Light, outline: OutlineView, u: vec2f) -> DrawnToLight {
     var whole = 0.0;
     var left = u.x;
     var chosen: SphericalTriangle;
-    let first = light_vertex(point, light, outline, 0u);
-    var b = light_vertex(point, light, outline, 1u);
+    let first = outline_corner_m(lights, outline, 0u);
+    var b = outline_corner_m(lights, outline, 1u);
     // In one pass: a triangle takes over with its share of all so far, and what is left of the number is stretched again.
     for (var i = 2u; i < light.vertex_count; i += 1u) {
-        let c = light_vertex(point, light, outline, i);
+        let c = outline_corner_m(lights, outline, i);
         let triangle = spherical_triangle(first, b, c);
         whole += triangle.angle;
         let share = triangle.angle / max(whole, 1e-30);
@@ -122,17 +122,17 @@ fn outline_reach_m(point: SurfacePoint, light: Light, direction: vec3f) -> f32 {
     return reach_m;
 }
 
-fn outline_meets(point: SurfacePoint, light: Light, outline: LightOutline, direction: vec3f) -> MetLight {
+fn outline_meets(point: SurfacePoint, light: Light, outline: OutlineView, direction: vec3f) -> MetLight {
     let distance_m = outline_reach_m(point, light, direction);
     if !(distance_m > 0.0 && distance_m < 1e30) {
         return MetLight(0.0, 0.0);
     }
     var covers = 0.0;
     var winding = 0.0;
-    let first = light_vertex(point, light, outline, 0u);
-    var b = light_vertex(point, light, outline, 1u);
+    let first = outline_corner_m(lights, outline, 0u);
+    var b = outline_corner_m(lights, outline, 1u);
     for (var i = 2u; i < light.vertex_count; i += 1u) {
-        let c = light_vertex(point, light, outline, i);
+        let c = outline_corner_m(lights, outline, i);
         let sides = vec3f(dot(cross(first, b - first), direction), dot(cross(b, c - b), direction), dot(cross(c, first - c), direction));
         let sign = f32(all(sides > vec3f(0.0))) - f32(all(sides < vec3f(0.0)));
         winding += sign;
@@ -148,7 +148,7 @@ fn light_draw(point: SurfacePoint, light: Light, u: vec2f) -> DrawnToLight {
         drawn = sphere_draw(surface_from_world(point, light.center_m - point.position_m), light.radius_m, u);
     }
     if BASE_HAS_POLYGONS && light.kind != LIGHT_SPHERE {
-        let outline = light_outline(point, light);
+        let outline = surface_outline(point, light);
         if outline.facing != 0.0 {
             drawn = outline_draw(point, light, outline, u);
         }
@@ -164,7 +164,7 @@ fn light_meets(point: SurfacePoint, light: Light, direction: vec3f) -> MetLight 
         met = MetLight(max(reach_m, 0.0), 1.0);
     }
     if BASE_HAS_POLYGONS && light.kind != LIGHT_SPHERE {
-        met = outline_meets(point, light, light_outline(point, light), direction);
+        met = outline_meets(point, light, surface_outline(point, light), direction);
     }
     return met;
 }
