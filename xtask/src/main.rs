@@ -7,6 +7,7 @@ mod paths;
 mod pictures;
 mod rooms;
 mod shaders;
+mod wasm;
 mod web;
 mod wheel;
 

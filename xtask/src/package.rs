@@ -15,6 +15,7 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use hairline_gpu::shaders::{FOR_ENGINES, MAKE_SCRATCH_TABLE, with_needs};
 
+use crate::wasm;
 use files::{copy, install, node, write};
 
 /// The command's arguments.
@@ -32,6 +33,9 @@ pub struct Package {
     /// Make the element `<hairline-viewer>` beside it, one script, and look at it in Chromium: needs Node.
     #[arg(long)]
     viewer: bool,
+    /// Compile it for tests: little is optimised, and warnings are errors.
+    #[arg(long)]
+    quick: bool,
     /// Serve the example for three.js on this port of this machine, until it is ended.
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8080")]
     serve: Option<u16>,
@@ -86,6 +90,13 @@ impl Package {
         )?;
         write(&package.join("tables.bin"), &tables::tables())?;
         tables::write_gratings(&package.join("gratings"))?;
+        wasm::write(
+            &root,
+            "hairline-environment",
+            self.quick,
+            "environment",
+            &package.join("environment"),
+        )?;
         print_sizes(&package)?;
 
         if self.test {
@@ -142,6 +153,12 @@ fn print_sizes(package: &Path) -> anyhow::Result<()> {
         ("for three.js", for_three),
         ("tables", vec![package.join("tables.bin")]),
         ("a grating", vec![package.join("gratings/cd.bin")]),
+        (
+            "maps of environments",
+            ["environment.js", "environment_bg.wasm"]
+                .map(|file| package.join("environment").join(file))
+                .to_vec(),
+        ),
     ];
     println!("{:<28} {:>9} {:>11}", "", "bytes", "compressed");
     for (what, files) in parts {

@@ -1,6 +1,5 @@
 //! The viewer for browsers: a folder of static files, for any web server.
 
-mod features;
 mod site;
 mod thumbnail;
 
@@ -15,11 +14,9 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use hairline_scene::Description;
 use serde_json::json;
-use wasm_bindgen_cli_support::Bindgen;
 
+use crate::wasm;
 use thumbnail::thumbnail;
-
-const TARGET: &str = "wasm32-unknown-unknown";
 
 #[derive(Args)]
 pub struct Web {
@@ -50,19 +47,7 @@ impl Web {
         }
         fs::create_dir_all(&self.output)?;
         let output = self.output.canonicalize()?;
-        let built = compile(&root, self.quick)?;
-        features::check(&built)?;
-        // wasm-bindgen's version is the library's, to the last digit: both share a crate of which there is one
-        // version at a time.
-        Bindgen::new()
-            .input_path(&built)
-            .web(true)?
-            .typescript(false)
-            .remove_name_section(true)
-            .remove_producers_section(true)
-            .out_name("hairline")
-            .generate(&output)?;
-        let program = output.join("hairline_bg.wasm");
+        let program = wasm::write(&root, "hairline-web", self.quick, "hairline", &output)?;
         copy_page(&root, &output)?;
         let pages = site::write(&root, &output)?;
         println!("{pages} pages of docs, from README.html on");
@@ -123,50 +108,6 @@ fn command_line(root: &Path) -> anyhow::Result<PathBuf> {
     ]))?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root.join("target"), PathBuf::from);
     Ok(target.join("release/hairline"))
-}
-
-/// Compiles `apps/web` in a separate build folder.
-fn compile(root: &Path, is_quick: bool) -> anyhow::Result<PathBuf> {
-    let folder = root.join("target/browser");
-    let profile = if is_quick { "web-quick" } else { "web" };
-    // All browsers with WebGPU support SIMD, and the program is a fifteenth smaller with it.
-    let simd = "-C target-feature=+simd128";
-    // Code for browsers alone is compiled by no other check.
-    let flags = if is_quick {
-        format!("{simd} -D warnings")
-    } else {
-        simd.to_owned()
-    };
-    let mut cargo = Command::new("cargo");
-    cargo
-        .current_dir(root)
-        .args(["build", "--profile", profile, "--package", "hairline-web"])
-        .args(["--target", TARGET])
-        .env("CARGO_TARGET_DIR", &folder)
-        .env("RUSTFLAGS", flags);
-    if !has_target()? {
-        let toolchain = Command::new(root.join(".ci/browser-toolchain"))
-            .arg(root.join("target/browser-toolchain"))
-            .stderr(std::process::Stdio::inherit())
-            .output()?;
-        ensure!(
-            toolchain.status.success(),
-            "there is no standard library for {TARGET}: `rustup target add {TARGET}` fetches one"
-        );
-        let toolchain = PathBuf::from(String::from_utf8(toolchain.stdout)?.trim());
-        cargo
-            .env("RUSTC", toolchain.join("bin/rustc"))
-            .env("LD_LIBRARY_PATH", toolchain.join("lib"));
-    }
-    run(&mut cargo)?;
-    Ok(folder.join(TARGET).join(profile).join("hairline_web.wasm"))
-}
-
-fn has_target() -> anyhow::Result<bool> {
-    let asked = Command::new("rustc")
-        .args(["--print", "target-libdir", "--target", TARGET])
-        .output()?;
-    Ok(Path::new(String::from_utf8(asked.stdout)?.trim()).is_dir())
 }
 
 /// Copies the page itself, with its pictures and scenes.

@@ -1,6 +1,6 @@
 // A plug-in for GLTFLoader of three.js: files with HAIRLINE_scratches (docs/HAIRLINE_scratches.md of the project Hairline) get scratched
 // materials and lights with a surface. Without it such files load as ever, without scratches.
-import { Box3, Matrix4, RectAreaLight, Vector3 } from 'three/webgpu';
+import { Box3, Matrix4, Mesh, RectAreaLight, Vector3 } from 'three/webgpu';
 import { Grating } from './gratings.js';
 import { ScratchedNodeMaterial, scratchesOn } from './three.js';
 import { Scratches, profilesOf } from './scratches.js';
@@ -130,11 +130,7 @@ class HairlineScratches {
     if (all === null && gratings.length === 0) return;
     const fromObject = node.matrixWorld;
     const described = (extension.material ?? []).find(({ name }) => name === object.material);
-    for (const mesh of meshes) {
-      if (mesh.isInstancedMesh) {
-        this.warn(`scratches on instances are not drawn: those on "${object.name}"`);
-        continue;
-      }
+    for (const mesh of meshes.flatMap((each) => (each.isInstancedMesh ? apart(each) : each))) {
       if (!isAtRest(mesh)) {
         this.warn(`scratches on skins and morphs that are not in their pose of rest are not drawn: those on "${object.name}"`);
         continue;
@@ -210,6 +206,21 @@ class HairlineScratches {
       tables, metal, scratches, gratings, metresPerUnit, coherenceUm: described?.coherence_um ?? 20, ...taken, ...parameters,
     });
   }
+}
+
+/** Each instance has scratches of its own: meshes stand for them, below the node, which may move. */
+function apart(instanced) {
+  const meshes = Array.from({ length: instanced.count }, (_, i) => {
+    const mesh = new Mesh(instanced.geometry, instanced.material);
+    mesh.name = `${instanced.name} ${i}`;
+    instanced.getMatrixAt(i, mesh.matrix);
+    mesh.matrix.decompose(mesh.position, mesh.quaternion, mesh.scale);
+    return mesh;
+  });
+  instanced.count = 0;
+  instanced.add(...meshes);
+  instanced.updateMatrixWorld(true);
+  return meshes;
 }
 
 /** Whether the vertices of a skin or a morph are where its geometry has them; the file has scratches where they are. */

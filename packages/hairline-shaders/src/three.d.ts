@@ -1,4 +1,4 @@
-import type { BufferGeometry, MeshPhysicalMaterialParameters } from 'three';
+import type { BufferGeometry, DataTexture, MeshPhysicalMaterialParameters } from 'three';
 import { MeshPhysicalNodeMaterial } from 'three/webgpu';
 import { Grating, Metal, PatternOptions, Scratches, Tables } from './index.js';
 
@@ -6,6 +6,12 @@ export { Grating, Scratches, loadGrating, loadTables, readScratches } from './in
 
 /** Lays scratches in a pattern on a geometry. */
 export function scratchesOn(geometry: BufferGeometry, options: PatternOptions): Scratches;
+
+/**
+ * Makes Hairline's own maps of an equirectangular texture, in a worker, before it is `scene.environment` or a material's `envMap`: base, scratches and gratings
+ * then mirror it as `hairline render` has it. Without it three.js's maps count.
+ */
+export function prepareEnvironment(map: DataTexture): Promise<void>;
 
 export interface ScratchedNodeMaterialParameters extends MeshPhysicalMaterialParameters {
   tables: Tables;

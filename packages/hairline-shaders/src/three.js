@@ -1,10 +1,11 @@
 // ScratchedNodeMaterial for three.js, WebGPURenderer: metal or lacquer with scratches that split light into colours. PointLight, SpotLight,
-// DirectionalLight, SunLight and RectAreaLight light it in closed form, with three's own shadows; environments by three's own maps.
+// DirectionalLight, SunLight and RectAreaLight light it in closed form, with three's own shadows; environments by
+// Hairline's maps where prepareEnvironment() has made them, else by three's own.
 //
 // The world is in metres. Lights without a size get one: `light.userData.radius` in metres (of a light in the sky `userData.angle` in
 // radians), or the material's `lightRadius`. A RectAreaLight may be a disk, a polygon or a tube: `userData.shape`.
 import {
-  DataArrayTexture, DataTexture, FloatType, Matrix4, MeshPhysicalNodeMaterial, RGBAFormat, RGBAIntegerFormat, UnsignedIntType, Vector3,
+  DataArrayTexture, DataTexture, FloatType, LightingNode, Matrix4, MeshPhysicalNodeMaterial, RGBAFormat, RGBAIntegerFormat, UnsignedIntType, Vector3,
 } from 'three/webgpu';
 import { texture, uniform, vec4 } from 'three/tsl';
 import { Scratches, preparedPieces, readScratches } from './scratches.js';
@@ -15,9 +16,11 @@ import { scratchTable, tableSize } from './table.js';
 import { curveOf } from './tables.js';
 import { metalColor } from './spectrum.js';
 import { Grating } from './gratings.js';
+import { mapsOf, preparedCount } from './environment.js';
 import { ScratchedLightingModel, isBent } from './three_lighting.js';
 
 export { loadTables } from './tables.js';
+export { prepareEnvironment } from './environment.js';
 export { Grating, loadGrating } from './gratings.js';
 export { Scratches, readScratches };
 
@@ -133,8 +136,20 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
     }
     this.checkScale(builder.object);
     this.hairlineNodes.table.value = this.table();
-    const environment = this.setupEnvironment(builder);
-    return new ScratchedLightingModel(this, environment && environmentTexture(environment.envNode, this));
+    const environment = this.environmentOf(builder);
+    return new ScratchedLightingModel(this, environment, environment && mapsOf(environment));
+  }
+
+  /** The texture of the environment, if there is one. */
+  environmentOf(builder) {
+    const node = super.setupEnvironment(builder);
+    return node && environmentTexture(node.envNode, this);
+  }
+
+  setupEnvironment(builder) {
+    // By its own maps the lighting model looks an environment up itself: a node that adds nothing stands for it.
+    const isOwn = builder.renderer.backend.isWebGPUBackend && mapsOf(this.environmentOf(builder));
+    return isOwn ? new LightingNode() : super.setupEnvironment(builder);
   }
 
   /** Mirror images of lamps exceed half floats, of which a canvas is: as infinities they would be tone mapped to black. */
@@ -153,7 +168,7 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
 
   customProgramCacheKey() {
     // Each material has its own textures.
-    return `${super.customProgramCacheKey()}-${this.id}`;
+    return `${super.customProgramCacheKey()}-${this.id}-${preparedCount()}`;
   }
 
   clone() {

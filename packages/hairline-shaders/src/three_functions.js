@@ -11,6 +11,9 @@ const SCRATCHES = `${PLACE}, tree: texture_2d<u32>, tables: texture_2d_array<u32
 const BASE = `${PLACE}, surface: vec4f, more: vec3f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>`;
 const GRATED = `${PLACE}, rows: texture_2d_array<u32>, field: mat4x4f, covered: f32`;
 const GROOVES = `grated_point(here.view, hairline_grooves(field), covered)`;
+// An environment's levels, and the way from the view's frame to that of its map.
+const AROUND = `levels: texture_2d<f32>, map_from_view: mat3x3f`;
+const MAP = `levels, map_from_view * transpose(here.surface_from_view)`;
 const OUTLINE = `vertices: texture_2d<u32>, outline: vec4f, around: vec4f, view_from_light: mat4x4f`;
 
 const library = wgsl(`${hairlineWgsl}
@@ -67,6 +70,10 @@ function sentFunctions(name, parameters, module, given) {
   let here = ${HERE};
   let seen = hairline_outline(here, outline, view_from_light);
   return ${module}_outline(${given}, vertices, seen.light, around, seen.point_m, seen.surface);
+}`, [library]),
+    byEnvironment: wgslFn(`fn hairline_${name}_environment(${parameters}, ${AROUND}) -> vec3f {
+  let here = ${HERE};
+  return ${module}_environment(${given}, ${MAP});
 }`, [library]),
   };
 }
@@ -128,8 +135,8 @@ export const bandCell = wgslFn(`fn hairline_band_cell(band: mat4x4f, tables: tex
   return mat4x4f(vec4f(cell.direction, cell.roughness), vec4f(band[0].z * cell.response, 0.0), vec4f(0.0), vec4f(0.0));
 }`, [library]);
 
-/** Functions of a base: of a name, with a WGSL expression of it and the module's names of what they do. */
-function baseFunctions(name, parameters, made, module, lit = 'base') {
+/** Functions of a base: of a name, with a WGSL expression of it, the module's name, and of the base its round one and its texture for environments. */
+function baseFunctions(name, parameters, made, module, [lit, lookups]) {
   const given = `let here = ${HERE};\n  let base = ${made};`;
   return {
     bySphere: wgslFn(`fn hairline_${name}_sphere(${parameters}, light: vec4f) -> vec4f {
@@ -145,6 +152,10 @@ function baseFunctions(name, parameters, made, module, lit = 'base') {
   let lit = ${module}_outline(base, curves, vertices, view, per_m);
   return vec4f(lit.specular, lit.form_factor);
 }`, [library]),
+    byEnvironment: wgslFn(`fn hairline_${name}_environment(${parameters}, ${AROUND}) -> vec3f {
+  ${given}
+  return ${module}_environment(base, ${lookups}, ${MAP});
+}`, [library]),
     reflected: wgslFn(`fn hairline_${name}_reflected(${parameters}, specular: vec3f) -> vec3f {
   ${given}
   return lit_base_reflected(${lit}, specular);
@@ -157,7 +168,7 @@ function baseFunctions(name, parameters, made, module, lit = 'base') {
 }
 
 export const roundBase = {
-  ...baseFunctions('base', BASE, 'hairline_base(here, surface, more, shapes, albedo, curves)', 'lit_base'),
+  ...baseFunctions('base', BASE, 'hairline_base(here, surface, more, shapes, albedo, curves)', 'lit_base', ['base', 'shapes']),
   byQuad: wgslFn(`fn hairline_base_quad(${BASE}, middle: vec3f, half_width: vec3f, half_height: vec3f) -> vec4f {
   let here = ${HERE};
   let turn = here.surface_from_view;
@@ -169,8 +180,14 @@ export const roundBase = {
 
 // `facets`: the direction of the view's frame across the brushing; the anisotropy.
 export const brushedBase = baseFunctions(
-  'brushed', `${BASE}, facets: vec4f`, 'hairline_brushed(here, surface, more, shapes, albedo, curves, facets)', 'brushed_base', 'base.lit',
+  'brushed', `${BASE}, facets: vec4f`, 'hairline_brushed(here, surface, more, shapes, albedo, curves, facets)', 'brushed_base', ['base.lit', 'curves'],
 );
+
+/** What falls on the body of an environment. */
+export const environmentOnBody = wgslFn(`fn hairline_environment_on_body(${PLACE}, ${AROUND}) -> vec3f {
+  let here = ${HERE};
+  return environment_mean_by_cosine(levels, map_from_view * transpose(here.surface_from_view)[2]);
+}`, [library]);
 
 export const fresnelOf = wgslFn(`fn hairline_fresnel(${BASE}) -> vec3f {
   let here = ${HERE};

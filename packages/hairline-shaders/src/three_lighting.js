@@ -7,8 +7,9 @@ import {
   positionGeometry, positionView, specularColorBlended, specularF90, uint, uniform, varying, vec2, vec3, vec4, viewportSize, viewportUV,
 } from 'three/tsl';
 import {
-  bandCell, bandOf, brushedBase, fresnelOf, gratingCell, gratingSends, gratingShare, gratingTaken, maskOf, roundBase, scratchesSend, viewFromSurface,
+  bandCell, bandOf, brushedBase, environmentOnBody, fresnelOf, gratingCell, gratingSends, gratingShare, gratingTaken, maskOf, roundBase, scratchesSend, viewFromSurface,
 } from './three_functions.js';
+import { EnvironmentNodes } from './environment.js';
 import { dielectricCurve } from './tables.js';
 import { hasOutline, isFar } from './three_lights.js';
 import { outlineNodes } from './three_outlines.js';
@@ -67,10 +68,12 @@ function slopeVariance(normal) {
 }
 
 export class ScratchedLightingModel extends PhysicalLightingModel {
-  constructor(material, environment) {
+  /** `environment` is a texture, which three.js's maps are made of, and `maps` Hairline's, where there are such. */
+  constructor(material, environment, maps) {
     super(material.useClearcoat, material.useSheen, material.useIridescence, material.useAnisotropy, material.useTransmission, material.useDispersion);
     this.material = material;
     this.environment = environment;
+    this.maps = maps;
   }
 
   start(builder) {
@@ -123,6 +126,9 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
     this.scratchLight = vec3(0).toVar();
     this.gratingLight = vec3(0).toVar();
 
+    this.around = this.maps && new EnvironmentNodes(this.maps);
+    if (this.around) this.lampsOfEnvironment();
+
     super.start(builder);
 
     const { directDiffuse, directSpecular, indirectDiffuse, indirectSpecular } = builder.context.reflectedLight;
@@ -139,7 +145,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       indirectSpecular.assign(indirectSpecular.mul(bare).add(this.clearcoatSpecularIndirect.mul(clearcoat)));
     }
     if (this.scratches || this.gratings.length > 0) {
-      const axes = this.environment && viewFromSurface(top).toVar();
+      const axes = this.environment && !this.maps && viewFromSurface(top).toVar();
       const { normal_view } = top;
       const { facets: _, ...base } = this.base;
       let reflectance = fresnelOf({ ...base, normal_view });
@@ -149,6 +155,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       for (const grating of this.gratings) {
         left.subAssign(gratingTaken(grating));
         if (axes) this.gratingLight.addAssign(this.aroundByCells(axes, ROW_CELLS, (j) => gratingCell({ ...grating, j })));
+        if (this.around) this.gratingLight.addAssign(this.besideWindows(gratingSends, grating));
       }
       sent.addAssign(this.gratingLight);
       if (this.scratches) {
@@ -156,6 +163,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
         const mask = maskOf(this.scratches).toVar();
         const beside = mask.xyz.oneMinus().toVar();
         if (axes) this.scratchLight.addAssign(this.scratchesByEnvironment(axes));
+        if (this.around) this.scratchLight.addAssign(this.besideWindows(scratchesSend, this.scratches));
         left.mulAssign(beside);
         sent.assign(sent.mul(beside).add(this.scratchLight.mul(mask.w)));
       }
@@ -163,6 +171,35 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       indirectSpecular.mulAssign(left);
     }
     if (through) directSpecular.addAssign(through);
+  }
+
+  /** The lamps that were parted from an environment: suns shine on all, windows on grooves alone. */
+  lampsOfEnvironment() {
+    for (const [radiance, shape, byShape] of this.around.suns) this.light(radiance, [shape, byShape], [shape, byShape]);
+    for (const [radiance, shape, byShape] of this.around.windows) this.lightGrooves(radiance, [shape, byShape]);
+  }
+
+  besideWindows(functions, grooves) {
+    return functions.byEnvironment({ ...grooves, ...this.around.besideWindows }).mul(this.around.factor);
+  }
+
+  indirectDiffuse(builder) {
+    super.indirectDiffuse(builder);
+    if (!this.around) return;
+    const { surface, more, shapes, albedo, curves, facets, ...place } = this.base;
+    const mean = environmentOnBody({ ...place, ...this.around.whole }).mul(this.around.factor);
+    builder.context.reflectedLight.indirectDiffuse.addAssign(mean.mul(diffuseContribution).mul(this.functions.body(this.base)));
+  }
+
+  indirectSpecular(builder) {
+    super.indirectSpecular(builder);
+    if (!this.around) return;
+    const reflected = (functions, base) => {
+      const specular = functions.byEnvironment({ ...base, ...this.around.whole }).mul(this.around.factor);
+      return functions.reflected({ ...base, specular });
+    };
+    builder.context.reflectedLight.indirectSpecular.addAssign(reflected(this.functions, this.base));
+    if (this.coat) this.clearcoatSpecularIndirect.addAssign(reflected(roundBase, this.coat));
   }
 
   finish(builder) {
@@ -227,6 +264,10 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
     this.specular.addAssign(radiance.mul(lit.xyz));
     this.diffuse.addAssign(radiance.mul(lit.w));
     if (this.coat) this.coatSpecular.addAssign(radiance.mul(roundBase[byShape]({ ...this.coat, ...shape }).xyz));
+    this.lightGrooves(radiance, [onGrooves, byGrooves]);
+  }
+
+  lightGrooves(radiance, [onGrooves, byGrooves]) {
     if (this.scratches) this.scratchLight.addAssign(radiance.mul(scratchesSend[byGrooves]({ ...this.scratches, ...onGrooves })));
     for (const grating of this.gratings) this.gratingLight.addAssign(radiance.mul(gratingSends[byGrooves]({ ...grating, ...onGrooves })));
   }

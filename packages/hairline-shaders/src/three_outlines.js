@@ -6,7 +6,8 @@ import { around, outlineOf } from './three_lights.js';
 /** Corners of the outline of a tube, TUBE_CORNERS of tube.wgsl. */
 const TUBE_CORNERS = 22;
 
-function vertexTexture(vertices) {
+/** A texture of corners, or of the ends of a tube. */
+export function vertexTexture(vertices) {
   const made = new DataTexture(new Uint32Array(Float32Array.from(vertices.flat()).buffer), vertices.length, 1, RGBAIntegerFormat, UnsignedIntType);
   made.needsUpdate = true;
   return made;

@@ -4,11 +4,13 @@ import { RectAreaLightTexturesLib } from 'three/addons/lights/RectAreaLightTextu
 import { makeScratchTable, scratchTable, tableSize } from 'hairline-shaders';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { hairlineScratches } from 'hairline-shaders/gltf';
-import { ScratchedNodeMaterial, loadTables, readScratches, scratchesOn } from 'hairline-shaders/three';
+import { ScratchedNodeMaterial, loadTables, prepareEnvironment, readScratches, scratchesOn } from 'hairline-shaders/three';
 
 const send = (path, body) => fetch(path, { method: 'POST', body });
 const fail = (reason) => send('/failure', String(reason?.stack ?? reason));
 addEventListener('unhandledrejection', (event) => fail(event.reason));
+// three.js goes on without what it cannot compile.
+console.error = (...said) => fail(said.map((it) => it?.stack ?? it).join(' '));
 
 /** Positions and normals of f32, then indices. */
 function geometryOf(bytes, { vertices, triangles }) {
@@ -131,8 +133,9 @@ async function byFile(name, tables, what, told) {
       node.intensity /= 683;
       lights += 1;
     }
-    if (node.isMesh && Boolean(node.material.isScratchedNodeMaterial) === isPlain) throw new Error(`${name}: found the material ${node.material.type}`);
-    if (node.isMesh && what === 'bare') {
+    // Meshes of their own stand for instances.
+    if (node.isMesh && node.count !== 0 && Boolean(node.material.isScratchedNodeMaterial) === isPlain) throw new Error(`${name}: found the material ${node.material.type}`);
+    if (node.isMesh && node.count !== 0 && what === 'bare') {
       node.material = node.material.clone();
       node.material.scratches = null;
       node.material.gratings = [];
@@ -143,9 +146,30 @@ async function byFile(name, tables, what, told) {
   return scene;
 }
 
+/** From the axes of three.js's maps to those of Hairline's. */
+const MAP_FROM_THREE = new THREE.Matrix4().set(0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1);
+
+/** An environment of f32, rows from the top, with Hairline's own maps. */
+async function environmentOf(bytes, { size: [width, height] }) {
+  const [rgb, data] = [new Float32Array(bytes), new Float32Array(4 * width * height)];
+  for (let i = 0; i < width * height; i += 1) data.set([...rgb.subarray(3 * i, 3 * i + 3), 1], 4 * i);
+  const map = new THREE.DataTexture(data, width, height, THREE.RGBAFormat, THREE.FloatType);
+  Object.assign(map, { flipY: true, mapping: THREE.EquirectangularReflectionMapping, needsUpdate: true });
+  await prepareEnvironment(map);
+  return map;
+}
+
+/** Puts a scene under it; turned about the map's axis. */
+function surround(scene, map, { intensity, mapFromWorld }, turn) {
+  const worldFromMap = new THREE.Matrix4().setFromMatrix3(new THREE.Matrix3().fromArray(mapFromWorld)).transpose();
+  scene.environment = map;
+  scene.environmentIntensity = intensity;
+  scene.environmentRotation.setFromRotationMatrix(worldFromMap.multiply(new THREE.Matrix4().makeRotationY(turn)).multiply(MAP_FROM_THREE));
+}
+
 /** Pictures of a scene of shapes, and of one whose mesh is a file. */
 const BY_HAND = ['worn', 'bare'];
-const PICTURES = { plate: ['instanced', 'file', 'plain'], grooves: ['file', 'skinned'] };
+const PICTURES = { plate: ['instanced', 'file', 'plain'], grooves: ['file', 'skinned'], tiles: ['file'], sky: ['turned'] };
 
 async function draw(renderer, name, tables) {
   const get = async (file, as) => (await fetch(`/pages/${name}/${file}`))[as]();
@@ -162,11 +186,15 @@ async function draw(renderer, name, tables) {
   camera.lookAt(...target);
   const picture = new THREE.RenderTarget(width, height, { type: THREE.FloatType });
   const times = [];
+  const start = performance.now();
+  const map = page.environment && await environmentOf(await get('environment.bin', 'arrayBuffer'), page.environment);
+  if (map) times.push(`maps of the environment in ${((performance.now() - start) / 1000).toFixed(1)} s`);
   const told = [];
   for (const what of [...BY_HAND, ...(PICTURES[name] ?? [])]) {
     const began = performance.now();
     const isByHand = page.surface && what !== 'file' && what !== 'plain';
     const scene = new THREE.Scene().add(isByHand ? byHand(page, object, tables, what) : await byFile(name, tables, what, told));
+    if (map) surround(scene, map, page.environment, what === 'turned' ? Math.PI / 36 : 0);
     const made = performance.now();
     renderer.setRenderTarget(picture);
     await renderer.compileAsync(scene, camera);

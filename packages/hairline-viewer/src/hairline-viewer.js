@@ -26,6 +26,9 @@ img[hidden] { display: block; opacity: 0; pointer-events: none; }
 @media (prefers-reduced-motion: reduce) { img { transition: none; } }
 `;
 
+/** Times that a graphics device may be lost before the element gives up. */
+const LOSSES = 3;
+
 /** The tables of all elements of a page. */
 let tables = null;
 
@@ -39,6 +42,8 @@ export class HairlineViewer extends HTMLElement {
   #watch = null;
 
   #shown = null;
+
+  #losses = 0;
 
   constructor() {
     super();
@@ -68,6 +73,7 @@ export class HairlineViewer extends HTMLElement {
     if (name === 'exposure') this.#shown?.expose(this.#exposure);
     else if (name === 'src') {
       this.#forget();
+      this.#losses = 0;
       this.#watch.unobserve(this);
       this.#watch.observe(this);
     }
@@ -101,12 +107,13 @@ export class HairlineViewer extends HTMLElement {
     this.#poster.hidden = !this.getAttribute('poster');
   }
 
-  async #load() {
+  /** From a view that it was seen from before, if there is one. */
+  async #load(view = null) {
     if (this.#shown || !this.src) return;
-    const shown = new Shown(this);
+    const shown = new Shown(this, (message) => this.#lost(shown, message));
     this.#shown = shown;
     try {
-      await shown.begin(this.src, this.#exposure);
+      await shown.begin(this.src, this.#exposure, view);
       if (this.#shown !== shown) return;
       this.#poster.hidden = true;
       this.dispatchEvent(new CustomEvent('load'));
@@ -117,20 +124,31 @@ export class HairlineViewer extends HTMLElement {
       this.dispatchEvent(new CustomEvent('error', { detail: error }));
     }
   }
+
+  /** The graphics device is gone: all is made anew on another one. */
+  #lost(shown, message) {
+    if (this.#shown !== shown) return;
+    this.#forget();
+    this.#losses += 1;
+    if (this.#losses < LOSSES) this.#load(shown.view());
+    else this.dispatchEvent(new CustomEvent('error', { detail: new Error(`the graphics device was lost ${LOSSES} times: ${message}`) }));
+  }
 }
 
-/** A model on a canvas. */
+/** A model on a canvas. `lost` is told why the graphics device is gone. */
 class Shown {
-  constructor(element) {
+  constructor(element, lost) {
     this.element = element;
+    this.lost = lost;
     this.isDrawn = false;
     this.isOver = false;
   }
 
-  async begin(src, exposure) {
+  async begin(src, exposure, view) {
     if (!(await navigator.gpu?.requestAdapter())) throw new Error('this browser has no WebGPU');
     const renderer = new WebGPURenderer({ antialias: true });
     this.renderer = renderer;
+    renderer.onDeviceLost = ({ message }) => this.lost(message);
     await renderer.init();
     RectAreaLightNode.setLTC(RectAreaLightTexturesLib.init());
     tables ??= loadTables(this.element.getAttribute('tables') ?? new URL('tables.bin', import.meta.url));
@@ -151,6 +169,10 @@ class Shown {
     scene.environmentIntensity = extension === undefined ? 1 : ROOM;
     renderer.toneMapping = CURVES[extension?.render?.tone_map ?? 'neutral'] ?? NeutralToneMapping;
     Object.assign(this, { scene, ...viewOf(gltf, extension) });
+    if (view) {
+      this.camera.position.copy(view.position);
+      this.target.copy(view.target);
+    }
     const canvas = renderer.domElement;
     canvas.setAttribute('part', 'canvas');
     canvas.tabIndex = 0;
@@ -166,6 +188,11 @@ class Shown {
     this.expose(exposure);
     await this.draw();
     this.isDrawn = true;
+  }
+
+  /** Where it is seen from and what is in the middle; null before it is there. */
+  view() {
+    return this.controls ? { position: this.camera.position, target: this.controls.target } : null;
   }
 
   expose(stops) {

@@ -1,4 +1,4 @@
-// The element in a page: one that is seen is drawn, one far below is not loaded, and without WebGPU the poster stays.
+// The element in a page: one that is seen is drawn, one far below is not loaded, a device that is lost is replaced, and without WebGPU the poster stays.
 const send = (path, body) => fetch(path, { method: 'POST', body });
 const fail = (reason) => send('/failure', String(reason?.stack ?? reason));
 addEventListener('unhandledrejection', (event) => fail(event.reason));
@@ -14,6 +14,15 @@ const event = (element, wanted, other) => new Promise((resolve, reject) => {
   element.addEventListener(wanted, resolve, { once: true });
   element.addEventListener(other, (is) => reject(is.detail ?? new Error(other)), { once: true });
 });
+
+/** Has the last device be lost, as a driver that hangs does. */
+let lose = null;
+const { requestDevice } = GPUAdapter.prototype;
+GPUAdapter.prototype.requestDevice = async function (...wanted) {
+  const device = await requestDevice.apply(this, wanted);
+  Object.defineProperty(device, 'lost', { value: new Promise((resolve) => { lose = resolve; }) });
+  return device;
+};
 
 try {
   const near = document.getElementById('near');
@@ -34,6 +43,12 @@ try {
     pixels = picture.getImageData(0, 0, bitmap.width, bitmap.height).data;
   }
   await send('/result/element', pixels);
+
+  const first = canvasOf(near);
+  const again = event(near, 'load', 'error');
+  lose({ reason: 'unknown', message: 'a test' });
+  await again;
+  check(canvasOf(near) && canvasOf(near) !== first && posterOf(near).hidden, 'found no new canvas after the loss of the device');
 
   // As in a browser without WebGPU.
   Object.defineProperty(navigator, 'gpu', { value: undefined });

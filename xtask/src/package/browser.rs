@@ -17,7 +17,7 @@ pub(super) type Folders = Vec<(&'static str, PathBuf)>;
 /// The names under which browsers with WebGPU are installed.
 const PROGRAMS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 /// SwiftShader compiles for seconds.
-const PATIENCE: Duration = Duration::from_secs(150);
+const PATIENCE: Duration = Duration::from_secs(240);
 
 /// Answer of a page: the rest of the address after `/result/`, and the bytes.
 pub(super) type Answer = (String, Vec<u8>);
@@ -172,6 +172,7 @@ fn file(folders: &Folders, path: &str) -> Option<(Vec<u8>, &'static str)> {
         Some("js" | "mjs") => "text/javascript; charset=utf-8",
         Some("json") => "application/json",
         Some("csv" | "wgsl") => "text/plain; charset=utf-8",
+        Some("wasm") => "application/wasm",
         _ => "application/octet-stream",
     };
     Some((bytes, kind))

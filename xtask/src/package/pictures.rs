@@ -14,7 +14,9 @@ use super::browser::{Folders, answers};
 use super::files::{install, write};
 
 /// The scenes in packages/hairline-shaders/test.
-const SCENES: [&str; 5] = ["plate", "sheet", "grooves", "lacquer", "disc"];
+const SCENES: [&str; 7] = [
+    "plate", "sheet", "grooves", "lacquer", "disc", "tiles", "sky",
+];
 /// The most that a picture may be off, as rms over that of the picture.
 const LIMIT: f64 = 0.005;
 /// The same for what a file gives, over the same set by hand: its numbers were moved to another frame and back.
@@ -84,6 +86,15 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
             let off = error(&colours(plain), &three_worn, &inner);
             let has_none = off > 10.0 * FILE_LIMIT;
             ensure!(has_none, "{name}: a file without the plug-in has scratches");
+        }
+        // An environment that is turned a little.
+        if let Ok(turned) = find("turned") {
+            let off = error(&colours(turned), &beauty, &inner);
+            println!(
+                "three.js, {name}: an environment that is turned by 5 degrees: {:.1} %",
+                100.0 * off
+            );
+            ensure!(off > 4.0 * LIMIT, "{name}: no environment is seen");
         }
         let mut errors = vec![
             ("picture", error(&three_worn, &beauty, &inner)),
@@ -190,6 +201,15 @@ fn write_page(folder: &Path, scene: &Scene) -> anyhow::Result<()> {
         Some(Section::Listed(depths)) => json!(depths.to_vec()),
     };
     let lights: Vec<Value> = scene.lights.iter().map(light).collect();
+    let environment = scene.environment.as_ref().map(|environment| {
+        let map = environment.background();
+        let texels = map.rgb.iter().flatten().flat_map(|c| c.to_le_bytes());
+        write(&folder.join("environment.bin"), &texels.collect::<Vec<_>>())?;
+        Ok::<_, anyhow::Error>(json!({
+            "size": map.size_px, "intensity": environment.texel_radiance(),
+            "mapFromWorld": environment.map_from_world().to_cols_array(),
+        }))
+    });
     let camera = &scene.camera;
     let page = json!({
         "size": scene.render.size_px,
@@ -199,6 +219,7 @@ fn write_page(folder: &Path, scene: &Scene) -> anyhow::Result<()> {
         },
         "vertices": mesh.positions_m.len(), "triangles": mesh.triangles.len(),
         "surface": surface, "roughness": material.roughness, "profile": profile, "lights": lights,
+        "environment": environment.transpose()?,
     });
     write(&folder.join("scene.json"), &serde_json::to_vec(&page)?)
 }

@@ -75,7 +75,8 @@ pub(super) fn data(root: &Path) -> anyhow::Result<String> {
             .iter()
             .map(|row| [row[1 + 2 * i], row[2 + 2 * i]])
             .collect();
-        writeln!(out, "  {name}: {},", serde_json::to_string(&pairs)?)?;
+        // Quoted, as a name may be no identifier of JavaScript.
+        writeln!(out, "  {name:?}: {},", serde_json::to_string(&pairs)?)?;
     }
     out.push_str("};\n");
     Ok(out)
