@@ -149,13 +149,19 @@ async function byFile(name, tables, what, told) {
 /** From the axes of three.js's maps to those of Hairline's. */
 const MAP_FROM_THREE = new THREE.Matrix4().set(0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1);
 
+/** Maps by their contents: some seconds each. */
+const maps = new Map();
+
 /** An environment of f32, rows from the top, with Hairline's own maps. */
 async function environmentOf(bytes, { size: [width, height] }) {
+  const digest = new Uint32Array(await crypto.subtle.digest('SHA-256', bytes)).join();
+  if (maps.has(digest)) return maps.get(digest);
   const [rgb, data] = [new Float32Array(bytes), new Float32Array(4 * width * height)];
   for (let i = 0; i < width * height; i += 1) data.set([...rgb.subarray(3 * i, 3 * i + 3), 1], 4 * i);
   const map = new THREE.DataTexture(data, width, height, THREE.RGBAFormat, THREE.FloatType);
   Object.assign(map, { flipY: true, mapping: THREE.EquirectangularReflectionMapping, needsUpdate: true });
   await prepareEnvironment(map);
+  maps.set(digest, map);
   return map;
 }
 
@@ -270,6 +276,15 @@ async function outlives(renderer, tables) {
   if (!plain.split(',').some((value, i) => i % 4 < 3 && value > 0)) throw new Error('WebGL: found a black picture');
 }
 
+/** Maps that are none have a message. */
+async function refusesMaps() {
+  const square = new THREE.DataTexture(new Float32Array(4 * 16), 4, 4, THREE.RGBAFormat, THREE.FloatType);
+  for (const [map, message] of [[square, /found a map of 4 x 4; must be twice as wide as high/], [new THREE.CubeTexture(), /must be an equirectangular DataTexture/]]) {
+    const said = await prepareEnvironment(map).then(() => 'nothing', (error) => error.message);
+    if (!message.test(said)) throw new Error(`prepareEnvironment: found the message "${said}"`);
+  }
+}
+
 try {
   const renderer = await rendererOf();
   if (!renderer.backend.isWebGPUBackend) throw new Error('no WebGPU in this browser');
@@ -278,6 +293,7 @@ try {
   const tables = await loadTables('/package/tables.bin');
   for (const name of new URLSearchParams(location.search).get('scenes').split(',')) await draw(renderer, name, tables);
   await send('/result/table', await tableByPass(renderer.backend.device));
+  await refusesMaps();
   await outlives(renderer, tables);
   await send('/done', '');
 } catch (error) {
