@@ -65,7 +65,7 @@ impl Maps {
         self.0.suns().len()
     }
 
-    /// A sun, as [`numbers`].
+    /// A sun: three numbers of its radiance, then the middle and the radius of a sphere in the map's frame, in metres.
     pub fn sun(&self, i: usize) -> Vec<f64> {
         numbers(&self.0.suns()[i])
     }
@@ -76,13 +76,13 @@ impl Maps {
         self.0.windows().len()
     }
 
-    /// A window, as [`numbers`].
+    /// A window: as a sun, or in the place of the sphere the corners of a polygon.
     pub fn window(&self, i: usize) -> Vec<f64> {
         numbers(&self.0.windows()[i])
     }
 }
 
-/// A lamp in the map's frame: three numbers of its radiance, then the middle and the radius of a sphere or the corners of a polygon, in metres.
+/// What [`Maps::sun`] and [`Maps::window`] return.
 fn numbers(light: &Light) -> Vec<f64> {
     let mut numbers = light.radiance.to_vec();
     match &light.shape {
