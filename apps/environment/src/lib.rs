@@ -3,7 +3,7 @@
 #![cfg(target_arch = "wasm32")]
 
 use hairline_image::Picture;
-use hairline_scene::environment::LEVEL_HALVINGS;
+use hairline_scene::environment::level_place;
 use hairline_scene::{Environment, Light, LightShape};
 use half::f16;
 use wasm_bindgen::JsError;
@@ -102,7 +102,7 @@ fn mips(levels: &[Picture], irradiance: &Picture) -> Vec<u16> {
     let [width, height] = levels[0].size_px.map(|n| n as usize);
     let mut texels: Vec<u16> = Vec::new();
     let mut begins = Vec::new();
-    for mip in 0..=LEVEL_HALVINGS[levels.len() - 1] {
+    for mip in 0..=level_place(levels.len() - 1).0 {
         begins.push(texels.len());
         texels.resize(texels.len() + 4 * (width >> mip) * 2 * (height >> mip), 0);
     }
@@ -116,9 +116,8 @@ fn mips(levels: &[Picture], irradiance: &Picture) -> Vec<u16> {
         }
     };
     for (i, map) in levels.iter().enumerate() {
-        let mip = LEVEL_HALVINGS[i];
-        let is_second = i > 0 && LEVEL_HALVINGS[i - 1] == mip;
-        put(map, mip, if is_second { height >> mip } else { 0 });
+        let (mip, is_below) = level_place(i);
+        put(map, mip, if is_below { height >> mip } else { 0 });
     }
     put(irradiance, 0, height);
     texels

@@ -2,7 +2,7 @@
 //! is seen through a narrower one (docs/model.md, (28e)). Twin: pixel_parts.wgsl.
 
 use crate::prepared::Prepared;
-use crate::surface::{BumpSlopes, SurfacePoint, surface_seen_as};
+use crate::surface::{BumpSlopes, SurfacePoint, surface_with_bumps};
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
 use hairline_optics::ggx::ggx_alpha;
@@ -100,7 +100,7 @@ pub(crate) fn pixel_parts<'a>(
         let narrow = |normal| axes_m(position_m, normal, std_px);
         let to_viewer = -from_camera_m.normalize();
         let as_turns = BumpSlopes::Turns;
-        let seen = surface_seen_as(scene, tables, position_m, to_viewer, narrow, &hit, as_turns);
+        let seen = surface_with_bumps(scene, tables, position_m, to_viewer, narrow, &hit, as_turns);
         (place.weight, seen)
     };
     places(along).map(part).collect()

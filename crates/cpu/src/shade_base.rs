@@ -332,16 +332,14 @@ impl<'p, 'a> PixelBase<'p, 'a> {
         parts.fold(BaseRadiance::default(), Add::add)
     }
 
-    /// Lights of the scene that a part of the base sees.
+    /// Lights of the scene that the base or a part of it sees, in their order.
     pub fn lights(&self) -> Vec<u32> {
         let mut lights: Vec<u32> = self.views.on_base().collect();
         for (_, _, views) in &self.parts {
             lights.extend(views.on_base());
         }
-        if !self.parts.is_empty() {
-            lights.sort_unstable();
-            lights.dedup();
-        }
+        lights.sort_unstable();
+        lights.dedup();
         lights
     }
 

@@ -191,11 +191,11 @@ pub fn surface_point<'a>(
     hit: &Hit,
 ) -> SurfacePoint<'a> {
     let bumps = BumpSlopes::Spread;
-    surface_seen_as(scene, tables, position_m, to_viewer, footprint, hit, bumps)
+    surface_with_bumps(scene, tables, position_m, to_viewer, footprint, hit, bumps)
 }
 
-/// [`surface_point`] with bumps as asked.
-pub(crate) fn surface_seen_as<'a>(
+/// [`surface_point`], with bumps that widen the lobe in either way.
+pub(crate) fn surface_with_bumps<'a>(
     scene: &'a Scene,
     tables: &'a ScratchTables,
     position_m: DVec3,

@@ -7,7 +7,7 @@ use hairline_optics::fresnel::FRESNEL_NODES;
 use hairline_optics::lobe_table::{self, LOBE_TABLE_SIZE};
 use hairline_optics::metal::Metal;
 use hairline_optics::table;
-use hairline_scene::environment::LEVEL_HALVINGS;
+use hairline_scene::environment::level_place;
 use hairline_scene::{
     Environment, GratingSpectrum, GrooveShapes, Reflector, ScratchTables, Texture,
 };
@@ -244,7 +244,7 @@ async fn environment_levels(
     levels: &[Picture],
 ) -> Result<wgpu::Texture, Error> {
     let [width, height] = levels[0].size_px;
-    let mips = LEVEL_HALVINGS[levels.len() - 1] as u32 + 1;
+    let mips = level_place(levels.len() - 1).0 as u32 + 1;
     let texture = transfer
         .texture(
             what,
@@ -255,11 +255,10 @@ async fn environment_levels(
         )
         .await?;
     for (i, map) in levels.iter().enumerate() {
-        let level = LEVEL_HALVINGS[i];
-        let is_second = i > 0 && LEVEL_HALVINGS[i - 1] == level;
+        let (mip, is_below) = level_place(i);
         let place = TexturePosition {
-            level: level as u32,
-            row: if is_second { map.size_px[1] } else { 0 },
+            level: mip as u32,
+            row: if is_below { map.size_px[1] } else { 0 },
             ..TexturePosition::default()
         };
         write_radiance(transfer, what, &texture, place, map);

@@ -130,7 +130,8 @@ pub struct Anisotropy {
     pub direction_deg: f64,
 }
 
-/// A layer of lacquer over a base, as of cars and phones: refractive index [`COAT_IOR`](hairline_optics::coat::COAT_IOR), without a colour (KHR_materials_clearcoat).
+/// A layer of lacquer over a base, as of cars and phones: refractive index [`COAT_IOR`](hairline_optics::coat::COAT_IOR), without a colour
+/// (KHR_materials_clearcoat).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Coat {
     /// `clearcoat`: the share of the surface that it covers, in [0, 1].

@@ -33,7 +33,7 @@ pub use built_in::BuiltInMap;
 pub(crate) use built_in::SIZE_PX as BUILT_IN_SIZE_PX;
 pub use file::Error;
 pub(crate) use file::{read, read_picture, size_px};
-pub use prefilter::{LEVEL_HALVINGS, LEVEL_ROUGHNESS};
+pub use prefilter::{LEVEL_HALVINGS, LEVEL_ROUGHNESS, level_place};
 
 use lookup::{
     environment_irradiance, environment_lod, environment_prefiltered_all,

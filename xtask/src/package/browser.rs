@@ -16,7 +16,7 @@ pub(super) type Folders = Vec<(&'static str, PathBuf)>;
 
 /// The names under which browsers with WebGPU are installed.
 const PROGRAMS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
-/// SwiftShader compiles for seconds.
+/// SwiftShader compiles for seconds, and maps of an environment take seconds too.
 const PATIENCE: Duration = Duration::from_secs(240);
 
 /// Answer of a page: the rest of the address after `/result/`, and the bytes.

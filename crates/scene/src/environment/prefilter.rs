@@ -20,7 +20,7 @@ mod lobe_part;
 
 pub(super) use levels::LEVEL_0_SIZE_PX;
 use levels::{COARSEST, FINEST, LEVELS};
-pub use levels::{LEVEL_HALVINGS, LEVEL_ROUGHNESS};
+pub use levels::{LEVEL_HALVINGS, LEVEL_ROUGHNESS, level_place};
 
 /// The levels of several maps, blurred together: the lobes' weights are the same for all. Level 0 is the map itself, scaled; the others are
 /// blurred by the lobes of [`LEVEL_ROUGHNESS`].

@@ -10,6 +10,13 @@ pub(super) const LEVELS: usize = 12;
 /// Number of times that a level's width and height are halved from the first one's: texels are about as wide as their level's lobe, or narrower.
 pub const LEVEL_HALVINGS: [usize; LEVELS] = [0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6];
 
+/// The mip of a texture that holds a level of the maps, and whether the level lies below another one there. Twin: `environment_level_place` in
+/// environment.wgsl.
+pub fn level_place(level: usize) -> (usize, bool) {
+    let mip = LEVEL_HALVINGS[level];
+    (mip, level > 0 && LEVEL_HALVINGS[level - 1] == mip)
+}
+
 /// Width and height of level 0; powers of two.
 pub(crate) const LEVEL_0_SIZE_PX: [u32; 2] = [2048, 1024];
 
