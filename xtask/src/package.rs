@@ -36,6 +36,9 @@ pub struct Package {
     /// Compile it for tests: little is optimised, and warnings are errors.
     #[arg(long)]
     quick: bool,
+    /// Leave out the program that prepares environments, the one part that is compiled.
+    #[arg(long, conflicts_with_all = ["pictures", "viewer", "serve"])]
+    without_environment: bool,
     /// Serve the example for three.js on this port of this machine, until it is ended.
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8080")]
     serve: Option<u16>,
@@ -90,13 +93,15 @@ impl Package {
         )?;
         write(&package.join("tables.bin"), &tables::tables())?;
         tables::write_gratings(&package.join("gratings"))?;
-        wasm::write(
-            &root,
-            "hairline-environment",
-            self.quick,
-            "environment",
-            &package.join("environment"),
-        )?;
+        if !self.without_environment {
+            wasm::write(
+                &root,
+                "hairline-environment",
+                self.quick,
+                "environment",
+                &package.join("environment"),
+            )?;
+        }
         print_sizes(&package)?;
 
         if self.test {
