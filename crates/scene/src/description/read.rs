@@ -167,7 +167,11 @@ impl Read for Material {
             }
             None => None,
         };
-        let cover: Option<Cover> = table.value(&material::COVER)?;
+        // A key of metals, which other kinds do not know.
+        let cover: Option<Cover> = match table.has("cover") {
+            true => table.value(&material::COVER)?,
+            false => None,
+        };
         if let (Some(_), MaterialKind::Metal(MetalColor::Color(_))) = (cover, &kind) {
             return Err(Error::new(
                 table.way("cover"),
