@@ -7,6 +7,8 @@
 //! Modules are joined by concatenation, what a module needs before it, each once; their module-level names are therefore unique
 //! over all modules.
 
+use hairline_optics::table;
+
 /// One file of WGSL and the modules that it calls.
 #[derive(Debug)]
 pub struct Module {
@@ -286,6 +288,23 @@ pub static FOR_ENGINES: &[&Module] = &[
     &GRATED_SURFACE,
     &PIXEL_FRAME,
 ];
+
+/// The text of a module as it is packed for other engines: with their size of tables, a quarter of the renderer's.
+pub fn for_engines(module: &Module) -> String {
+    let text = module.source.trim_end();
+    if module.name != SCRATCH_TABLE.name {
+        return text.to_owned();
+    }
+    let size = |name: &str, size: usize| format!("{name}: i32 = {size};");
+    text.replace(
+        &size("COLUMNS", table::COLUMNS),
+        &size("COLUMNS", table::ENGINE_COLUMNS),
+    )
+    .replace(
+        &size("ROWS", table::ROWS),
+        &size("ROWS", table::ENGINE_ROWS),
+    )
+}
 
 /// `modules` and everything that they need, each once and after its own needs.
 pub fn with_needs<'a>(modules: &[&'a Module]) -> Vec<&'a Module> {

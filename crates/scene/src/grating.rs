@@ -83,6 +83,19 @@ pub enum GrooveField {
     },
 }
 
+/// Grooves along a direction or about an axis, in the words of HAIRLINE_scratches: programs that draw no pictures on surfaces draw these.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlainField {
+    /// `"along"`, `"circular"`, `"radial"` or `"spun"`.
+    pub kind: &'static str,
+    /// The direction of the grooves, of any length, or a unit vector along the axis.
+    pub axis: DVec3,
+    /// Point from which [`Grating::radii_m`] are measured.
+    pub center_m: DVec3,
+    /// Curvature of spun grooves, 0 of others.
+    pub curvature_per_m: f64,
+}
+
 /// A direction by texture coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UvField {
@@ -150,6 +163,32 @@ impl GroovePlace {
 }
 
 impl GrooveField {
+    /// The field without pictures; none where grooves lie in spots or follow texture coordinates.
+    pub fn plain(&self) -> Option<PlainField> {
+        let (kind, axis, center_m, curvature_per_m) = match *self {
+            Self::Along {
+                direction,
+                center_m,
+            } => ("along", direction, center_m, 0.0),
+            Self::Around {
+                axis,
+                center_m,
+                bearing,
+            } => match bearing {
+                Bearing::Circular => ("circular", axis, center_m, 0.0),
+                Bearing::Radial => ("radial", axis, center_m, 0.0),
+                Bearing::Spun { curvature_per_m } => ("spun", axis, center_m, curvature_per_m),
+            },
+            Self::Spots { .. } | Self::ByUv { .. } => return None,
+        };
+        Some(PlainField {
+            kind,
+            axis,
+            center_m,
+            curvature_per_m,
+        })
+    }
+
     /// The unit direction of the grooves at a point, in the plane across a unit normal; none where there is none.
     pub fn tangent(&self, ground: &GrooveGround, point_m: DVec3, normal: DVec3) -> Option<DVec3> {
         let course = self.course(ground, point_m, normal, [DVec3::ZERO; 2]);

@@ -70,7 +70,7 @@ pub use environment::Environment;
 pub use error::Error;
 pub use fine_gratings::{FINE_PITCH_UM, efficiencies, fine_row};
 pub use grating::{
-    Bearing, Grating, GrooveField, GrooveGround, GroovePicture, GroovePlace, UvField,
+    Bearing, Grating, GrooveField, GrooveGround, GroovePicture, GroovePlace, PlainField, UvField,
 };
 pub use groove_shapes::{GrooveShapes, MOST_SHAPES};
 pub use hairline_model::mesh_file::LeftOut;

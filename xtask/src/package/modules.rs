@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use hairline_gpu::shaders::{Module, with_needs};
+use hairline_gpu::shaders::{Module, for_engines, with_needs};
 use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_ROWS};
 
 /// Columns and rows of the package's tables: 2 MiB a metal, a quarter of the renderer's.
@@ -14,20 +14,6 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// The name within the package.
 pub(super) fn short_name(module: &Module) -> &'static str {
     module.name.rsplit('/').next().unwrap_or(module.name)
-}
-
-/// A module's text for the package: with its size of tables.
-fn source(module: &Module) -> String {
-    let text = module.source.trim_end().to_owned();
-    if short_name(module) != "scratch_table" {
-        return text;
-    }
-    let [columns, rows] = TABLE_SIZE;
-    text.replace(
-        "COLUMNS: i32 = 1024;",
-        &format!("COLUMNS: i32 = {columns};"),
-    )
-    .replace("ROWS: i32 = 512;", &format!("ROWS: i32 = {rows};"))
 }
 
 fn without_comment(line: &str) -> &str {
@@ -58,7 +44,7 @@ pub(super) fn single_file(modules: &[&Module]) -> String {
         "// hairline-shaders {VERSION}, MIT OR Apache-2.0. Made by `cargo xtask package`; the modules in the folder wesl have the comments.\n"
     );
     for module in modules {
-        for line in source(module).lines().map(without_comment) {
+        for line in for_engines(module).lines().map(without_comment) {
             if !line.is_empty() {
                 text.push_str(&without_spaces(line));
                 text.push('\n');
@@ -124,7 +110,7 @@ fn used(text: &str) -> BTreeSet<String> {
 
 /// A module with the imports of WESL (<https://wesl-lang.dev>).
 pub(super) fn wesl(module: &Module, all: &[&Module]) -> String {
-    let text = source(module);
+    let text = for_engines(module);
     let uses = used(&text);
     let needs = with_needs(&[module]);
     let mut out = String::new();

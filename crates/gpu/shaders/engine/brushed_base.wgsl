@@ -45,6 +45,57 @@ fn brushed_base_sphere(base: BrushedBase, curves: texture_2d<f32>, center_m: vec
     return BaseLit(specular, lambert_sphere(cap.axis, sin_sq));
 }
 
+// A flat light with three or four corners.
+fn brushed_base_quad(base: BrushedBase, curves: texture_2d<f32>, light: QuadLight) -> BaseLit {
+    let highest_m = max(max(light.a_m.z, light.b_m.z), max(light.c_m.z, light.d_m.z));
+    if polygon_facing(light.normal, light.a_m, light.two_sided) == 0.0 || highest_m <= 0.0 {
+        return BaseLit(vec3f(0.0), 0.0);
+    }
+    let lobe = brushed_base_lobe(base, light_per_distance(light.center_m, light.radius_m));
+    var body = lambert_begin();
+    var range = vec2f(1.0, -1.0);
+    var area = vec3f(0.0);
+    var corners = mat4x3f(light.a_m, light.b_m, light.c_m, light.d_m);
+    let first = brushed_from_local(lobe, light.a_m);
+    for (var i = 0u; i < light.corner_count; i += 1u) {
+        let to = select(corners[1], light.a_m, i + 1u == light.corner_count);
+        lambert_edge(&body, corners[0], to);
+        let a = brushed_from_local(lobe, corners[0]);
+        let b = brushed_from_local(lobe, to);
+        area += cross(a, b);
+        range = brushed_range(lobe, range, brushed_edge(a, b, false));
+        range = brushed_range(lobe, range, brushed_edge(a, b, true));
+        corners = mat4x3f(corners[1], corners[2], corners[3], corners[0]);
+    }
+    let form_factor = lambert_end(body);
+    let visible = brushed_visible(lobe, range);
+    var sum = vec3f(0.0);
+    let orientation = select(1.0, -1.0, dot(area, first) < 0.0);
+    for (var n = 0u; n < select(0u, BRUSHED_NODES, visible.y > visible.x); n += 1u) {
+        let node = brushed_node(n, visible);
+        let slice = brushed_slice(lobe, node.x);
+        if !slice.is_seen {
+            continue;
+        }
+        for (var k = 0u; k < brushed_parts(lobe); k += 1u) {
+            let part = brushed_part(lobe, slice, k);
+            var moments = brushed_none();
+            corners = mat4x3f(light.a_m, light.b_m, light.c_m, light.d_m);
+            for (var i = 0u; i < light.corner_count; i += 1u) {
+                let a = brushed_from_local(lobe, corners[0]);
+                let b = brushed_from_local(lobe, select(corners[1], light.a_m, i + 1u == light.corner_count));
+                for (var h = 0u; h < 2u; h += 1u) {
+                    let edge = brushed_edge(a, b, h == 1u);
+                    brushed_add_crossings(&moments, part, brushed_crossings(lobe, slice.slope, edge), orientation);
+                }
+                corners = mat4x3f(corners[1], corners[2], corners[3], corners[0]);
+            }
+            sum += node.y * brushed_reflected(lobe, slice, k, moments, base.lit.reflecting.fresnel, curves);
+        }
+    }
+    return BaseLit(max(sum, vec3f(0.0)), form_factor);
+}
+
 // A polygon of any number of corners or a tube at 1 / `per_m` metres, as outline_view() sees it with the tangent (1, 0).
 fn brushed_base_outline(base: BrushedBase, curves: texture_2d<f32>, vertices: texture_2d<u32>, view: OutlineView, per_m: f32) -> BaseLit {
     if view.facing == 0.0 {

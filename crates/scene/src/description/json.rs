@@ -24,7 +24,7 @@ impl Description {
     ///
     /// # Errors
     /// Unknown keys and values of other types. Ranges and references are left to others.
-    pub(crate) fn from_json(tables: &Map<String, Value>) -> Result<Self, Error> {
+    pub fn from_json(tables: &Map<String, Value>) -> Result<Self, Error> {
         let mut text = String::new();
         for (name, value) in tables {
             write_text(&mut text, name);

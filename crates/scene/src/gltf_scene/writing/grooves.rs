@@ -9,7 +9,6 @@ use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_ROWS, ROWS};
 use serde_json::{Value, json};
 
 use crate::description::Description;
-use crate::grating::{Bearing, GrooveField};
 use crate::material_optics::ScratchTables;
 use crate::scene::Scene;
 
@@ -42,22 +41,7 @@ pub(super) fn write(
     if grating.mask.is_some() {
         return None;
     }
-    let (kind, axis, center_m, curvature_per_m) = match grating.field {
-        GrooveField::Along {
-            direction,
-            center_m,
-        } => ("along", direction, center_m, 0.0),
-        GrooveField::Around {
-            axis,
-            center_m,
-            bearing,
-        } => match bearing {
-            Bearing::Circular => ("circular", axis, center_m, 0.0),
-            Bearing::Radial => ("radial", axis, center_m, 0.0),
-            Bearing::Spun { curvature_per_m } => ("spun", axis, center_m, curvature_per_m),
-        },
-        GrooveField::Spots { .. } | GrooveField::ByUv { .. } => return None,
-    };
+    let field = grating.field.plain()?;
     let index = tables.grating_table(grating, material)?;
     let table = &tables.tables[index];
     let texels = *known.entry(index).or_insert_with(|| {
@@ -68,13 +52,13 @@ pub(super) fn write(
         file.push_wholes(table.resampled(ENGINE_COLUMNS, rows).as_flattened())
     });
     let object_from_world = described.objects[object].world_from_object().inverse();
-    let axis = object_from_world.transform_vector3(axis);
+    let axis = object_from_world.transform_vector3(field.axis);
     Some(json!({
-        "kind": kind,
+        "kind": field.kind,
         "axis": axis.normalize_or(DVec3::Z).to_array(),
-        "center": object_from_world.transform_point3(center_m).to_array(),
+        "center": object_from_world.transform_point3(field.center_m).to_array(),
         "radii_m": grating.radii_m.map(|radius_m| radius_m.min(FAR_M)),
-        "curvature_per_m": curvature_per_m,
+        "curvature_per_m": field.curvature_per_m,
         "coverage": grating.coverage,
         "angle_std_rad": grating.angle_std_rad,
         "coherence_um": scene.materials[material].coherence_um,
