@@ -1,34 +1,32 @@
 //! A turned and worn steel plate under a lamp that sways and a soft box: `cargo run --example plate`. With the name of a picture it saves one of
 //! the window and ends.
 
+#[path = "save/mod.rs"]
+mod save;
+
 use std::f32::consts::PI;
 
 use bevy::camera::Exposure;
 use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::light::RectLight;
 use bevy::prelude::*;
-use bevy::render::RenderPlugin;
-use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
-use hairline_bevy::{
-    Metal, ScratchedMaterial, ScratchedPlugin, ScratchedTextures, Scratches, metal_color,
-};
+use hairline_bevy::{Metal, ScratchedMaterial, ScratchedPlugin, ScratchedTextures, Scratches};
 
 /// Metres.
 const LAMP_RADIUS: f32 = 0.004;
 
 fn main() -> AppExit {
-    // A picture that is saved shall have all pipelines.
-    let renderer = RenderPlugin {
-        synchronous_pipeline_compilation: std::env::args().len() > 1,
-        ..default()
-    };
     App::new()
-        .add_plugins((DefaultPlugins.set(renderer), ScratchedPlugin))
+        .add_plugins((
+            DefaultPlugins.set(save::renderer()).set(save::window()),
+            ScratchedPlugin,
+            save::save_to(std::env::args().nth(1)),
+        ))
         .insert_resource(ClearColor(Color::srgb(0.02, 0.02, 0.025)))
         // Bevy's own is white at the camera's exposure.
         .insert_resource(GlobalAmbientLight::NONE)
         .add_systems(Startup, setup)
-        .add_systems(Update, (sway, save))
+        .add_systems(Update, sway)
         .run()
 }
 
@@ -36,7 +34,7 @@ fn setup(
     mut commands: Commands,
     mut meshes: ResMut<Assets<Mesh>>,
     mut materials: ResMut<Assets<ScratchedMaterial>>,
-    mut textures: ScratchedTextures,
+    textures: Res<ScratchedTextures>,
 ) -> Result {
     // A disk in the xy plane that faces +z.
     let plate = Mesh::from(Circle::new(0.09).mesh().resolution(128));
@@ -54,18 +52,15 @@ fn setup(
         width_um = { mean = 4.0, spread = 0.12 }
         depth_nm = { mean = 195.0, spread = 0.12 }";
     let scratches = Scratches::on_mesh(&plate, &[turned, worn])?;
-    let steel = StandardMaterial {
-        base_color: metal_color(Metal::StainlessSteel),
-        metallic: 1.0,
+    let base = StandardMaterial {
         perceptual_roughness: 0.1,
         ..default()
     };
-    let extension = textures.scratched(Some(Metal::StainlessSteel), &scratches);
-    let material = materials.add(ScratchedMaterial {
-        base: steel,
-        extension,
-    });
-    commands.spawn((Mesh3d(meshes.add(plate)), MeshMaterial3d(material)));
+    let steel = textures.material(Some(Metal::StainlessSteel), base, &scratches);
+    commands.spawn((
+        Mesh3d(meshes.add(plate)),
+        MeshMaterial3d(materials.add(steel)),
+    ));
 
     // A sphere of radiance L sends 4 pi^2 r^2 L lumens, as Bevy counts them; a rectangle pi A L.
     commands.spawn((
@@ -111,24 +106,4 @@ struct Lamp;
 fn sway(time: Res<Time>, mut lamp: Single<&mut Transform, With<Lamp>>) {
     let across = 0.06 * (time.elapsed_secs() / 2.0).sin();
     lamp.translation = Vec3::new(across, 0.24, 0.3);
-}
-
-/// Meshes and textures are there by then.
-const FRAMES: u32 = 5;
-
-fn save(mut commands: Commands, mut frame: Local<u32>) {
-    let Some(path) = std::env::args().nth(1) else {
-        return;
-    };
-    *frame += 1;
-    if *frame == FRAMES {
-        let saved =
-            move |captured: On<ScreenshotCaptured>, mut exit: MessageWriter<AppExit>| -> Result {
-                let picture = captured.image.clone().try_into_dynamic()?;
-                picture.to_rgb8().save(&path)?;
-                exit.write(AppExit::Success);
-                Ok(())
-            };
-        commands.spawn(Screenshot::primary_window()).observe(saved);
-    }
 }

@@ -1,7 +1,8 @@
 //! The textures that shaders look things up in.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use bevy::asset::RenderAssetUsages;
-use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy::render::render_resource::{
     Extent3d, TextureDimension, TextureFormat, TextureViewDescriptor, TextureViewDimension,
@@ -10,101 +11,161 @@ use hairline_gpu::engine_tables::{self, Texels};
 use hairline_gpu::scratch_tree;
 use hairline_optics::metal::Metal;
 use hairline_optics::section::GrooveShape;
-use hairline_optics::table::{COLUMNS, ROWS, ScratchTable};
+use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_ROWS, ScratchTable};
 
-use crate::{Scratched, Scratches, Settings};
+use crate::scratches::Grating;
+use crate::{MOST_GRATINGS, Scratched, ScratchedMaterial, Scratches, Settings};
 
-/// Textures of all scratched materials: 0.35 MB, and 8 MB for each metal and shape of grooves.
-#[derive(Resource)]
-pub(crate) struct Shared {
+/// Makes [`ScratchedMaterial`]s: 0.35 MB of textures for all, and 2 MB for each metal, shape of grooves and grating, each once.
+#[derive(Resource, Clone)]
+pub struct ScratchedTextures(Arc<Shared>);
+
+struct Shared {
+    server: AssetServer,
     shapes: Handle<Image>,
     albedo: Handle<Image>,
     curves: Handle<Image>,
-    spectra: Vec<Spectrum>,
+    spectra: Mutex<Vec<Spectrum>>,
 }
 
-/// The tables of a metal, one layer for each shape of grooves.
+/// The tables of a metal, one layer for each shape of grooves, then those of gratings.
 struct Spectrum {
     metal: Option<Metal>,
     shapes: Vec<GrooveShape>,
+    gratings: Vec<Arc<Vec<[u32; 4]>>>,
     image: Handle<Image>,
 }
 
-impl FromWorld for Shared {
+impl FromWorld for ScratchedTextures {
     fn from_world(world: &mut World) -> Self {
-        let mut images = world.resource_mut::<Assets<Image>>();
-        let mut add = |table: Texels| {
+        let server = world.resource::<AssetServer>().clone();
+        let add = |table: Texels| {
             let values = table.texels.iter().flatten();
             let bytes = values.flat_map(|value| value.to_le_bytes()).collect();
-            images.add(image(table.size, bytes, TextureFormat::Rgba32Float))
+            server.add(image(table.size, bytes, TextureFormat::Rgba32Float))
         };
-        Self {
+        Self(Arc::new(Shared {
             shapes: add(engine_tables::shapes()),
             albedo: add(engine_tables::albedo()),
             curves: add(engine_tables::curves()),
-            spectra: Vec::new(),
-        }
+            spectra: Mutex::default(),
+            server,
+        }))
     }
 }
 
-/// Makes [`Scratched`]; each spectrum once.
-#[derive(SystemParam)]
-pub struct ScratchedTextures<'w> {
-    images: ResMut<'w, Assets<Image>>,
-    shared: ResMut<'w, Shared>,
-}
+impl ScratchedTextures {
+    /// Makes a material for a mesh, in whose frame `scratches` are. A `metal` gives colour, spectrum, and how reflectance goes with the angle; none is a
+    /// metal or a lacquer by `base_color` and `metallic`. Where the base has a clear coat, scratches lie in it. Takes 0.1 s for a metal's first.
+    pub fn material(
+        &self,
+        metal: Option<Metal>,
+        base: StandardMaterial,
+        scratches: &Scratches,
+    ) -> ScratchedMaterial {
+        let extension = self.extension(metal, base.clearcoat > 0.0, scratches);
+        let base = of_metal(metal, base);
+        ScratchedMaterial { base, extension }
+    }
 
-impl ScratchedTextures<'_> {
-    /// Makes a material for a mesh, in whose frame `scratches` are. `metal` gives their spectrum, and how its reflectance goes with the
-    /// angle; none is a metal or a lacquer by its base colour. Takes 0.1 s for a metal's first.
-    pub fn scratched(&mut self, metal: Option<Metal>, scratches: &Scratches) -> Scratched {
-        let texels = &scratches.texels;
-        let rows = texels.len() / scratch_tree::WIDTH;
+    pub(crate) fn extension(
+        &self,
+        metal: Option<Metal>,
+        is_coated: bool,
+        scratches: &Scratches,
+    ) -> Scratched {
+        let rows = scratches.tree.len() / scratch_tree::WIDTH;
         let size = [scratch_tree::WIDTH, rows].map(|n| n as u32);
-        let tree = self.images.add(words(size, texels));
-        let mut spectra = self.shared.spectra.iter();
-        let known = spectra.find(|it| it.metal == metal && it.shapes == scratches.shapes);
-        let spectrum = match known {
-            Some(known) => known.image.clone(),
-            None => {
-                let reflectance =
-                    |nm| metal.map_or(1.0, |metal: Metal| metal.reflectance(1.0, nm));
-                let shapes = scratches.shapes.iter();
-                let texels: Vec<[u32; 4]> = shapes
-                    .flat_map(|shape| ScratchTable::of_shape(shape, reflectance).texels)
-                    .collect();
-                let mut spectrum = words([COLUMNS, ROWS].map(|n| n as u32), &texels);
-                spectrum.texture_view_descriptor = Some(TextureViewDescriptor {
-                    dimension: Some(TextureViewDimension::D2Array),
-                    ..default()
-                });
-                let image = self.images.add(spectrum);
-                self.shared.spectra.push(Spectrum {
-                    metal,
-                    shapes: scratches.shapes.clone(),
-                    image: image.clone(),
-                });
-                image
-            }
-        };
-        Scratched {
-            tree,
-            tables: spectrum,
-            shapes: self.shared.shapes.clone(),
-            albedo: self.shared.albedo.clone(),
-            curves: self.shared.curves.clone(),
-            settings: Settings {
-                curve: engine_tables::curve_of(metal),
-                light_radius_m: Scratched::LIGHT_RADIUS_M,
-            },
+        let gratings = &scratches.gratings[..scratches.gratings.len().min(MOST_GRATINGS)];
+        if gratings.len() < scratches.gratings.len() {
+            let found = scratches.gratings.len();
+            warn!("found {found} gratings; must be {MOST_GRATINGS} at most: the first are drawn");
         }
+        let mut settings = Settings {
+            metres_from_mesh: Mat4::IDENTITY,
+            gratings: [Mat4::ZERO; MOST_GRATINGS],
+            grating_count: gratings.len() as u32,
+            curve: engine_tables::curve_of(metal),
+            coat_curve: Metal::ALL.len() as u32 + 1,
+            light_radius_m: Scratched::LIGHT_RADIUS_M,
+        };
+        for (i, (numbers, grating)) in settings.gratings.iter_mut().zip(gratings).enumerate() {
+            *numbers = grating.numbers;
+            numbers.w_axis.z = (scratches.shapes.len() + i) as f32;
+        }
+        // What lies in a coat has no colour of its own.
+        let spectrum = metal.filter(|_| !is_coated);
+        Scratched {
+            tree: self.0.server.add(words(size, &scratches.tree)),
+            tables: self.tables(spectrum, &scratches.shapes, gratings),
+            shapes: self.0.shapes.clone(),
+            albedo: self.0.albedo.clone(),
+            curves: self.0.curves.clone(),
+            settings,
+        }
+    }
+
+    /// Adds an asset from any thread.
+    pub(crate) fn add<A: Asset>(&self, asset: A) -> Handle<A> {
+        self.0.server.add(asset)
+    }
+
+    fn tables(
+        &self,
+        metal: Option<Metal>,
+        shapes: &[GrooveShape],
+        gratings: &[Grating],
+    ) -> Handle<Image> {
+        let spectra = self.0.spectra.lock();
+        let mut spectra = spectra.unwrap_or_else(PoisonError::into_inner);
+        let of_gratings = || gratings.iter().map(|it| &it.texels);
+        let is_known = |it: &&Spectrum| {
+            it.metal == metal && it.shapes == shapes && it.gratings.iter().eq(of_gratings())
+        };
+        if let Some(known) = spectra.iter().find(is_known) {
+            return known.image.clone();
+        }
+        let reflectance = |nm| metal.map_or(1.0, |metal: Metal| metal.reflectance(1.0, nm));
+        let of_shape = |shape| {
+            let table = ScratchTable::of_shape(shape, reflectance);
+            table.resampled(ENGINE_COLUMNS, ENGINE_ROWS)
+        };
+        // Layers are as high as the highest.
+        let rows = gratings.iter().map(Grating::rows).max();
+        let rows = rows.unwrap_or(0).max(ENGINE_ROWS);
+        let mut texels = Vec::new();
+        let layers = shapes.iter().map(of_shape);
+        for layer in layers.chain(of_gratings().map(|it| it.to_vec())) {
+            texels.extend(layer);
+            texels.resize(texels.len().next_multiple_of(rows * ENGINE_COLUMNS), [0; 4]);
+        }
+        let mut tables = words([ENGINE_COLUMNS, rows].map(|n| n as u32), &texels);
+        tables.texture_view_descriptor = Some(TextureViewDescriptor {
+            dimension: Some(TextureViewDimension::D2Array),
+            ..default()
+        });
+        let image = self.0.server.add(tables);
+        spectra.push(Spectrum {
+            metal,
+            shapes: shapes.to_vec(),
+            gratings: of_gratings().cloned().collect(),
+            image: image.clone(),
+        });
+        image
     }
 }
 
-/// The base colour of a metal: its reflectance at normal incidence, in daylight.
-pub fn metal_color(metal: Metal) -> Color {
+/// The standard material of a metal.
+pub(crate) fn of_metal(metal: Option<Metal>, base: StandardMaterial) -> StandardMaterial {
+    let Some(metal) = metal else {
+        return base;
+    };
     let [red, green, blue] = metal.reflectance_rgb(1.0).map(|channel| channel as f32);
-    Color::linear_rgb(red, green, blue)
+    StandardMaterial {
+        base_color: Color::linear_rgb(red, green, blue),
+        metallic: 1.0,
+        ..base
+    }
 }
 
 fn words(size: [u32; 2], texels: &[[u32; 4]]) -> Image {

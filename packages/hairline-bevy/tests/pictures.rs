@@ -1,11 +1,13 @@
 //! Scenes drawn by Bevy without a window, against the CPU renderer without shadows. Needs a graphics adapter; a software driver will do.
 
-use std::path::Path;
+use std::f32::consts::FRAC_PI_2;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use bevy::asset::RenderAssetUsages;
 use bevy::camera::{Exposure, Hdr, RenderTarget};
 use bevy::core_pipeline::tonemapping::Tonemapping;
-use bevy::ecs::system::RunSystemOnce;
+use bevy::gltf::GltfLoaderSettings;
 use bevy::light::RectLight;
 use bevy::mesh::{Indices, PrimitiveTopology};
 use bevy::prelude::*;
@@ -15,19 +17,20 @@ use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
 use bevy::render::render_resource::{TextureFormat, TextureUsages};
 use bevy::window::ExitCondition;
 use bevy::winit::WinitPlugin;
-use hairline_bevy::{
-    Metal, ScratchedMaterial, ScratchedPlugin, ScratchedTextures, Scratches, metal_color,
-};
+use hairline_bevy::{ScratchedMaterial, ScratchedPlugin, ScratchedTextures, Scratches};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_image::{Image as Film, Layer};
-use hairline_scene::{Base, LightShape, Scene};
+use hairline_scene::gltf_scene::Export;
+use hairline_scene::{Base, Description, LightShape, Loader, Scene};
 
 /// The most that a picture may be off, as rms over that of the picture.
 const LIMIT: f64 = 0.005;
 /// Least effect of scratches that is compared, as a share of the picture without them.
 const SHARE_MIN: f32 = 0.05;
-/// Pipelines and textures are there after a few frames.
-const FRAMES_MAX: usize = 200;
+/// Files, pipelines and textures are there by then.
+const LONGEST: Duration = Duration::from_secs(100);
+/// Between frames without a picture files are read.
+const PAUSE: Duration = Duration::from_millis(5);
 
 /// The last picture that came back.
 #[derive(Resource, Default)]
@@ -43,25 +46,158 @@ fn bevy_draws_what_hairline_renders() {
         scene.objects[0].scratches = Default::default();
         scene.objects[0].segments = Default::default();
         let bare = compare(name, "without scratches", &scene, false);
-        let change = |[worn, bare]: [&Vec<[f32; 3]>; 2]| -> Vec<[f32; 3]> {
-            let minus = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| a[c] - b[c]);
-            worn.iter().zip(bare).map(minus).collect()
-        };
-        let own = change([&worn.bevy, &bare.bevy]);
-        let wanted = change([&worn.hairline, &bare.hairline]);
-        // Bevy's picture is of half floats: where scratches change little, the difference is their rounding.
-        let sum = |rgb: &[f32; 3]| rgb.iter().map(|x| x.abs()).sum::<f32>();
-        let is_plain = |i: &usize| sum(&wanted[*i]) > SHARE_MIN * sum(&bare.hairline[*i]);
-        let plain: Vec<usize> = worn.inner.iter().copied().filter(is_plain).collect();
-        assert!(plain.len() > 100, "{name}: {} pixels", plain.len());
-        let off = error(&own, &wanted, &plain);
-        println!(
-            "{name}: what scratches change, {} pixels: {:.3} % off",
-            plain.len(),
-            100.0 * off
-        );
-        assert!(off < LIMIT, "{name}: what scratches change");
+        compare_change(name, &worn, &bare);
     }
+}
+
+/// Scenes of the package for three.js, under lights that Bevy has: as files, with maps, a brushed base under a coat, gratings, V grooves narrow and wide.
+/// Beside them what must be seen when it is wrong, in the scene or in the file.
+const FILES: [(&str, &[[&str; 2]]); 4] = [
+    (
+        "lacquer",
+        &[
+            ["direction_deg = 30.0", "direction_deg = -30.0"],
+            ["clearcoat = 0.7", "clearcoat = 0.0"],
+        ],
+    ),
+    ("disc", &[["[1.0, 0.3, 0.0]", "[1.0, -0.3, 0.0]"]]),
+    (
+        "sheet",
+        &[
+            ["\"baseColorTexture\"", "\"baseColorTextur_\""],
+            [
+                "\"metallicRoughnessTexture\"",
+                "\"metallicRoughnessTextur_\"",
+            ],
+            ["\"normalTexture\"", "\"normalTextur_\""],
+        ],
+    ),
+    ("grooves", &[["profile = \"v\"", "profile = \"round\""]]),
+];
+
+#[test]
+fn a_file_shows_what_hairline_renders() {
+    for (name, wrong) in FILES {
+        let text = std::fs::read_to_string(scenes().join(format!("{name}.toml"))).expect("a scene");
+        let described = described(&text);
+        let mut scene = Scene::build(&described, scenes()).expect("a scene");
+        let worn = compare_pictures(name, "a file", &scene, draw_file(&scene, &glb(&described)));
+        // Of a file without any scratch Bevy draws the standard material.
+        let mut bare = self::described(&with_one_scratch(&text));
+        bare.gratings.clear();
+        scene = Scene::build(&bare, scenes()).expect("a scene");
+        let bare = compare_pictures(name, "one scratch", &scene, draw_file(&scene, &glb(&bare)));
+        compare_change(name, &worn, &bare);
+        for [right, wrong] in wrong {
+            let file = match text.contains(right) {
+                true => glb(&self::described(&text.replace(right, wrong))),
+                false => replaced(glb(&described), right, wrong),
+            };
+            let off = error(&draw_file(&scene, &file), &worn.hairline, &worn.inner);
+            println!("{name}, {wrong}: {:.1} % off", 100.0 * off);
+            assert!(off > 2.0 * LIMIT, "{name}: {wrong} is not seen");
+        }
+    }
+}
+
+#[test]
+fn a_file_is_shown_plain_without_the_plug_in_and_of_another_version() {
+    let text = std::fs::read_to_string(scenes().join("lacquer.toml")).expect("a scene");
+    let file = glb(&described(&text));
+    let of_tomorrow = replaced(file.clone(), "\"version\":1}", "\"version\":2}");
+    assert_ne!(file, of_tomorrow);
+    for (file, has_plug_in) in [(&file, false), (&of_tomorrow, true), (&file, true)] {
+        let mut app = app(has_plug_in);
+        spawn_file(app.world_mut(), file);
+        let is_plain = !has_plug_in || *file == of_tomorrow;
+        let started = Instant::now();
+        while started.elapsed() < LONGEST {
+            std::thread::sleep(PAUSE);
+            app.update();
+            let world = app.world_mut();
+            let mut all = world.query::<(
+                Has<MeshMaterial3d<StandardMaterial>>,
+                Has<MeshMaterial3d<ScratchedMaterial>>,
+                &Mesh3d,
+            )>();
+            let found: Vec<bool> = all
+                .iter(world)
+                .map(|(plain, worn, _)| {
+                    assert_ne!(plain, worn);
+                    plain
+                })
+                .collect();
+            if !found.is_empty() {
+                assert_eq!(found, [is_plain]);
+                break;
+            }
+        }
+        let mut meshes = app.world_mut().query::<&Mesh3d>();
+        assert_eq!(meshes.iter(app.world()).count(), 1, "the model is there");
+    }
+}
+
+fn scenes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../hairline-shaders/test")
+}
+
+fn with_one_scratch(text: &str) -> String {
+    let one = |line: &str| match line.starts_with("count = ") {
+        true => "count = 1\n".to_owned(),
+        false => format!("{line}\n"),
+    };
+    text.lines().map(one).collect()
+}
+
+/// A scene with lights that Bevy has, and no environment.
+fn described(text: &str) -> Description {
+    let of = |text: &str| Description::from_toml(text, Path::new("a scene")).expect("a scene");
+    let mut described = of(text);
+    described.environment = None;
+    if !text.contains("kind = \"sphere\"") {
+        let other = std::fs::read_to_string(scenes().join("lacquer.toml")).expect("a scene");
+        described.lights = of(&other).lights;
+        // Under the sphere alone scratches are most of what is seen beside its reflection.
+        described.lights.truncate(1);
+    }
+    described
+}
+
+fn glb(described: &Description) -> Vec<u8> {
+    let exported = Loader::default().export(described, &scenes(), Export::default());
+    exported.expect("a file").bytes
+}
+
+/// A file with other text of the same length.
+fn replaced(mut file: Vec<u8>, from: &str, to: &str) -> Vec<u8> {
+    assert_eq!(from.len(), to.len());
+    let found = file
+        .windows(from.len())
+        .position(|it| it == from.as_bytes());
+    let at = found.unwrap_or_else(|| panic!("no {from} in the file"));
+    file[at..at + to.len()].copy_from_slice(to.as_bytes());
+    file
+}
+
+/// Compares what scratches change. Bevy's pictures are of half floats: where scratches change little, the difference is their rounding.
+fn compare_change(name: &str, worn: &Pair, bare: &Pair) {
+    let change = |[worn, bare]: [&Vec<[f32; 3]>; 2]| -> Vec<[f32; 3]> {
+        let minus = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| a[c] - b[c]);
+        worn.iter().zip(bare).map(minus).collect()
+    };
+    let own = change([&worn.bevy, &bare.bevy]);
+    let wanted = change([&worn.hairline, &bare.hairline]);
+    let sum = |rgb: &[f32; 3]| rgb.iter().map(|x| x.abs()).sum::<f32>();
+    let is_plain = |i: &usize| sum(&wanted[*i]) > SHARE_MIN * sum(&bare.hairline[*i]);
+    let plain: Vec<usize> = worn.inner.iter().copied().filter(is_plain).collect();
+    assert!(plain.len() > 100, "{name}: {} pixels", plain.len());
+    let off = error(&own, &wanted, &plain);
+    println!(
+        "{name}: what scratches change, {} pixels: {:.3} % off",
+        plain.len(),
+        100.0 * off
+    );
+    assert!(off < LIMIT, "{name}: what scratches change");
 }
 
 struct Pair {
@@ -71,8 +207,12 @@ struct Pair {
 }
 
 fn compare(name: &str, what: &str, scene: &Scene, is_turned: bool) -> Pair {
+    compare_pictures(name, what, scene, draw(scene, is_turned))
+}
+
+fn compare_pictures(name: &str, what: &str, scene: &Scene, bevy: Vec<[f32; 3]>) -> Pair {
     let film = Prepared::new(scene).render(&RenderOptions::default(), &|_| {});
-    let (bevy, hairline) = (draw(scene, is_turned), film.layer(Layer::Beauty));
+    let hairline = film.layer(Layer::Beauty);
     let inner = inner_pixels(&film);
     let off = error(&bevy, &hairline, &inner);
     println!("{name}, {what}: {:.3} % off", 100.0 * off);
@@ -86,35 +226,7 @@ fn compare(name: &str, what: &str, scene: &Scene, is_turned: bool) -> Pair {
 
 /// The scene by Bevy. Turned: all of it in the world, and under spots, which gives the same picture.
 fn draw(scene: &Scene, is_turned: bool) -> Vec<[f32; 3]> {
-    let mut app = App::new();
-    let windowless = WindowPlugin {
-        primary_window: None,
-        exit_condition: ExitCondition::DontExit,
-        ..default()
-    };
-    let renderer = RenderPlugin {
-        synchronous_pipeline_compilation: true,
-        ..default()
-    };
-    let plugins = DefaultPlugins
-        .set(windowless)
-        .set(renderer)
-        .disable::<WinitPlugin>()
-        .disable::<PipelinedRenderingPlugin>()
-        .disable::<bevy::log::LogPlugin>();
-    app.add_plugins((plugins, ScratchedPlugin))
-        .init_resource::<Seen>()
-        .insert_resource(ClearColor(Color::BLACK))
-        .insert_resource(GlobalAmbientLight {
-            brightness: 0.0,
-            ..default()
-        });
-    while app.plugins_state() == bevy::app::PluginsState::Adding {
-        bevy::tasks::tick_global_task_pools_on_main_thread();
-    }
-    app.finish();
-    app.cleanup();
-
+    let mut app = app(true);
     let turn = match is_turned {
         true => Transform::from_rotation(Quat::from_rotation_z(0.5))
             .with_translation(Vec3::new(0.01, 0.02, 0.0)),
@@ -142,45 +254,102 @@ fn draw(scene: &Scene, is_turned: bool) -> Vec<[f32; 3]> {
     .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
     .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, normals)
     .with_inserted_indices(Indices::U32(indices));
-    let (base, metal) = match scene.materials[0].base {
-        Base::Metal(metal) => (metal_color(metal), Some(metal)),
-        Base::MetallicRoughness {
-            base_color: [r, g, b],
-            ..
-        } => (
-            Color::linear_rgb(r as f32, g as f32, b as f32),
-            None::<Metal>,
-        ),
-        _ => panic!("the test knows metals and metallic-roughness"),
-    };
-    let metallic = match scene.materials[0].base {
-        Base::MetallicRoughness { metallic, .. } => metallic as f32,
-        _ => 1.0,
-    };
-    let base = StandardMaterial {
-        base_color: base,
-        metallic,
+    let mut base = StandardMaterial {
         perceptual_roughness: scene.materials[0].roughness as f32,
         ..default()
     };
-    let scratches = Scratches::of_scene(scene, 0);
+    let metal = match scene.materials[0].base {
+        Base::Metal(metal) => Some(metal),
+        Base::MetallicRoughness {
+            base_color: [r, g, b],
+            metallic,
+        } => {
+            base.base_color = Color::linear_rgb(r as f32, g as f32, b as f32);
+            base.metallic = metallic as f32;
+            None
+        }
+        _ => panic!("the test knows metals and metallic-roughness"),
+    };
     let world = app.world_mut();
-    let extension = world
-        .run_system_once_with(
-            |In((metal, scratches)): In<(Option<Metal>, Scratches)>,
-             mut textures: ScratchedTextures| { textures.scratched(metal, &scratches) },
-            (metal, scratches),
-        )
-        .expect("the plugin is there");
+    let textures = world.resource::<ScratchedTextures>();
+    let material = textures.material(metal, base, &Scratches::of_scene(scene, 0));
     let material = world
         .resource_mut::<Assets<ScratchedMaterial>>()
-        .add(ScratchedMaterial { base, extension });
+        .add(material);
     let mesh = world.resource_mut::<Assets<Mesh>>().add(mesh);
     world.spawn((Mesh3d(mesh), MeshMaterial3d(material), turn));
     // Everything else is turned with the mesh.
     spawn_lights(world, scene, turn, is_turned);
-    let target = spawn_camera(world, scene, turn);
-    world.spawn(Readback::texture(target)).observe(
+    let target = spawn_camera(world, scene, turn, 1.0);
+    picture(app, target)
+}
+
+/// A file by Bevy; the camera is the scene's.
+fn draw_file(scene: &Scene, file: &[u8]) -> Vec<[f32; 3]> {
+    let mut app = app(true);
+    let world = app.world_mut();
+    spawn_file(world, file);
+    // Files have y up, in lumens.
+    let turn = Transform::from_rotation(Quat::from_rotation_x(-FRAC_PI_2));
+    let target = spawn_camera(world, scene, turn, 683.0);
+    picture(app, target)
+}
+
+fn spawn_file(world: &mut World, file: &[u8]) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    // Tests run side by side.
+    let name = format!("{:?}.glb", std::thread::current().id());
+    std::fs::write(folder.join(&name), file).expect("a file is written");
+    let without_cameras = |settings: &mut GltfLoaderSettings| settings.load_cameras = false;
+    let server = world.resource::<AssetServer>();
+    let loaded = server.load_builder().with_settings(without_cameras);
+    let root = WorldAssetRoot(loaded.load(format!("{name}#Scene0")));
+    world.spawn(root);
+}
+
+fn app(has_plug_in: bool) -> App {
+    let mut app = App::new();
+    let windowless = WindowPlugin {
+        primary_window: None,
+        exit_condition: ExitCondition::DontExit,
+        ..default()
+    };
+    let files = AssetPlugin {
+        file_path: env!("CARGO_TARGET_TMPDIR").to_owned(),
+        ..default()
+    };
+    let renderer = RenderPlugin {
+        synchronous_pipeline_compilation: true,
+        ..default()
+    };
+    let plugins = DefaultPlugins
+        .set(windowless)
+        .set(renderer)
+        .set(files)
+        .disable::<WinitPlugin>()
+        .disable::<PipelinedRenderingPlugin>()
+        .disable::<bevy::log::LogPlugin>();
+    app.add_plugins(plugins)
+        .init_resource::<Seen>()
+        .insert_resource(ClearColor(Color::BLACK))
+        .insert_resource(GlobalAmbientLight {
+            brightness: 0.0,
+            ..default()
+        });
+    if has_plug_in {
+        app.add_plugins(ScratchedPlugin);
+    }
+    while app.plugins_state() == bevy::app::PluginsState::Adding {
+        bevy::tasks::tick_global_task_pools_on_main_thread();
+    }
+    app.finish();
+    app.cleanup();
+    app
+}
+
+/// The picture, when nothing changes any more.
+fn picture(mut app: App, target: Handle<Image>) -> Vec<[f32; 3]> {
+    app.world_mut().spawn(Readback::texture(target)).observe(
         |event: On<ReadbackComplete>, mut seen: ResMut<Seen>| {
             let (pixels, _) = event.data.as_chunks::<16>();
             let channel = |pixel: &[u8; 16], c: usize| {
@@ -194,7 +363,9 @@ fn draw(scene: &Scene, is_turned: bool) -> Vec<[f32; 3]> {
     );
     // The first pictures lack what is still on its way.
     let mut last = Vec::new();
-    for _ in 0..FRAMES_MAX {
+    let started = Instant::now();
+    while started.elapsed() < LONGEST {
+        std::thread::sleep(PAUSE);
         app.update();
         let seen = &app.world().resource::<Seen>().0;
         let is_lit = seen.iter().flatten().any(|channel| *channel > 0.0);
@@ -203,7 +374,7 @@ fn draw(scene: &Scene, is_turned: bool) -> Vec<[f32; 3]> {
         }
         last.clone_from(seen);
     }
-    panic!("no picture in {FRAMES_MAX} frames");
+    panic!("no picture in {LONGEST:?}");
 }
 
 fn spawn_lights(world: &mut World, scene: &Scene, turn: Transform, as_spots: bool) {
@@ -271,7 +442,7 @@ fn spawn_lights(world: &mut World, scene: &Scene, turn: Transform, as_spots: boo
 }
 
 /// A camera whose picture is linear radiance.
-fn spawn_camera(world: &mut World, scene: &Scene, turn: Transform) -> Handle<Image> {
+fn spawn_camera(world: &mut World, scene: &Scene, turn: Transform, white: f32) -> Handle<Image> {
     let [width, height] = scene.render.size_px;
     let mut picture = Image::new_target_texture(width, height, TextureFormat::Rgba32Float, None);
     picture.texture_descriptor.usage |= TextureUsages::COPY_SRC;
@@ -291,9 +462,9 @@ fn spawn_camera(world: &mut World, scene: &Scene, turn: Transform) -> Handle<Ima
         }),
         Tonemapping::None,
         Msaa::Off,
-        // Exposure by which a luminance of 1 is 1 in the picture.
+        // Exposure by which a luminance of `white` is 1 in the picture.
         Exposure {
-            ev100: -1.2_f32.log2(),
+            ev100: (white / 1.2).log2(),
         },
         turn * Transform::from_translation(eye).looking_at(middle, up),
     ));
