@@ -9,7 +9,9 @@ use hairline_optics::brushed_lobe::BrushedLobe;
 use hairline_optics::coat::CoatPart;
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
 use hairline_optics::facets::FacetAxes;
-use hairline_optics::filtered_lobe::{LobePart, PixelSlopes, filtered_lobe};
+use hairline_optics::filtered_lobe::{
+    LobePart, PixelSlopes, far_share, filtered_lobe, filtered_lobe_around,
+};
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
@@ -125,12 +127,22 @@ impl<'a> Layer<'a> {
         };
         let single = match &self.shape {
             Shape::Round(sharp) => {
-                let part = |part: &LobePart| {
-                    let even = reflected_light(light, views, part, self, &sphere);
-                    pictured(even.into(), &part.lobe)
-                };
                 let parts = self.parts(sharp, per_m);
-                parts.iter().filter(|part| part.counts()).map(part).sum()
+                let first = light_vector(light, views, &parts[0].lobe);
+                let far = far_share(first);
+                let part = |(i, part): (usize, &LobePart)| {
+                    let weight = part.weight(far);
+                    if weight == 0.0 {
+                        return DVec3::ZERO;
+                    }
+                    let vector = match i {
+                        0 => first,
+                        _ => light_vector(light, views, &part.lobe),
+                    };
+                    let even = reflected_light(light, &part.lobe, vector, self, &sphere);
+                    weight * pictured(even.into(), &part.lobe)
+                };
+                parts.iter().enumerate().map(part).sum()
             }
             Shape::Brushed(facets) => {
                 let lobe = BrushedLobe::new(self.wo, *facets, self.slopes.towards(per_m));
@@ -159,7 +171,9 @@ impl<'a> Layer<'a> {
                     0.0 => DVec3::ZERO,
                     weight => weight * reflected(environment, point, &part.lobe, &self.of),
                 };
-                self.parts(sharp, 0.0).iter().map(part).sum()
+                let spread = self.slopes.towards(0.0);
+                let filtered = filtered_lobe_around(sharp.alpha, spread, self.wo.z);
+                filtered.parts(sharp).iter().map(part).sum()
             }
             Shape::Brushed(facets) => {
                 let lobe = BrushedLobe::new(self.wo, *facets, self.slopes.towards(0.0));
@@ -399,42 +413,34 @@ pub(crate) fn transformed_sphere(
     ltc_reflected(lobe, of, sphere.vector)
 }
 
-/// Light that a part of a lobe reflects of a light, times the part's weight; single scattering, over the light's radiance.
+/// The vector irradiance of a light in the cosine space of a lobe.
+fn light_vector(light: &LightView, views: &LightViews, lobe: &LtcLobe) -> DVec3 {
+    match light {
+        LightView::Sphere { cap, .. } => ltc_sphere_vector(lobe, cap.axis, sphere_sin2(cap)),
+        LightView::Polygon { vertices, .. } => ltc_vector(lobe, &views.vertices[vertices.clone()]),
+    }
+}
+
+/// Light that a lobe reflects of a light with this [`light_vector`], single scattering, over the light's radiance.
 fn reflected_light(
     light: &LightView,
-    views: &LightViews,
-    part: &LobePart,
+    lobe: &LtcLobe,
+    vector: DVec3,
     layer: &Layer,
     sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
 ) -> [f64; 3] {
-    let (lobe, of, wo) = (&part.lobe, &layer.of, layer.wo);
-    let (vector, round) = match light {
+    match light {
         LightView::Sphere { cap, .. } => {
-            let (axis, sin2) = (cap.axis, sphere_sin2(cap));
-            (ltc_sphere_vector(lobe, axis, sin2), Some((axis, sin2)))
-        }
-        LightView::Polygon { vertices, .. } => {
-            let vertices = &views.vertices[vertices.clone()];
-            (ltc_vector(lobe, vertices), None)
-        }
-    };
-    let weight = part.weight(vector);
-    if weight == 0.0 {
-        return [0.0; 3];
-    }
-    let reflected = match round {
-        Some((axis, sin2)) => {
             let seen = SphereOnLobe {
-                axis,
-                sin2,
-                wo,
+                axis: cap.axis,
+                sin2: sphere_sin2(cap),
+                wo: layer.wo,
                 vector,
             };
-            sphere(lobe, of, &seen)
+            sphere(lobe, &layer.of, &seen)
         }
-        None => ltc_reflected(lobe, of, vector),
-    };
-    reflected.map(|channel| weight * channel)
+        LightView::Polygon { .. } => ltc_reflected(lobe, &layer.of, vector),
+    }
 }
 
 /// A cap that holds every direction stands for a sphere around the point.

@@ -37,10 +37,11 @@ fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
         let source = light_at(l);
         let radiance = published_light_radiance(source, point.position_m);
         let filtered = layer_filtered(point, layer, light_per_m(source, point.position_m));
+        var far = 0.0;
         for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
             let part = filtered_lobe_part(layer.sharp, filtered, p);
-            if !filtered_lobe_counts(part) {
-                break;
+            if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
+                continue;
             }
             var share: vec4f;
             var vector: vec3f;
@@ -56,7 +57,10 @@ fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
                 vector = seen.vector;
                 share = vec4f(ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector), seen.form_factor);
             }
-            sum.specular += filtered_lobe_weight(filtered, part, vector) * radiance * share.xyz;
+            if p == 0u {
+                far = filtered_lobe_far(vector);
+            }
+            sum.specular += filtered_lobe_weight(part, far) * radiance * share.xyz;
             sum.diffuse += select(vec3f(0.0), radiance * share.w, p == 0u);
         }
     }

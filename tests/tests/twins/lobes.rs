@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::{headless, shaders};
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
-use hairline_optics::filtered_lobe::{SlopeSpread, filtered_lobe};
+use hairline_optics::filtered_lobe::{SlopeSpread, far_share, filtered_lobe, filtered_lobe_around};
 use hairline_optics::fresnel::{FRESNEL_NODES, FresnelCurve, FresnelRgb, half_vector_cos};
 use hairline_optics::ggx::*;
 use hairline_optics::irradiance::*;
@@ -474,13 +474,14 @@ fn filtered_lobes() {
                 y[p] = ltc_sphere(part.lobe, reflecting, table_3, axis, x[7]).y / x[8];
                 y[2u + p] = part.core;
                 y[4u + p] = part.lobe.alphas[p];
-                let tap = environment_tap(environment_lobe(part.lobe, table_0), table_0, 2u);
+                let around = filtered_lobe_part(sharp, filtered_lobe_around(sharp.alpha, spread, wo.z), p);
+                let tap = environment_tap(environment_lobe(around.lobe, table_0), table_0, 2u);
                 y[6u + p] = tap.roughness;
                 y[8u + p] = tap.direction.y;
                 y[10u + p] = tap.weight;
             }
             for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
-                y[12u + p] = filtered_lobe_weight(filtered, filtered_lobe_part(sharp, filtered, p), axis);
+                y[12u + p] = filtered_lobe_weight(filtered_lobe_part(sharp, filtered, p), filtered_lobe_far(axis));
             }",
         tables: &tables,
         expected: &|row| {
@@ -490,10 +491,11 @@ fn filtered_lobes() {
             let filtered = filtered_lobe(sharp.alpha, slope_spread(axis), wo.z);
             let parts = filtered.parts(&sharp);
             let [first, second] = [0, 1].map(|p| parts[p].lobe);
-            let weights = parts.map(|part| part.weight(axis));
+            let weights = parts.map(|part| part.weight(far_share(axis)));
             let [i0, i1] =
                 [first, second].map(|lobe| ltc_sphere(&lobe, &of, axis, sin2)[1] / brightest);
-            let [t0, t1] = [first, second].map(|lobe| environment_lobe(&lobe).environment_tap(2));
+            let around = filtered_lobe_around(sharp.alpha, slope_spread(axis), wo.z).parts(&sharp);
+            let [t0, t1] = [0, 1].map(|p| environment_lobe(&around[p].lobe).environment_tap(2));
             let alphas = [first.alphas.x, second.alphas.y];
             let directions = [t0.direction.y, t1.direction.y];
             [

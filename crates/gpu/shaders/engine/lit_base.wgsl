@@ -58,13 +58,17 @@ fn lit_base_sphere(base: LitBase, curves: texture_2d<f32>, center_m: vec3f, radi
     let sin_sq = cap_sin_sq(cap);
     let filtered = lit_base_filtered(base, light_per_distance(center_m, radius_m));
     var specular = vec3f(0.0);
+    var far = 0.0;
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, filtered, p);
-        if !filtered_lobe_counts(part) {
-            break;
+        if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
+            continue;
         }
         let vector = ltc_sphere_vector(part.lobe, cap.axis, sin_sq);
-        specular += filtered_lobe_weight(filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
+        if p == 0u {
+            far = filtered_lobe_far(vector);
+        }
+        specular += filtered_lobe_weight(part, far) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
     }
     return BaseLit(specular, lambert_sphere(cap.axis, sin_sq));
 }
@@ -77,10 +81,11 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
     let filtered = lit_base_filtered(base, light_per_distance(light.center_m, light.radius_m));
     var specular = vec3f(0.0);
     var form_factor = 0.0;
+    var far = 0.0;
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, filtered, p);
-        if !filtered_lobe_counts(part) {
-            break;
+        if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
+            continue;
         }
         var reflected = ltc_begin();
         var body = lambert_begin();
@@ -95,7 +100,10 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
             corners = mat4x3f(corners[1], corners[2], corners[3], corners[0]);
         }
         let vector = irradiance_end(reflected);
-        specular += filtered_lobe_weight(filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
+        if p == 0u {
+            far = filtered_lobe_far(vector);
+        }
+        specular += filtered_lobe_weight(part, far) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
         form_factor = lambert_end(body);
     }
     return BaseLit(specular, form_factor);
@@ -108,10 +116,11 @@ fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d
     }
     let filtered = lit_base_filtered(base, per_m);
     var specular = vec3f(0.0);
+    var far = 0.0;
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, filtered, p);
-        if !filtered_lobe_counts(part) {
-            break;
+        if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
+            continue;
         }
         var reflected = ltc_begin();
         var a = outline_corner_m(vertices, view, 0u);
@@ -121,7 +130,10 @@ fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d
             a = b;
         }
         let vector = irradiance_end(reflected);
-        specular += filtered_lobe_weight(filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
+        if p == 0u {
+            far = filtered_lobe_far(vector);
+        }
+        specular += filtered_lobe_weight(part, far) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
     }
     return BaseLit(specular, lambert_outline(vertices, view));
 }
@@ -129,7 +141,7 @@ fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d
 // What the lobe reflects of an environment of prefiltered levels, single scattering; `map_from_surface` turns directions into the frame of the map. The
 // form factor of the body is a colour: environment_mean_by_cosine(levels, map_from_surface[2]).
 fn lit_base_environment(base: LitBase, shapes: texture_2d<f32>, levels: texture_2d<f32>, map_from_surface: mat3x3f) -> vec3f {
-    let filtered = lit_base_filtered(base, 0.0);
+    let filtered = filtered_lobe_around(base.sharp.alpha, pixel_slopes_towards(base.slopes, 0.0), base.slopes.cos_o);
     var specular = vec3f(0.0);
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, filtered, p);

@@ -138,7 +138,7 @@ fn filtered_facets(surface: FacetAxes, spread: vec3f, cos_o: f32) -> FilteredFac
     let turn = brushed_half_turn(half_apart, xy);
     let excess = 1.0 - (own.x + own.y) / (xx + yy);
     let turned = vec2f(turn.x * surface.along.x - turn.y * surface.along.y, turn.y * surface.along.x + turn.x * surface.along.y);
-    return FilteredFacets(FacetAxes(turned, vec2f(sqrt(long2), sqrt(product / long2))), excess * smoothstep(0.02, 0.04, excess));
+    return FilteredFacets(FacetAxes(turned, vec2f(sqrt(long2), sqrt(product / long2))), excess_set_in(excess));
 }
 
 // The unit vector at half the angle of (x, y).

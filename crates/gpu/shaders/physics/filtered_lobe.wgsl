@@ -4,6 +4,7 @@ struct FilteredLobe {
     alphas: vec2f,              // as the first's of LtcLobe
     shear: f32,                 // of both
     bent: f32,                  // of both
+    turned: f32,                // of both
     excess: f32,                // the weight of the second; the first has 1 and this
 }
 
@@ -15,32 +16,65 @@ fn spread_bounded(spread: vec3f, cos_o: f32) -> vec3f {
     return vec3f(variance, spread.z * (kept.x * kept.y));
 }
 
-// Increases of squared alphas by variances of slopes.
+// Increases of squared alphas by variances of slopes, for environments and for facets that are not round.
 fn spread_widening(variance: vec2f, alpha: vec2f) -> vec2f {
     return (2.6 + 2.5 / (1.0 + 1.5 * sqrt(variance) / alpha)) * variance;
 }
 
-// `spread`: variances of the slopes in the plane of view and normal (x) and across it (y), and their covariance.
+// For a light. `spread`: variances of the slopes in the plane of view and normal (x) and across it (y), and their covariance.
 fn filtered_lobe(alpha: f32, spread: vec3f, cos_o: f32) -> FilteredLobe {
     let bounded = spread_bounded(spread, cos_o);
+    let growth = 1.0 + 3.3 / (alpha * alpha) * spread_along(bounded);
+    let peak = inverseSqrt(growth.x * growth.y);
+    let wide2 = alpha * alpha * (growth - 0.8 * log(peak));
+    return filtered_lobe_of(alpha, bounded, cos_o, wide2, 1.57 * (1.0 - peak));
+}
+
+// For an environment, whose look-ups have no other tails than those of the two lobes.
+fn filtered_lobe_around(alpha: f32, spread: vec3f, cos_o: f32) -> FilteredLobe {
+    let bounded = spread_bounded(spread, cos_o);
+    let wide2 = alpha * alpha + spread_widening(spread_along(bounded), vec2f(alpha));
+    return filtered_lobe_of(alpha, bounded, cos_o, wide2, filtered_lobe_excess(alpha, wide2));
+}
+
+// Variances along the axes of a spread.
+fn spread_along(spread: vec3f) -> vec2f {
+    let mean = 0.5 * (spread.x + spread.y);
+    let apart = length(vec2f(0.5 * (spread.x - spread.y), spread.z));
+    return vec2f(mean + apart, max(mean - apart, 0.0));
+}
+
+// Excess at which two lobes have the tails of the sharp one.
+fn filtered_lobe_excess(alpha: f32, wide2: vec2f) -> f32 {
+    return 1.0 - 2.0 * alpha * alpha / (wide2.x + wide2.y);
+}
+
+// From the squared alphas along the axes of the spread and the excess.
+fn filtered_lobe_of(alpha: f32, bounded: vec3f, cos_o: f32, squared: vec2f, excess: f32) -> FilteredLobe {
     let variance = bounded.xy;
     let covariance = bounded.z;
-    // Variances along the axes of the spread.
-    let mean = 0.5 * (variance.x + variance.y);
     let half = 0.5 * (variance.x - variance.y);
     let apart = length(vec2f(half, covariance));
-    let sharp2 = alpha * alpha;
-    let along = vec2f(mean + apart, max(mean - apart, 0.0));
-    let wide2 = min(sharp2 + spread_widening(along, vec2f(alpha)), vec2f(1.0));
+    let wide2 = min(squared, vec2f(1.0));
     let turn = vec2f(half, covariance) * (0.5 * (wide2.x - wide2.y) / max(apart, 1e-30));
     let alpha_x = sqrt(0.5 * (wide2.x + wide2.y) + turn.x);
     let alpha_y = sqrt(wide2.x * wide2.y) / alpha_x;
-    let excess = 1.0 - 2.0 * sharp2 / (wide2.x + wide2.y);
     let cos2 = cos_o * cos_o;
     // Distance, in slopes, from the chord to the arc to which such normals reflect.
     let bend = vec2f(cos2 * variance.y, covariance);
-    let bend2 = max(1.0 - cos2, 0.0) / max(cos2 * sharp2, 1e-12) * dot(bend, bend);
-    return FilteredLobe(vec2f(alpha_x, alpha_y), turn.y / (alpha_x * alpha_y), bend2 / (bend2 + 0.25), excess * smoothstep(0.02, 0.04, excess));
+    let bend2 = max(1.0 - cos2, 0.0) / max(cos2 * (alpha * alpha), 1e-12) * dot(bend, bend);
+    return FilteredLobe(
+        vec2f(alpha_x, alpha_y),
+        turn.y / (alpha_x * alpha_y),
+        bend2 / (bend2 + 0.25),
+        excess_set_in(filtered_lobe_excess(alpha, wide2)),
+        excess_set_in(excess),
+    );
+}
+
+// An excess as it counts.
+fn excess_set_in(excess: f32) -> f32 {
+    return excess * smoothstep(0.02, 0.04, excess);
 }
 
 // Share of the sharp lobe's tails that are there at an excess.
@@ -66,23 +100,18 @@ fn filtered_lobe_part(sharp: LtcLobe, filtered: FilteredLobe, i: u32) -> Filtere
     let first = i == 0u;
     let alphas = filtered.alphas * select(1.41421356, 1.0, first);
     return FilteredLobePart(
-        ltc_widened(sharp, alphas, filtered.shear, filtered.bent, filtered.excess),
+        ltc_widened(sharp, alphas, filtered.shear, filtered.bent, filtered.turned),
         select(-filtered.excess, 1.0 + filtered.excess, first),
         select(0.0, 1.0 - tails, first),
     );
 }
 
-// Whether a part has a weight anywhere.
-fn filtered_lobe_counts(part: FilteredLobePart) -> bool {
-    return part.core != 0.0 || part.tails != 0.0;
+// Share of the tails in a light, by its vector irradiance in the cosine space of the first part.
+fn filtered_lobe_far(first: vec3f) -> f32 {
+    return smoothstep(1.3, 2.6, length(first.xy) / max(first.z, 1e-30));
 }
 
-// A part's weight for a light of this vector irradiance in the lobe's cosine space.
-fn filtered_lobe_weight(filtered: FilteredLobe, part: FilteredLobePart, vector: vec3f) -> f32 {
-    let per_first = part.lobe.alphas / filtered.alphas;
-    // In the first lobe's space.
-    let x = vector.x * per_first.x;
-    let y = (vector.y + part.lobe.shear * vector.x) * per_first.y - filtered.shear * x;
-    let widths = length(vec2f(x, y)) / max(vector.z, 1e-30);
-    return mix(part.core, part.tails, smoothstep(1.5, 3.2, widths));
+// A part's weight for a light so far from the core.
+fn filtered_lobe_weight(part: FilteredLobePart, far: f32) -> f32 {
+    return mix(part.core, part.tails, far);
 }

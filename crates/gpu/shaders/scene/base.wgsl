@@ -240,7 +240,7 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
 fn layer_surrounded(point: SurfacePoint, layer: Layer) -> BaseRadiance {
     var sum: BaseRadiance;
     if HAS_ENVIRONMENT {
-        let filtered = layer_filtered(point, layer, 0.0);
+        let filtered = filtered_lobe_around(layer.sharp.alpha, surface_slope_spread(point, 0.0), point.wo.z);
         for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
             let part = filtered_lobe_part(layer.sharp, filtered, p);
             if part.core == 0.0 {
@@ -268,10 +268,11 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
         let source = light_at(l);
         let radiance = light_radiance(source, point.position_m);
         let filtered = layer_filtered(point, layer, light_per_m(source, point.position_m));
+        var far = 0.0;
         for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
             let part = filtered_lobe_part(layer.sharp, filtered, p);
-            if !filtered_lobe_counts(part) {
-                break;
+            if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
+                continue;
             }
             var seen: LightOnBase;
             var on_lobe = radiance;
@@ -286,7 +287,10 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
             } else if BASE_HAS_POLYGONS {
                 seen = base_polygon(point, part.lobe, source);
             }
-            let weight = filtered_lobe_weight(filtered, part, seen.vector);
+            if p == 0u {
+                far = filtered_lobe_far(seen.vector);
+            }
+            let weight = filtered_lobe_weight(part, far);
             if weight != 0.0 {
                 sum.specular += weight * on_lobe * ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector);
             }

@@ -4,14 +4,27 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
-use hairline_optics::filtered_lobe::{LobePart, SlopeSpread, filtered_lobe};
+use hairline_optics::filtered_lobe::{
+    LobePart, SlopeSpread, far_share, filtered_lobe, filtered_lobe_around,
+};
+use hairline_optics::fresnel::{FresnelCurve, FresnelRgb};
 use hairline_optics::ggx::{ggx_alpha, ggx_eval};
-use hairline_optics::ltc::{LobeFresnel, ltc_lobe, ltc_reflected, ltc_sphere_vector, ltc_vector};
+use hairline_optics::ltc::{
+    LobeFresnel, LtcLobe, ltc_lobe, ltc_reflected, ltc_sphere_vector, ltc_vector,
+};
 
-/// Light that a part reflects of a sphere, times the part's weight.
-fn sphere_of_part(part: &LobePart, of: &LobeFresnel, axis: DVec3, sin2: f64) -> f64 {
-    let vector = ltc_sphere_vector(&part.lobe, axis, sin2);
-    part.weight(vector) * ltc_reflected(&part.lobe, of, vector)[0]
+/// Light that the parts reflect of a light, given its vector irradiance in the cosine space of a lobe.
+fn light_of_parts(parts: &[LobePart], of: &LobeFresnel, vector: impl Fn(&LtcLobe) -> DVec3) -> f64 {
+    let far = far_share(vector(&parts[0].lobe));
+    let reflected = parts
+        .iter()
+        .map(|part| part.weight(far) * ltc_reflected(&part.lobe, of, vector(&part.lobe))[0]);
+    reflected.sum()
+}
+
+/// Light that the parts reflect of a sphere.
+fn sphere_of_parts(parts: &[LobePart], of: &LobeFresnel, axis: DVec3, sin2: f64) -> f64 {
+    light_of_parts(parts, of, |lobe| ltc_sphere_vector(lobe, axis, sin2))
 }
 
 /// The density of slopes of GGX.
@@ -77,7 +90,7 @@ fn pixels_blur_the_core_and_not_the_tails() {
     ] {
         // Small angles, so that slopes are as if on a plane.
         let alpha = 0.002;
-        let filtered = filtered_lobe(alpha, even(DVec2::splat(t * alpha * alpha)), 1.0);
+        let filtered = filtered_lobe_around(alpha, even(DVec2::splat(t * alpha * alpha)), 1.0);
         let narrow = filtered.alphas / alpha;
         let ours = |m: f64| {
             let [first, second] =
@@ -104,13 +117,113 @@ fn pixels_blur_the_core_and_not_the_tails() {
     }
 }
 
-#[test]
-fn curved_surfaces_keep_their_energy() {
-    let white = hairline_optics::fresnel::FresnelRgb {
+fn white() -> FresnelRgb<'static> {
+    FresnelRgb {
         f0: [1.0; 3],
         f90: 1.0,
-        curve: hairline_optics::fresnel::FresnelCurve::schlick(),
-    };
+        curve: FresnelCurve::schlick(),
+    }
+}
+
+/// Light that a pixel reflects of a lamp on which a facet of slope `m` mirrors the viewer, over what it reflects from all around. The lamp has the angular
+/// radius `2 radius`.
+fn lamp_at(m: DVec2, radius: f64, wo: DVec3, parts: &[LobePart], of: &LobeFresnel) -> f64 {
+    let half = m.extend(1.0).normalize();
+    let axis = 2.0 * half.dot(wo) * half - wo;
+    let sin2 = (2.0 * radius).sin().powi(2);
+    sphere_of_parts(parts, of, axis, sin2) / of.albedo[0]
+}
+
+/// The mean over all places of what the parts reflect of a lamp, over what they reflect from all around: 1 if no light is lost. `scale` is about as wide as
+/// the lobe, in slopes.
+fn kept_light(parts: &[LobePart], of: &LobeFresnel, wo: DVec3, scale: DVec2, radius: f64) -> f64 {
+    const RINGS: i32 = 130;
+    const TURNS: u32 = 32;
+    // Each ring is further than the one before.
+    const GROWTH: f64 = 1.08;
+    let solid_angle = TAU * (1.0 - (2.0 * radius).cos());
+    let (mut sum, mut ring) = (0.0, 0.02);
+    for _ in 0..RINGS {
+        let next = ring * GROWTH;
+        let area = PI * (next * next - ring * ring) * scale.x * scale.y / f64::from(TURNS);
+        for turn in 0..TURNS {
+            let turn = TAU * (f64::from(turn) + 0.5) / f64::from(TURNS);
+            let m = (ring * next).sqrt() * DVec2::from_angle(turn) * scale;
+            let half = m.extend(1.0).normalize();
+            // Solid angle of the directions that facets of these slopes reflect to.
+            let around = 4.0 * area * half.dot(wo) * half.z.powi(3);
+            sum += lamp_at(m, radius, wo, parts, of) * around / solid_angle;
+        }
+        ring = next;
+    }
+    sum
+}
+
+#[test]
+fn lamps_of_all_sizes_keep_their_light() {
+    let alpha = 0.0021;
+    for (along, across, correlation) in [
+        (0.1, 0.1, 0.0),
+        (1.0, 1.0, 0.0),
+        (1.0, 0.1, 0.5),
+        (10.0, 10.0, 0.0),
+        (10.0, 1.0, -0.5),
+        (100.0, 100.0, 0.0),
+        (100.0, 10.0, 0.0),
+        (10.0, 100.0, 0.0),
+    ] {
+        for angle_deg in [0.0f64, 50.0] {
+            let variance = alpha * alpha * DVec2::new(along, across);
+            let spread = SlopeSpread {
+                variance,
+                covariance: correlation * (variance.x * variance.y).sqrt(),
+            };
+            let (sin, cos) = angle_deg.to_radians().sin_cos();
+            let wo = DVec3::new(sin, 0.0, cos);
+            let sharp = ltc_lobe(wo, alpha.sqrt());
+            let of = LobeFresnel::new(white(), wo, alpha.sqrt());
+            let parts = filtered_lobe(alpha, spread, cos).parts(&sharp);
+            let scale = (DVec2::splat(alpha * alpha) + variance).map(f64::sqrt);
+            for size in [1e-3, 1.0, 2.0, 4.0] {
+                let kept = kept_light(&parts, &of, wo, scale, size * scale.y);
+                println!(
+                    "variances {along} and {across} alpha^2, {angle_deg} degrees, radius {size}: {kept:.3}"
+                );
+                assert!(
+                    (kept - 1.0).abs() < 0.016,
+                    "{along} {across} {size}: {kept}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn lamps_as_wide_as_the_lobe_are_right() {
+    let alpha = 0.0021;
+    for t in [0.3f64, 1.0, 10.0, 100.0] {
+        let spread = even(DVec2::splat(t * alpha * alpha));
+        let sharp = ltc_lobe(DVec3::Z, alpha.sqrt());
+        let of = LobeFresnel::new(white(), DVec3::Z, alpha.sqrt());
+        let parts = filtered_lobe(alpha, spread, 1.0).parts(&sharp);
+        let width = (1.0 + t).sqrt();
+        let step = 0.02 * width;
+        let mut exact = 0.0;
+        for i in 0..200 {
+            let m = (f64::from(i) + 0.5) * step;
+            exact += blurred(m, t) * TAU * m * step;
+            if i % 25 == 24 {
+                let radius = f64::from(i + 1) * step;
+                let ours = lamp_at(DVec2::ZERO, radius * alpha, DVec3::Z, &parts, &of);
+                println!("variance {t} alpha^2, radius {radius:.2} alpha: {ours:.3}, {exact:.3}");
+                assert!((ours - exact).abs() < 0.05, "{t} {radius}: {ours} {exact}");
+            }
+        }
+    }
+}
+
+#[test]
+fn curved_surfaces_keep_their_energy() {
     for roughness in [0.02, 0.1, 0.3, 0.6, 1.0] {
         for angle_deg in [0.0f64, 40.0, 80.0] {
             for spread in [
@@ -122,15 +235,11 @@ fn curved_surfaces_keep_their_energy() {
                 let (sin, cos) = angle_deg.to_radians().sin_cos();
                 let wo = DVec3::new(sin, 0.0, cos);
                 let sharp = ltc_lobe(wo, roughness);
-                let of = LobeFresnel::new(white, wo, roughness);
+                let of = LobeFresnel::new(white(), wo, roughness);
                 let filtered = filtered_lobe(ggx_alpha(roughness), spread, cos);
                 // A sphere around the point, and one that leaves a hundredth of a degree at the horizon.
                 for sin2 in [1.0, 0.999_999_97] {
-                    let reflected: f64 = filtered
-                        .parts(&sharp)
-                        .iter()
-                        .map(|part| sphere_of_part(part, &of, DVec3::Z, sin2))
-                        .sum();
+                    let reflected = sphere_of_parts(&filtered.parts(&sharp), &of, DVec3::Z, sin2);
                     let error = reflected / of.albedo[0] - 1.0;
                     assert!(
                         error.abs() < 0.01,
@@ -162,7 +271,7 @@ fn pixels_blur_the_way_that_they_bend() {
     for (t, most) in [(1.0, 0.24), (10.0, 0.34), (100.0, 0.35)] {
         for angle in [0.0, 0.6, 1.2, 2.2] {
             let axis = DVec2::from_angle(angle);
-            let filtered = filtered_lobe(alpha, one_way(t * alpha * alpha, angle), 1.0);
+            let filtered = filtered_lobe_around(alpha, one_way(t * alpha * alpha, angle), 1.0);
             let narrow = filtered.alphas / alpha;
             // At m, x being the way of the spread.
             let ours = |m: DVec2| {
@@ -193,7 +302,7 @@ fn look_ups_lie_along_the_spread() {
         let (sin, cos) = angle_deg.to_radians().sin_cos();
         let sharp = ltc_lobe(DVec3::new(sin, 0.0, cos), roughness);
         for angle in [0.4, 1.5, 2.5] {
-            let filtered = filtered_lobe(sharp.alpha, one_way(0.002, angle), cos);
+            let filtered = filtered_lobe_around(sharp.alpha, one_way(0.002, angle), cos);
             let lobe = filtered.parts(&sharp)[0].lobe;
             let looked_up = environment_lobe(&lobe);
             // Slopes of half vectors over their mean: in the plane, towards the viewer, and across it.
@@ -216,17 +325,12 @@ fn look_ups_lie_along_the_spread() {
 
 #[test]
 fn tubes_keep_their_light() {
-    let white = hairline_optics::fresnel::FresnelRgb {
-        f0: [1.0; 3],
-        f90: 1.0,
-        curve: hairline_optics::fresnel::FresnelCurve::schlick(),
-    };
     for variance in [1e-4, 1e-3, 1e-2] {
         for (angle_deg, angle) in [(20.0f64, 1.57), (50.0, 1.57), (50.0, 0.8), (70.0, 0.8)] {
             let (sin, cos) = angle_deg.to_radians().sin_cos();
             let wo = DVec3::new(sin, 0.0, cos);
             let sharp = ltc_lobe(wo, 0.06);
-            let of = LobeFresnel::new(white, wo, 0.06);
+            let of = LobeFresnel::new(white(), wo, 0.06);
             let filtered = filtered_lobe(sharp.alpha, one_way(variance, angle), cos);
             // Light from a tube across the plane of view and normal, summed over its places.
             let sum = |parts: &[LobePart]| -> f64 {
@@ -237,13 +341,11 @@ fn tubes_keep_their_light() {
                     [(-0.01, -1.0), (0.01, -1.0), (0.01, 1.0), (-0.01, 1.0)]
                         .map(|(dx, y)| at(x + dx, y))
                 };
-                let reflected = |part: &LobePart, vertices: [DVec3; 4]| {
-                    let vector = ltc_vector(&part.lobe, &vertices);
-                    part.weight(vector) * ltc_reflected(&part.lobe, &of, vector)[0]
+                let reflected = |vertices: [DVec3; 4]| {
+                    light_of_parts(parts, &of, |lobe| ltc_vector(lobe, &vertices))
                 };
                 (-200..=200)
-                    .map(|i| tube(f64::from(i) * 0.01))
-                    .flat_map(|tube| parts.iter().map(move |part| reflected(part, tube)))
+                    .map(|i| reflected(tube(f64::from(i) * 0.01)))
                     .sum()
             };
             let kept = sum(&filtered.parts(&sharp))
@@ -275,11 +377,6 @@ fn mean_of_normals(wo: DVec3, alpha: f64, spread: SlopeSpread, wi: DVec3) -> f64
 
 #[test]
 fn small_lamps_have_the_tails_of_a_sharp_lobe() {
-    let white = hairline_optics::fresnel::FresnelRgb {
-        f0: [1.0; 3],
-        f90: 1.0,
-        curve: hairline_optics::fresnel::FresnelCurve::schlick(),
-    };
     let roughness = 0.055;
     let alpha = ggx_alpha(roughness);
     // Errors of the lobes in use, and of the difference of two alone.
@@ -300,7 +397,7 @@ fn small_lamps_have_the_tails_of_a_sharp_lobe() {
             let (sin, cos) = angle_deg.to_radians().sin_cos();
             let wo = DVec3::new(sin, 0.0, cos);
             let sharp = ltc_lobe(wo, roughness);
-            let of = LobeFresnel::new(white, wo, roughness);
+            let of = LobeFresnel::new(white(), wo, roughness);
             let parts = filtered_lobe(alpha, spread, cos).parts(&sharp);
             for k in [0.0, 2.0, 5.0, 10.0, 20.0] {
                 for turn in [0.0f64, 0.8, 1.57, 2.4] {
@@ -309,7 +406,7 @@ fn small_lamps_have_the_tails_of_a_sharp_lobe() {
                     let wi = half * (2.0 * half.dot(wo)) - wo;
                     let sin2 = 1e-8;
                     let exact = mean_of_normals(wo, alpha, spread, wi) * PI * sin2;
-                    let ours: f64 = parts.iter().map(|p| sphere_of_part(p, &of, wi, sin2)).sum();
+                    let ours = sphere_of_parts(&parts, &of, wi, sin2);
                     let by_two: f64 = parts[..2]
                         .iter()
                         .map(|part| {
