@@ -20,7 +20,7 @@ impl Description {
         Ok(members.collect())
     }
 
-    /// Reads what [`Description::to_json`] gave. An error names the key.
+    /// Reads the tables of a scene as files with HAIRLINE_scratches have them. An error names the key.
     ///
     /// # Errors
     /// Unknown keys and values of other types. Ranges and references are left to others.
