@@ -101,8 +101,8 @@ impl Package {
                 "environment",
                 &package.join("environment"),
             )?;
+            print_sizes(&package)?;
         }
-        print_sizes(&package)?;
 
         if self.test {
             tables::write_tree_twin(&self.output)?;
