@@ -73,7 +73,7 @@ fn on_plane(from: DVec3, along: DVec3, facing: DVec3) -> DVec3 {
 /// Irradiance at a point under a lamp: all of it, and the part that passes the edge at x = 0 of a
 /// board.
 fn irradiance(lamp: &Lamp, from: DVec3) -> [f64; 2] {
-    const STEPS: i32 = 96;
+    const STEPS: i32 = 144;
     let towards = (MIDDLE_M - from).normalize();
     // Askew, so that no line of the grid runs along an edge.
     let (x, y) = towards.any_orthonormal_pair();

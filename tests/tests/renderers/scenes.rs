@@ -70,8 +70,8 @@ macro_rules! scenes {
 }
 
 scenes! {
-    bokeh brushed built_in_scene closeup disc drawn groove lid lights mirror pan plate profiles spoon;
-    baubles bonnet caseback dvd knife knob lamps lighter movement phone record rings seal sundial sunlit
+    bokeh brushed built_in_scene closeup disc drawn dvd groove lid lights mirror pan phone plate profiles record spoon;
+    baubles bonnet caseback knife knob lamps lighter movement rings seal sundial sunlit
 }
 
 #[test]
