@@ -7,13 +7,14 @@ mod files;
 mod modules;
 mod pictures;
 mod tables;
+mod types;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use hairline_gpu::shaders::{FOR_ENGINES, MAKE_SCRATCH_TABLE, with_needs};
+use hairline_gpu::shaders::{FOR_ENGINES, with_needs};
 
 use crate::wasm;
 use files::{copy, install, node, write};
@@ -24,7 +25,7 @@ pub struct Package {
     /// The folder that the package is made in.
     #[arg(short, long, default_value = "target/package")]
     output: PathBuf,
-    /// Test it in Node: shaders by Chrome's compiler, tables and trees against their twins.
+    /// Test it in Node: shaders by Chrome's compiler, and what it computes.
     #[arg(long)]
     test: bool,
     /// Draw the test pages in Chromium and compare them with the CPU renderer.
@@ -36,9 +37,9 @@ pub struct Package {
     /// Compile it for tests: little is optimised, and warnings are errors.
     #[arg(long)]
     quick: bool,
-    /// Leave out the program that prepares environments, the one part that is compiled.
+    /// Leave out what the package computes on the processor, the one part that is compiled.
     #[arg(long, conflicts_with_all = ["pictures", "viewer", "serve"])]
-    without_environment: bool,
+    shaders_alone: bool,
     /// Serve the example for three.js on this port of this machine, until it is ended.
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8080")]
     serve: Option<u16>,
@@ -72,42 +73,28 @@ impl Package {
 
         let all = with_needs(FOR_ENGINES);
         let whole = modules::single_file(&all);
-        let pass = modules::single_file(&with_needs(&[&MAKE_SCRATCH_TABLE]));
-        for text in [&whole, &pass] {
-            modules::validate(text)?;
-        }
+        modules::validate(&whole)?;
         write(&package.join("wgsl/hairline.wgsl"), whole.as_bytes())?;
-        write(
-            &package.join("wgsl/make_scratch_table.wgsl"),
-            pass.as_bytes(),
-        )?;
         for module in &all {
             let file = format!("wesl/{}.wesl", modules::short_name(module));
             write(&package.join(file), modules::wesl(module, &all).as_bytes())?;
         }
-        let script = modules::script(&whole, &pass);
+        let script = modules::script(&whole);
         write(&package.join("src/wgsl.js"), script.as_bytes())?;
-        write(
-            &package.join("src/data.js"),
-            tables::data(&root)?.as_bytes(),
-        )?;
-        write(&package.join("tables.bin"), &tables::tables())?;
+        write(&package.join("src/data.js"), tables::data().as_bytes())?;
+        write(&package.join("src/layer.d.ts"), types::layer().as_bytes())?;
         tables::write_gratings(&package.join("gratings"))?;
-        if !self.without_environment {
-            wasm::write(
-                &root,
-                "hairline-environment",
-                self.quick,
-                "environment",
-                &package.join("environment"),
-            )?;
-            print_sizes(&package)?;
-        }
-
+        let tests = by_hand.join("test");
         if self.test {
-            tables::write_tree_twin(&self.output)?;
-            tables::write_shapes_twin(&self.output)?;
-            node(&by_hand.join("test"), &["check.mjs"], &self.output)?;
+            node(&tests, &["check_shaders.mjs"], &self.output)?;
+        }
+        if !self.shaders_alone {
+            let engine = package.join("engine");
+            wasm::write(&root, "hairline-engine-web", self.quick, "engine", &engine)?;
+            print_sizes(&package)?;
+            if self.test {
+                node(&tests, &["check.mjs"], &self.output)?;
+            }
         }
         if self.pictures {
             pictures::run(&root, &self.output)?;
@@ -121,7 +108,6 @@ impl Package {
             element::look(&root, &self.output)?;
         }
         if let Some(port) = self.serve {
-            let tests = by_hand.join("test");
             install(&tests)?;
             let folders = vec![
                 ("/package/", package),
@@ -156,14 +142,13 @@ fn print_sizes(package: &Path) -> anyhow::Result<()> {
         ("WGSL, one file", vec![package.join("wgsl/hairline.wgsl")]),
         ("JavaScript, the WGSL in it", scripts),
         ("for three.js", for_three),
-        ("tables", vec![package.join("tables.bin")]),
-        ("a grating", vec![package.join("gratings/cd.bin")]),
         (
-            "maps of environments",
-            ["environment.js", "environment_bg.wasm"]
-                .map(|file| package.join("environment").join(file))
+            "Hairline's own code",
+            ["engine.js", "engine_bg.wasm"]
+                .map(|file| package.join("engine").join(file))
                 .to_vec(),
         ),
+        ("a grating", vec![package.join("gratings/cd.bin")]),
     ];
     println!("{:<28} {:>9} {:>11}", "", "bytes", "compressed");
     for (what, files) in parts {

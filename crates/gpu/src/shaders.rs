@@ -127,8 +127,6 @@ modules! {
     GRATED_SURFACE = "engine/grated_surface" needs [GRATING, GROOVE_FIELD, SCRATCHED_SURFACE];
     /// The frame of a pixel from the inputs of a fragment shader, for other engines.
     PIXEL_FRAME = "engine/pixel_frame" needs [CAMERA, SCRATCHED_SURFACE, LIT_BASE];
-    /// A pass that makes the table of a metal, for other engines.
-    MAKE_SCRATCH_TABLE = "engine/make_scratch_table" needs [SCRATCH_TABLE];
     /// Pictures on flat lights.
     PICTURE = "physics/picture" needs [];
     /// The structs that the host fills, and no binding.

@@ -30,6 +30,7 @@ pub mod groove_index;
 mod hit;
 mod indexed_segment;
 mod layer_runs;
+pub mod packed_profile;
 pub mod scratch_index;
 pub mod segment_tree;
 mod tree;

@@ -1,22 +1,26 @@
-//! Meshes and scratches in memory, which a program has computed and no file holds.
+//! Meshes, scratches and pictures in memory, which a program has computed and no file holds.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DVec3, Vec2};
+use hairline_memory::budget_bytes;
 use hairline_model::surface::{Surface, Vertex};
 
+use crate::description::Scratches;
 use crate::error::Error;
+use crate::grey_map::GreyMap;
 use crate::scene::Profile;
 use crate::scratches::LISTED_SIZES;
 
-/// Meshes and lists of scratches by the names that a description has in the place of their files. A name must stand for the same
+/// Meshes, lists of scratches and pictures of places by the names that a description has in the place of their files. A name must stand for the same
 /// numbers always: what was built from them is known by it.
 #[derive(Clone, Debug, Default)]
 pub struct Arrays {
     meshes: HashMap<PathBuf, Arc<MeshArrays>>,
     scratches: HashMap<PathBuf, Arc<ScratchArrays>>,
+    pictures: HashMap<PathBuf, Arc<GreyMap>>,
 }
 
 impl Arrays {
@@ -36,6 +40,47 @@ impl Arrays {
         self.scratches.insert(name.into(), scratches);
     }
 
+    /// Puts a picture of a layer's places in the place of a file, for [`lay_on_mesh`](crate::lay_on_mesh): `rgba` is four bytes a texel, row by row from
+    /// the top.
+    ///
+    /// # Errors
+    /// Bytes that are no whole rows.
+    pub fn insert_picture(
+        &mut self,
+        name: impl Into<PathBuf>,
+        width_px: u32,
+        rgba: &[u8],
+    ) -> Result<(), Error> {
+        let map = GreyMap::new(width_px, rgba.as_chunks::<4>().0).ok_or_else(|| {
+            let found = format!("found {} bytes in rows of {width_px} texels", rgba.len());
+            Error::new("", found, "must be whole rows of four bytes a texel")
+        })?;
+        self.pictures.insert(name.into(), Arc::new(map));
+        Ok(())
+    }
+
+    /// Puts the pictures that layers name in the place of their files, which are looked for in `base_dir`.
+    ///
+    /// # Errors
+    /// What is no picture, by its key.
+    pub fn read_pictures(&mut self, layers: &[Scratches], base_dir: &Path) -> Result<(), Error> {
+        for (i, layer) in layers.iter().enumerate() {
+            let place = &layer.place;
+            for (name, file) in [("mask", &place.mask), ("density", &place.density)] {
+                let Some(file) = file else {
+                    continue;
+                };
+                let read = GreyMap::read(&base_dir.join(file), budget_bytes() as f64);
+                let picture = read.map_err(|found| {
+                    let right = "must be a .png, .jpg or .webp";
+                    Error::new(format!("scratches[{i}].where.{name}"), found, right)
+                })?;
+                self.pictures.insert(file.clone(), Arc::new(picture));
+            }
+        }
+        Ok(())
+    }
+
     /// Whether a name stands for something in memory.
     pub fn has(&self, name: &Path) -> bool {
         self.meshes.contains_key(name) || self.scratches.contains_key(name)
@@ -43,6 +88,10 @@ impl Arrays {
 
     pub(crate) fn mesh(&self, name: &Path) -> Option<&Arc<MeshArrays>> {
         self.meshes.get(name)
+    }
+
+    pub(crate) fn picture(&self, name: &Path) -> Option<&Arc<GreyMap>> {
+        self.pictures.get(name)
     }
 
     pub(crate) fn scratches(&self, name: &Path) -> Option<&Arc<ScratchArrays>> {

@@ -22,6 +22,16 @@ pub(crate) fn share([r, g, b, a]: &[u8; 4]) -> u8 {
 }
 
 impl GreyMap {
+    /// Makes a map of texels, row by row from the top; none where they are no whole rows.
+    pub(crate) fn new(width_px: u32, texels: &[[u8; 4]]) -> Option<Self> {
+        let height_px = texels.len() as u32 / width_px.max(1);
+        let is_whole = !texels.is_empty() && (width_px * height_px) as usize == texels.len();
+        is_whole.then(|| Self {
+            size_px: [width_px, height_px],
+            values: texels.iter().map(share).collect(),
+        })
+    }
+
     /// Reads a .png, .jpg or .webp, which may take `free_bytes`. Its values are those of its codes, 1 for the lightest.
     ///
     /// # Errors

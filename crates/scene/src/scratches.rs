@@ -35,6 +35,7 @@ use crate::section_id::SectionId;
 
 use erase::Eraser;
 pub(crate) use ground::Ground;
+pub use laying::LISTED_RANGES;
 pub(crate) use laying::LISTED_SIZES;
 use laying::{Laying, MOST_SEGMENTS};
 use listed::Listed;

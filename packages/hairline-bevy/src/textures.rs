@@ -7,13 +7,12 @@ use bevy::prelude::*;
 use bevy::render::render_resource::{
     Extent3d, TextureDimension, TextureFormat, TextureViewDescriptor, TextureViewDimension,
 };
-use hairline_gpu::engine_tables::{self, Texels};
-use hairline_gpu::scratch_tree;
+use hairline_engine::base_tables::{self, Texels};
+use hairline_engine::{GratingTexels, scratch_table, scratch_tree};
 use hairline_optics::metal::Metal;
 use hairline_optics::section::GrooveShape;
-use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_ROWS, ScratchTable};
+use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_ROWS};
 
-use crate::scratches::Grating;
 use crate::{MOST_GRATINGS, Scratched, ScratchedMaterial, Scratches, Settings};
 
 /// Makes [`ScratchedMaterial`]s: 0.35 MB of textures for all, and 2 MB for each metal, shape of grooves and grating, each once.
@@ -45,9 +44,9 @@ impl FromWorld for ScratchedTextures {
             server.add(image(table.size, bytes, TextureFormat::Rgba32Float))
         };
         Self(Arc::new(Shared {
-            shapes: add(engine_tables::shapes()),
-            albedo: add(engine_tables::albedo()),
-            curves: add(engine_tables::curves()),
+            shapes: add(base_tables::shapes()),
+            albedo: add(base_tables::albedo()),
+            curves: add(base_tables::curves()),
             spectra: Mutex::default(),
             server,
         }))
@@ -85,12 +84,12 @@ impl ScratchedTextures {
             metres_from_mesh: Mat4::IDENTITY,
             gratings: [Mat4::ZERO; MOST_GRATINGS],
             grating_count: gratings.len() as u32,
-            curve: engine_tables::curve_of(metal),
+            curve: base_tables::curve_of(metal),
             coat_curve: Metal::ALL.len() as u32 + 1,
             light_radius_m: Scratched::LIGHT_RADIUS_M,
         };
         for (i, (numbers, grating)) in settings.gratings.iter_mut().zip(gratings).enumerate() {
-            *numbers = grating.numbers;
+            *numbers = Mat4::from_cols_array(&grating.numbers);
             numbers.w_axis.z = (scratches.shapes.len() + i) as f32;
         }
         // What lies in a coat has no colour of its own.
@@ -114,7 +113,7 @@ impl ScratchedTextures {
         &self,
         metal: Option<Metal>,
         shapes: &[GrooveShape],
-        gratings: &[Grating],
+        gratings: &[GratingTexels],
     ) -> Handle<Image> {
         let spectra = self.0.spectra.lock();
         let mut spectra = spectra.unwrap_or_else(PoisonError::into_inner);
@@ -125,16 +124,11 @@ impl ScratchedTextures {
         if let Some(known) = spectra.iter().find(is_known) {
             return known.image.clone();
         }
-        let reflectance = |nm| metal.map_or(1.0, |metal: Metal| metal.reflectance(1.0, nm));
-        let of_shape = |shape| {
-            let table = ScratchTable::of_shape(shape, reflectance);
-            table.resampled(ENGINE_COLUMNS, ENGINE_ROWS)
-        };
         // Layers are as high as the highest.
-        let rows = gratings.iter().map(Grating::rows).max();
+        let rows = gratings.iter().map(GratingTexels::rows).max();
         let rows = rows.unwrap_or(0).max(ENGINE_ROWS);
         let mut texels = Vec::new();
-        let layers = shapes.iter().map(of_shape);
+        let layers = shapes.iter().map(|shape| scratch_table(metal, shape));
         for layer in layers.chain(of_gratings().map(|it| it.to_vec())) {
             texels.extend(layer);
             texels.resize(texels.len().next_multiple_of(rows * ENGINE_COLUMNS), [0; 4]);

@@ -283,11 +283,17 @@ impl GltfExtensionHandler for WornFiles {
                 continue;
             };
             let is_coated = base.clearcoat > 0.0;
-            let known = known.entry((number, is_coated)).or_insert_with(|| {
-                let scratches = object.scratches(scale);
-                self.textures.extension(object.metal, is_coated, &scratches)
-            });
-            let mut extension = known.clone();
+            let mut extension = match known.get(&(number, is_coated)) {
+                Some(known) => known.clone(),
+                None => match object.scratches(scale) {
+                    Ok(scratches) => self.textures.extension(object.metal, is_coated, &scratches),
+                    Err(why) => {
+                        self.tell(format!("not drawn: scratches on \"{of}\": {why}"));
+                        continue;
+                    }
+                },
+            };
+            known.insert((number, is_coated), extension.clone());
             let base = of_metal(object.metal, base.clone());
             let from_metres = from_object * Mat4::from_scale(Vec3::splat(1.0 / scale));
             extension.settings.metres_from_mesh = from_metres.inverse() * from_mesh;

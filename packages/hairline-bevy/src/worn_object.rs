@@ -1,47 +1,50 @@
 //! An object of a file with HAIRLINE_scratches: its scratches and gratings as they lie.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use bevy::log::warn;
 use gltf::accessor::{DataType, Dimensions, Item, Iter};
+use hairline_engine::{GratingField, GratingTexels, Pieces};
 use hairline_optics::metal::Metal;
 use hairline_optics::table::ENGINE_COLUMNS;
-use hairline_scene::{
-    Base, Description, Loader, Profile, Scene, SceneBuilder, Scratch, SectionId, Segment,
-};
-use serde_json::{Map, Value, json};
+use hairline_scene::description::{self, metal_names};
+use hairline_scene::{Error, SectionId};
+use serde_json::{Value, json};
 
 use crate::Scratches;
-use crate::scratches::{Field, Grating};
+use crate::scratches::COHERENCE_UM;
 
 pub(crate) const NAME: &str = "HAIRLINE_scratches";
 
 /// An object in its own frame and unit.
 pub(crate) struct WornObject {
     pub name: String,
-    /// With the object's scratches.
-    scene: Scene,
-    gratings: Vec<Grating>,
+    pieces: Pieces,
+    coherence_um: f64,
+    gratings: Vec<GratingTexels>,
     pub metal: Option<Metal>,
 }
 
 impl WornObject {
     /// In metres, where a unit of the object is so long.
-    pub(crate) fn scratches(&self, metres: f32) -> Scratches {
-        let mut scene = self.scene.clone();
-        for piece in Arc::make_mut(&mut scene.objects[0].segments) {
-            piece.start_m *= metres;
-            piece.end_m *= metres;
+    ///
+    /// # Errors
+    /// What is wrong with the pieces of its scratches.
+    pub(crate) fn scratches(&self, metres: f32) -> Result<Scratches, Error> {
+        let mut pieces = self.pieces.clone();
+        for rows in [&mut pieces.starts, &mut pieces.ends] {
+            for x in rows.as_flattened_mut() {
+                *x *= metres;
+            }
         }
-        let mut scratches = Scratches::of_scene(&scene, 0);
-        for grating in &self.gratings {
-            let mut grating = grating.clone();
-            let center = grating.numbers.y_axis;
-            grating.numbers.y_axis = (metres * center.truncate()).extend(center.w);
-            scratches.gratings.push(grating);
+        let mut scratches = Scratches::of_pieces(&pieces, self.coherence_um, 1.0)?;
+        scratches.gratings = self.gratings.clone();
+        for grating in &mut scratches.gratings {
+            for x in &mut grating.numbers[4..7] {
+                *x *= metres;
+            }
         }
-        scratches
+        Ok(scratches)
     }
 
     /// None of an object without scratches and gratings.
@@ -73,69 +76,41 @@ impl WornObject {
         if layers.is_empty() && gratings.is_empty() {
             return Ok(None);
         }
-        // Materials and cross sections are read as those of scene files; nothing else of this scene is used.
+        let mut pieces = Pieces::default();
+        for (i, row, laid) in layers {
+            let section = SectionId::new(&section(row)?);
+            let way = format!("scratches[{i}].laid");
+            read_layer(gltf, laid, &way, (i as u32, section), &mut pieces)?;
+        }
         let mut materials = rows(extension, "material").map(|(_, row)| row);
         let material = materials.find(|row| row["name"] == object["material"]);
-        let mut material = material.cloned().unwrap_or(json!({ "kind": "mirror" }));
-        material["name"] = json!("material");
-        let sections = layers.iter().map(|(_, row, _)| {
-            let mut layer = json!({ "object": "object", "pattern": "random", "count": 1 });
-            if let Some(profile) = row.get("profile") {
-                layer["profile"] = profile.clone();
-            }
-            layer
-        });
-        let tables = [
-            ("studio", json!({ "hidden": true })),
-            (
-                "camera",
-                json!({ "position_m": [0.0, 0.0, 1.0], "target_m": [0.0, 0.0, 0.0], "up": [0.0, 1.0, 0.0] }),
-            ),
-            ("material", json!([material])),
-            (
-                "object",
-                json!([{ "name": "object", "material": "material", "shape": { "plane": { "size_m": [1.0, 1.0] } } }]),
-            ),
-            ("scratches", sections.collect()),
-        ];
-        let tables = tables.map(|(name, it)| (name.to_owned(), it));
-        let tables = Map::from_iter(tables);
-        let mut description = Description::from_json(&tables).map_err(|error| error.to_string())?;
-        let described = std::mem::take(&mut description.scratches);
-        let scene = SceneBuilder::new().build(&Loader::default(), &description, Path::new("."));
-        let mut scene = scene.map_err(|error| error.to_string())?;
-        let (mut scratches, mut segments) = (Vec::new(), Vec::new());
-        for ((i, _, laid), described) in layers.iter().zip(&described) {
-            let section = SectionId::new(&described.profile);
-            let way = format!("scratches[{i}].laid");
-            read_layer(
-                gltf,
-                laid,
-                &way,
-                (*i as u32, section),
-                &mut scratches,
-                &mut segments,
-            )?;
-        }
-        let base = scene.materials[0].base;
-        if let Base::Covered { .. } = base {
+        let material = material.unwrap_or(&Value::Null);
+        if material.get("cover").is_some() {
             warn!(
                 "{NAME}: not drawn: the plate over the material of {}",
                 object["name"]
             );
         }
-        let own = &mut scene.objects[0];
-        (own.scratches, own.segments) = (Arc::new(scratches), Arc::new(segments));
+        let named = |(name, _): &&(&str, Metal)| material["metal"] == **name;
         Ok(Some(Self {
             name: object["name"].as_str().unwrap_or_default().to_owned(),
-            scene,
+            pieces,
+            coherence_um: number(material, "coherence_um").unwrap_or(COHERENCE_UM),
             gratings,
-            metal: match base {
-                Base::Metal(metal) => Some(metal),
-                _ => None,
-            },
+            metal: metal_names().iter().find(named).map(|(_, metal)| *metal),
         }))
     }
+}
+
+/// The cross section of a layer, which is read as that of a scene file.
+fn section(row: &Value) -> Result<hairline_optics::section::Section, String> {
+    let mut layer = json!({ "object": "object", "pattern": "random", "count": 1 });
+    if let Some(profile) = row.get("profile") {
+        layer["profile"] = profile.clone();
+    }
+    let read = description::Scratches::from_json(json!([layer]));
+    let mut layers = read.map_err(|error| error.to_string())?;
+    Ok(layers.remove(0).profile)
 }
 
 /// Rows of a table that are not hidden, with their numbers.
@@ -148,19 +123,21 @@ pub(crate) fn rows<'a>(
     all.filter(|(_, row)| row.get("hidden") != Some(&Value::Bool(true)))
 }
 
-/// The straight pieces of a layer, those of a scratch one after the other.
+/// Adds the straight pieces of a layer.
 fn read_layer(
     gltf: &gltf::Gltf,
     laid: &Value,
     way: &str,
     (layer, section): (u32, SectionId),
-    scratches: &mut Vec<Scratch>,
-    segments: &mut Vec<Segment>,
+    pieces: &mut Pieces,
 ) -> Result<(), String> {
     let three = |key| accessor::<[f32; 3]>(gltf, laid, way, key, Dimensions::Vec3, DataType::F32);
     let one = |key| accessor::<f32>(gltf, laid, way, key, Dimensions::Scalar, DataType::F32);
-    let (starts, ends, normals) = (three("start_m")?, three("end_m")?, three("normal")?);
-    let (widths, depths) = (one("width_um")?, one("depth_nm")?);
+    pieces.starts.extend(three("start_m")?);
+    pieces.ends.extend(three("end_m")?);
+    pieces.normals.extend(three("normal")?);
+    pieces.widths_um.extend(one("width_um")?);
+    pieces.depths_nm.extend(one("depth_nm")?);
     let numbers: Vec<u32> = accessor(
         gltf,
         laid,
@@ -169,52 +146,16 @@ fn read_layer(
         Dimensions::Scalar,
         DataType::U32,
     )?;
-    let counts = [
-        starts.len(),
-        ends.len(),
-        normals.len(),
-        widths.len(),
-        depths.len(),
-    ];
-    if counts.iter().any(|count| *count != numbers.len()) {
-        let right = "must be as many of each";
-        return Err(format!(
-            "{way}: found accessors of {counts:?} and {} elements; {right}",
-            numbers.len()
-        ));
-    }
-    let all = [&starts, &ends, &normals].into_iter().flatten().flatten();
-    if !all.chain(&widths).chain(&depths).all(|x| x.is_finite()) {
-        return Err(format!(
-            "{way}: found a number that is infinite or none; must be finite"
-        ));
-    }
-    let mut first = 0;
-    for piece in numbers.chunk_by(|a, b| a == b) {
-        let own = first..first + piece.len();
-        first = own.end;
-        let from = segments.len() as u32;
-        segments.extend(own.clone().map(|i| Segment {
-            start_m: starts[i].into(),
-            end_m: ends[i].into(),
-            normal: normals[i].into(),
-            triangle: 0,
-        }));
-        scratches.push(Scratch {
-            profile: Profile {
-                width_um: widths[own.start],
-                depth_nm: depths[own.start],
-                section,
-            },
-            layer,
-            closed: own.len() > 2 && starts[own.start] == ends[own.end - 1],
-            segments: from..segments.len() as u32,
-        });
-    }
-    Ok(())
+    let count = numbers.len();
+    let first = pieces.scratch.iter().max().map_or(0, |number| number + 1);
+    let numbers = numbers.iter().map(|number| number.saturating_add(first));
+    pieces.scratch.extend(numbers);
+    pieces.sections.extend(vec![section; count]);
+    pieces.layers.extend(vec![layer; count]);
+    pieces.check().map_err(|error| format!("{way}: {error}"))
 }
 
-fn read_grating(gltf: &gltf::Gltf, laid: &Value, way: &str) -> Result<Grating, String> {
+fn read_grating(gltf: &gltf::Gltf, laid: &Value, way: &str) -> Result<GratingTexels, String> {
     let one = |key: &str| {
         let found = number(laid, key);
         found.ok_or_else(|| format!("{way}.{key}: found no number; must be one"))
@@ -225,10 +166,10 @@ fn read_grating(gltf: &gltf::Gltf, laid: &Value, way: &str) -> Result<Grating, S
     };
     let radii_m = numbers(laid, "radii_m");
     let words: Vec<u32> = accessor(gltf, laid, way, "texels", Dimensions::Scalar, DataType::U32)?;
-    let field = Field {
+    let field = GratingField {
         kind: laid["kind"].as_str().unwrap_or_default(),
         axis: many("axis")?,
-        center: many("center")?,
+        center_m: many("center")?,
         radii_m: radii_m
             .ok_or_else(|| format!("{way}.radii_m: found something else; must be two numbers"))?,
         curvature_per_m: one("curvature_per_m")?,
@@ -238,7 +179,7 @@ fn read_grating(gltf: &gltf::Gltf, laid: &Value, way: &str) -> Result<Grating, S
     };
     let count = words.len();
     let texels = words.as_chunks::<4>().0.to_vec();
-    Grating::new(&field, Arc::new(texels)).ok_or_else(|| {
+    GratingTexels::new(&field, Arc::new(texels)).ok_or_else(|| {
         let found = format!("found the kind {} and {count} words of `texels`", laid["kind"]);
         format!("{way}: {found}; must be along, circular, radial or spun, and {ENGINE_COLUMNS} columns of 256 or 512 rows")
     })

@@ -52,12 +52,12 @@ const profile = [
 const cookware = new THREE.LatheGeometry(profile.map(([r, y]) => new THREE.Vector2(r, y)), 128);
 // The lathe's marks; and wear, in every direction. Widths that hardly differ keep the orders of the rainbow apart.
 const turned = scratchesOn(cookware, {
-  pattern: 'circular', count: 3400, seed: 1, axis: [0, 1, 0], jitterDeg: 3, lengthM: { mean: 0.12, spread: 0.6 },
-  widthUm: { mean: 5, spread: 0.1 }, depthNm: { mean: 180, spread: 0.12 },
+  pattern: 'circular', count: 3400, seed: 1, axis: [0, 1, 0], jitter_deg: 3, length_m: { mean: 0.12, spread: 0.6 },
+  width_um: { mean: 5, spread: 0.1 }, depth_nm: { mean: 180, spread: 0.12 },
 });
 const worn = scratchesOn(cookware, {
-  pattern: 'random', count: 3400, seed: 2, lengthM: { mean: 0.04, spread: 0.6 }, curvaturePerM: { mean: 0, spread: 6 },
-  widthUm: { mean: 4, spread: 0.12 }, depthNm: { mean: 195, spread: 0.12 },
+  pattern: 'random', count: 3400, seed: 2, length_m: { mean: 0.04, spread: 0.6 }, curvature_per_m: { mean: 0, spread: 6 },
+  width_um: { mean: 4, spread: 0.12 }, depth_nm: { mean: 195, spread: 0.12 },
 });
 const pan = new THREE.Mesh(cookware, new ScratchedNodeMaterial({ tables, metal: 'steel', roughness: 0.055, scratches: turned.joined(worn) }));
 pan.material.side = THREE.DoubleSide;
@@ -68,8 +68,8 @@ const brass = new ScratchedNodeMaterial({
   metal: 'brass',
   roughness: 0.12,
   scratches: scratchesOn(coin, {
-    pattern: 'random', count: 400, seed: 7, lengthM: { mean: 0.01, spread: 0.4 }, curvaturePerM: { mean: 0, spread: 20 },
-    widthUm: { mean: 4, spread: 0.2 }, depthNm: { mean: 170, spread: 0.1 },
+    pattern: 'random', count: 400, seed: 7, length_m: { mean: 0.01, spread: 0.4 }, curvature_per_m: { mean: 0, spread: 20 },
+    width_um: { mean: 4, spread: 0.2 }, depth_nm: { mean: 170, spread: 0.1 },
   }),
 });
 const places = [[-0.118, 0.062, 0.3], [-0.097, 0.083, 1.4], [0.126, 0.05, 2.2]];

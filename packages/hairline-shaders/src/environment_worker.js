@@ -1,5 +1,5 @@
 // Makes the maps of an environment, some seconds of work, beside the page: for environment.js.
-import init, { Maps } from '../environment/environment.js';
+import init, { Maps } from '../engine/engine.js';
 
 /** A lamp of three numbers of its radiance, then a sphere's middle and radius, or the corners of a polygon. */
 function lamp(numbers) {
@@ -11,7 +11,7 @@ function lamp(numbers) {
 
 onmessage = async ({ data: { rgb, width } }) => {
   try {
-    await init({ module_or_path: new URL('../environment/environment_bg.wasm', import.meta.url) });
+    await init({ module_or_path: new URL('../engine/engine_bg.wasm', import.meta.url) });
     const maps = new Maps(rgb, width);
     const lamps = (count, get) => Array.from({ length: count }, (_, i) => lamp(get(i)));
     const windows = lamps(maps.windowCount(), (i) => maps.window(i));

@@ -1,15 +1,14 @@
 // A plug-in for GLTFLoader of three.js: files with HAIRLINE_scratches (docs/HAIRLINE_scratches.md of the project Hairline) get scratched
 // materials and lights with a surface. Without it such files load as ever, without scratches.
-import { Box3, Matrix4, Mesh, RectAreaLight, Vector3 } from 'three/webgpu';
+import { Box3, Matrix3, Matrix4, Mesh, RectAreaLight, Vector3 } from 'three/webgpu';
 import { Grating } from './gratings.js';
-import { ScratchedNodeMaterial, scratchesOn } from './three.js';
-import { Scratches, profilesOf } from './scratches.js';
-import { metals } from './spectrum.js';
+import { ScratchedNodeMaterial, numbersOf } from './three.js';
+import { Scratches, layScratches, profilesOf } from './scratches.js';
+import { metals } from './metals.js';
 
 const NAME = 'HAIRLINE_scratches';
 const AREA = 'EXT_lights_area';
 const VERSION = 1;
-const PATTERNS = ['random', 'parallel', 'circular', 'radial'];
 /** Scratches of a part lie at most so far out of its box, over the box's size: they were rounded. */
 const MARGIN = 1e-4;
 
@@ -111,17 +110,12 @@ class HairlineScratches {
   /** Gives the meshes of an object materials with its scratches. */
   async dress(node, number, extension) {
     const object = extension.object[number];
-    const layers = (extension.scratches ?? []).filter((layer) => layer.object === object.name && !layer.hidden);
-    const meshes = [];
+    const found = [];
     node.traverse((mesh) => {
-      if (mesh.isMesh) meshes.push(mesh);
+      if (mesh.isMesh) found.push(mesh);
     });
-    const lists = [];
-    for (const layer of layers) {
-      if (layer.laid) lists.push(await this.laid(layer.laid, layer.profile));
-      else this.lay(layer, node, meshes, extension, lists);
-    }
-    const all = lists.length > 0 ? lists.reduce((a, b) => a.joined(b)) : null;
+    const meshes = found.flatMap((mesh) => (mesh.isInstancedMesh ? apart(mesh) : mesh));
+    const all = await this.scratches(node, object, meshes, extension);
     const gratings = [];
     for (const grating of (extension.grating ?? []).filter((it) => it.object === object.name && !it.hidden)) {
       if (grating.laid) gratings.push(await this.grating(grating.laid));
@@ -130,13 +124,13 @@ class HairlineScratches {
     if (all === null && gratings.length === 0) return;
     const fromObject = node.matrixWorld;
     const described = (extension.material ?? []).find(({ name }) => name === object.material);
-    for (const mesh of meshes.flatMap((each) => (each.isInstancedMesh ? apart(each) : each))) {
+    for (const mesh of meshes) {
       if (!isAtRest(mesh)) {
         this.warn(`scratches on skins and morphs that are not in their pose of rest are not drawn: those on "${object.name}"`);
         continue;
       }
-      const scale = new Vector3().setFromMatrixScale(mesh.matrixWorld);
-      if (Math.max(Math.abs(scale.x / scale.y - 1), Math.abs(scale.x / scale.z - 1)) > 0.01) {
+      const scale = scaleOf(mesh);
+      if (scale === null) {
         this.warn(`scratches on parts that are scaled unevenly are not drawn: those on "${object.name}"`);
         continue;
       }
@@ -146,45 +140,89 @@ class HairlineScratches {
         ...grating, axis: new Vector3(...grating.axis).transformDirection(toMesh).toArray(),
         center: new Vector3(...grating.center).applyMatrix4(toMesh).toArray(),
       }));
-      if (own !== null || rows.length > 0) mesh.material = this.material(mesh, described, own, rows, scale.x);
+      if (own !== null || rows.length > 0) mesh.material = this.material(mesh, described, own, rows, scale);
     }
+  }
+
+  /** The scratches of an object in its frame, as they lie in the file, or laid by what the file says; null where there are none. */
+  async scratches(node, object, meshes, extension) {
+    const layers = (extension.scratches ?? []).filter((layer) => layer.object === object.name);
+    const isSolo = layers.some(({ solo }) => solo);
+    const shown = layers.filter((layer) => !layer.hidden && (layer.solo || !isSolo));
+    if (shown.length === 0) return null;
+    const lists = shown.every(({ laid }) => laid)
+      ? await Promise.all(shown.map(({ laid, profile }) => this.laid(laid, profile)))
+      : await this.lay(layers, shown, node, meshes, extension);
+    return lists.length > 0 ? lists.reduce((a, b) => a.joined(b)) : null;
   }
 
   /** The scratches of a layer as Hairline laid them. */
   async laid({ start_m, end_m, normal, width_um, depth_nm, scratch }, profile = 'rectangle') {
-    const read = async (accessor) => (await this.parser.getDependency('accessor', accessor)).array;
-    const [starts, ends, normals, widths, depths, numbers] = await Promise.all([start_m, end_m, normal, width_um, depth_nm, scratch].map(read));
-    const floats = (array) => Float64Array.from(array);
-    return new Scratches({
-      starts: floats(starts), ends: floats(ends), normals: floats(normals), widthsUm: floats(widths), depthsNm: floats(depths),
-      scratch: Uint32Array.from(numbers), profiles: profilesOf(profile, numbers.length),
-    });
+    const read = [start_m, end_m, normal, width_um, depth_nm, scratch].map((accessor) => this.numbers(accessor));
+    const [starts, ends, normals, widthsUm, depthsNm, numbers] = await Promise.all(read);
+    return new Scratches({ starts, ends, normals, widthsUm, depthsNm, scratch: numbers, profiles: profilesOf(profile, numbers.length) });
   }
 
   /** A grating with its table, in the frame of its object. */
   async grating(laid) {
-    const { array } = await this.parser.getDependency('accessor', laid.texels);
     return {
       kind: laid.kind, axis: laid.axis, center: laid.center, radiiM: laid.radii_m, curvaturePerM: laid.curvature_per_m, coverage: laid.coverage,
-      angleStdRad: laid.angle_std_rad, coherenceUm: laid.coherence_um, texels: array,
+      angleStdRad: laid.angle_std_rad, coherenceUm: laid.coherence_um, texels: await this.numbers(laid.texels),
     };
   }
 
-  /** Lays a layer that the file only describes: other scratches of the same kind. */
-  lay(layer, node, meshes, extension, lists) {
-    const name = nameOf(layer, extension);
-    const beyond = ['where', 'strokes', 'material', 'node', 'density_per_m2'].filter((key) => layer[key] !== undefined);
-    if (!PATTERNS.includes(layer.pattern)) beyond.unshift(`pattern ${layer.pattern}`);
-    if (meshes.length !== 1 || meshes[0] !== node) beyond.push('a model of several parts');
-    if (beyond.length > 0) {
-      this.warn(`not drawn: ${name} (${beyond.join(', ')}); a file written with --laid on has it`);
-      return;
+  /** Lays layers by Hairline's own code, those on each part of the object by themselves. */
+  async lay(layers, shown, node, meshes, extension) {
+    const metresPerUnit = scaleOf(node);
+    if (metresPerUnit === null) {
+      this.warn(`scratches on parts that are scaled unevenly are not drawn: those on "${node.name}"`);
+      return [];
     }
-    lists.push(scratchesOn(meshes[0].geometry, {
-      pattern: layer.pattern, count: layer.count, seed: Number(layer.seed ?? 1) % 2 ** 32, lengthM: layer.length_m, widthUm: layer.width_um,
-      depthNm: layer.depth_nm, curvaturePerM: layer.curvature_per_m, jitterDeg: layer.jitter_deg, axis: layer.axis, centerM: layer.center_m,
-      direction: layer.direction, profile: layer.profile, metresPerUnit: new Vector3().setFromMatrixScale(node.matrixWorld).x,
-    }));
+    const files = {};
+    const described = await Promise.all(layers.map((layer, i) => this.described(layer, i, extension, files)));
+    const partOf = ({ material, node: below }) => JSON.stringify([material, below]);
+    return [...new Set(shown.map(partOf))].map((part) => {
+      const [material, below] = JSON.parse(part);
+      const own = meshes.filter((mesh) => (material === null || mesh.material.name === material) && (below === null || isBelow(mesh, node, below)));
+      // All of them, as a layer's seed counts with those before it.
+      const rows = described.map((row, i) => ({ ...row, solo: false, hidden: !shown.includes(layers[i]) || partOf(layers[i]) !== part }));
+      return layScratches(together(own, node), rows, { metresPerUnit, files });
+    });
+  }
+
+  /** A layer without the part that it lies on; what it names is added to `files`. */
+  async described({ laid, material, node, ...layer }, number, extension, files) {
+    if (layer.pattern === 'file') {
+      const list = layer.file;
+      layer.file = `list ${number}`;
+      const [starts, ends, widthsUm, depthsNm] = await Promise.all(['start_m', 'end_m', 'width_um', 'depth_nm'].map((key) => this.numbers(list[key])));
+      const exact = list.ends_f64 === undefined ? null : new Float64Array(await this.parser.getDependency('bufferView', list.ends_f64));
+      const endsM = exact ?? Float64Array.from({ length: 2 * starts.length }, (_, i) => {
+        const [scratch, k] = [Math.floor(i / 6), i % 6];
+        return k < 3 ? starts[3 * scratch + k] : ends[3 * scratch + k - 3];
+      });
+      files[layer.file] = { endsM, widthsUm, depthsNm };
+    }
+    for (const key of ['mask', 'density'].filter((it) => layer.where?.[it] !== undefined)) {
+      const name = `picture ${layer.where[key]}`;
+      files[name] = await this.picture(extension.files[layer.where[key]].bufferView);
+      layer.where = { ...layer.where, [key]: name };
+    }
+    return layer;
+  }
+
+  async numbers(accessor) {
+    return (await this.parser.getDependency('accessor', accessor)).array;
+  }
+
+  /** Texels of a picture in the file, as they are coded. */
+  async picture(view) {
+    const bytes = await this.parser.getDependency('bufferView', view);
+    const bitmap = await createImageBitmap(new Blob([bytes]), { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
+    const { width, height } = bitmap;
+    const context = new OffscreenCanvas(width, height).getContext('2d');
+    context.drawImage(bitmap, 0, 0);
+    return { width, rgba: context.getImageData(0, 0, width, height).data };
   }
 
   /** The scratched twin of a mesh's material. `described` is the scene's own, where the object has one. */
@@ -252,8 +290,40 @@ function areaLight(color = [1, 1, 1], intensity = 1000, width, height) {
   return light;
 }
 
-function nameOf(layer, extension) {
-  return layer.name ? `layer "${layer.name}"` : `layer ${extension.scratches.indexOf(layer)}`;
+/** The scale of a node in the world; null where it is not one number. */
+function scaleOf({ matrixWorld }) {
+  const { x, y, z } = new Vector3().setFromMatrixScale(matrixWorld);
+  return Math.max(Math.abs(x / y - 1), Math.abs(x / z - 1)) > 0.01 ? null : x;
+}
+
+/** Whether a node of that name lies on the way from a mesh up to the object's node. */
+function isBelow(mesh, node, name) {
+  for (let at = mesh; at; at = at === node ? null : at.parent) {
+    if ((at.userData.name ?? at.name) === name) return true;
+  }
+  return false;
+}
+
+/** The triangles of meshes in the frame of their object, in the order of the file. */
+function together(meshes, node) {
+  const toObject = new Matrix4().copy(node.matrixWorld).invert();
+  const lists = { positions: [], normals: [], uvs: [], index: [] };
+  for (const mesh of meshes) {
+    const first = lists.positions.length / 3;
+    const { attributes, index } = mesh.geometry;
+    const matrix = toObject.clone().multiply(mesh.matrixWorld);
+    const normalMatrix = new Matrix3().getNormalMatrix(matrix);
+    const at = new Vector3();
+    for (let i = 0; i < attributes.position.count; i += 1) {
+      lists.positions.push(...mesh.getVertexPosition(i, at).applyMatrix4(matrix).toArray());
+      if (attributes.normal) lists.normals.push(...at.fromBufferAttribute(attributes.normal, i).applyMatrix3(normalMatrix).normalize().toArray());
+    }
+    lists.uvs.push(...(numbersOf(attributes.uv) ?? new Array(2 * attributes.position.count).fill(0)));
+    const corners = index?.array ?? Uint32Array.from({ length: attributes.position.count }, (_, i) => i);
+    for (const corner of corners) lists.index.push(first + corner);
+  }
+  // A part without normals is flat; so are all then.
+  return { ...lists, normals: lists.normals.length === lists.positions.length ? lists.normals : null };
 }
 
 /** The pieces that come near to a geometry; null where there are none. */
@@ -269,7 +339,7 @@ function within(scratches, geometry) {
     if (box.containsPoint(a.add(b).multiplyScalar(0.5))) kept.push(i);
   }
   if (kept.length === 0) return null;
-  const pick = (array, width) => Float64Array.from(kept.flatMap((i) => Array.from(array.subarray(width * i, width * (i + 1)))));
+  const pick = (array, width) => Float32Array.from(kept.flatMap((i) => Array.from(array.subarray(width * i, width * (i + 1)))));
   const { starts, ends, normals, widthsUm, depthsNm, scratch, profiles } = scratches;
   return new Scratches({
     starts: pick(starts, 3), ends: pick(ends, 3), normals: normals && pick(normals, 3), widthsUm: pick(widthsUm, 1), depthsNm: pick(depthsNm, 1),

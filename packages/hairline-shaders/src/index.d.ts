@@ -1,24 +1,29 @@
+import type { Layer } from './layer.js';
+
+export type { Layer } from './layer.js';
+
 /** All shader modules in one file. */
 export const hairlineWgsl: string;
-/** The pass that makes tables. */
-export const makeScratchTableWgsl: string;
 
 /** A metal whose refractive index was measured. */
 export type Metal = 'iron' | 'steel' | 'aluminium' | 'copper' | 'gold' | 'silver' | 'brass' | 'chromium' | 'titanium' | 'nickel';
 export const metals: Metal[];
-/** Reflectance at normal incidence, linear Rec.709. */
+/** Reflectance at normal incidence, linear Rec.709; after loadTables(). */
 export function metalColor(metal: Metal): [number, number, number];
 
 /** Texels of an rgba32float texture. */
 export interface TableTexels { data: Float32Array; width: number; height: number }
 /** The tables of the base. */
 export class Tables {
-  constructor(bytes: ArrayBuffer);
+  constructor();
   readonly shapes: TableTexels;
   readonly albedo: TableTexels;
   readonly curves: TableTexels;
 }
-/** Fetches tables.bin, from beside the scripts unless an address is given. */
+/**
+ * Loads Hairline's own code, engine_bg.wasm, from beside the scripts unless an address is given, and makes the tables. Laying scratches, their trees, spectra
+ * and colours of metals need it first.
+ */
 export function loadTables(url?: string | URL): Promise<Tables>;
 /** `curve` of FresnelRgb; null: Schlick's. */
 export function curveOf(metal: Metal | null): number;
@@ -31,31 +36,31 @@ export interface GrooveShape { profile: GrooveProfile; widthClass: number }
 export const tableSize: { columns: number; rows: number };
 /** Texels of T(u, d), four numbers each, rgba32uint; null: a metal given by its colour. Without a shape: narrow rectangles. */
 export function scratchTable(metal: Metal | null, shape?: GrooveShape): Uint32Array;
-/** The same by a pass: a texture of a layer for each shape of each metal. */
+/** The same as a texture of a layer for each shape of each metal. */
 export function makeScratchTable(device: GPUDevice, metal: Metal | null | (Metal | null)[], shapes?: GrooveShape[]): GPUTexture;
 
 /** Straight pieces of scratches, in an object's own frame. */
 export interface ScratchArrays {
   /** Three numbers for each piece. */
-  starts: Float64Array;
-  ends: Float64Array;
-  widthsUm: Float64Array;
-  depthsNm: Float64Array;
+  starts: ArrayLike<number>;
+  ends: ArrayLike<number>;
+  widthsUm: ArrayLike<number>;
+  depthsNm: ArrayLike<number>;
   /** The number of the scratch; its pieces follow one another. */
-  scratch: Uint32Array;
+  scratch: ArrayLike<number>;
   /** The surface's, three numbers for each piece; null: not known, so that scratches show on both sides of a sheet. */
-  normals?: Float64Array | null;
+  normals?: ArrayLike<number> | null;
   /** The cross section of each piece; null: rectangles. */
   profiles?: GrooveProfile[] | null;
 }
 export class Scratches implements ScratchArrays {
   constructor(arrays: ScratchArrays);
-  readonly starts: Float64Array;
-  readonly ends: Float64Array;
-  readonly widthsUm: Float64Array;
-  readonly depthsNm: Float64Array;
-  readonly scratch: Uint32Array;
-  readonly normals: Float64Array | null;
+  readonly starts: ArrayLike<number>;
+  readonly ends: ArrayLike<number>;
+  readonly widthsUm: ArrayLike<number>;
+  readonly depthsNm: ArrayLike<number>;
+  readonly scratch: ArrayLike<number>;
+  readonly normals: ArrayLike<number> | null;
   readonly profiles: GrooveProfile[] | null;
   readonly count: number;
   /** By a matrix of 16 numbers, column by column. */
@@ -65,56 +70,32 @@ export class Scratches implements ScratchArrays {
 }
 /** Reads a list (CSV). `name` is what errors call it; `profile` the cross section of all of them. */
 export function readScratches(text: string, name?: string, options?: { profile?: GrooveProfile }): Scratches;
-/** By how much free ends move inwards, and what smooths them. */
-export function scratchEnds(lengthUm: number, coherenceUm: number): { shrinkUm: number; blurUm: number };
-/** How alike depths are: pairs of a depth in nm and a weight. */
-export function depthCoherence(depths: [number, number][]): number;
+/** The texture that shaders find scratches by, rgba32uint, and the shapes of their grooves, of which the first is that of narrow rectangles. */
+export function scratchTree(scratches: Scratches, options?: { coherenceUm?: number; metresPerUnit?: number }): {
+  texels: Uint32Array; width: number; height: number; shapes: GrooveShape[];
+};
 
-/** A piece with its free ends moved inwards. */
-export interface PreparedPiece {
-  start: number[];
-  end: number[];
-  normal: number[] | null;
-  widthUm: number;
-  depthNm: number;
-  blurUm: number;
-  /** Index in the shapes. */
-  shape?: number;
-  /** Class of the width of the groove that it is a part of; 0 for a narrow one. */
-  widthClass?: number;
+/** Triangles in the object's own frame. */
+export interface MeshArrays {
+  /** Three numbers a vertex. */
+  positions: ArrayLike<number>;
+  /** Three numbers a triangle; without it three vertices are one. */
+  index?: ArrayLike<number> | null;
+  /** Three numbers a vertex; without them triangles are flat. */
+  normals?: ArrayLike<number> | null;
+  /** Two numbers a vertex, for pictures. */
+  uvs?: ArrayLike<number> | null;
 }
-export interface Prepared {
-  pieces: PreparedPiece[];
-  /** Shapes of the grooves; the first one is of narrow rectangles. */
-  shapes: GrooveShape[];
-  coherenceUm: number;
-  depthCoherence: number;
-}
-export function preparedPieces(scratches: Scratches, options?: { coherenceUm?: number; metresPerUnit?: number }): Prepared;
-/** Texels of an rgba32uint texture. */
-export function scratchTree(prepared: Omit<Prepared, 'shapes'>, options?: { metresPerUnit?: number }): { texels: Uint32Array; width: number; height: number };
-
-/** Alike for all, or drawn: log-normal, of curvatures normal. */
-export type Size = number | { mean: number; spread?: number };
-export interface PatternOptions {
-  pattern?: 'random' | 'parallel' | 'circular' | 'radial';
-  count: number;
-  seed?: number;
-  lengthM?: Size;
-  widthUm?: Size;
-  depthNm?: Size;
-  profile?: GrooveProfile;
-  /** Of 'random'. */
-  curvaturePerM?: Size;
-  jitterDeg?: number;
-  axis?: number[];
-  centerM?: number[];
-  /** Of 'parallel'. */
-  direction?: number[];
+/** What layers name: pictures, and lists of straight scratches with six numbers for the two ends of each, in metres. */
+export type LayerFile = { width: number; rgba: Uint8Array | Uint8ClampedArray } | { endsM: ArrayLike<number>; widthsUm: ArrayLike<number>; depthsNm: ArrayLike<number> };
+export interface LayingOptions {
+  /** How long a unit of the mesh's own frame is in the world. */
   metresPerUnit?: number;
+  /** By the names that the layers have. */
+  files?: Record<string, LayerFile>;
 }
-/** Lays scratches on triangles. */
-export function layScratches(mesh: { positions: ArrayLike<number>; index: ArrayLike<number> | null }, options: PatternOptions): Scratches;
+/** Lays scratches on triangles, as Hairline does: a seed means the same scratches. */
+export function layScratches(mesh: MeshArrays, layers: Layer | Layer[], options?: LayingOptions): Scratches;
 
 export interface GratingOptions {
   /** Texels of the table, rgba32uint, 512 wide; 256 high, or 512 of a fine grating. */

@@ -1,27 +1,16 @@
-// The tables of the base: shapes and albedo of rough lobes, and how reflectance goes with the angle.
-import { checkMetal, metals } from './spectrum.js';
-
-const SIZE = 32;
-const SHAPE_ROWS = 224;
-const CURVE_WIDTH = 128;
-const CURVE_ROWS = 9;
+// What all materials share: Hairline's own code, and the tables of the base: shapes and albedo of rough lobes, and how reflectance goes with the angle.
+import init, { BaseTable } from '../engine/engine.js';
+import { checkMetal, metals } from './metals.js';
 
 /** Three textures, rgba32float: `{ data, width, height }` each. */
 export class Tables {
-  /** Of the bytes of tables.bin. */
-  constructor(bytes) {
-    const texels = [SIZE * SHAPE_ROWS, SIZE * SIZE, CURVE_WIDTH * CURVE_ROWS * (metals.length + 2)];
-    const wanted = 16 * texels.reduce((a, b) => a + b);
-    if (bytes.byteLength !== wanted) throw new Error(`tables.bin: found ${bytes.byteLength} bytes; must be ${wanted}, of the same version as the scripts`);
-    let at = 0;
-    const [shapes, albedo, curves] = texels.map((count) => {
-      const data = new Float32Array(bytes, at, 4 * count);
-      at += 16 * count;
-      return data;
-    });
-    this.shapes = { data: shapes, width: SIZE, height: SHAPE_ROWS };
-    this.albedo = { data: albedo, width: SIZE, height: SIZE };
-    this.curves = { data: curves, width: CURVE_WIDTH, height: curves.length / 4 / CURVE_WIDTH };
+  constructor() {
+    for (const name of ['shapes', 'albedo', 'curves']) {
+      const table = BaseTable[name]();
+      const [data, width] = [table.data(), table.width()];
+      this[name] = { data, width, height: data.length / (4 * width) };
+      table.free();
+    }
   }
 }
 
@@ -34,9 +23,10 @@ export function curveOf(metal) {
 /** The curve of a dielectric of refractive index 1.5, of which clear coats are. */
 export const dielectricCurve = 1 + metals.length;
 
-/** Fetches tables.bin from beside the package's folder `src`, or from an address. */
-export async function loadTables(url = new URL('../tables.bin', import.meta.url)) {
+/** Loads Hairline's own code, engine_bg.wasm, from beside the package's folder `src` or from an address, and makes the tables. The rest of the package needs it first. */
+export async function loadTables(url = new URL('../engine/engine_bg.wasm', import.meta.url)) {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
-  return new Tables(await response.arrayBuffer());
+  await init({ module_or_path: response });
+  return new Tables();
 }

@@ -1,11 +1,11 @@
 import type { BufferGeometry, DataTexture, MeshPhysicalMaterialParameters } from 'three';
 import { MeshPhysicalNodeMaterial } from 'three/webgpu';
-import { Grating, Metal, PatternOptions, Scratches, Tables } from './index.js';
+import { Grating, Layer, LayingOptions, Metal, Scratches, Tables } from './index.js';
 
 export { Grating, Scratches, loadGrating, loadTables, readScratches } from './index.js';
 
-/** Lays scratches in a pattern on a geometry. */
-export function scratchesOn(geometry: BufferGeometry, options: PatternOptions): Scratches;
+/** Lays scratches on a geometry, as Hairline does: a seed means the same scratches. */
+export function scratchesOn(geometry: BufferGeometry, layers: Layer | Layer[], options?: LayingOptions): Scratches;
 
 /**
  * Makes Hairline's own maps of an equirectangular texture, in a worker, before it is `scene.environment` or a material's `envMap`: base, scratches and gratings

@@ -8,13 +8,10 @@ import {
   DataArrayTexture, DataTexture, FloatType, LightingNode, Matrix4, MeshPhysicalNodeMaterial, RGBAFormat, RGBAIntegerFormat, UnsignedIntType, Vector3,
 } from 'three/webgpu';
 import { texture, uniform, vec4 } from 'three/tsl';
-import { Scratches, preparedPieces, readScratches } from './scratches.js';
-import { layScratches } from './pattern.js';
-import { narrowRectangle } from './section.js';
-import { scratchTree } from './tree.js';
-import { scratchTable, tableSize } from './table.js';
+import { Scratches, layScratches, readScratches, scratchTree } from './scratches.js';
+import { narrowRectangle, scratchTable, tableSize } from './table.js';
 import { curveOf } from './tables.js';
-import { metalColor } from './spectrum.js';
+import { metalColor } from './metals.js';
 import { Grating } from './gratings.js';
 import { mapsOf, preparedCount } from './environment.js';
 import { ScratchedLightingModel, isBent } from './three_lighting.js';
@@ -26,12 +23,18 @@ export { Scratches, readScratches };
 
 /** The greatest number of half floats. */
 const GREATEST_HALF = 65504;
-/** Lays scratches in a pattern on a BufferGeometry, see layScratches(). */
-export function scratchesOn(geometry, options) {
-  const { position } = geometry.attributes;
-  const positions = new Float64Array(3 * position.count);
-  for (let i = 0; i < position.count; i += 1) positions.set([position.getX(i), position.getY(i), position.getZ(i)], 3 * i);
-  return layScratches({ positions, index: geometry.index?.array ?? null }, options);
+
+/** An attribute as numbers, one after the other; null without one. */
+export function numbersOf(attribute) {
+  if (!attribute) return null;
+  const { count, itemSize } = attribute;
+  return Float64Array.from({ length: count * itemSize }, (_, i) => attribute.getComponent(Math.floor(i / itemSize), i % itemSize));
+}
+
+/** Lays one layer or several on a BufferGeometry, see layScratches(). */
+export function scratchesOn(geometry, layers, options) {
+  const [positions, normals, uvs] = ['position', 'normal', 'uv'].map((name) => numbersOf(geometry.attributes[name]));
+  return layScratches({ positions, normals, uvs, index: geometry.index?.array ?? null }, layers, options);
 }
 
 function floatTexture({ data, width, height }) {
@@ -79,8 +82,7 @@ function rowsTexture({ texels, rows }) {
   return rowsOf.get(texels);
 }
 
-function treeTexture(prepared, metresPerUnit) {
-  const { texels, width, height } = scratchTree(prepared, { metresPerUnit });
+function treeTexture({ texels, width, height }) {
   const made = new DataTexture(texels, width, height, RGBAIntegerFormat, UnsignedIntType);
   made.needsUpdate = true;
   return made;
@@ -107,8 +109,8 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
     }
     this.isScratchedNodeMaterial = true;
     Object.assign(this, { tables, metal, coherenceUm, metresPerUnit, lightRadius });
-    const prepared = scratches && preparedPieces(scratches, { coherenceUm, metresPerUnit });
-    Object.assign(this, { scratches, gratings, shapes: prepared?.shapes ?? [narrowRectangle] });
+    const tree = scratches && scratchTree(scratches, { coherenceUm, metresPerUnit });
+    Object.assign(this, { scratches, gratings, shapes: tree?.shapes ?? [narrowRectangle] });
     if (metal !== null) {
       this.color.setRGB(...metalColor(metal));
       this.metalness = 1;
@@ -118,7 +120,7 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
     Object.defineProperty(this, 'hairlineNodes', {
       value: {
         shapes: texture(shapes), albedo: texture(albedo), curves: texture(curves), table: texture(this.table()),
-        tree: prepared && texture(treeTexture(prepared, metresPerUnit)), curve: uniform(curveOf(metal)),
+        tree: tree && texture(treeTexture(tree)), curve: uniform(curveOf(metal)),
         gratings: gratings.map((grating) => ({ rows: texture(rowsTexture(grating)), field: uniform(new Matrix4().fromArray(grating.numbers)) })),
       },
     });

@@ -1,7 +1,6 @@
 // Draws the scenes that `cargo xtask package --pictures` wrote, with scratches and without, and sends the pictures back.
 import * as THREE from 'three/webgpu';
 import { RectAreaLightTexturesLib } from 'three/addons/lights/RectAreaLightTexturesLib.js';
-import { makeScratchTable, scratchTable, tableSize } from 'hairline-shaders';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { hairlineScratches } from 'hairline-shaders/gltf';
 import { ScratchedNodeMaterial, loadTables, prepareEnvironment, readScratches, scratchesOn } from 'hairline-shaders/three';
@@ -125,7 +124,7 @@ async function byFile(name, tables, what, told) {
   const isPlain = what === 'plain';
   const loader = new GLTFLoader();
   if (!isPlain) loader.register(hairlineScratches({ tables, warn: (text) => told.push(text) }));
-  const { scene } = await loader.loadAsync(`/pages/${name}/worn.glb`);
+  const { scene } = await loader.loadAsync(`/pages/${name}/${what === 'seeds' ? 'seeds' : 'worn'}.glb`);
   let lights = 0;
   scene.traverse((node) => {
     if (node.isLight) {
@@ -175,7 +174,9 @@ function surround(scene, map, { intensity, mapFromWorld }, turn) {
 
 /** Pictures of a scene of shapes, and of one whose mesh is a file. */
 const BY_HAND = ['worn', 'bare'];
-const PICTURES = { plate: ['instanced', 'file', 'plain'], grooves: ['file', 'skinned'], tiles: ['file'], sky: ['turned'] };
+const PICTURES = {
+  plate: ['instanced', 'file', 'seeds', 'plain'], grooves: ['file', 'skinned'], tiles: ['file', 'seeds'], layers: ['file', 'seeds'], sky: ['turned'],
+};
 
 async function draw(renderer, name, tables) {
   const get = async (file, as) => (await fetch(`/pages/${name}/${file}`))[as]();
@@ -198,7 +199,7 @@ async function draw(renderer, name, tables) {
   const told = [];
   for (const what of [...BY_HAND, ...(PICTURES[name] ?? [])]) {
     const began = performance.now();
-    const isByHand = page.surface && what !== 'file' && what !== 'plain';
+    const isByHand = page.surface && !['file', 'seeds', 'plain'].includes(what);
     const scene = new THREE.Scene().add(isByHand ? byHand(page, object, tables, what) : await byFile(name, tables, what, told));
     if (map) surround(scene, map, page.environment, what === 'turned' ? Math.PI / 36 : 0);
     const made = performance.now();
@@ -216,30 +217,6 @@ async function draw(renderer, name, tables) {
   await send(`/result/${name}/times`, times.join('; '));
 }
 
-/** How far the pass that makes a table is from the processor's, over the largest value; and how long it takes. */
-async function tableByPass(device) {
-  const { columns, rows } = tableSize;
-  const buffer = device.createBuffer({ size: 16 * columns * rows, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
-  scratchTable('copper');
-  const began = performance.now();
-  const texture = makeScratchTable(device, ['gold', 'steel']);
-  await device.queue.onSubmittedWorkDone();
-  const made = performance.now() - began;
-  const encoder = device.createCommandEncoder();
-  encoder.copyTextureToBuffer({ texture, origin: [0, 0, 1] }, { buffer, bytesPerRow: 16 * columns }, [columns, rows]);
-  device.queue.submit([encoder.finish()]);
-  await buffer.mapAsync(GPUMapMode.READ);
-  const [pass, own] = [new Float32Array(buffer.getMappedRange()), new Float32Array(scratchTable('steel').buffer)];
-  let [off, most] = [0, 0];
-  for (let i = 0; i < own.length; i += 1) {
-    if (i % 4 === 3) continue;
-    off = Math.max(off, Math.abs(own[i] - pass[i]));
-    most = Math.max(most, Math.abs(own[i]));
-  }
-  if (!(off < 1e-5 * most)) throw new Error(`make_scratch_table: found values ${off / most} off; must be below 1e-5`);
-  return `two tables by a pass in ${made.toFixed(0)} ms, ${(off / most).toExponential(1)} off the processor's`;
-}
-
 async function rendererOf(options) {
   const renderer = new THREE.WebGPURenderer({ antialias: false, ...options });
   await renderer.init();
@@ -250,7 +227,7 @@ async function rendererOf(options) {
 /** A picture in another size and back is the same, so is that of a second renderer, as after the loss of a device; on WebGL a message tells what is missing. */
 async function outlives(renderer, tables) {
   const geometry = new THREE.PlaneGeometry(0.1, 0.1);
-  const scratches = scratchesOn(geometry, { count: 200, depthNm: 160, lengthM: 0.05 });
+  const scratches = scratchesOn(geometry, { pattern: 'random', count: 200, depth_nm: 160, length_m: 0.05 });
   const lamp = lightOf({ kind: 'sphere', center: [0, 0.1, 0.1], radius: 0.004, radiance: [300, 300, 300] });
   const scene = new THREE.Scene().add(lamp, new THREE.Mesh(geometry, new ScratchedNodeMaterial({ tables, metal: 'steel', scratches })));
   const camera = new THREE.PerspectiveCamera(20, 1, 0.01, 1);
@@ -290,9 +267,8 @@ try {
   if (!renderer.backend.isWebGPUBackend) throw new Error('no WebGPU in this browser');
   renderer.backend.device.addEventListener('uncapturederror', (event) => fail(event.error.message));
   THREE.RectAreaLightNode.setLTC(RectAreaLightTexturesLib.init());
-  const tables = await loadTables('/package/tables.bin');
+  const tables = await loadTables();
   for (const name of new URLSearchParams(location.search).get('scenes').split(',')) await draw(renderer, name, tables);
-  await send('/result/table', await tableByPass(renderer.backend.device));
   await refusesMaps();
   await outlives(renderer, tables);
   await send('/done', '');

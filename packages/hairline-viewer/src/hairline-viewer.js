@@ -151,7 +151,7 @@ class Shown {
     renderer.onDeviceLost = ({ message }) => this.lost(message);
     await renderer.init();
     RectAreaLightNode.setLTC(RectAreaLightTexturesLib.init());
-    tables ??= loadTables(this.element.getAttribute('tables') ?? new URL('tables.bin', import.meta.url));
+    tables ??= loadTables(this.element.getAttribute('engine') ?? new URL('engine_bg.wasm', import.meta.url));
     const loader = new GLTFLoader().register(hairlineScratches({ tables: await tables }));
     const gltf = await loader.loadAsync(src);
     if (this.isOver) return;

@@ -44,7 +44,11 @@ pub(super) fn make(root: &Path, output: &Path) -> anyhow::Result<u64> {
     }
     let types = "hairline-viewer.d.ts";
     copy(&by_hand.join("src").join(types), &element.join(types))?;
-    copy(&shaders.join("tables.bin"), &element.join("tables.bin"))?;
+    let program = "engine_bg.wasm";
+    copy(
+        &shaders.join("engine").join(program),
+        &element.join(program),
+    )?;
     Ok(script.metadata()?.len())
 }
 

@@ -149,16 +149,15 @@ pub(super) fn wesl(module: &Module, all: &[&Module]) -> String {
 }
 
 /// The two files as a JavaScript module.
-pub(super) fn script(whole: &str, pass: &str) -> String {
+pub(super) fn script(whole: &str) -> String {
     let quoted = |text: &str| {
         text.replace('\\', "\\\\")
             .replace('`', "\\`")
             .replace('$', "\\$")
     };
     format!(
-        "// Made by `cargo xtask package`.\nexport const hairlineWgsl = `{}`;\nexport const makeScratchTableWgsl = `{}`;\n",
-        quoted(whole),
-        quoted(pass)
+        "// Made by `cargo xtask package`.\nexport const hairlineWgsl = `{}`;\n",
+        quoted(whole)
     )
 }
 

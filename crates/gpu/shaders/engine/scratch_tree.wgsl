@@ -1,5 +1,5 @@
-// Finding the scratches under a footprint: a tree of boxes over an object's scratches, with skip pointers. Twins: gpu/src/scratch_tree.rs and
-// packages/hairline-shaders/src/tree.js make it; B. Smits, "Efficiency Issues for Ray Tracing", 1998.
+// Finding the scratches under a footprint: a tree of boxes over an object's scratches, with skip pointers. Twin: engine/src/scratch_tree.rs
+// makes it; B. Smits, "Efficiency Issues for Ray Tracing", 1998.
 //
 // Needs: scratch. Frame: the object's own, in its own unit of length, which the caller's matrices turn into metres.
 //

@@ -1,8 +1,10 @@
 //! Precision lost by packing a scratch's segment.
 
-use super::*;
 use crate::call::Call;
 use crate::{headless, shaders};
+use glam::Vec3;
+use hairline_index::packed_profile::{half_bits, octahedral};
+use half::f16;
 
 /// The normals as shaders see them.
 fn unpacked(normals: &[Vec3]) -> Option<Vec<Vec3>> {

@@ -36,7 +36,7 @@ impl Description {
         }
         each("object", &self.objects, check_object)?;
         unique("object", self.objects.iter().map(|o| o.name.as_str()))?;
-        each("scratches", &self.scratches, check_scratches)?;
+        check_layers(&self.scratches)?;
         each("grating", &self.gratings, Grating::check_at)?;
         each("light", &self.lights, Light::check_at)
     }
@@ -139,6 +139,11 @@ fn check_object(it: &Object, key: &str) -> Check {
         )),
         (Surface::Mesh(_), _) => Ok(()),
     }
+}
+
+/// Checks the tables `[[scratches]]`.
+pub(super) fn check_layers(layers: &[Scratches]) -> Check {
+    each("scratches", layers, check_scratches)
 }
 
 fn check_scratches(it: &Scratches, key: &str) -> Check {

@@ -3,8 +3,10 @@
 use serde_json::{Map, Value};
 use toml::de::DeTable;
 
-use super::Description;
+use super::check::check_layers;
 use super::read;
+use super::table::Table;
+use super::{Description, Scratches};
 use crate::error::Error;
 
 impl Description {
@@ -25,16 +27,37 @@ impl Description {
     /// # Errors
     /// Unknown keys and values of other types. Ranges and references are left to others.
     pub fn from_json(tables: &Map<String, Value>) -> Result<Self, Error> {
-        let mut text = String::new();
-        for (name, value) in tables {
-            write_text(&mut text, name);
-            text.push_str(" = ");
-            write_value(&mut text, value, name)?;
-            text.push('\n');
-        }
+        let text = text_of(tables)?;
         let root = DeTable::parse(&text).map_err(|error| wrong(error.message()))?;
         read::description(root.get_ref())
     }
+}
+
+impl Scratches {
+    /// Reads rows of `scratches` as files with HAIRLINE_scratches have them, and checks their ranges.
+    ///
+    /// # Errors
+    /// What is wrong with a row, by its key.
+    pub fn from_json(rows: Value) -> Result<Vec<Self>, Error> {
+        let text = text_of(&Map::from_iter([("scratches".to_owned(), rows)]))?;
+        let root = DeTable::parse(&text).map_err(|error| wrong(error.message()))?;
+        let all = Table::open(root.get_ref(), "", &["scratches"])?;
+        let all = all.or("scratches", Vec::new())?;
+        check_layers(&all)?;
+        Ok(all)
+    }
+}
+
+/// The text of a scene file with these tables.
+fn text_of(tables: &Map<String, Value>) -> Result<String, Error> {
+    let mut text = String::new();
+    for (name, value) in tables {
+        write_text(&mut text, name);
+        text.push_str(" = ");
+        write_value(&mut text, value, name)?;
+        text.push('\n');
+    }
+    Ok(text)
 }
 
 fn wrong(why: &str) -> Error {

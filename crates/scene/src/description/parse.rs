@@ -6,8 +6,9 @@ use hairline_model::text::printable;
 use hairline_optics::ggx::GGX_MIN_ALPHA;
 use toml::de::DeTable;
 
-use super::read;
-use super::{Description, Material, MaterialKind};
+use super::table::Table;
+use super::{Description, Material, MaterialKind, Scratches};
+use super::{check, read};
 use crate::error::Error;
 use crate::key_line::{line_of, line_of_key};
 use crate::reading::check_text;
@@ -72,6 +73,23 @@ impl Description {
             note(text, name, &key, &why)
         });
         first.collect()
+    }
+}
+
+impl Scratches {
+    /// Reads a text of tables `[[scratches]]` alone, and checks their ranges. `name` is what errors call it.
+    ///
+    /// # Errors
+    /// What is wrong with a table, by its line and key.
+    pub fn from_toml(text: &str, name: &Path) -> Result<Vec<Self>, Error> {
+        check_text(text.len()).map_err(|error| error.at(name, None))?;
+        let root = parse(text, name)?;
+        let read = || {
+            let all = Table::open(&root, "", &["scratches"])?.or("scratches", Vec::new())?;
+            check::check_layers(&all)?;
+            Ok(all)
+        };
+        read().map_err(|error: Error| error.in_scene_file(text, name))
     }
 }
 

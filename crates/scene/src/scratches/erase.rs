@@ -8,7 +8,7 @@ use obvhs::Boundable;
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
+use obvhs::ploc::PlocBuilder;
 use rayon::prelude::*;
 
 use super::cut::{RemovedParts, ball};
@@ -77,8 +77,15 @@ impl Eraser {
             }
         }
         Ok((!capsules.is_empty()).then(|| {
+            // Not by `build_bvh2`, which asks for the time: a browser has none for it.
             let params = BvhBuildParams::medium_build();
-            let tree = build_bvh2(&capsules, params, &mut std::time::Duration::default());
+            let tree = PlocBuilder::with_capacity(capsules.len()).build(
+                params.ploc_search_distance,
+                &capsules,
+                (0..).take(capsules.len()).collect(),
+                params.sort_precision,
+                params.search_depth_threshold,
+            );
             Self { capsules, tree }
         }))
     }

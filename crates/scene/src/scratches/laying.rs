@@ -35,6 +35,12 @@ pub(crate) const LISTED_SIZES: [ListedSize; 2] = [
     },
 ];
 
+/// Name and range of each size of a groove, in the order of the columns of a list.
+pub const LISTED_RANGES: [(&str, (f64, f64)); 2] = [
+    (LISTED_SIZES[0].key, LISTED_SIZES[0].range),
+    (LISTED_SIZES[1].key, LISTED_SIZES[1].range),
+];
+
 impl ListedSize {
     /// # Errors
     /// At `key`: a number that is out of range, or none at all.

@@ -1,12 +1,11 @@
 //! An object's scratches as texels for engines that find them at a point. `shaders/engine/scratch_tree.wgsl` walks through them, and
-//! documents their places. Twin: packages/hairline-shaders/src/tree.js, which grows another tree.
+//! documents their places.
 //!
 //! Hairline's own passes do not need it: they bring segments to the tiles of the picture.
 
 use glam::Vec3;
 use hairline_index::ScratchIndex;
-
-use crate::host::profile_words;
+use hairline_index::packed_profile::profile_words;
 
 /// Texels in a row of the texture.
 pub const WIDTH: usize = 1024;
@@ -14,8 +13,8 @@ pub const WIDTH: usize = 1024;
 const FIRST_BITS: u32 = 28;
 
 /// The scratches of one of a scene's objects, by the index of the scene: texels of an `rgba32uint` texture, whole rows of [`WIDTH`].
-/// Positions are those of the scene.
-pub fn texels(index: &ScratchIndex, object: usize) -> Vec<[u32; 4]> {
+/// Positions are those of the scene, over `unit_m`, the length of the engine's unit.
+pub fn texels(index: &ScratchIndex, object: usize, unit_m: f32) -> Vec<[u32; 4]> {
     let range = index.tree.objects[object].clone();
     let first_node = range.start;
     let nodes = &index.tree.nodes[range.start as usize..range.end as usize];
@@ -30,7 +29,7 @@ pub fn texels(index: &ScratchIndex, object: usize) -> Vec<[u32; 4]> {
         index.coherence_max_um()[object].to_bits(),
     ];
     let with = |v: Vec3, word: u32| {
-        let [x, y, z] = v.to_array().map(f32::to_bits);
+        let [x, y, z] = (v / unit_m).to_array().map(f32::to_bits);
         [x, y, z, word]
     };
     // The first piece below an inner node is that of the node after it.

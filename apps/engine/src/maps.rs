@@ -1,6 +1,4 @@
-//! The maps of an environment as the shaders of the package for other engines look them up, made by Hairline's own code. `cargo xtask package` puts it beside
-//! packages/hairline-shaders, whose environment_worker.js calls it.
-#![cfg(target_arch = "wasm32")]
+//! The maps of an environment, as shaders look them up.
 
 use hairline_image::Picture;
 use hairline_scene::environment::level_place;

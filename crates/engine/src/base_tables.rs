@@ -1,4 +1,4 @@
-//! Reflection of rough metal, as textures for other engines: the arguments `shapes`, `albedo` and `curves` of `shaders/engine/lit_base.wgsl`.
+//! Reflection of rough metal, as textures: the arguments `shapes`, `albedo` and `curves` of `shaders/engine/lit_base.wgsl`.
 
 use hairline_optics::fresnel::{FRESNEL_NODES, FresnelCurve};
 use hairline_optics::lobe_table::{LOBE_TABLE_SIZE, albedo_table, shape_texels};

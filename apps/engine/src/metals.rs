@@ -1,0 +1,46 @@
+//! Metals, and the spectra of their scratches.
+
+use hairline_engine::scratch_table as table;
+use hairline_optics::metal::Metal;
+use hairline_optics::section::GrooveShape;
+use hairline_scene::description::metal_names;
+use wasm_bindgen::JsError;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use crate::{parsed, section};
+
+fn metal_of(name: &str) -> Result<Metal, JsError> {
+    let named = metal_names().iter().find(|(known, _)| *known == name);
+    named.map(|(_, metal)| *metal).ok_or_else(|| {
+        let all: Vec<_> = metal_names().iter().map(|(name, _)| *name).collect();
+        let right = format!("must be one of {}, or null for a colour", all.join(", "));
+        JsError::new(&format!("metal: found \"{name}\"; {right}"))
+    })
+}
+
+/// Reflectance of a metal at normal incidence, linear Rec.709.
+///
+/// # Errors
+/// A metal that is not known.
+#[wasm_bindgen(js_name = metalColor)]
+pub fn metal_color(name: &str) -> Result<Vec<f64>, JsError> {
+    Ok(metal_of(name)?.reflectance_rgb(1.0).to_vec())
+}
+
+/// Texels of the table of grooves in a metal, or in one given by its colour. `profile` is the key of a layer, as JSON.
+///
+/// # Errors
+/// A metal or a cross section that is not known.
+#[wasm_bindgen(js_name = scratchTable)]
+pub fn scratch_table(
+    metal: Option<String>,
+    profile: &str,
+    width_class: u8,
+) -> Result<Vec<u32>, JsError> {
+    let metal = metal.map(|name| metal_of(&name)).transpose()?;
+    let shape = GrooveShape {
+        section: section(parsed(profile)?)?,
+        width_class,
+    };
+    Ok(table(metal, &shape).into_flattened())
+}

@@ -1,0 +1,105 @@
+//! Gratings of one mesh: where their grooves run, and the texture of what they send.
+
+use std::sync::Arc;
+
+use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_ROWS, ROWS};
+use hairline_scene::{Scene, ScratchTables};
+
+/// Fields of grooves, in the order of the constants of groove_field.wgsl.
+const KINDS: [&str; 4] = ["along", "circular", "radial", "spun"];
+/// Stands for everywhere.
+const FAR_M: f64 = 1e9;
+
+/// Rows of grooves with the table of what they send.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GratingTexels {
+    /// Numbers of `Grooves` of grated_surface.wgsl, column by column; the layer of the table has the place of the third in the last.
+    pub numbers: [f32; 16],
+    /// A texture of `rgba32uint`, [`ENGINE_COLUMNS`] wide.
+    pub texels: Arc<Vec<[u32; 4]>>,
+}
+
+/// Grooves along a direction or about an axis, lengths in metres.
+pub struct GratingField<'a> {
+    /// `"along"`, `"circular"`, `"radial"` or `"spun"`.
+    pub kind: &'a str,
+    /// A unit vector.
+    pub axis: [f64; 3],
+    /// A point of the axis, or that from which the radii are measured.
+    pub center_m: [f64; 3],
+    /// Least and greatest distance from it.
+    pub radii_m: [f64; 2],
+    /// Curvature of spun grooves.
+    pub curvature_per_m: f64,
+    /// The share of the surface that they cover.
+    pub coverage: f64,
+    /// Standard deviation of a groove's angle to the field.
+    pub angle_std_rad: f64,
+    /// Width of the material's coherence window.
+    pub coherence_um: f64,
+}
+
+impl GratingTexels {
+    /// None of a kind that is not known, or of a table of another size.
+    pub fn new(field: &GratingField, texels: Arc<Vec<[u32; 4]>>) -> Option<Self> {
+        let kind = KINDS.iter().position(|kind| *kind == field.kind)?;
+        let is_fine = texels.len() == ROWS * ENGINE_COLUMNS;
+        if !is_fine && texels.len() != ENGINE_ROWS * ENGINE_COLUMNS {
+            return None;
+        }
+        let [x, y, z] = field.axis;
+        let [at_x, at_y, at_z] = field.center_m;
+        let [inner_m, outer_m] = field.radii_m;
+        let numbers = [
+            [x, y, z, kind as f64],
+            [at_x, at_y, at_z, field.curvature_per_m],
+            [
+                inner_m,
+                outer_m.min(FAR_M),
+                field.coverage,
+                field.angle_std_rad,
+            ],
+            [field.coherence_um, f64::from(is_fine), 0.0, 0.0],
+        ];
+        Some(Self {
+            numbers: std::array::from_fn(|i| numbers[i / 4][i % 4] as f32),
+            texels,
+        })
+    }
+
+    /// The gratings of one of a scene's objects, in world space. None in the place of those by texture coordinates, in spots or with a mask, which have no
+    /// form here.
+    pub fn of_scene(scene: &Scene, object: usize) -> Vec<Option<Self>> {
+        let object = &scene.objects[object];
+        if object.gratings.is_empty() {
+            return Vec::new();
+        }
+        let material = object.mesh.triangle_materials[0] as usize;
+        let tables = ScratchTables::new(scene);
+        let gratings = object.gratings.iter().map(|grating| {
+            let plain = grating.field.plain().filter(|_| grating.mask.is_none())?;
+            let table = &tables.tables[tables.grating_table(grating, material)?];
+            let rows = match table.by_incidence {
+                true => ROWS,
+                false => ENGINE_ROWS,
+            };
+            let field = GratingField {
+                kind: plain.kind,
+                axis: plain.axis.normalize_or_zero().to_array(),
+                center_m: plain.center_m.to_array(),
+                radii_m: grating.radii_m,
+                curvature_per_m: plain.curvature_per_m,
+                coverage: grating.coverage,
+                angle_std_rad: grating.angle_std_rad,
+                coherence_um: scene.materials[material].coherence_um,
+            };
+            Self::new(&field, Arc::new(table.resampled(ENGINE_COLUMNS, rows)))
+        });
+        gratings.collect()
+    }
+
+    /// Rows of the table.
+    pub fn rows(&self) -> usize {
+        self.texels.len() / ENGINE_COLUMNS
+    }
+}

@@ -1,0 +1,29 @@
+//! Surfaces for other engines: the scratches and gratings of a mesh as the textures that the shaders in `hairline-gpu`, folder `shaders/engine`, look up.
+//! The packages for Bevy and for browsers are made of it.
+//!
+//! ```
+//! use hairline_engine::Pieces;
+//! use hairline_scene::description::Scratches;
+//! use hairline_scene::{Arrays, MeshArrays};
+//!
+//! let corners = vec![[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0]];
+//! let mesh = MeshArrays::new(corners, vec![[0, 1, 2]], None, None)?;
+//! let layers = "[[scratches]]\nobject = 'mesh'\npattern = 'random'\ncount = 100";
+//! let layers = Scratches::from_toml(layers, "layers".as_ref())?;
+//! let pieces = Pieces::lay(&mesh, &layers, &Arrays::default(), 1.0)?;
+//! let scratches = pieces.texels(20.0, 1.0)?;
+//! assert_eq!(scratches.shapes.len(), 1);
+//! # Ok::<(), hairline_scene::Error>(())
+//! ```
+
+#![warn(unreachable_pub)]
+
+pub mod base_tables;
+mod gratings;
+mod pieces;
+pub mod scratch_tree;
+mod spectra;
+
+pub use gratings::{GratingField, GratingTexels};
+pub use pieces::{Pieces, ScratchTexels};
+pub use spectra::scratch_table;

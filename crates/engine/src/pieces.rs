@@ -1,0 +1,356 @@
+//! Scratches of one mesh as straight pieces, and the texture that shaders find them by.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use hairline_index::ScratchIndex;
+use hairline_optics::section::GrooveShape;
+use hairline_scene::description::Scratches;
+use hairline_scene::{
+    Arrays, Error, GrooveShapes, LISTED_RANGES, MOST_SHAPES, Mesh, MeshArrays, Object, Profile,
+    Scene, Scratch, SectionId, Segment, lay_on_mesh,
+};
+
+use crate::scratch_tree::{self, WIDTH};
+
+/// Longer pieces are cut: the box of a long slanting one is mostly empty.
+const LONGEST_M: f32 = 4e-3;
+/// Rows of a texture that every GPU has.
+const ROWS_MAX: usize = 8192;
+
+/// Straight pieces in the frame of a mesh, in its own unit; those of a scratch follow one another. All lists have one entry a piece.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pieces {
+    /// Where they begin.
+    pub starts: Vec<[f32; 3]>,
+    /// Where they end.
+    pub ends: Vec<[f32; 3]>,
+    /// The surface's normals; zero where it is not known, so that a piece shows on both sides of a sheet.
+    pub normals: Vec<[f32; 3]>,
+    /// Width of the groove.
+    pub widths_um: Vec<f32>,
+    /// Depth of its deepest place.
+    pub depths_nm: Vec<f32>,
+    /// Number of the scratch.
+    pub scratch: Vec<u32>,
+    /// Cross section of the groove.
+    pub sections: Vec<SectionId>,
+    /// Index of the layer.
+    pub layers: Vec<u32>,
+}
+
+/// Scratches as shaders find them.
+#[derive(Clone, Debug)]
+pub struct ScratchTexels {
+    /// The tree: a texture of `rgba32uint`, whole rows of [`WIDTH`] texels.
+    pub tree: Vec<[u32; 4]>,
+    /// Shapes of the grooves, each with a layer of [`scratch_table`](crate::scratch_table).
+    pub shapes: Vec<GrooveShape>,
+}
+
+impl Pieces {
+    /// Lays layers on a mesh whose unit is `metres_per_unit` long: see [`lay_on_mesh`].
+    ///
+    /// # Errors
+    /// What is wrong with the mesh or a layer, by its key.
+    pub fn lay(
+        mesh: &MeshArrays,
+        layers: &[Scratches],
+        arrays: &Arrays,
+        metres_per_unit: f64,
+    ) -> Result<Self, Error> {
+        let object = lay_on_mesh(mesh, layers, arrays, metres_per_unit)?;
+        let in_mesh = |at: Vec3| (at.as_dvec3() / metres_per_unit).as_vec3().to_array();
+        let mut pieces = Self::default();
+        for (number, scratch) in (0..).zip(object.scratches.iter()) {
+            let Profile {
+                width_um,
+                depth_nm,
+                section,
+            } = scratch.profile;
+            let own = scratch.segments.start as usize..scratch.segments.end as usize;
+            for piece in &object.segments[own] {
+                pieces.starts.push(in_mesh(piece.start_m));
+                pieces.ends.push(in_mesh(piece.end_m));
+                pieces.normals.push(piece.normal.to_array());
+                pieces.widths_um.push(width_um);
+                pieces.depths_nm.push(depth_nm);
+                pieces.scratch.push(number);
+                pieces.sections.push(section);
+                pieces.layers.push(scratch.layer);
+            }
+        }
+        Ok(pieces)
+    }
+
+    /// Makes the textures, for a mesh whose unit is `metres_per_unit` long. `coherence_um` is the width of the material's coherence window.
+    ///
+    /// # Errors
+    /// Lists of different lengths, numbers out of range, by the key of the list; grooves of more than [`MOST_SHAPES`] shapes, more pieces than a
+    /// texture holds.
+    pub fn texels(&self, coherence_um: f64, metres_per_unit: f64) -> Result<ScratchTexels, Error> {
+        self.check()?;
+        let scene = Scene::of_object(self.object(metres_per_unit as f32), coherence_um);
+        let shapes = GrooveShapes::new(&scene);
+        if shapes.count() > MOST_SHAPES {
+            let found = format!(
+                "found grooves of {} shapes: profiles, each as narrow ones and in up to five classes of wide ones",
+                shapes.count()
+            );
+            let right = format!(
+                "must be at most {MOST_SHAPES}: fewer profiles, or widths below 0.4 of the coherence window"
+            );
+            return Err(Error::new("scratches", found, right));
+        }
+        let tree = scratch_tree::texels(&ScratchIndex::build(&scene), 0, metres_per_unit as f32);
+        let rows = tree.len() / WIDTH;
+        if rows > ROWS_MAX {
+            let found = format!(
+                "found {} pieces, which need {rows} rows of a texture",
+                self.starts.len()
+            );
+            let right = format!("must be at most {ROWS_MAX} rows");
+            return Err(Error::new("scratches", found, right));
+        }
+        Ok(ScratchTexels {
+            tree,
+            shapes: shapes.shapes().collect(),
+        })
+    }
+
+    /// Checks that all lists are as long, and that numbers are in range.
+    ///
+    /// # Errors
+    /// The first that is not, by the key of its list.
+    pub fn check(&self) -> Result<(), Error> {
+        let count = self.starts.len();
+        let lengths = [
+            ("ends", self.ends.len()),
+            ("normals", self.normals.len()),
+            ("widths_um", self.widths_um.len()),
+            ("depths_nm", self.depths_nm.len()),
+            ("scratch", self.scratch.len()),
+            ("sections", self.sections.len()),
+            ("layers", self.layers.len()),
+        ];
+        if let Some((key, length)) = lengths.iter().find(|(_, length)| *length != count) {
+            let found = format!("found {length} for {count} pieces");
+            return Err(Error::new(*key, found, "must be one for each"));
+        }
+        for (key, rows) in [
+            ("starts", &self.starts),
+            ("ends", &self.ends),
+            ("normals", &self.normals),
+        ] {
+            if let Some(x) = rows.iter().flatten().find(|x| !x.is_finite()) {
+                return Err(Error::new(key, format!("found {x}"), "must be finite"));
+            }
+        }
+        for ((key, (least, most)), sizes) in
+            LISTED_RANGES.iter().zip([&self.widths_um, &self.depths_nm])
+        {
+            // Written so that NaN is out of range.
+            if let Some(x) = sizes
+                .iter()
+                .find(|x| !(*least..=*most).contains(&f64::from(**x)))
+            {
+                let right = format!("must be from {least} to {most}");
+                return Err(Error::new(*key, format!("found {x}"), right));
+            }
+        }
+        Ok(())
+    }
+
+    /// An object with these scratches, in metres. Its mesh stands for the surface's material alone.
+    fn object(&self, metres_per_unit: f32) -> Object {
+        let (mut scratches, mut segments) = (Vec::new(), Vec::new());
+        let mut first = 0;
+        for own in self.scratch.chunk_by(|a, b| a == b) {
+            let own = first..first + own.len();
+            first = own.end;
+            let from = segments.len() as u32;
+            for i in own.clone() {
+                let [start, end] =
+                    [self.starts[i], self.ends[i]].map(|at| metres_per_unit * Vec3::from(at));
+                let parts = (start.distance(end) / LONGEST_M).ceil().max(1.0);
+                let at = |part: f32| {
+                    if part == parts {
+                        end
+                    } else {
+                        start.lerp(end, part / parts)
+                    }
+                };
+                segments.extend((0..parts as u32).map(|part| Segment {
+                    start_m: at(part as f32),
+                    end_m: at(part as f32 + 1.0),
+                    normal: self.normals[i].into(),
+                    triangle: 0,
+                }));
+            }
+            scratches.push(Scratch {
+                profile: Profile {
+                    width_um: self.widths_um[own.start],
+                    depth_nm: self.depths_nm[own.start],
+                    section: self.sections[own.start],
+                },
+                layer: self.layers[own.start],
+                closed: own.len() > 2 && self.starts[own.start] == self.ends[own.end - 1],
+                segments: from..segments.len() as u32,
+            });
+        }
+        Object {
+            name: String::new(),
+            mesh: Arc::new(Mesh {
+                triangle_materials: vec![0],
+                ..Mesh::default()
+            }),
+            scratches: Arc::new(scratches),
+            segments: Arc::new(segments),
+            parts: Arc::default(),
+            gratings: Vec::new(),
+            is_lamp: false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_scene::{Description, Loader, SceneBuilder};
+    use std::path::Path;
+
+    const LAYERS: &str = "
+        [[scratches]]
+        object = 'it'
+        pattern = 'circular'
+        count = 40
+        seed = 3
+        center_m = [0.02, 0.0, 0.0]
+        length_m = 0.01
+        [[scratches]]
+        object = 'it'
+        hidden = true
+        pattern = 'random'
+        count = 5
+        seed = 3
+        [[scratches]]
+        object = 'it'
+        pattern = 'random'
+        count = 60
+        seed = 3
+        width_um = 30.0
+        profile = 'v'
+        where = { radius_m = [0.01, 0.04] }
+    ";
+
+    /// Two triangles that meet in an edge.
+    fn mesh() -> MeshArrays {
+        let corners = [
+            [0.0, 0.0, 0.0],
+            [0.05, 0.0, 0.0],
+            [0.05, 0.04, 0.01],
+            [0.0, 0.04, 0.01],
+        ];
+        MeshArrays::new(corners.into(), vec![[0, 1, 2], [0, 2, 3]], None, None).unwrap()
+    }
+
+    fn layers(text: &str) -> Vec<Scratches> {
+        Scratches::from_toml(text, Path::new("layers")).unwrap()
+    }
+
+    #[test]
+    fn a_seed_means_the_scratches_of_a_scene() {
+        let text = format!(
+            "camera = {{ position_m = [0, 0, 1], target_m = [0, 0, 0], up = [0, 1, 0] }}
+            material = [{{ name = 'mirror', kind = 'mirror' }}]
+            object = [{{ name = 'it', mesh = 'mesh', material = 'mirror', scale = 0.5, translation_m = [0.1, 0.0, 0.0] }}]
+            {LAYERS}"
+        );
+        let mut arrays = Arrays::default();
+        arrays.insert_mesh("mesh", Arc::new(mesh()));
+        let loader = Loader {
+            arrays: &arrays,
+            ..Loader::default()
+        };
+        let description = Description::from_toml(&text, Path::new("scene")).unwrap();
+        let scene = SceneBuilder::new()
+            .build(&loader, &description, Path::new("."))
+            .unwrap();
+        let object = &scene.objects[0];
+        let pieces = Pieces::lay(&mesh(), &layers(LAYERS), &Arrays::default(), 0.5).unwrap();
+        assert_eq!(pieces.starts.len(), object.segments.len());
+        assert_eq!(
+            pieces.scratch.last().copied(),
+            Some(object.scratches.len() as u32 - 1)
+        );
+        let moved = |at: &[f32; 3]| 0.5 * Vec3::from(*at) + Vec3::new(0.1, 0.0, 0.0);
+        for (i, piece) in object.segments.iter().enumerate() {
+            assert!(
+                moved(&pieces.starts[i]).distance(piece.start_m) < 1e-7,
+                "piece {i}"
+            );
+            assert!(
+                moved(&pieces.ends[i]).distance(piece.end_m) < 1e-7,
+                "piece {i}"
+            );
+        }
+        let scratches = pieces
+            .scratch
+            .chunk_by(|a, b| a == b)
+            .scan(0, |first, own| {
+                let at = *first;
+                *first += own.len();
+                Some(at)
+            });
+        for (at, scratch) in scratches.zip(object.scratches.iter()) {
+            let sizes = (
+                pieces.widths_um[at],
+                pieces.depths_nm[at],
+                pieces.layers[at],
+            );
+            let profile = scratch.profile;
+            assert_eq!(sizes, (profile.width_um, profile.depth_nm, scratch.layer));
+        }
+        // V grooves of 30 µm are wide under a window of 20 µm, and so are a shape of their own.
+        assert_eq!(pieces.texels(20.0, 0.5).unwrap().shapes.len(), 2);
+    }
+
+    #[test]
+    fn a_tree_has_all_pieces_with_long_ones_cut() {
+        let long = Pieces {
+            starts: vec![[0.0; 3]],
+            ends: vec![[0.03, 0.0, 0.0]],
+            normals: vec![[0.0, 0.0, 1.0]],
+            widths_um: vec![2.0],
+            depths_nm: vec![100.0],
+            scratch: vec![0],
+            sections: vec![SectionId::default()],
+            layers: vec![0],
+        };
+        let made = long.texels(20.0, 1.0).unwrap();
+        let [nodes, pieces] = [made.tree[0][0], made.tree[0][1]].map(|n| n as usize);
+        let x = |texel: usize| f32::from_bits(made.tree[texel][0]);
+        let spans = (0..pieces).map(|i| (x(1 + 2 * nodes + 2 * i), x(2 + 2 * nodes + 2 * i)));
+        let lengths: Vec<f32> = spans.map(|(start, end)| end - start).collect();
+        assert!(pieces > 4 && lengths.iter().all(|length| (0.0..=4.1e-3).contains(length)));
+        // Each free end moves inwards by 0.564 of the window: docs/model.md, section 6.
+        let whole = 0.03 - 2.0 * 0.564_19 * 20e-6;
+        assert!((lengths.iter().sum::<f32>() - whole).abs() < 1e-8);
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_by_its_key() {
+        let laid = Pieces::lay(&mesh(), &layers(LAYERS), &Arrays::default(), 1.0).unwrap();
+        let told = |change: fn(&mut Pieces)| {
+            let mut pieces = laid.clone();
+            change(&mut pieces);
+            pieces.texels(20.0, 1.0).unwrap_err().to_string()
+        };
+        assert!(told(|it| it.ends.truncate(1)).starts_with("ends: found 1 for "));
+        assert!(told(|it| it.starts[3][1] = f32::NAN).starts_with("starts: found NaN"));
+        assert!(told(|it| it.widths_um[0] = 400.0).starts_with("width_um: found 400"));
+        let mask = LAYERS.replace("radius_m = [0.01, 0.04]", "mask = 'a.png', tile_m = 0.1");
+        let error = Pieces::lay(&mesh(), &layers(&mask), &Arrays::default(), 1.0).unwrap_err();
+        assert_eq!(error.key(), "scratches[2].where.mask");
+    }
+}

@@ -1,0 +1,71 @@
+//! Types of TypeScript for layers of scratches, from the schema of scene files.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use hairline_scene::schema::{Form, Initial, Key, Section, place, scratches, stroke};
+
+/// The interfaces of a layer and of the tables in it.
+pub(super) fn layer() -> String {
+    let mut text = String::from(
+        "// Made by `cargo xtask package` from the schema of scene files.\n\n\
+         /** Alike for all, or drawn: log-normal, of curvatures normal. */\n\
+         export type Size = number | { mean: number; spread?: number };\n",
+    );
+    interface(&mut text, "Layer", &scratches::SCRATCHES);
+    interface(&mut text, "LayerPlaces", &place::WHERE);
+    interface(&mut text, "LayerStroke", &stroke::STROKES);
+    text
+}
+
+fn interface(text: &mut String, name: &str, section: &Section) {
+    let kinds: Vec<_> = section.choices.iter().map(|choice| choice.name).collect();
+    // Writing to a text cannot fail.
+    let _ = write!(text, "\nexport interface {name} {{\n");
+    if !section.tag.is_empty() {
+        let _ = writeln!(text, "  {}: {};", section.tag, one_of(&kinds));
+    }
+    let mut keys = section.all_keys();
+    // Kinds may have a key of one name each.
+    let mut names = BTreeSet::new();
+    keys.retain(|key| names.insert(key.name));
+    for key in keys {
+        // A mesh has no name, and what only some kinds have is checked by the kind.
+        let is_needed = section.choices.is_empty() && key.initial == Initial::Required;
+        let mark = if is_needed { "" } else { "?" };
+        let unit = match key.unit {
+            "" => String::new(),
+            unit => format!(" In {unit}."),
+        };
+        let _ = write!(
+            text,
+            "  /** {}{unit} */\n  {}{mark}: {};\n",
+            key.meaning,
+            key.name,
+            type_of(key)
+        );
+    }
+    text.push_str("}\n");
+}
+
+fn type_of(key: &Key) -> String {
+    match key.form {
+        Form::Number | Form::Whole => "number".to_owned(),
+        Form::Numbers(_) | Form::Wholes(_) | Form::Color => "number[]".to_owned(),
+        Form::OneOrNumbers(_) => "number | number[]".to_owned(),
+        Form::Points(_) => "number[][]".to_owned(),
+        Form::Sizes => "Size".to_owned(),
+        Form::Flag => "boolean".to_owned(),
+        // A file is the name of one in memory.
+        Form::Text | Form::File => "string".to_owned(),
+        Form::Name(names) => one_of(names),
+        Form::NameOrNumbers(names) => format!("{} | number[]", one_of(names)),
+        Form::Table => "LayerPlaces".to_owned(),
+        Form::Tables => "LayerStroke[]".to_owned(),
+    }
+}
+
+fn one_of(names: &[&str]) -> String {
+    let quoted: Vec<_> = names.iter().map(|name| format!("'{name}'")).collect();
+    quoted.join(" | ")
+}
