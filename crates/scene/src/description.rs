@@ -4,7 +4,7 @@
 //! [`Scene`](crate::Scene) by [`Scene::build`](crate::Scene::build), and is saved by [`Description::to_toml`]; what was
 //! saved loads again to an equal description. Reading is done by hand (`read`), not by serde, so that every mistake has
 //! its line and a hint; ranges are checked in `check`, so that they hold for descriptions that come from no file. What a key is when a file
-//! leaves it out is said in [`schema`] alone.
+//! leaves it out is said in [`schema`](crate::schema) alone.
 
 mod camera;
 mod check;
@@ -12,6 +12,7 @@ mod files;
 mod gratings;
 pub(crate) mod hint;
 mod json;
+mod keyed;
 mod lens;
 mod light_kind;
 mod lights;
@@ -36,7 +37,6 @@ use serde::Serialize;
 
 use crate::environment::BuiltInMap;
 use crate::scene::{Anisotropy, Coat, Specular};
-use crate::schema;
 use values::{Named, is_default, serialize_named, serialize_scale};
 
 pub use camera::Camera;
@@ -106,16 +106,6 @@ pub struct Render {
     pub tone_map: ToneMap,
 }
 
-impl Default for Render {
-    fn default() -> Self {
-        Self {
-            size_px: schema::render::SIZE_PX.initial(),
-            filter_std_px: schema::render::FILTER_STD_PX.initial(),
-            tone_map: schema::render::TONE_MAP.initial(),
-        }
-    }
-}
-
 /// `[environment]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Environment {
@@ -183,16 +173,6 @@ pub struct Cover {
     pub thickness_mm: f64,
     /// The light that a millimetre lets through, linear Rec.709, in [0, 1].
     pub color: [f64; 3],
-}
-
-impl Default for Cover {
-    fn default() -> Self {
-        Self {
-            ior: schema::cover::IOR.initial(),
-            thickness_mm: schema::cover::THICKNESS_MM.initial(),
-            color: schema::cover::COLOR.initial(),
-        }
-    }
 }
 
 /// `kind` of a `[[material]]`

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use serde::Serialize;
 use toml::de::DeValue;
 
-use super::ranges::{Check, check_radii, check_seed, within};
-use super::read::around;
+use super::keyed::kinds;
+use super::ranges::{Check, Numbers, check_radii, check_seed, within};
 use super::scratches::{Around, Distribution};
 use super::table::{Read, Table, Value};
 use super::values::{Named, is_default, is_false, serialize_named};
@@ -128,23 +128,25 @@ pub enum UvAxis {
     V,
 }
 
+impl Numbers for UvAxis {}
+
 impl Named for UvAxis {
     const NAMES: &'static [(&'static str, Self)] = &[("u", Self::U), ("v", Self::V)];
 }
 
-impl GroovePattern {
+kinds! { GroovePattern,
     /// Value of `pattern` for it.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Parallel { .. } => "parallel",
-            Self::Circular(_) => "circular",
-            Self::Radial(_) => "radial",
-            Self::Spun { .. } => "spun",
-            Self::Swirl { .. } => "swirl",
-            Self::Uv { .. } => "uv",
-        }
+    name {
+        "parallel" => Parallel { direction: scratches::DIRECTION, jitter_deg: grating::JITTER_DEG },
+        "circular" => Circular(around),
+        "radial" => Radial(around),
+        "spun" => Spun { around: Flat, curvature_per_m: grating::CURVATURE_PER_M },
+        "swirl" => Swirl { around: Flat, spacing_m: grating::SPACING_M },
+        "uv" => Uv { along: grating::ALONG, directions: grating::DIRECTIONS, jitter_deg: grating::JITTER_DEG },
     }
+}
 
+impl GroovePattern {
     /// The axis, if it has one.
     pub fn around(&self) -> Option<&Around> {
         match self {
@@ -153,32 +155,6 @@ impl GroovePattern {
             | Self::Spun { around, .. }
             | Self::Swirl { around, .. } => Some(around),
             Self::Parallel { .. } | Self::Uv { .. } => None,
-        }
-    }
-
-    /// Refuses values out of range; `key` is the way to the grating.
-    fn check_at(&self, key: &str) -> Check {
-        match self {
-            Self::Parallel {
-                direction,
-                jitter_deg,
-            } => {
-                scratches::DIRECTION.check(key, direction)?;
-                grating::JITTER_DEG.check(key, jitter_deg)
-            }
-            Self::Circular(around) | Self::Radial(around) => around.check_at(key),
-            Self::Spun {
-                around,
-                curvature_per_m,
-            } => {
-                around.check_at(key)?;
-                grating::CURVATURE_PER_M.check(key, curvature_per_m)
-            }
-            Self::Swirl { around, spacing_m } => {
-                around.check_at(key)?;
-                grating::SPACING_M.check(key, spacing_m)
-            }
-            Self::Uv { jitter_deg, .. } => grating::JITTER_DEG.check(key, jitter_deg),
         }
     }
 }
@@ -210,7 +186,7 @@ impl Grating {
 
     /// Refuses values out of range.
     pub(super) fn check_at(&self, key: &str) -> Check {
-        self.pattern.check_at(key)?;
+        self.pattern.check_keys(key)?;
         grating::PITCH_UM.check(key, &self.pitch_um)?;
         grating::WIDTH_UM.check(key, &self.width_um)?;
         let width = format!("{key}.{}", grating::WIDTH_UM.name);
@@ -260,27 +236,7 @@ impl Read for Grating {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         refuse_crossings(value, key)?;
         let (pattern, table) = Table::of_kind(&grating::GRATING, value, key)?;
-        let pattern = match pattern {
-            "parallel" => GroovePattern::Parallel {
-                direction: table.value(&scratches::DIRECTION)?,
-                jitter_deg: table.value(&grating::JITTER_DEG)?,
-            },
-            "circular" => GroovePattern::Circular(around(&table)?),
-            "radial" => GroovePattern::Radial(around(&table)?),
-            "spun" => GroovePattern::Spun {
-                around: around(&table)?,
-                curvature_per_m: table.value(&grating::CURVATURE_PER_M)?,
-            },
-            "swirl" => GroovePattern::Swirl {
-                around: around(&table)?,
-                spacing_m: table.value(&grating::SPACING_M)?,
-            },
-            _ => GroovePattern::Uv {
-                along: table.value(&grating::ALONG)?,
-                directions: table.value(&grating::DIRECTIONS)?,
-                jitter_deg: table.value(&grating::JITTER_DEG)?,
-            },
-        };
+        let pattern = GroovePattern::read_kind(pattern, &table)?;
         let has_axis = pattern.around().is_some();
         let default = Self::new(
             table.value::<String>(&grating::OBJECT)?,

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use serde::Serialize;
 
+use super::keyed::kinds;
 use super::ranges::Check;
 use super::table::Table;
 use super::values::{is_false, is_zero};
@@ -77,6 +78,18 @@ pub enum LightKind {
     },
 }
 
+kinds! { LightKind,
+    /// Value of `kind` for it.
+    name {
+        "sphere" => Sphere { center_m: light::CENTER_M, radius_m: light::RADIUS_M },
+        "disk" => Disk { center_m: light::CENTER_M, target_m: light::TARGET_M, radius_m: light::RADIUS_M, two_sided: light::TWO_SIDED },
+        "rectangle" => Rectangle { center_m: light::CENTER_M, target_m: light::TARGET_M, width_m: light::WIDTH_M, height_m: light::HEIGHT_M, rotation_deg: light::ROTATION_DEG, two_sided: light::TWO_SIDED },
+        "polygon" => Polygon { vertices_m: light::VERTICES_M, two_sided: light::TWO_SIDED },
+        "tube" => Tube { ends_m: light::ENDS_M, radius_m: light::RADIUS_M },
+        "sun" => Sun { direction: light::DIRECTION, angle_deg: light::ANGLE_DEG, irradiance: light::IRRADIANCE },
+    }
+}
+
 impl LightKind {
     /// A sphere.
     pub fn sphere(center_m: [f64; 3], radius_m: f64) -> Self {
@@ -97,18 +110,6 @@ impl LightKind {
             direction,
             angle_deg: light::ANGLE_DEG.initial(),
             irradiance: light::IRRADIANCE.initial(),
-        }
-    }
-
-    /// Value of `kind` for it.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Sphere { .. } => "sphere",
-            Self::Disk { .. } => "disk",
-            Self::Rectangle { .. } => "rectangle",
-            Self::Polygon { .. } => "polygon",
-            Self::Tube { .. } => "tube",
-            Self::Sun { .. } => "sun",
         }
     }
 
@@ -230,65 +231,27 @@ impl LightKind {
     }
 
     pub(super) fn check_at(&self, key: &str) -> Check {
+        self.check_keys(key)?;
         match self {
-            Self::Sphere { center_m, radius_m } => {
-                light::CENTER_M.check(key, center_m)?;
-                light::RADIUS_M.check(key, radius_m)
-            }
             Self::Disk {
-                center_m,
-                target_m,
-                radius_m,
-                ..
-            } => {
-                light::CENTER_M.check(key, center_m)?;
-                light::TARGET_M.check(key, target_m)?;
-                light::RADIUS_M.check(key, radius_m)?;
-                aimed(key, *center_m, *target_m)
+                center_m, target_m, ..
             }
-            Self::Rectangle {
-                center_m,
-                target_m,
-                width_m,
-                height_m,
-                rotation_deg,
-                ..
-            } => {
-                light::CENTER_M.check(key, center_m)?;
-                light::TARGET_M.check(key, target_m)?;
-                light::WIDTH_M.check(key, width_m)?;
-                light::HEIGHT_M.check(key, height_m)?;
-                light::ROTATION_DEG.check(key, rotation_deg)?;
-                aimed(key, *center_m, *target_m)
+            | Self::Rectangle {
+                center_m, target_m, ..
+            } => aimed(key, *center_m, *target_m),
+            Self::Tube { ends_m: [a, b], .. }
+                if DVec3::from(*a).distance(DVec3::from(*b)) < NEAREST_TARGET_M =>
+            {
+                Err(Error::new(
+                    format!("{key}.ends_m"),
+                    "found two equal ends",
+                    "must be two places; a round lamp is a `sphere`",
+                ))
             }
-            Self::Tube { ends_m, radius_m } => {
-                light::ENDS_M.check(key, &ends_m[..])?;
-                light::RADIUS_M.check(key, radius_m)?;
-                let [a, b] = ends_m.map(DVec3::from);
-                match a.distance(b) >= NEAREST_TARGET_M {
-                    true => Ok(()),
-                    false => Err(Error::new(
-                        format!("{key}.ends_m"),
-                        "found two equal ends",
-                        "must be two places; a round lamp is a `sphere`",
-                    )),
-                }
-            }
-            Self::Sun {
-                direction,
-                angle_deg,
-                irradiance,
-            } => {
-                light::DIRECTION.check(key, direction)?;
-                light::ANGLE_DEG.check(key, angle_deg)?;
-                light::IRRADIANCE.check(key, irradiance)
-            }
-            Self::Polygon { vertices_m, .. } => {
-                light::VERTICES_M.check(key, &vertices_m[..])?;
-                polygon::check(&self.corners_m()).map_err(|flaw| {
-                    Error::new(format!("{key}.vertices_m"), flaw.to_string(), flaw.remedy())
-                })
-            }
+            Self::Polygon { .. } => polygon::check(&self.corners_m()).map_err(|flaw| {
+                Error::new(format!("{key}.vertices_m"), flaw.to_string(), flaw.remedy())
+            }),
+            _ => Ok(()),
         }
     }
 
@@ -315,43 +278,6 @@ impl LightKind {
             }
             _ => scene::Light::polygon(self.corners_m(), radiance, self.is_two_sided()),
         }
-    }
-
-    /// Reads the keys of a kind.
-    pub(super) fn read(kind: &str, table: &Table) -> Result<Self, Error> {
-        Ok(match kind {
-            "sphere" => Self::Sphere {
-                center_m: table.value(&light::CENTER_M)?,
-                radius_m: table.value(&light::RADIUS_M)?,
-            },
-            "disk" => Self::Disk {
-                center_m: table.value(&light::CENTER_M)?,
-                target_m: table.value(&light::TARGET_M)?,
-                radius_m: table.value(&light::RADIUS_M)?,
-                two_sided: table.value(&light::TWO_SIDED)?,
-            },
-            "rectangle" => Self::Rectangle {
-                center_m: table.value(&light::CENTER_M)?,
-                target_m: table.value(&light::TARGET_M)?,
-                width_m: table.value(&light::WIDTH_M)?,
-                height_m: table.value(&light::HEIGHT_M)?,
-                rotation_deg: table.value(&light::ROTATION_DEG)?,
-                two_sided: table.value(&light::TWO_SIDED)?,
-            },
-            "tube" => Self::Tube {
-                ends_m: table.required(light::ENDS_M.name)?,
-                radius_m: table.value(&light::RADIUS_M)?,
-            },
-            "sun" => Self::Sun {
-                direction: table.value(&light::DIRECTION)?,
-                angle_deg: table.value(&light::ANGLE_DEG)?,
-                irradiance: table.value(&light::IRRADIANCE)?,
-            },
-            _ => Self::Polygon {
-                vertices_m: table.value(&light::VERTICES_M)?,
-                two_sided: table.value(&light::TWO_SIDED)?,
-            },
-        })
     }
 }
 

@@ -238,7 +238,7 @@ impl Light {
 impl Read for Light {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         let (kind, table) = Table::of_kind(&light::LIGHT, value, key)?;
-        let kind = LightKind::read(kind, &table)?;
+        let kind = LightKind::read_kind(kind, &table)?;
         let mut read = Self::new(kind);
         if read.kind.sunbeam().is_none() {
             read.radiance = table.value(&light::RADIANCE)?;

@@ -3,6 +3,7 @@
 use hairline_optics::metal::Metal;
 use serde::{Serialize, Serializer};
 
+use super::keyed::{Keyed, keyed};
 use super::ranges::Check;
 use super::table::{Read, Table, Value};
 use super::values::serialize_named;
@@ -68,28 +69,22 @@ impl Override {
 
     /// Refuses values out of range.
     pub(super) fn check_at(&self, key: &str) -> Check {
-        overrides::ROUGHNESS.check(key, &self.roughness)?;
-        overrides::METALLIC.check(key, &self.metallic)?;
+        self.check_keys(key)?;
         match (self.base_color, self.metal) {
             (Some(_), Some(_)) => Err(Error::new(
                 format!("{key}.metal"),
                 "found `base_color` beside it",
                 "must have one of them at most",
             )),
-            (color, _) => overrides::BASE_COLOR.check(key, &color),
+            _ => Ok(()),
         }
     }
 }
 
-impl Read for Override {
-    fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::of(&overrides::OVERRIDES, value, key)?;
-        Ok(Self {
-            material: table.value(&overrides::MATERIAL)?,
-            roughness: table.value(&overrides::ROUGHNESS)?,
-            metallic: table.value(&overrides::METALLIC)?,
-            base_color: table.value(&overrides::BASE_COLOR)?,
-            metal: table.value(&overrides::METAL)?,
-        })
-    }
-}
+keyed! { Override of overrides::OVERRIDES {
+    material: overrides::MATERIAL,
+    roughness: overrides::ROUGHNESS,
+    metallic: overrides::METALLIC,
+    base_color: overrides::BASE_COLOR,
+    metal: overrides::METAL,
+} }

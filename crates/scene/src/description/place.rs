@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::keyed::keyed;
+use super::ranges::Check;
 use super::table::{Read, Table, Value};
 use super::values::is_default;
 use crate::error::Error;
@@ -49,17 +51,12 @@ impl LayerPlaces {
     }
 }
 
-impl Read for LayerPlaces {
-    fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::of(&place::WHERE, value, key)?;
-        Ok(Self {
-            mask: table.value(&place::MASK)?,
-            density: table.value(&place::DENSITY)?,
-            tile_m: table.value(&place::TILE_M)?,
-            edges: table.value(&place::EDGES)?,
-            edge_width_m: table.value(&place::EDGE_WIDTH_M)?,
-            radius_m: table.value(&place::RADIUS_M)?,
-            center_m: table.value(&place::CENTER_M)?,
-        })
-    }
-}
+keyed! { LayerPlaces of place::WHERE {
+    mask: place::MASK,
+    density: place::DENSITY,
+    tile_m: place::TILE_M,
+    edges: place::EDGES,
+    edge_width_m: place::EDGE_WIDTH_M,
+    radius_m: place::RADIUS_M,
+    center_m: place::CENTER_M,
+} }

@@ -1,8 +1,11 @@
 //! Checks of numbers against the bounds of their keys.
 
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
-use super::scratches::Distribution;
+use hairline_image::ToneMap;
+use hairline_optics::metal::Metal;
+
 use crate::error::Error;
 use crate::schema::{Bounds, Key, LARGEST_M, SMALLEST_M};
 
@@ -28,65 +31,59 @@ pub(super) fn finite(key: &str, value: f64) -> Check {
     }
 }
 
-/// Numbers of a key, each with what its way ends with.
+/// Takes a number of a key with what its way ends with, and whether it is the second of two that differ.
+pub(super) type Take<'t> = dyn FnMut(&str, f64, bool) -> Check + 't;
+
+/// Numbers of a value; other values have none.
 pub(super) trait Numbers {
-    /// Calls `check` for each, with the end of its way and its bounds.
-    fn each(&self, key: &Key, check: &mut dyn FnMut(&str, f64, Bounds) -> Check) -> Check;
+    /// Calls `take` for each.
+    fn each(&self, _take: &mut Take) -> Check {
+        Ok(())
+    }
 }
+
+impl Numbers for Metal {}
+impl Numbers for PathBuf {}
+impl Numbers for String {}
+impl Numbers for ToneMap {}
+impl Numbers for bool {}
 
 impl Numbers for f64 {
-    fn each(&self, key: &Key, check: &mut dyn FnMut(&str, f64, Bounds) -> Check) -> Check {
-        check("", *self, key.bounds)
+    fn each(&self, take: &mut Take) -> Check {
+        take("", *self, false)
     }
 }
 
-impl<const N: usize> Numbers for [f64; N] {
-    fn each(&self, key: &Key, check: &mut dyn FnMut(&str, f64, Bounds) -> Check) -> Check {
-        self[..].each(key, check)
+impl Numbers for u32 {
+    fn each(&self, take: &mut Take) -> Check {
+        take("", f64::from(*self), false)
     }
 }
 
-impl Numbers for [f64] {
-    fn each(&self, key: &Key, check: &mut dyn FnMut(&str, f64, Bounds) -> Check) -> Check {
-        let mut numbers = self.iter().enumerate();
-        numbers.try_for_each(|(i, &number)| check(&format!("[{i}]"), number, key.bounds))
-    }
-}
-
-impl Numbers for [u32; 2] {
-    fn each(&self, key: &Key, check: &mut dyn FnMut(&str, f64, Bounds) -> Check) -> Check {
-        self.map(f64::from).each(key, check)
-    }
-}
-
-impl<const N: usize> Numbers for [[f64; N]] {
-    fn each(&self, key: &Key, check: &mut dyn FnMut(&str, f64, Bounds) -> Check) -> Check {
-        self.iter().enumerate().try_for_each(|(i, point)| {
-            point.each(key, &mut |end, number, bounds| {
-                check(&format!("[{i}]{end}"), number, bounds)
-            })
+impl<T: Numbers> Numbers for [T] {
+    fn each(&self, take: &mut Take) -> Check {
+        self.iter().enumerate().try_for_each(|(i, part)| {
+            part.each(&mut |end, number, second| take(&format!("[{i}]{end}"), number, second))
         })
     }
 }
 
-impl Numbers for Distribution {
-    fn each(&self, key: &Key, check: &mut dyn FnMut(&str, f64, Bounds) -> Check) -> Check {
-        if self.spread == 0.0 {
-            return check("", self.mean, key.bounds);
-        }
-        check(".mean", self.mean, key.bounds)?;
-        let spreads = key
-            .second
-            .as_ref()
-            .map_or(Bounds::Any, |second| second.bounds);
-        check(".spread", self.spread, spreads)
+impl<T: Numbers, const N: usize> Numbers for [T; N] {
+    fn each(&self, take: &mut Take) -> Check {
+        self[..]
+            .each(&mut |end, number, second| take(end, number, second || (N == 2 && end == "[1]")))
+    }
+}
+
+impl<T: Numbers> Numbers for Vec<T> {
+    fn each(&self, take: &mut Take) -> Check {
+        self[..].each(take)
     }
 }
 
 impl<T: Numbers> Numbers for Option<T> {
-    fn each(&self, key: &Key, check: &mut dyn FnMut(&str, f64, Bounds) -> Check) -> Check {
-        self.as_ref()
-            .map_or(Ok(()), |numbers| numbers.each(key, check))
+    fn each(&self, take: &mut Take) -> Check {
+        self.as_ref().map_or(Ok(()), |numbers| numbers.each(take))
     }
 }
 
@@ -95,8 +92,12 @@ impl Key {
     pub(super) fn check(&self, table: &str, numbers: &(impl Numbers + ?Sized)) -> Check {
         let way = format!("{table}.{}", self.name);
         let mut is_zero = self.bounds == Bounds::Direction;
-        numbers.each(self, &mut |end, number, bounds| {
+        numbers.each(&mut |end, number, is_second| {
             is_zero &= number.abs() <= 1e-6;
+            let bounds = match (&self.second, is_second) {
+                (Some(second), true) => second.bounds,
+                _ => self.bounds,
+            };
             bounds.check(&format!("{way}{end}"), number)
         })?;
         match is_zero {

@@ -2,7 +2,9 @@
 
 use toml::de::{DeTable, DeValue};
 
+use super::keyed::{Keyed, keyed};
 use super::lens;
+use super::ranges::Check;
 use super::table::{Held, Read, Table, Value, number, wrong_type};
 use super::{
     Amount, Around, Brush, Brushed, Cover, Description, Distribution, Environment, Laid, Layer,
@@ -80,13 +82,15 @@ impl Read for Render {
         let known = [&render::SIZE_PX, &render::FILTER_STD_PX, &render::TONE_MAP];
         let known = [&known.map(|key| key.name)[..], &["gather"]].concat();
         let table = Table::read(value, key, &known)?;
-        Ok(Self {
-            size_px: table.value(&render::SIZE_PX)?,
-            filter_std_px: table.value(&render::FILTER_STD_PX)?,
-            tone_map: table.value(&render::TONE_MAP)?,
-        })
+        Self::read_keys(&table)
     }
 }
+
+keyed! { Render: Default {
+    size_px: render::SIZE_PX,
+    filter_std_px: render::FILTER_STD_PX,
+    tone_map: render::TONE_MAP,
+} }
 
 impl Read for Environment {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
@@ -103,16 +107,11 @@ impl Read for Environment {
     }
 }
 
-impl Read for Cover {
-    fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::of(&cover::COVER, value, key)?;
-        Ok(Self {
-            ior: table.value(&cover::IOR)?,
-            thickness_mm: table.value(&cover::THICKNESS_MM)?,
-            color: table.value(&cover::COLOR)?,
-        })
-    }
-}
+keyed! { Cover: Default of cover::COVER {
+    ior: cover::IOR,
+    thickness_mm: cover::THICKNESS_MM,
+    color: cover::COLOR,
+} }
 
 impl Read for Material {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
@@ -265,14 +264,11 @@ impl Read for Scratches {
     }
 }
 
-/// The axis that a pattern turns about.
-pub(super) fn around(table: &Table) -> Result<Around, Error> {
-    Ok(Around {
-        axis: table.value(&scratches::AXIS)?,
-        center_m: table.value(&scratches::CENTER_M)?,
-        jitter_deg: table.value(&scratches::JITTER_DEG)?,
-    })
-}
+keyed! { Around: Default {
+    axis: scratches::AXIS,
+    center_m: scratches::CENTER_M,
+    jitter_deg: scratches::JITTER_DEG,
+} }
 
 /// Lengths, widths and depths.
 fn sizes(table: &Table) -> Result<[Distribution; 3], Error> {
@@ -291,7 +287,7 @@ fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
     }
     let seed = table.value(&scratches::SEED)?;
     let sizes = sizes(table)?;
-    let around = || around(table);
+    let around = || Around::read_keys(table);
     let pattern = match pattern {
         "random" => Pattern::Random {
             curvature_per_m: table.value(&scratches::BEND_PER_M)?,

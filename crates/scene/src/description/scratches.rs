@@ -6,6 +6,7 @@ use hairline_optics::section::Section;
 use serde::{Serialize, Serializer};
 
 use super::place::LayerPlaces;
+use super::ranges::{Check, Numbers, Take};
 use crate::schema::scratches;
 
 /// `[[scratches]]`
@@ -290,16 +291,6 @@ pub struct Around {
     pub jitter_deg: f64,
 }
 
-impl Default for Around {
-    fn default() -> Self {
-        Self {
-            axis: scratches::AXIS.initial(),
-            center_m: scratches::CENTER_M.initial(),
-            jitter_deg: scratches::JITTER_DEG.initial(),
-        }
-    }
-}
-
 /// A number that is drawn anew for each scratch: `{ mean = .., spread = .. }`, or a plain number for no spread.
 ///
 /// For a log-normal quantity `mean` is the mean itself and `spread` the standard deviation of the natural logarithm; for a
@@ -310,6 +301,16 @@ pub struct Distribution {
     pub mean: f64,
     /// Spread of the values, not negative.
     pub spread: f64,
+}
+
+impl Numbers for Distribution {
+    fn each(&self, take: &mut Take) -> Check {
+        if self.spread == 0.0 {
+            return take("", self.mean, false);
+        }
+        take(".mean", self.mean, false)?;
+        take(".spread", self.spread, true)
+    }
 }
 
 impl Serialize for Distribution {

@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
+use super::keyed::kinds;
 use super::ranges::{Check, found, written};
 use super::table::{Read, Table, Value};
 use crate::error::Error;
-use crate::schema::{Bounds, Key, shape};
+use crate::schema::{Key, shape};
 use crate::shape::text;
 
 /// A built-in shape about the origin, z up.
@@ -88,94 +89,76 @@ pub enum Shape {
     },
 }
 
-impl Shape {
+kinds! { Shape,
     /// Value of `shape` for it.
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Plane { .. } => "plane",
-            Self::Disk { .. } => "disk",
-            Self::Sphere { .. } => "sphere",
-            Self::Box { .. } => "box",
-            Self::Cylinder { .. } => "cylinder",
-            Self::Torus { .. } => "torus",
-            Self::Dome { .. } => "dome",
-            Self::Sweep { .. } => "sweep",
-            Self::Text { .. } => "text",
-            Self::Lathe { .. } => "lathe",
-        }
+    kind {
+        "plane" => Plane { size_m: shape::PLANE_SIZE_M },
+        "disk" => Disk { radius_m: shape::RADIUS_M },
+        "sphere" => Sphere { radius_m: shape::RADIUS_M },
+        "box" => Box { size_m: shape::BOX_SIZE_M, rounding_m: shape::BOX_ROUNDING_M },
+        "cylinder" => Cylinder { radius_m: shape::RADIUS_M, height_m: shape::HEIGHT_M, rounding_m: shape::CYLINDER_ROUNDING_M },
+        "torus" => Torus { radius_m: shape::RING_RADIUS_M, tube_radius_m: shape::TUBE_RADIUS_M },
+        "dome" => Dome { radius_m: shape::RADIUS_M, height_m: shape::DOME_HEIGHT_M },
+        "sweep" => Sweep { size_m: shape::PLANE_SIZE_M, height_m: shape::HEIGHT_M, rounding_m: Or(&shape::SWEEP_ROUNDING_M, half_of_the_most) },
+        "text" => Text { line: shape::LINE, height_m: shape::CAPITALS_M, depth_m: shape::DEPTH_M },
+        "lathe" => Lathe { profile_m: shape::PROFILE_M, segments: shape::SEGMENTS, smooth: shape::SMOOTH },
     }
+}
 
+impl Shape {
     /// Refuses values out of range; `key` is the way to `shape`.
     pub(super) fn check_at(&self, key: &str) -> Check {
         let table = format!("{key}.{}", self.kind());
+        self.check_keys(&table)?;
         let way = |key: &Key| format!("{table}.{}", key.name);
-        let rounding = |key: &Key, value: f64, most: f64, what: &str| {
-            key.check(&table, &value)?;
-            at_most(&way(key), value, most, what)
-        };
         match self {
-            Self::Plane { size_m } => shape::PLANE_SIZE_M.check(&table, size_m),
-            Self::Disk { radius_m } | Self::Sphere { radius_m } => {
-                shape::RADIUS_M.check(&table, radius_m)
-            }
+            Self::Plane { .. } | Self::Disk { .. } | Self::Sphere { .. } => Ok(()),
             Self::Box { size_m, rounding_m } => {
-                shape::BOX_SIZE_M.check(&table, size_m)?;
                 let shortest = size_m.iter().copied().fold(f64::INFINITY, f64::min);
                 let what = "half of the shortest edge";
-                rounding(&shape::BOX_ROUNDING_M, *rounding_m, 0.5 * shortest, what)
+                at_most(
+                    &way(&shape::BOX_ROUNDING_M),
+                    *rounding_m,
+                    0.5 * shortest,
+                    what,
+                )
             }
             Self::Cylinder {
                 radius_m,
                 height_m,
                 rounding_m,
             } => {
-                shape::RADIUS_M.check(&table, radius_m)?;
-                shape::HEIGHT_M.check(&table, height_m)?;
                 let most = radius_m.min(0.5 * height_m);
                 let what = "the radius and half of the height";
-                rounding(&shape::CYLINDER_ROUNDING_M, *rounding_m, most, what)
+                at_most(&way(&shape::CYLINDER_ROUNDING_M), *rounding_m, most, what)
             }
             Self::Torus {
                 radius_m,
                 tube_radius_m,
-            } => {
-                shape::RING_RADIUS_M.check(&table, radius_m)?;
-                shape::TUBE_RADIUS_M.check(&table, tube_radius_m)?;
-                match tube_radius_m < radius_m {
-                    true => Ok(()),
-                    false => Err(Error::new(
-                        way(&shape::TUBE_RADIUS_M),
-                        found(*tube_radius_m),
-                        format!("must be below `radius_m`, {}", written(*radius_m)),
-                    )),
-                }
-            }
-            Self::Dome { radius_m, height_m } => {
-                shape::RADIUS_M.check(&table, radius_m)?;
-                shape::DOME_HEIGHT_M.check(&table, height_m)?;
-                at_most(
-                    &way(&shape::DOME_HEIGHT_M),
-                    *height_m,
-                    *radius_m,
-                    "`radius_m`",
-                )
-            }
+            } => match tube_radius_m < radius_m {
+                true => Ok(()),
+                false => Err(Error::new(
+                    way(&shape::TUBE_RADIUS_M),
+                    found(*tube_radius_m),
+                    format!("must be below `radius_m`, {}", written(*radius_m)),
+                )),
+            },
+            Self::Dome { radius_m, height_m } => at_most(
+                &way(&shape::DOME_HEIGHT_M),
+                *height_m,
+                *radius_m,
+                "`radius_m`",
+            ),
             Self::Sweep {
                 size_m,
                 height_m,
                 rounding_m,
             } => {
-                shape::PLANE_SIZE_M.check(&table, size_m)?;
-                shape::HEIGHT_M.check(&table, height_m)?;
                 let most = height_m.min(size_m[1]);
                 let what = "`height_m` and the extent along y";
-                rounding(&shape::SWEEP_ROUNDING_M, *rounding_m, most, what)
+                at_most(&way(&shape::SWEEP_ROUNDING_M), *rounding_m, most, what)
             }
-            Self::Text {
-                line,
-                height_m,
-                depth_m,
-            } => {
+            Self::Text { line, .. } => {
                 let count = line.chars().count();
                 if line.trim().is_empty() || count > CHARACTERS_MOST {
                     let found = format!("found {count} characters");
@@ -188,34 +171,23 @@ impl Shape {
                     let right = "must be characters of the font, Ubuntu Light, in one line";
                     return Err(Error::new(way(&shape::LINE), found, right));
                 }
-                shape::CAPITALS_M.check(&table, height_m)?;
-                shape::DEPTH_M.check(&table, depth_m)
-            }
-            Self::Lathe {
-                profile_m,
-                segments,
-                ..
-            } => {
-                shape::SEGMENTS.check(&table, &f64::from(*segments))?;
-                let profile = way(&shape::PROFILE_M);
-                if profile_m.len() < 2 {
-                    let found = format!("found {} points", profile_m.len());
-                    return Err(Error::new(profile, found, "must be at least two"));
-                }
-                let heights = shape::PROFILE_M
-                    .second
-                    .as_ref()
-                    .map_or(Bounds::Any, |it| it.bounds);
-                for (i, [r, z]) in profile_m.iter().enumerate() {
-                    shape::PROFILE_M
-                        .bounds
-                        .check(&format!("{profile}[{i}][0]"), *r)?;
-                    heights.check(&format!("{profile}[{i}][1]"), *z)?;
-                }
                 Ok(())
             }
+            Self::Lathe { profile_m, .. } if profile_m.len() < 2 => {
+                let found = format!("found {} points", profile_m.len());
+                let right = "must be at least two";
+                Err(Error::new(way(&shape::PROFILE_M), found, right))
+            }
+            Self::Lathe { .. } => Ok(()),
         }
     }
+}
+
+/// Radius of a sweep that leaves it out.
+fn half_of_the_most(sweep: &Table) -> Result<f64, Error> {
+    let height_m: f64 = sweep.value(&shape::HEIGHT_M)?;
+    let [_, along_y_m]: [f64; 2] = sweep.value(&shape::PLANE_SIZE_M)?;
+    Ok(0.5 * height_m.min(along_y_m))
 }
 
 /// Characters of a text.
@@ -244,53 +216,6 @@ impl Read for Shape {
         };
         let value = outer.get(choice.name).expect("the kind was found just now");
         let table = Table::of_choice(choice, value, &outer.way(choice.name))?;
-        Ok(match choice.name {
-            "plane" => Self::Plane {
-                size_m: table.value(&shape::PLANE_SIZE_M)?,
-            },
-            "disk" => Self::Disk {
-                radius_m: table.value(&shape::RADIUS_M)?,
-            },
-            "sphere" => Self::Sphere {
-                radius_m: table.value(&shape::RADIUS_M)?,
-            },
-            "box" => Self::Box {
-                size_m: table.value(&shape::BOX_SIZE_M)?,
-                rounding_m: table.value(&shape::BOX_ROUNDING_M)?,
-            },
-            "cylinder" => Self::Cylinder {
-                radius_m: table.value(&shape::RADIUS_M)?,
-                height_m: table.value(&shape::HEIGHT_M)?,
-                rounding_m: table.value(&shape::CYLINDER_ROUNDING_M)?,
-            },
-            "torus" => Self::Torus {
-                radius_m: table.value(&shape::RING_RADIUS_M)?,
-                tube_radius_m: table.value(&shape::TUBE_RADIUS_M)?,
-            },
-            "dome" => Self::Dome {
-                radius_m: table.value(&shape::RADIUS_M)?,
-                height_m: table.value(&shape::DOME_HEIGHT_M)?,
-            },
-            "sweep" => {
-                let size_m: [f64; 2] = table.value(&shape::PLANE_SIZE_M)?;
-                let height_m: f64 = table.value(&shape::HEIGHT_M)?;
-                let half = 0.5 * height_m.min(size_m[1]);
-                Self::Sweep {
-                    size_m,
-                    height_m,
-                    rounding_m: table.or(shape::SWEEP_ROUNDING_M.name, half)?,
-                }
-            }
-            "text" => Self::Text {
-                line: table.value(&shape::LINE)?,
-                height_m: table.value(&shape::CAPITALS_M)?,
-                depth_m: table.value(&shape::DEPTH_M)?,
-            },
-            _ => Self::Lathe {
-                profile_m: table.required(shape::PROFILE_M.name)?,
-                segments: table.value(&shape::SEGMENTS)?,
-                smooth: table.value(&shape::SMOOTH)?,
-            },
-        })
+        Self::read_kind(choice.name, &table)
     }
 }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::Description;
+use super::keyed::{Keyed, keyed};
 use super::ranges::Check;
 use super::table::{Read, Table, Value};
 use super::values::{is_false, is_zero};
@@ -24,16 +25,6 @@ pub struct Studio {
     pub rotation_deg: f64,
 }
 
-impl Default for Studio {
-    fn default() -> Self {
-        Self {
-            hidden: false,
-            intensity: studio::INTENSITY.initial(),
-            rotation_deg: studio::ROTATION_DEG.initial(),
-        }
-    }
-}
-
 impl Studio {
     /// A scene without a studio.
     pub const NONE: Self = Self {
@@ -47,8 +38,7 @@ impl Studio {
     }
 
     pub(super) fn check(&self) -> Check {
-        studio::INTENSITY.check("studio", &self.intensity)?;
-        studio::ROTATION_DEG.check("studio", &self.rotation_deg)
+        self.check_keys("studio")
     }
 }
 
@@ -69,22 +59,9 @@ pub struct Ground {
     pub height_m: Option<f64>,
 }
 
-impl Default for Ground {
-    fn default() -> Self {
-        Self {
-            hidden: false,
-            color: ground::COLOR.initial(),
-            roughness: ground::ROUGHNESS.initial(),
-            height_m: None,
-        }
-    }
-}
-
 impl Ground {
     pub(super) fn check(&self) -> Check {
-        ground::COLOR.check("ground", &self.color)?;
-        ground::ROUGHNESS.check("ground", &self.roughness)?;
-        ground::HEIGHT_M.check("ground", &self.height_m)
+        self.check_keys("ground")
     }
 }
 
@@ -107,25 +84,15 @@ fn is_satin(roughness: &f64) -> bool {
     *roughness == ground::ROUGHNESS.initial::<f64>()
 }
 
-impl Read for Studio {
-    fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::of(&studio::STUDIO, value, key)?;
-        Ok(Self {
-            hidden: table.value(&studio::HIDDEN)?,
-            intensity: table.value(&studio::INTENSITY)?,
-            rotation_deg: table.value(&studio::ROTATION_DEG)?,
-        })
-    }
-}
+keyed! { Studio: Default of studio::STUDIO {
+    hidden: studio::HIDDEN,
+    intensity: studio::INTENSITY,
+    rotation_deg: studio::ROTATION_DEG,
+} }
 
-impl Read for Ground {
-    fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::of(&ground::GROUND, value, key)?;
-        Ok(Self {
-            hidden: table.value(&ground::HIDDEN)?,
-            color: table.value(&ground::COLOR)?,
-            roughness: table.value(&ground::ROUGHNESS)?,
-            height_m: table.value(&ground::HEIGHT_M)?,
-        })
-    }
-}
+keyed! { Ground: Default of ground::GROUND {
+    hidden: ground::HIDDEN,
+    color: ground::COLOR,
+    roughness: ground::ROUGHNESS,
+    height_m: ground::HEIGHT_M,
+} }

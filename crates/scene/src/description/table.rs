@@ -270,6 +270,12 @@ impl<const N: usize> Held for [f64; N] {
     }
 }
 
+impl Held for [[f64; 3]; 2] {
+    fn initial(_: Initial) -> Option<Self> {
+        None
+    }
+}
+
 impl<const N: usize> Held for [u32; N] {
     fn initial(initial: Initial) -> Option<Self> {
         <[f64; N]>::initial(initial).map(|numbers| numbers.map(|number| number as u32))
