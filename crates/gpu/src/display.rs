@@ -4,13 +4,14 @@
 //! by itself (the shader does, and dithers), of the picture's size. One triangle a band.
 
 use hairline_image::Display;
-use wgpu::{BufferUsages, ShaderStages};
+use wgpu::BufferUsages;
 
-use crate::bindings::{bind, entry, layout, storage, uniform};
+use crate::bindings::bind;
 use crate::canvas::Canvas;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::DisplaySettings;
+use crate::pipelines::shader;
 use crate::shaders;
 use crate::timing::Timing;
 
@@ -22,29 +23,12 @@ pub(crate) struct DisplayPass {
 
 impl DisplayPass {
     pub(crate) async fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Result<Self, Error> {
-        let entries = [
-            entry(0, ShaderStages::FRAGMENT, uniform()),
-            entry(1, ShaderStages::FRAGMENT, storage(true)),
-        ];
-        let group_layout = layout(gpu, "display", &entries);
-        let module = gpu
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("display"),
-                source: wgpu::ShaderSource::Wgsl(shaders::compose(&[&shaders::DISPLAY]).into()),
-            });
-        let layout = gpu
-            .device
-            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("display"),
-                bind_group_layouts: &[Some(&group_layout)],
-                immediate_size: 0,
-            });
+        let module = shader(gpu, &shaders::DISPLAY);
         let pipeline = gpu
             .device
             .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some("display"),
-                layout: Some(&layout),
+                layout: None,
                 vertex: wgpu::VertexState {
                     module: &module,
                     entry_point: Some("display_vertex"),
@@ -72,9 +56,9 @@ impl DisplayPass {
             )
             .await?;
         Ok(Self {
-            pipeline,
             settings,
-            layout: group_layout,
+            layout: pipeline.get_bind_group_layout(0),
+            pipeline,
         })
     }
 

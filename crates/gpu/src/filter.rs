@@ -7,17 +7,14 @@ use hairline_image::filter::{
     LEAST_ALIKE, LEAST_AROUND, MIRROR_STEP_PX, NORMAL_POWER, OFF_PLANE, OUTLIER_STD, OUTLINE_PX,
     PASSES, ROUGH_NORMALS, ROUGH_STEP_PX, VARIANCE_PX, noise_std,
 };
-use wgpu::{
-    BindGroupLayoutEntry, BindingResource, BufferUsages, ShaderStages, TextureFormat, TextureUsages,
-};
+use wgpu::{BindingResource, BufferUsages, TextureFormat, TextureUsages};
 
-use crate::bindings::{dynamic_uniform, entry, integers, layout, storage};
 use crate::canvas::Canvas;
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::film::FilmFound;
+use crate::film::{Film, FilmFound};
 use crate::layout::FilterSettings;
-use crate::pipelines::compiled;
+use crate::pipelines::{alone, compiled, shader};
 use crate::shaders;
 use crate::timing::Timing;
 
@@ -38,8 +35,8 @@ pub(crate) struct FilterPasses {
 
 struct Pass {
     name: &'static str,
-    layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
+    /// Those that its entry point uses.
     bindings: &'static [u32],
 }
 
@@ -55,15 +52,13 @@ struct Room {
 
 impl FilterPasses {
     pub(crate) async fn new(gpu: &Gpu) -> Result<Self, Error> {
-        let text = shaders::compose(&[&shaders::FILTER]);
         compiled(gpu, || {
-            let module = gpu
-                .device
-                .create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some("filter"),
-                    source: wgpu::ShaderSource::Wgsl(text.into()),
-                });
-            let pass = |entry_point, bindings| Pass::new(gpu, &module, entry_point, bindings);
+            let module = shader(gpu, &shaders::FILTER);
+            let pass = |name, bindings| Pass {
+                name,
+                pipeline: alone(gpu, &module, name),
+                bindings,
+            };
             Self {
                 signals: pass("filter_signals", &[0, 1, 2, 6, 7, 8]),
                 variances: pass("filter_variances", &[0, 3, 4, 5, 7, 8]),
@@ -103,8 +98,12 @@ impl FilterPasses {
             }
             _ => Room::new(gpu, size_px, per_layer * u64::from(LAYERS)).await?,
         };
-        let all = |n: [u32; 2]| n.map(|n| n.div_ceil(WORKGROUP_PX));
         let mut settings = Vec::new();
+        let mut run = |pass: &Pass, film, turn, own, size_px: [u32; 2]| {
+            let resources = resources(&room, film, turn, settings.len());
+            settings.push(own);
+            pass.run(gpu, (encoder, timing), &resources, size_px);
+        };
         for layer in 0..LAYERS {
             let whole = FilterSettings {
                 size_px,
@@ -130,46 +129,22 @@ impl FilterPasses {
             };
             // The first pass reads the film and writes the first textures, then both sets take turns.
             for (rows, film) in &films {
-                let from = Inputs::of(&room, film, 1);
-                let size = all([size_px[0], rows.len() as u32]);
-                self.signals.run(
-                    gpu,
-                    (encoder, timing),
-                    &from,
-                    &mut settings,
-                    in_band(rows),
-                    size,
-                );
+                let size_px = [size_px[0], rows.len() as u32];
+                run(&self.signals, film, 1, in_band(rows), size_px);
             }
             let mut at = 0;
             for pass in 0..=PASSES {
-                let from = Inputs::of(&room, films[0].1, at);
                 let (own, step) = match pass {
                     0 => (&self.variances, 0),
                     _ => (&self.step, 1 << (pass - 1)),
                 };
                 let with = FilterSettings { step, ..whole };
-                own.run(
-                    gpu,
-                    (encoder, timing),
-                    &from,
-                    &mut settings,
-                    with,
-                    all(size_px),
-                );
+                run(own, films[0].1, at, with, size_px);
                 at = 1 - at;
             }
             for (rows, film) in &films {
-                let from = Inputs::of(&room, film, at);
-                let size = all([size_px[0], rows.len() as u32]);
-                self.film.run(
-                    gpu,
-                    (encoder, timing),
-                    &from,
-                    &mut settings,
-                    in_band(rows),
-                    size,
-                );
+                let size_px = [size_px[0], rows.len() as u32];
+                run(&self.film, film, at, in_band(rows), size_px);
             }
         }
         let mut bytes = Vec::with_capacity(settings.len() * SETTINGS_STRIDE as usize);
@@ -184,124 +159,64 @@ impl FilterPasses {
 }
 
 impl Pass {
-    fn new(
-        gpu: &Gpu,
-        module: &wgpu::ShaderModule,
-        entry_point: &'static str,
-        bindings: &'static [u32],
-    ) -> Self {
-        let entries: Vec<_> = bindings.iter().map(|binding| used(*binding)).collect();
-        let group_layout = layout(gpu, entry_point, &entries);
-        let layout = gpu
-            .device
-            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(entry_point),
-                bind_group_layouts: &[Some(&group_layout)],
-                immediate_size: 0,
-            });
-        let pipeline = gpu
-            .device
-            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry_point),
-                layout: Some(&layout),
-                module,
-                entry_point: Some(entry_point),
-                compilation_options: Default::default(),
-                cache: None,
-            });
-        Self {
-            name: entry_point,
-            layout: group_layout,
-            pipeline,
-            bindings,
-        }
-    }
-
-    /// Records one dispatch; its settings are added to those of all.
+    /// Records one dispatch over so many pixels.
     fn run(
         &self,
         gpu: &Gpu,
         (encoder, timing): (&mut wgpu::CommandEncoder, &Timing),
-        inputs: &Inputs<'_>,
-        settings: &mut Vec<FilterSettings>,
-        own: FilterSettings,
-        [x, y]: [u32; 2],
+        resources: &[BindingResource; 9],
+        size_px: [u32; 2],
     ) {
         let entries: Vec<_> = self
             .bindings
             .iter()
             .map(|&binding| wgpu::BindGroupEntry {
                 binding,
-                resource: inputs.0[binding as usize].clone(),
+                resource: resources[binding as usize].clone(),
             })
             .collect();
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("filter"),
-            layout: &self.layout,
+            layout: &self.pipeline.get_bind_group_layout(0),
             entries: &entries,
         });
-        let offset = settings.len() as u32 * SETTINGS_STRIDE as u32;
-        settings.push(own);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(self.name),
             timestamp_writes: timing.compute(self.name),
         });
         pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &group, &[offset]);
+        pass.set_bind_group(0, &group, &[]);
+        let [x, y] = size_px.map(|n| n.div_ceil(WORKGROUP_PX));
         pass.dispatch_workgroups(x, y, 1);
     }
 }
 
-/// All bindings in their order. Twin: filter.wgsl.
-struct Inputs<'a>([BindingResource<'a>; 9]);
-
-impl<'a> Inputs<'a> {
-    /// Makes bindings that read the signals of one turn and write those of the other.
-    fn of(room: &'a Room, film: &'a crate::film::Film, turn: usize) -> Self {
-        let view = BindingResource::TextureView;
-        let settings = BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: &room.settings,
-            offset: 0,
-            size: wgpu::BufferSize::new(size_of::<FilterSettings>() as u64),
-        });
-        let found = film.found.as_ref().map_or(&film.buffer, |it| &it.buffer);
-        let [read, written] = [&room.signals[turn], &room.signals[1 - turn]];
-        Self([
-            settings,
-            film.buffer.as_entire_binding(),
-            found.as_entire_binding(),
-            view(&room.guides),
-            view(&read[0]),
-            view(&read[1]),
-            view(&room.guides),
-            view(&written[0]),
-            view(&written[1]),
-        ])
-    }
-}
-
-/// Layout of a binding in the shader.
-fn used(binding: u32) -> BindGroupLayoutEntry {
-    let numbers = wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: false },
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    };
-    let written = |format| wgpu::BindingType::StorageTexture {
-        access: wgpu::StorageTextureAccess::WriteOnly,
-        format,
-        view_dimension: wgpu::TextureViewDimension::D2,
-    };
-    let kind = match binding {
-        0 => dynamic_uniform(),
-        1 => storage(false),
-        2 => storage(true),
-        3 => integers(),
-        4 | 5 => numbers,
-        6 => written(GUIDES_FORMAT),
-        _ => written(SIGNALS_FORMAT),
-    };
-    entry(binding, ShaderStages::COMPUTE, kind)
+/// All bindings in their order, which read the signals of one turn and write those of the other. Twin: filter.wgsl.
+fn resources<'a>(
+    room: &'a Room,
+    film: &'a Film,
+    turn: usize,
+    settings: usize,
+) -> [BindingResource<'a>; 9] {
+    let view = BindingResource::TextureView;
+    let settings = BindingResource::Buffer(wgpu::BufferBinding {
+        buffer: &room.settings,
+        offset: settings as u64 * SETTINGS_STRIDE,
+        size: wgpu::BufferSize::new(size_of::<FilterSettings>() as u64),
+    });
+    let found = film.found.as_ref().map_or(&film.buffer, |it| &it.buffer);
+    let [read, written] = [&room.signals[turn], &room.signals[1 - turn]];
+    [
+        settings,
+        film.buffer.as_entire_binding(),
+        found.as_entire_binding(),
+        view(&room.guides),
+        view(&read[0]),
+        view(&read[1]),
+        view(&room.guides),
+        view(&written[0]),
+        view(&written[1]),
+    ]
 }
 
 const GUIDES_FORMAT: TextureFormat = TextureFormat::Rgba32Uint;

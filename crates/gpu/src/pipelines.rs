@@ -122,12 +122,7 @@ impl<'a> Orders<'a> {
         constants.retain(|(name, _)| order.more.iter().all(|(other, _)| other != name));
         constants.extend(&order.more);
         let label = Some(order.module.name);
-        let shader = gpu
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label,
-                source: wgpu::ShaderSource::Wgsl(text.into()),
-            });
+        let shader = shader(gpu, order.module);
         let groups = [
             &layouts.frame,
             &layouts.scene,
@@ -154,6 +149,33 @@ impl<'a> Orders<'a> {
                 cache: None,
             })
     }
+}
+
+/// A module with those that it needs.
+pub(crate) fn shader(gpu: &Gpu, module: &'static shaders::Module) -> wgpu::ShaderModule {
+    let text = shaders::compose(&[module]);
+    gpu.device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(module.name),
+            source: wgpu::ShaderSource::Wgsl(text.into()),
+        })
+}
+
+/// A compute pipeline whose only group has the bindings that its entry point uses.
+pub(crate) fn alone(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    entry_point: &str,
+) -> wgpu::ComputePipeline {
+    gpu.device
+        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry_point),
+            layout: None,
+            module,
+            entry_point: Some(entry_point),
+            compilation_options: Default::default(),
+            cache: None,
+        })
 }
 
 /// Returns what `create` compiles, or the reason why the driver or the shader's own rules refuse it.

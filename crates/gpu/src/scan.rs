@@ -1,22 +1,24 @@
 //! Passes: exclusive prefix sums of an array, in place. Twin: scan.wgsl.
 
-use wgpu::{BufferUsages, ShaderStages};
+use wgpu::BufferUsages;
 
-use crate::bindings::{bind, entry, layout, storage, uniform};
+use crate::bindings::bind;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::ScanSettings;
+use crate::pipelines::{alone, shader};
 use crate::shaders;
 use crate::timing::Timing;
 
 /// Elements of a block. Twin: scan.wgsl.
 const BLOCK: u32 = 256 * 8;
 
+const BLOCKS: usize = 0;
+const ADD: usize = 1;
+
 /// The two pipelines, which serve every array.
 pub(crate) struct ScanPasses {
-    layout: wgpu::BindGroupLayout,
-    blocks: wgpu::ComputePipeline,
-    add: wgpu::ComputePipeline,
+    pipelines: [wgpu::ComputePipeline; 2],
 }
 
 /// The scan of one array.
@@ -27,47 +29,16 @@ pub(crate) struct Scan {
 
 struct Level {
     settings: wgpu::Buffer,
-    group: wgpu::BindGroup,
+    /// For each of the two pipelines.
+    groups: [wgpu::BindGroup; 2],
     count: u32,
 }
 
 impl ScanPasses {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        let compute = ShaderStages::COMPUTE;
-        let entries = [
-            entry(0, compute, uniform()),
-            entry(1, compute, storage(false)),
-            entry(2, compute, storage(false)),
-        ];
-        let group_layout = layout(gpu, "scan", &entries);
-        let module = gpu
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("scan"),
-                source: wgpu::ShaderSource::Wgsl(shaders::compose(&[&shaders::SCAN]).into()),
-            });
-        let pipeline_layout = gpu
-            .device
-            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("scan"),
-                bind_group_layouts: &[Some(&group_layout)],
-                immediate_size: 0,
-            });
-        let pipeline = |entry_point| {
-            gpu.device
-                .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                    label: Some(entry_point),
-                    layout: Some(&pipeline_layout),
-                    module: &module,
-                    entry_point: Some(entry_point),
-                    compilation_options: Default::default(),
-                    cache: None,
-                })
-        };
+        let module = shader(gpu, &shaders::SCAN);
         Self {
-            blocks: pipeline("scan_blocks"),
-            add: pipeline("scan_add"),
-            layout: group_layout,
+            pipelines: ["scan_blocks", "scan_add"].map(|it| alone(gpu, &module, it)),
         }
     }
 
@@ -95,10 +66,13 @@ impl ScanPasses {
                 values.as_entire_binding(),
                 totals.as_entire_binding(),
             ];
-            let group = bind(gpu, "scan", &self.layout, &resources);
+            let groups = self
+                .pipelines
+                .each_ref()
+                .map(|pipeline| bind(gpu, "scan", &pipeline.get_bind_group_layout(0), &resources));
             levels.push(Level {
                 settings,
-                group,
+                groups,
                 count: 0,
             });
             if blocks == 1 {
@@ -110,21 +84,21 @@ impl ScanPasses {
 
     /// Records the scan of as many elements as [`Scan::set_count`] said.
     pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, scan: &Scan, timing: &Timing) {
-        let mut dispatch = |pipeline: &wgpu::ComputePipeline, level: &Level| {
+        let mut dispatch = |pipeline: usize, level: &Level| {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                 label: Some("scan"),
                 timestamp_writes: timing.compute("scan"),
             });
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, &level.group, &[]);
+            pass.set_pipeline(&self.pipelines[pipeline]);
+            pass.set_bind_group(0, &level.groups[pipeline], &[]);
             pass.dispatch_workgroups(level.count.div_ceil(BLOCK).max(1), 1, 1);
         };
         for level in &scan.levels {
-            dispatch(&self.blocks, level);
+            dispatch(BLOCKS, level);
         }
         let with_blocks = scan.levels.split_last().map_or(&[][..], |(_, below)| below);
         for level in with_blocks.iter().rev() {
-            dispatch(&self.add, level);
+            dispatch(ADD, level);
         }
     }
 }

@@ -6,6 +6,7 @@
 use crate::bindings::Layouts;
 use crate::compute_pass::Recording;
 use crate::device::Gpu;
+use crate::pipelines::shader;
 use crate::shaders;
 use crate::strip::{DEPTH_FORMAT, StripRoom, VISIBILITY_FORMAT};
 
@@ -19,14 +20,6 @@ pub(crate) struct VisibilityPass {
 
 impl VisibilityPass {
     pub(crate) fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
-        let module = |module: &'static shaders::Module| {
-            let source = shaders::compose(&[module]);
-            gpu.device
-                .create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(module.name),
-                    source: wgpu::ShaderSource::Wgsl(source.into()),
-                })
-        };
         let groups = [
             Some(&layouts.frame),
             Some(&layouts.scene),
@@ -77,8 +70,8 @@ impl VisibilityPass {
                     cache: None,
                 })
         };
-        let whole = module(&shaders::VISIBILITY);
-        let cut = module(&shaders::VISIBILITY_CUTOUTS);
+        let whole = shader(gpu, &shaders::VISIBILITY);
+        let cut = shader(gpu, &shaders::VISIBILITY_CUTOUTS);
         let of_whole = layout(&groups[..2]);
         let of_cut = layout(&groups);
         let entries = ["visibility_vertex", "visibility_fragment"];
