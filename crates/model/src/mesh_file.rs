@@ -12,6 +12,7 @@ mod channels;
 mod coat;
 mod cutout;
 mod draco;
+mod elements;
 mod extension_texture;
 mod extensions;
 mod head;

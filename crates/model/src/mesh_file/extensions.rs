@@ -1,31 +1,19 @@
 //! The extensions of glTF: those that are read, and the effect on the picture of not reading the
 //! others.
 
-/// Extensions that are read. Quantization needs nothing done: the accessors read every component type.
-const READ: [&str; 18] = [
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "EXT_texture_webp",
+use super::elements::is_extension;
+
+/// Extensions that are read besides those whose properties are listed. Quantization needs nothing done: the accessors read every
+/// component type.
+const READ: [&str; 3] = [
     "HAIRLINE_scratches",
-    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
-    "KHR_meshopt_compression",
-    "KHR_node_visibility",
-    "KHR_texture_basisu",
-    "KHR_texture_transform",
 ];
 
 /// Whether an extension is read: a file may require it, and its contents are in the picture.
 pub(super) fn is_read(name: &str) -> bool {
-    READ.contains(&name)
+    READ.contains(&name) || is_extension(name)
 }
 
 /// Whether a file may require an extension: those that are read, and those that leave a picture as the
