@@ -2,75 +2,35 @@
 
 use hairline_scene::description::{Around, Distribution, Grating, GroovePattern};
 
-/// A grating with all its numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum GratingPreset {
-    /// The track of a compact disc.
-    CompactDisc,
-    /// Grating of a DVD.
-    Dvd,
-    /// The lands between the grooves of a record, as its stamper leaves them.
-    Vinyl,
-    /// Embossed foil.
-    Foil,
-    /// Drawn over by a fine brush.
-    BrushedAluminium,
-    /// Turned on a lathe.
-    TurnedSteel,
-    /// Spots from a spinning peg: plates of watches, dashboards.
-    EngineTurned,
+hairline_image::listed! {
+    /// A grating with all its numbers.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum GratingPreset {
+        /// The track of a compact disc.
+        CompactDisc = "Compact disc",
+            "A row around the z axis every 1.6 µm: fans of pure rainbows that turn with the light, two or three on each side.";
+        /// Grating of a DVD.
+        Dvd = "DVD", "A row every 0.74 µm: one wide rainbow, far away from the highlight.";
+        /// The lands between the grooves of a record, as its stamper leaves them.
+        Vinyl = "Vinyl", "Rough grooves every 40 µm around the z axis: faint colours close to a soft bright fan. For dark plastic.";
+        /// Embossed foil.
+        Foil = "Holographic foil", "Straight rows every 1.2 µm along x: a lamp breaks into colours across them. Wrapping paper, seals.";
+        /// Drawn over by a fine brush.
+        BrushedAluminium = "Brushed aluminium",
+            "Fine uneven rows along x: lamps are drawn out into streaks with a hint of colour. Hi-fi fronts, laptops.";
+        /// Turned on a lathe.
+        TurnedSteel = "Turned steel", "The feed of a lathe, 30 µm, around the z axis: narrow colours beside the highlight, in a fan.";
+        /// Spots from a spinning peg: plates of watches, dashboards.
+        EngineTurned = "Engine turning",
+            "Spots of circles in rows, each over those before it: scales in which every lamp draws a line. Plates of watches, dashboards.";
+    }
+    /// Name in a menu.
+    fn name;
+    /// Description of its look, for a tooltip.
+    fn tooltip;
 }
 
 impl GratingPreset {
-    /// Every preset, in the order of a menu.
-    pub const ALL: [Self; 7] = [
-        Self::CompactDisc,
-        Self::Dvd,
-        Self::Vinyl,
-        Self::Foil,
-        Self::BrushedAluminium,
-        Self::TurnedSteel,
-        Self::EngineTurned,
-    ];
-
-    /// Name in a menu.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::CompactDisc => "Compact disc",
-            Self::Dvd => "DVD",
-            Self::Vinyl => "Vinyl",
-            Self::Foil => "Holographic foil",
-            Self::BrushedAluminium => "Brushed aluminium",
-            Self::TurnedSteel => "Turned steel",
-            Self::EngineTurned => "Engine turning",
-        }
-    }
-
-    /// Description of its look, for a tooltip.
-    pub fn tooltip(self) -> &'static str {
-        match self {
-            Self::CompactDisc => {
-                "A row around the z axis every 1.6 µm: fans of pure rainbows that turn with the light, two or three on each side."
-            }
-            Self::Dvd => "A row every 0.74 µm: one wide rainbow, far away from the highlight.",
-            Self::Vinyl => {
-                "Rough grooves every 40 µm around the z axis: faint colours close to a soft bright fan. For dark plastic."
-            }
-            Self::Foil => {
-                "Straight rows every 1.2 µm along x: a lamp breaks into colours across them. Wrapping paper, seals."
-            }
-            Self::BrushedAluminium => {
-                "Fine uneven rows along x: lamps are drawn out into streaks with a hint of colour. Hi-fi fronts, laptops."
-            }
-            Self::TurnedSteel => {
-                "The feed of a lathe, 30 µm, around the z axis: narrow colours beside the highlight, in a fan."
-            }
-            Self::EngineTurned => {
-                "Spots of circles in rows, each over those before it: scales in which every lamp draws a line. Plates of watches, dashboards."
-            }
-        }
-    }
-
     /// The grating on an object.
     pub fn grating(self, object: impl Into<String>) -> Grating {
         let circular = |jitter_deg| {

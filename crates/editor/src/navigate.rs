@@ -141,49 +141,27 @@ pub fn corners(low_m: DVec3, high_m: DVec3) -> [DVec3; 8] {
     })
 }
 
-/// Direction to look from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Viewpoint {
-    /// The direction in which glTF models look: +z if y is up; -y if z is up.
-    Front,
-    /// Opposite to the front.
-    Back,
-    /// The left side of the front view.
-    Left,
-    /// The right side of the front view.
-    Right,
-    /// The direction of `up`; the front is at the bottom of the picture.
-    Top,
-    /// The direction opposite to `up`.
-    Bottom,
-    /// The front, the right and above at once.
-    ThreeQuarter,
-}
-
-impl Viewpoint {
-    /// Every viewpoint, in the order of a menu.
-    pub const ALL: [Self; 7] = [
-        Self::Front,
-        Self::Back,
-        Self::Left,
-        Self::Right,
-        Self::Top,
-        Self::Bottom,
-        Self::ThreeQuarter,
-    ];
-
-    /// Name in a menu.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Front => "Front",
-            Self::Back => "Back",
-            Self::Left => "Left",
-            Self::Right => "Right",
-            Self::Top => "Top",
-            Self::Bottom => "Bottom",
-            Self::ThreeQuarter => "Three-quarter",
-        }
+hairline_image::listed! {
+    /// Direction to look from.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Viewpoint {
+        /// The direction in which glTF models look: +z if y is up; -y if z is up.
+        Front = "Front";
+        /// Opposite to the front.
+        Back = "Back";
+        /// The left side of the front view.
+        Left = "Left";
+        /// The right side of the front view.
+        Right = "Right";
+        /// The direction of `up`; the front is at the bottom of the picture.
+        Top = "Top";
+        /// The direction opposite to `up`.
+        Bottom = "Bottom";
+        /// The front, the right and above at once.
+        ThreeQuarter = "Three-quarter";
     }
+    /// Name in a menu.
+    fn name;
 }
 
 /// Moves the camera to a viewpoint, at the same distance from the same target.

@@ -14,77 +14,35 @@ use hairline_scene::schema::light::SUN_DEG;
 use hairline_scene::wear::{count, fitting};
 use hairline_scene::{Coat, Specular};
 
-/// A layer of scratches to begin with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum LayerPreset {
-    /// Scratches in every direction.
-    RandomWear,
-    /// Concentric marks of a lathe.
-    TurnedPan,
-    /// Long parallel strokes.
-    BrushedSteel,
-    /// Rays from an axis.
-    PolishedWatch,
-    /// Arcs that start at an axis.
-    SpunDisk,
-    /// Short, bent, uneven scratches.
-    WornCutlery,
-    /// Arcs around many centres.
-    FingernailSwirls,
+hairline_image::listed! {
+    /// A layer of scratches to begin with.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum LayerPreset {
+        /// Scratches in every direction.
+        RandomWear = "Random wear", "Fine scratches in every direction: a ring of short coloured arcs around each highlight. Everyday use.";
+        /// Concentric marks of a lathe.
+        TurnedPan = "Turned pan",
+            "Marks of the lathe around the z axis: two bright fans that turn with the light, striped with rainbows. Pans, pots, knobs.";
+        /// Long parallel strokes.
+        BrushedSteel = "Brushed steel", "Long strokes along x: each lamp is drawn out into a streak across them. Kitchen fronts, laptops.";
+        /// Rays from an axis.
+        PolishedWatch = "Polished watch", "Rays away from the z axis: a sunburst whose bright spokes sweep round as the dial tilts. Watches, medals.";
+        /// Arcs that start at an axis.
+        SpunDisk = "Spun disk",
+            "Arcs that sweep from the z axis to the rim, as a rotary polisher leaves them: a pinwheel of light. Watch parts, wafers.";
+        /// Short, bent, uneven scratches.
+        WornCutlery = "Worn cutlery", "Bent scratches of very different lengths: loose, lively glints. A drawer of spoons.";
+        /// Arcs around many centres.
+        FingernailSwirls = "Fingernail swirls",
+            "Faint arcs around many centres: a cobweb around each highlight. Car doors behind the handle, machine-washed paint.";
+    }
+    /// Name in a menu.
+    fn name;
+    /// Description of its look, for a tooltip.
+    fn tooltip;
 }
 
 impl LayerPreset {
-    /// Every preset, in the order of a menu.
-    pub const ALL: [Self; 7] = [
-        Self::RandomWear,
-        Self::TurnedPan,
-        Self::BrushedSteel,
-        Self::PolishedWatch,
-        Self::SpunDisk,
-        Self::WornCutlery,
-        Self::FingernailSwirls,
-    ];
-
-    /// Name in a menu.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::RandomWear => "Random wear",
-            Self::TurnedPan => "Turned pan",
-            Self::BrushedSteel => "Brushed steel",
-            Self::PolishedWatch => "Polished watch",
-            Self::SpunDisk => "Spun disk",
-            Self::WornCutlery => "Worn cutlery",
-            Self::FingernailSwirls => "Fingernail swirls",
-        }
-    }
-
-    /// Description of its look, for a tooltip.
-    pub fn tooltip(self) -> &'static str {
-        match self {
-            Self::RandomWear => {
-                "Fine scratches in every direction: a ring of short coloured arcs around each highlight. Everyday use."
-            }
-            Self::TurnedPan => {
-                "Marks of the lathe around the z axis: two bright fans that turn with the light, striped with rainbows. Pans, pots, knobs."
-            }
-            Self::BrushedSteel => {
-                "Long strokes along x: each lamp is drawn out into a streak across them. Kitchen fronts, laptops."
-            }
-            Self::PolishedWatch => {
-                "Rays away from the z axis: a sunburst whose bright spokes sweep round as the dial tilts. Watches, medals."
-            }
-            Self::SpunDisk => {
-                "Arcs that sweep from the z axis to the rim, as a rotary polisher leaves them: a pinwheel of light. Watch parts, wafers."
-            }
-            Self::WornCutlery => {
-                "Bent scratches of very different lengths: loose, lively glints. A drawer of spoons."
-            }
-            Self::FingernailSwirls => {
-                "Faint arcs around many centres: a cobweb around each highlight. Car doors behind the handle, machine-washed paint."
-            }
-        }
-    }
-
     /// The layer for an object whose bounding box has this diagonal. Its seed is set when it is added.
     pub fn layer(self, object: impl Into<String>, diagonal_m: f64) -> Scratches {
         let d = fitting(diagonal_m);
@@ -304,63 +262,28 @@ fn metal_name(metal: Metal) -> &'static str {
     }
 }
 
-/// A light to begin with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum LightPreset {
-    /// A small, bright sphere.
-    SmallLamp,
-    /// A long, thin rectangle.
-    Tube,
-    /// A square.
-    Softbox,
-    /// A large, cool rectangle.
-    Window,
-    /// Light from one direction.
-    Sun,
+hairline_image::listed! {
+    /// A light to begin with.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum LightPreset {
+        /// A small, bright sphere.
+        SmallLamp = "Small lamp", "A small, bright sphere: the purest colours, each scratch a thin rainbow. The light to begin with.";
+        /// A long, thin rectangle.
+        Tube = "Tube", "A long, thin light: pure colours across it, and scratches light up along its whole length.";
+        /// A square.
+        Softbox = "Softbox", "A square of light: colours overlap to pastel near the highlight and stay at its edges.";
+        /// A large, cool rectangle.
+        Window = "Window", "A large, cool light: it shapes the object; scratches get little colour from it.";
+        /// Light from one direction.
+        Sun = "Sun", "Light from one direction, wherever things stand: thin, pure rainbows and sharp shadows, the same all over the scene.";
+    }
+    /// Name in a menu.
+    fn name;
+    /// Description of its effect on the look, for a tooltip.
+    fn tooltip;
 }
 
 impl LightPreset {
-    /// Every preset, in the order of a menu.
-    pub const ALL: [Self; 5] = [
-        Self::SmallLamp,
-        Self::Tube,
-        Self::Softbox,
-        Self::Window,
-        Self::Sun,
-    ];
-
-    /// Name in a menu.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::SmallLamp => "Small lamp",
-            Self::Tube => "Tube",
-            Self::Softbox => "Softbox",
-            Self::Window => "Window",
-            Self::Sun => "Sun",
-        }
-    }
-
-    /// Description of its effect on the look, for a tooltip.
-    pub fn tooltip(self) -> &'static str {
-        match self {
-            Self::SmallLamp => {
-                "A small, bright sphere: the purest colours, each scratch a thin rainbow. The light to begin with."
-            }
-            Self::Tube => {
-                "A long, thin light: pure colours across it, and scratches light up along its whole length."
-            }
-            Self::Softbox => {
-                "A square of light: colours overlap to pastel near the highlight and stay at its edges."
-            }
-            Self::Window => {
-                "A large, cool light: it shapes the object; scratches get little colour from it."
-            }
-            Self::Sun => {
-                "Light from one direction, wherever things stand: thin, pure rainbows and sharp shadows, the same all over the scene."
-            }
-        }
-    }
-
     /// Makes the light, beside and above a target, at a distance and of a size that suit a scene of this diagonal; flat ones
     /// face the target. `up` is the camera's.
     pub fn light(self, target_m: DVec3, up: DVec3, diagonal_m: f64) -> Light {
@@ -414,62 +337,36 @@ impl LightPreset {
     }
 }
 
-/// A built-in shape to begin with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ShapePreset {
-    /// A square.
-    Plane,
-    /// A disk.
-    Disk,
-    /// A sphere.
-    Sphere,
-    /// A flat box with rounded edges.
-    Box,
-    /// A cylinder with rounded rims.
-    Cylinder,
-    /// A ring of round section.
-    Torus,
-    /// A watch glass.
-    Dome,
-    /// A pan without a handle.
-    Pan,
-    /// A studio's floor that turns up into its wall.
-    Sweep,
-    /// Letters: a logo.
-    Text,
+hairline_image::listed! {
+    /// A built-in shape to begin with.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum ShapePreset {
+        /// A square.
+        Plane = "Plane";
+        /// A disk.
+        Disk = "Disk";
+        /// A sphere.
+        Sphere = "Sphere";
+        /// A flat box with rounded edges.
+        Box = "Box";
+        /// A cylinder with rounded rims.
+        Cylinder = "Cylinder";
+        /// A ring of round section.
+        Torus = "Torus";
+        /// A watch glass.
+        Dome = "Dome";
+        /// A pan without a handle.
+        Pan = "Pan";
+        /// A studio's floor that turns up into its wall.
+        Sweep = "Sweep";
+        /// Letters: a logo.
+        Text = "Text";
+    }
+    /// Name in a menu.
+    fn name;
 }
 
 impl ShapePreset {
-    /// Every preset, in the order of a menu.
-    pub const ALL: [Self; 10] = [
-        Self::Plane,
-        Self::Disk,
-        Self::Sphere,
-        Self::Box,
-        Self::Cylinder,
-        Self::Torus,
-        Self::Dome,
-        Self::Pan,
-        Self::Sweep,
-        Self::Text,
-    ];
-
-    /// Name in a menu.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Plane => "Plane",
-            Self::Disk => "Disk",
-            Self::Sphere => "Sphere",
-            Self::Box => "Box",
-            Self::Cylinder => "Cylinder",
-            Self::Torus => "Torus",
-            Self::Dome => "Dome",
-            Self::Pan => "Pan",
-            Self::Sweep => "Sweep",
-            Self::Text => "Text",
-        }
-    }
-
     /// Words on where it is put, for a tooltip; empty where it stands at the origin.
     pub fn tooltip(self) -> &'static str {
         match self {

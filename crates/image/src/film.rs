@@ -90,49 +90,27 @@ impl Noise {
     }
 }
 
-/// A layer of an [`Image`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Layer {
-    /// Base plus scratches.
-    Beauty,
-    /// [`Image::base`].
-    Base,
-    /// [`Image::scratches`].
-    Scratches,
-    /// [`Image::density`].
-    Density,
-    /// [`Image::depth_m`], the same in all three components.
-    Depth,
-    /// [`Image::normal`].
-    Normal,
-    /// [`Image::alpha`], the same in all three components; 1 of a picture without.
-    Alpha,
-}
-
-impl Layer {
-    /// All layers, in the order of the enumeration.
-    pub const ALL: [Self; 7] = [
-        Self::Beauty,
-        Self::Base,
-        Self::Scratches,
-        Self::Density,
-        Self::Depth,
-        Self::Normal,
-        Self::Alpha,
-    ];
-
-    /// The name, in lower case.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Beauty => "beauty",
-            Self::Base => "base",
-            Self::Scratches => "scratches",
-            Self::Density => "density",
-            Self::Depth => "depth",
-            Self::Normal => "normal",
-            Self::Alpha => "alpha",
-        }
+crate::listed! {
+    /// A layer of an [`Image`].
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Layer {
+        /// Base plus scratches.
+        Beauty = "beauty";
+        /// [`Image::base`].
+        Base = "base";
+        /// [`Image::scratches`].
+        Scratches = "scratches";
+        /// [`Image::density`].
+        Density = "density";
+        /// [`Image::depth_m`], the same in all three components.
+        Depth = "depth";
+        /// [`Image::normal`].
+        Normal = "normal";
+        /// [`Image::alpha`], the same in all three components; 1 of a picture without.
+        Alpha = "alpha";
     }
+    /// The name, in lower case.
+    fn name;
 }
 
 impl Image {

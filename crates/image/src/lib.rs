@@ -24,6 +24,7 @@ pub mod filter;
 mod found;
 pub mod held;
 mod layers;
+mod listed;
 pub mod metrics;
 pub mod output;
 pub mod png;

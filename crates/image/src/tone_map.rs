@@ -6,34 +6,25 @@
 //! * ACES 1.0, RRT and ODT for sRGB in the fit by Stephen Hill, 2016 (BakingLab).
 //! * Martin Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018 (the dither mask).
 
-/// The curve from linear radiance to the display.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum ToneMap {
-    /// Khronos PBR Neutral: colours below 0.76 as they are, highlights rolled off and desaturated.
-    #[default]
-    Neutral,
-    /// AgX with its default look: a wide range, highlights that fade to white.
-    Agx,
-    /// The ACES filmic curve in Stephen Hill's fit: strong contrast.
-    Aces,
-    /// No curve: clamped to the display's range.
-    None,
+crate::listed! {
+    /// The curve from linear radiance to the display.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+    pub enum ToneMap {
+        /// Khronos PBR Neutral: colours below 0.76 as they are, highlights rolled off and desaturated.
+        #[default]
+        Neutral = "neutral";
+        /// AgX with its default look: a wide range, highlights that fade to white.
+        Agx = "agx";
+        /// The ACES filmic curve in Stephen Hill's fit: strong contrast.
+        Aces = "aces";
+        /// No curve: clamped to the display's range.
+        None = "none";
+    }
+    /// The name in scene files.
+    fn name;
 }
 
 impl ToneMap {
-    /// All variants.
-    pub const ALL: [Self; 4] = [Self::Neutral, Self::Agx, Self::Aces, Self::None];
-
-    /// The name in scene files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Neutral => "neutral",
-            Self::Agx => "agx",
-            Self::Aces => "aces",
-            Self::None => "none",
-        }
-    }
-
     /// Number of the curve in shaders.
     pub fn shader_index(self) -> u32 {
         self as u32

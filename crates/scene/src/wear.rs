@@ -5,72 +5,53 @@
 
 use crate::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
 
-/// Wear or finish of an object.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Wear {
-    /// No wear.
-    New,
-    /// Some fine scratches, as of a few months of care.
-    Used,
-    /// Many fine scratches, marks and the swirls of cleaning, as of years.
-    Worn,
-    /// Dense scratches, deep marks and gouges, as of a life in a kitchen.
-    Old,
-    /// The arcs of a polishing wheel, and next to no use.
-    Polished,
-    /// Long strokes and short ones along x, lightly used.
-    Brushed,
-    /// Rings of a cloth about z, lightly used.
-    Wiped,
-    /// Scuffs in one direction, digs and fine scratches: a pocket with keys.
-    Keys,
+hairline_image::listed! {
+    /// Wear or finish of an object.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Wear {
+        /// No wear.
+        New = "New", "As it was made: the layers of wear are removed, all others stay.";
+        /// Some fine scratches, as of a few months of care.
+        Used = "Used", "Some fine scratches, as of a few months of care.";
+        /// Many fine scratches, marks and the swirls of cleaning, as of years.
+        Worn = "Worn", "Many fine scratches, marks and the swirls of cleaning, as of years.";
+        /// Dense scratches, deep marks and gouges, as of a life in a kitchen.
+        Old = "Old", "Dense scratches, marks and a few gouges, as of a life in a kitchen.";
+        /// The arcs of a polishing wheel, and next to no use.
+        Polished = "Polished", "Shallow arcs of a polishing wheel: a soft bluish cobweb.";
+        /// Long strokes and short ones along x, lightly used.
+        Brushed = "Brushed", "Long strokes and short ones along x: each lamp becomes a streak.";
+        /// Rings of a cloth about z, lightly used.
+        Wiped = "Wiped", "Rings of a cloth about the z axis: two coloured fans, as on a pan.";
+        /// Scuffs in one direction, digs and fine scratches: a pocket with keys.
+        Keys = "Keys", "Wide scuffs that lean one way, and digs: a pocket with keys.";
+    }
+    /// Name on a control.
+    fn name;
+    /// Description for a tooltip.
+    fn tooltip;
 }
 
-/// The kinds of scratches that wear is made of.
-#[derive(Clone, Copy)]
-enum WearKind {
-    Hairlines,
-    Swirls,
-    Marks,
-    Gouges,
-    Wheel,
-    LongStrokes,
-    ShortStrokes,
-    Rings,
-    Scuffs,
-    Digs,
+hairline_image::listed! {
+    /// The kinds of scratches that wear is made of.
+    #[derive(Clone, Copy)]
+    enum WearKind {
+        Hairlines = "wear: hairlines";
+        Swirls = "wear: swirls of cleaning";
+        Marks = "wear: marks";
+        Gouges = "wear: gouges";
+        Wheel = "wear: polishing wheel";
+        LongStrokes = "wear: long strokes";
+        ShortStrokes = "wear: short strokes";
+        Rings = "wear: rings of a cloth";
+        Scuffs = "wear: scuffs";
+        Digs = "wear: digs";
+    }
+    /// Name of the layer, by which it is found again.
+    fn name;
 }
 
 impl WearKind {
-    const ALL: [Self; 10] = [
-        Self::Hairlines,
-        Self::Swirls,
-        Self::Marks,
-        Self::Gouges,
-        Self::Wheel,
-        Self::LongStrokes,
-        Self::ShortStrokes,
-        Self::Rings,
-        Self::Scuffs,
-        Self::Digs,
-    ];
-
-    /// Name of the layer, by which it is found again.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Hairlines => "wear: hairlines",
-            Self::Swirls => "wear: swirls of cleaning",
-            Self::Marks => "wear: marks",
-            Self::Gouges => "wear: gouges",
-            Self::Wheel => "wear: polishing wheel",
-            Self::LongStrokes => "wear: long strokes",
-            Self::ShortStrokes => "wear: short strokes",
-            Self::Rings => "wear: rings of a cloth",
-            Self::Scuffs => "wear: scuffs",
-            Self::Digs => "wear: digs",
-        }
-    }
-
     /// The share of the surface that it covers.
     fn cover(self, wear: Wear) -> f64 {
         match (wear, self) {
@@ -156,46 +137,6 @@ impl WearKind {
 }
 
 impl Wear {
-    /// Every grade from new to old, then the marks of finishing and other use.
-    pub const ALL: [Self; 8] = [
-        Self::New,
-        Self::Used,
-        Self::Worn,
-        Self::Old,
-        Self::Polished,
-        Self::Brushed,
-        Self::Wiped,
-        Self::Keys,
-    ];
-
-    /// Name on a control.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::New => "New",
-            Self::Used => "Used",
-            Self::Worn => "Worn",
-            Self::Old => "Old",
-            Self::Polished => "Polished",
-            Self::Brushed => "Brushed",
-            Self::Wiped => "Wiped",
-            Self::Keys => "Keys",
-        }
-    }
-
-    /// Description for a tooltip.
-    pub fn tooltip(self) -> &'static str {
-        match self {
-            Self::New => "As it was made: the layers of wear are removed, all others stay.",
-            Self::Used => "Some fine scratches, as of a few months of care.",
-            Self::Worn => "Many fine scratches, marks and the swirls of cleaning, as of years.",
-            Self::Old => "Dense scratches, marks and a few gouges, as of a life in a kitchen.",
-            Self::Polished => "Shallow arcs of a polishing wheel: a soft bluish cobweb.",
-            Self::Brushed => "Long strokes and short ones along x: each lamp becomes a streak.",
-            Self::Wiped => "Rings of a cloth about the z axis: two coloured fans, as on a pan.",
-            Self::Keys => "Wide scuffs that lean one way, and digs: a pocket with keys.",
-        }
-    }
-
     /// The layers for an object whose bounding box has this diagonal.
     pub fn layers(self, object: &str, diagonal_m: f64) -> Vec<Scratches> {
         let d = fitting(diagonal_m);

@@ -63,48 +63,24 @@ pub(crate) enum Command {
     HighContrast,
 }
 
-/// Menu where a command is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Group {
-    File,
-    Edit,
-    View,
-    Inspect,
-    Tools,
-    Help,
+hairline_image::listed! {
+    /// Menu where a command is found.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub(crate) enum Group {
+        File = "File";
+        Edit = "Edit";
+        View = "View";
+        Inspect = "Inspect";
+        Tools = "Tools";
+        Help = "Help";
+    }
+    fn name;
 }
 
 impl Group {
-    pub const ALL: [Self; 6] = [
-        Self::File,
-        Self::Edit,
-        Self::View,
-        Self::Inspect,
-        Self::Tools,
-        Self::Help,
-    ];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::File => "File",
-            Self::Edit => "Edit",
-            Self::View => "View",
-            Self::Inspect => "Inspect",
-            Self::Tools => "Tools",
-            Self::Help => "Help",
-        }
-    }
-
     /// Key that opens its menu, with Alt: the first letter of its name.
     pub fn key(self) -> Key {
-        match self {
-            Self::File => Key::F,
-            Self::Edit => Key::E,
-            Self::View => Key::V,
-            Self::Inspect => Key::I,
-            Self::Tools => Key::T,
-            Self::Help => Key::H,
-        }
+        Key::from_name(&self.name()[..1]).expect("a menu begins with a letter")
     }
 }
 

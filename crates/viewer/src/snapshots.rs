@@ -49,24 +49,15 @@ impl Default for Snapshots {
     }
 }
 
-/// Display of a snapshot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Way {
-    Flip,
-    SideBySide,
-    Slider,
-}
-
-impl Way {
-    const ALL: [Self; 3] = [Self::Flip, Self::SideBySide, Self::Slider];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Flip => "Flip",
-            Self::SideBySide => "Side by side",
-            Self::Slider => "Slider",
-        }
+hairline_image::listed! {
+    /// Display of a snapshot.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    enum Way {
+        Flip = "Flip";
+        SideBySide = "Side by side";
+        Slider = "Slider";
     }
+    fn name;
 }
 
 /// One look.

@@ -22,36 +22,24 @@ pub struct Figures {
     pub curves: Vec<Curve>,
 }
 
-/// A row of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum TableRow {
-    /// No light.
-    Intersection,
-    Sphere,
-    Triangle,
-    /// A scene that somebody else made.
-    Scene,
+hairline_image::listed! {
+    /// A row of the table.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum TableRow {
+        /// No light.
+        Intersection = "Intersection only";
+        Sphere = "Sphere";
+        Triangle = "Triangle";
+        /// A scene that somebody else made.
+        Scene = "Scene";
+    }
+    fn name;
 }
 
 impl TableRow {
     /// The rows of the talk.
     pub const TALK: [Self; 3] = [Self::Intersection, Self::Sphere, Self::Triangle];
-    pub const ALL: [Self; 4] = [
-        Self::Intersection,
-        Self::Sphere,
-        Self::Triangle,
-        Self::Scene,
-    ];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Intersection => "Intersection only",
-            Self::Sphere => "Sphere",
-            Self::Triangle => "Triangle",
-            Self::Scene => "Scene",
-        }
-    }
 }
 
 /// One cell of the table by one method.

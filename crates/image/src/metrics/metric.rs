@@ -2,62 +2,36 @@
 
 use super::{LayerComparison, Verdict};
 
-/// A figure of one layer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Metric {
-    /// Root mean square difference.
-    Rms,
-    /// Root mean square of the difference over that of the reference.
-    RelativeRms,
-    /// Relative mean squared error.
-    RelativeMse,
-    /// The largest difference of a value.
-    Max,
-    /// Mean FLIP.
-    Flip,
-    /// 95th percentile of FLIP.
-    Flip95,
-    /// Peak signal-to-noise ratio in decibels: the larger the better.
-    Psnr,
-    /// The rms difference that noise does not explain.
-    RmsBeyondNoise,
-    /// Root mean square beyond noise, over that of the reference.
-    RelativeRmsBeyondNoise,
-    /// Mean squared z-score.
-    Z2,
+crate::listed! {
+    /// A figure of one layer.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Metric {
+        /// Root mean square difference.
+        Rms = "rms";
+        /// Root mean square of the difference over that of the reference.
+        RelativeRms = "relative-rms";
+        /// Relative mean squared error.
+        RelativeMse = "relmse";
+        /// The largest difference of a value.
+        Max = "max";
+        /// Mean FLIP.
+        Flip = "flip";
+        /// 95th percentile of FLIP.
+        Flip95 = "flip95";
+        /// Peak signal-to-noise ratio in decibels: the larger the better.
+        Psnr = "psnr";
+        /// The rms difference that noise does not explain.
+        RmsBeyondNoise = "rms-beyond-noise";
+        /// Root mean square beyond noise, over that of the reference.
+        RelativeRmsBeyondNoise = "relative-rms-beyond-noise";
+        /// Mean squared z-score.
+        Z2 = "z2";
+    }
+    /// The name on the command line, in JSON and in Python.
+    fn name;
 }
 
 impl Metric {
-    /// All variants.
-    pub const ALL: [Self; 10] = [
-        Self::Rms,
-        Self::RelativeRms,
-        Self::RelativeMse,
-        Self::Max,
-        Self::Flip,
-        Self::Flip95,
-        Self::Psnr,
-        Self::RmsBeyondNoise,
-        Self::RelativeRmsBeyondNoise,
-        Self::Z2,
-    ];
-
-    /// The name on the command line, in JSON and in Python.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rms => "rms",
-            Self::RelativeRms => "relative-rms",
-            Self::RelativeMse => "relmse",
-            Self::Max => "max",
-            Self::Flip => "flip",
-            Self::Flip95 => "flip95",
-            Self::Psnr => "psnr",
-            Self::RmsBeyondNoise => "rms-beyond-noise",
-            Self::RelativeRmsBeyondNoise => "relative-rms-beyond-noise",
-            Self::Z2 => "z2",
-        }
-    }
-
     /// Whether a larger figure means a smaller difference.
     pub fn larger_is_better(self) -> bool {
         self == Self::Psnr

@@ -8,15 +8,15 @@ use super::form::Form;
 
 /// Rows for the pattern of the grating with this index.
 pub(super) fn rows(form: &mut Form, pattern: &mut GroovePattern, index: usize) {
-    let mut kind = PatternName::of(pattern);
+    let mut name = pattern.name();
     form.choice(
         "Pattern",
         "Which way the grooves run over the surface",
-        PatternName::ALL.map(|kind| (kind, kind.name().to_owned())),
-        &mut kind,
+        PATTERNS.map(|(name, label)| (name, label.to_owned())),
+        &mut name,
     );
-    if kind != PatternName::of(pattern) {
-        *pattern = kind.begin(pattern, form.diagonal_m);
+    if name != pattern.name() {
+        *pattern = begin(name, pattern, form.diagonal_m);
     }
     match pattern {
         GroovePattern::Parallel {
@@ -66,84 +66,50 @@ fn axis(form: &mut Form, around: &mut Around) {
     form.vector(&schema::scratches::CENTER_M, &mut around.center_m);
 }
 
-/// A pattern by name.
-#[derive(Clone, Copy, PartialEq)]
-enum PatternName {
-    Parallel,
-    Circular,
-    Radial,
-    Spun,
-    Swirl,
-    Uv,
-}
+/// Patterns with their labels.
+const PATTERNS: [(&str, &str); 6] = [
+    ("parallel", "parallel"),
+    ("circular", "circular"),
+    ("radial", "radial"),
+    ("spun", "spun"),
+    ("swirl", "swirl"),
+    ("uv", "texture coordinates"),
+];
 
-impl PatternName {
-    const ALL: [Self; 6] = [
-        Self::Parallel,
-        Self::Circular,
-        Self::Radial,
-        Self::Spun,
-        Self::Swirl,
-        Self::Uv,
-    ];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Parallel => "parallel",
-            Self::Circular => "circular",
-            Self::Radial => "radial",
-            Self::Spun => "spun",
-            Self::Swirl => "swirl",
-            Self::Uv => "texture coordinates",
-        }
-    }
-
-    fn of(pattern: &GroovePattern) -> Self {
-        match pattern {
-            GroovePattern::Parallel { .. } => Self::Parallel,
-            GroovePattern::Circular(_) => Self::Circular,
-            GroovePattern::Radial(_) => Self::Radial,
-            GroovePattern::Spun { .. } => Self::Spun,
-            GroovePattern::Swirl { .. } => Self::Swirl,
-            GroovePattern::Uv { .. } => Self::Uv,
-        }
-    }
-
-    /// Makes the pattern for an object of this size, with the axis and the scatter of angles of the pattern before.
-    fn begin(self, before: &GroovePattern, diagonal_m: f64) -> GroovePattern {
-        let around = match before {
-            GroovePattern::Circular(around)
-            | GroovePattern::Radial(around)
-            | GroovePattern::Spun { around, .. }
-            | GroovePattern::Swirl { around, .. } => *around,
-            GroovePattern::Parallel { jitter_deg, .. } | GroovePattern::Uv { jitter_deg, .. } => {
-                Around {
-                    jitter_deg: *jitter_deg,
-                    ..Around::default()
-                }
+/// Makes the pattern of a name for an object of this size, with the axis and the scatter of angles of the pattern before.
+fn begin(name: &str, before: &GroovePattern, diagonal_m: f64) -> GroovePattern {
+    let around = match before {
+        GroovePattern::Circular(around)
+        | GroovePattern::Radial(around)
+        | GroovePattern::Spun { around, .. }
+        | GroovePattern::Swirl { around, .. } => *around,
+        GroovePattern::Parallel { jitter_deg, .. } | GroovePattern::Uv { jitter_deg, .. } => {
+            Around {
+                jitter_deg: *jitter_deg,
+                ..Around::default()
             }
-        };
-        let jitter_deg = around.jitter_deg;
-        match self {
-            Self::Parallel => GroovePattern::Parallel {
-                direction: [1.0, 0.0, 0.0],
-                jitter_deg,
-            },
-            Self::Circular => GroovePattern::Circular(around),
-            Self::Radial => GroovePattern::Radial(around),
-            Self::Spun => GroovePattern::Spun {
-                around,
-                curvature_per_m: 20.0,
-            },
-            Self::Swirl => GroovePattern::Swirl {
-                around,
-                spacing_m: 0.05 * diagonal_m,
-            },
-            Self::Uv => GroovePattern::Uv {
-                along: UvAxis::U,
-                directions: None,
-                jitter_deg,
-            },
         }
+    };
+    let jitter_deg = around.jitter_deg;
+    match name {
+        "parallel" => GroovePattern::Parallel {
+            direction: [1.0, 0.0, 0.0],
+            jitter_deg,
+        },
+        "circular" => GroovePattern::Circular(around),
+        "radial" => GroovePattern::Radial(around),
+        "spun" => GroovePattern::Spun {
+            around,
+            curvature_per_m: 20.0,
+        },
+        "swirl" => GroovePattern::Swirl {
+            around,
+            spacing_m: 0.05 * diagonal_m,
+        },
+        _ => GroovePattern::Uv {
+            along: UvAxis::U,
+            directions: None,
+            jitter_deg,
+        },
     }
 }

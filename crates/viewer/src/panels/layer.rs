@@ -92,15 +92,15 @@ fn profile(form: &mut Form, section: &mut Section) {
 }
 
 fn laid_rows(form: &mut Form, laid: &mut Laid) {
-    let mut kind = Kind::of(&laid.pattern);
+    let mut name = laid.pattern.name();
     form.choice(
         "Pattern",
         "How they run over the surface",
-        Kind::ALL.map(|kind| (kind, kind.name().to_owned())),
-        &mut kind,
+        PATTERNS.map(|name| (name, name.to_owned())),
+        &mut name,
     );
-    if kind != Kind::of(&laid.pattern) {
-        laid.pattern = kind.begin(&laid.pattern);
+    if name != laid.pattern.name() {
+        laid.pattern = begin(name, &laid.pattern);
     }
     amount(form, &mut laid.amount);
     form.section("Look");
@@ -231,79 +231,38 @@ fn buttons(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches, d
     });
 }
 
-/// A pattern by name.
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Random,
-    Parallel,
-    Circular,
-    Radial,
-    Spun,
-    Swirl,
-}
+/// Patterns that are drawn at random.
+const PATTERNS: [&str; 6] = ["random", "parallel", "circular", "radial", "spun", "swirl"];
 
-impl Kind {
-    const ALL: [Self; 6] = [
-        Self::Random,
-        Self::Parallel,
-        Self::Circular,
-        Self::Radial,
-        Self::Spun,
-        Self::Swirl,
-    ];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Random => "random",
-            Self::Parallel => "parallel",
-            Self::Circular => "circular",
-            Self::Radial => "radial",
-            Self::Spun => "spun",
-            Self::Swirl => "swirl",
+/// The pattern of a name with the axis of the one before, if both have one.
+fn begin(name: &str, before: &Pattern) -> Pattern {
+    let around = match before {
+        Pattern::Circular(around) | Pattern::Radial(around) | Pattern::Spun { around, .. } => {
+            *around
         }
-    }
-
-    fn of(pattern: &Pattern) -> Self {
-        match pattern {
-            Pattern::Random { .. } => Self::Random,
-            Pattern::Parallel { .. } => Self::Parallel,
-            Pattern::Circular(_) => Self::Circular,
-            Pattern::Radial(_) => Self::Radial,
-            Pattern::Spun { .. } => Self::Spun,
-            Pattern::Swirl { .. } => Self::Swirl,
-        }
-    }
-
-    /// The pattern with the axis of the one before, if both have one.
-    fn begin(self, before: &Pattern) -> Pattern {
-        let around = match before {
-            Pattern::Circular(around) | Pattern::Radial(around) | Pattern::Spun { around, .. } => {
-                *around
-            }
-            Pattern::Parallel { jitter_deg, .. } => Around {
-                jitter_deg: *jitter_deg,
-                ..Around::default()
-            },
-            Pattern::Random { .. } | Pattern::Swirl { .. } => Around::default(),
-        };
-        let curvature = |mean, spread| Distribution { mean, spread };
-        match self {
-            Self::Random => Pattern::Random {
-                curvature_per_m: curvature(0.0, 0.0),
-            },
-            Self::Parallel => Pattern::Parallel {
-                direction: [1.0, 0.0, 0.0],
-                jitter_deg: around.jitter_deg,
-            },
-            Self::Circular => Pattern::Circular(around),
-            Self::Radial => Pattern::Radial(around),
-            Self::Spun => Pattern::Spun {
-                around,
-                curvature_per_m: curvature(20.0, 0.0),
-            },
-            Self::Swirl => Pattern::Swirl {
-                curvature_per_m: curvature(25.0, 8.0),
-            },
-        }
+        Pattern::Parallel { jitter_deg, .. } => Around {
+            jitter_deg: *jitter_deg,
+            ..Around::default()
+        },
+        Pattern::Random { .. } | Pattern::Swirl { .. } => Around::default(),
+    };
+    let curvature = |mean, spread| Distribution { mean, spread };
+    match name {
+        "random" => Pattern::Random {
+            curvature_per_m: curvature(0.0, 0.0),
+        },
+        "parallel" => Pattern::Parallel {
+            direction: [1.0, 0.0, 0.0],
+            jitter_deg: around.jitter_deg,
+        },
+        "circular" => Pattern::Circular(around),
+        "radial" => Pattern::Radial(around),
+        "spun" => Pattern::Spun {
+            around,
+            curvature_per_m: curvature(20.0, 0.0),
+        },
+        _ => Pattern::Swirl {
+            curvature_per_m: curvature(25.0, 8.0),
+        },
     }
 }

@@ -4,64 +4,33 @@ use hairline_image::{Display, Image, Picture, png};
 
 use super::false_color;
 
-/// Layer or false colour of a render on the screen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Shows {
-    /// The picture.
-    #[default]
-    Beauty,
-    /// The picture's exposure in stops from middle grey.
-    FalseColor,
-    /// Light off the base and of the background.
-    Base,
-    /// Light off the scratches.
-    Scratches,
-    /// The share of the base's light that the scratches take.
-    Density,
-    /// Normals: red is x, green y, blue z of the world, from -1 to 1.
-    Normal,
-    /// Depths: near is bright; black where there is no surface.
-    Depth,
+hairline_image::listed! {
+    /// Layer or false colour of a render on the screen.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum Shows {
+        /// The picture.
+        #[default]
+        Beauty = "Beauty", "The picture";
+        /// The picture's exposure in stops from middle grey.
+        FalseColor = "False colour", "Exposure in stops from middle grey";
+        /// Light off the base and of the background.
+        Base = "Base", "Light by way of the base and the background, without scratches";
+        /// Light off the scratches.
+        Scratches = "Scratches", "Light by way of the scratches alone";
+        /// The share of the base's light that the scratches take.
+        Density = "Density", "The share of the base's light that scratches take, from none to all";
+        /// Normals: red is x, green y, blue z of the world, from -1 to 1.
+        Normal = "Normal", "The surface's normal in world space: red x, green y, blue z";
+        /// Depths: near is bright; black where there is no surface.
+        Depth = "Depth", "Distance along the view: near is bright";
+    }
+    /// Name in the window.
+    fn name;
+    /// Description for a hint.
+    fn hint;
 }
 
 impl Shows {
-    /// All values, in the order of the menu.
-    pub const ALL: [Self; 7] = [
-        Self::Beauty,
-        Self::FalseColor,
-        Self::Base,
-        Self::Scratches,
-        Self::Density,
-        Self::Normal,
-        Self::Depth,
-    ];
-
-    /// Name in the window.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Beauty => "Beauty",
-            Self::FalseColor => "False colour",
-            Self::Base => "Base",
-            Self::Scratches => "Scratches",
-            Self::Density => "Density",
-            Self::Normal => "Normal",
-            Self::Depth => "Depth",
-        }
-    }
-
-    /// Description for a hint.
-    pub fn hint(self) -> &'static str {
-        match self {
-            Self::Beauty => "The picture",
-            Self::FalseColor => "Exposure in stops from middle grey",
-            Self::Base => "Light by way of the base and the background, without scratches",
-            Self::Scratches => "Light by way of the scratches alone",
-            Self::Density => "The share of the base's light that scratches take, from none to all",
-            Self::Normal => "The surface's normal in world space: red x, green y, blue z",
-            Self::Depth => "Distance along the view: near is bright",
-        }
-    }
-
     /// The one after it; after the last the first.
     pub(crate) fn next(self) -> Self {
         let i = Self::ALL.iter().position(|other| *other == self);

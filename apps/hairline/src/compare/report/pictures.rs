@@ -74,39 +74,24 @@ pub fn shown(
     }
 }
 
-/// A kind of error map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ErrorMapKind {
-    /// Difference that a viewer sees.
-    Flip,
-    /// Difference over the reference.
-    Relative,
-    /// Difference over the noise.
-    Z,
+hairline_image::listed! {
+    /// A kind of error map.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum ErrorMapKind {
+        /// Difference that a viewer sees.
+        Flip = "flip", "FLIP";
+        /// Difference over the reference.
+        Relative = "relative", "Relative error";
+        /// Difference over the noise.
+        Z = "z", "z-score";
+    }
+    /// Name for the script.
+    fn name;
+    /// Title for a reader.
+    fn title;
 }
 
 impl ErrorMapKind {
-    /// All variants.
-    pub const ALL: [Self; 3] = [Self::Flip, Self::Relative, Self::Z];
-
-    /// Name for the script.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Flip => "flip",
-            Self::Relative => "relative",
-            Self::Z => "z",
-        }
-    }
-
-    /// Title for a reader.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Flip => "FLIP",
-            Self::Relative => "Relative error",
-            Self::Z => "z-score",
-        }
-    }
-
     /// Meaning of the colours.
     pub fn meaning(self) -> &'static str {
         match self {
