@@ -3,6 +3,7 @@
 use hairline_optics::scratch::DEPTH_MAX_NM;
 
 use super::key::{Bounds, Form, Key, LARGEST_M, linear, log};
+use super::place::{MIDDLE, RADII, TILE};
 use super::scratches::{AXIS, CENTER_M as AXIS_CENTER_M, DIRECTION};
 use super::section::{Choice, Section};
 
@@ -116,27 +117,15 @@ pub static MASK: Key = Key::new("mask", Form::File)
     .range_words("as `directions`")
     .means("A picture whose values, from 0 (black) to 1 (white), are factors on the coverage: a motif in foil. From afar it is its mean over a pixel.");
 
-pub static TILE_M: Key = Key::new("tile_m", Form::Number)
-    .unit("m")
-    .words("by texture coordinates")
-    .size()
+pub static TILE_M: Key = TILE
     .range_words("1e-5 to 1000; with `mask`")
-    .means("The mask is laid on the object along its own three axes, repeated, so wide; as in [`where`](#where) of scratches.")
-    .control("Tile", log(0.02, 2.0).sized(), "How wide the pictures are, laid on from three sides and repeated. Small ones show that they repeat.");
+    .means("The mask is laid on the object along its own three axes, repeated, so wide; as in [`where`](#where) of scratches.");
 
-pub static RADIUS_M: Key = Key::new("radius_m", Form::Numbers(2))
-    .unit("m")
-    .words("everywhere")
-    .within(0.0, LARGEST_M)
-    .range_words("two numbers, the second greater")
+pub static RADIUS_M: Key = RADII
     .means("The least and the greatest distance from the axis: grooves inside of a circle, outside of one, or in a ring. For `\"parallel\"` and `\"uv\"`, from `center_m`.")
     .control("Inner radius", linear(0.0, 1.0).sized(), "There are no grooves nearer to the middle than this.")
     .second("Outer radius", linear(0.0, 1.0).sized(), Bounds::Within(0.0, LARGEST_M), "m", "There are no grooves farther from the middle than this.");
 
-pub static CENTER_M: Key = Key::new("center_m", Form::Numbers(3))
-    .unit("m")
+pub static CENTER_M: Key = MIDDLE
     .words("origin")
-    .within(-1000.0, 1000.0)
-    .range_words("±1000 each; with `radius_m`")
-    .means("For `\"parallel\"` and `\"uv\"`, with `radius_m`: the middle of the ball that holds them. The other patterns have theirs.")
-    .control("Middle", linear(-1.0, 1.0).sized(), "What the radii are counted from, in the object's own frame: the spot that a hand rubs.");
+    .means("For `\"parallel\"` and `\"uv\"`, with `radius_m`: the middle of the ball that holds them. The other patterns have theirs.");

@@ -67,27 +67,21 @@ pub static CENTER_M: Key = Key::new("center_m", Form::Numbers(3))
     .means("Its middle.")
     .control("Position", linear(-5.0, 5.0).sized(), "Where the light hangs. Around its highlight those scratches light up that run crosswise to the way there.");
 
-pub static TARGET_M: Key = Key::new("target_m", Form::Numbers(3))
+const TARGET: Key = Key::new("target_m", Form::Numbers(3))
     .unit("m")
     .within(-1000.0, 1000.0)
-    .means("A point before it on its axis: it shines to that side.")
     .control(
         "Target",
         linear(-5.0, 5.0).sized(),
         "A point that the light faces. Its distance does not matter.",
     );
 
-pub static CONE_TARGET_M: Key = Key::new("target_m", Form::Numbers(3))
-    .unit("m")
+pub static TARGET_M: Key = TARGET.means("A point before it on its axis: it shines to that side.");
+
+pub static CONE_TARGET_M: Key = TARGET
     .none()
-    .within(-1000.0, 1000.0)
     .range_words("with `cone_deg`, which needs it")
-    .means("What the cone points to.")
-    .control(
-        "Target",
-        linear(-5.0, 5.0).sized(),
-        "A point that the light faces. Its distance does not matter.",
-    );
+    .means("What the cone points to.");
 
 pub static RADIUS_M: Key = Key::new("radius_m", Form::Number)
     .unit("m")

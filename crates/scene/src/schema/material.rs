@@ -97,12 +97,14 @@ pub static METAL: Key = Key::new("metal", Form::Name(METALS))
     .words("this, `base_color` or `n_k`")
     .means("A metal by its measured refractive index; `\"steel\"` is stainless.");
 
-pub static METAL_COLOR: Key = Key::new("base_color", Form::Color)
+const COLOR: Key = Key::new("base_color", Form::Color)
     .unit("linear RGB")
-    .words("this, `metal` or `n_k`")
     .within(0.0, 1.0)
-    .means("A metal by its reflectance when seen head-on.")
     .control("Colour", linear(0.0, 1.0), "On metals it tints the mirror image and the scratches in it; on coated surfaces it is the body under the coat, which scratches leave as it is. Dark bodies let scratches show.");
+
+pub static METAL_COLOR: Key = COLOR
+    .words("this, `metal` or `n_k`")
+    .means("A metal by its reflectance when seen head-on.");
 
 pub static N_K: Key = Key::new("n_k", Form::Points(3))
     .words("this, `metal` or `base_color`")
@@ -121,19 +123,13 @@ pub static IOR: Key = Key::new("ior", Form::Number)
     .means("Refractive index of the clear coat. 1.5 is glass and most plastics and lacquers.")
     .control("Refractive index", linear(1.0, 2.5), "How much the clear coat mirrors: 1.5 is lacquer or glass, about 4 %. Higher: brighter highlights and brighter scratches.");
 
-pub static BODY_COLOR: Key = Key::new("base_color", Form::Color)
-    .unit("linear RGB")
+pub static BODY_COLOR: Key = COLOR
     .is(Initial::Numbers(&[0.5, 0.5, 0.5]))
-    .within(0.0, 1.0)
-    .means("Albedo of the diffuse body below the coat.")
-    .control("Colour", linear(0.0, 1.0), "On metals it tints the mirror image and the scratches in it; on coated surfaces it is the body under the coat, which scratches leave as it is. Dark bodies let scratches show.");
+    .means("Albedo of the diffuse body below the coat.");
 
-pub static BASE_COLOR: Key = Key::new("base_color", Form::Color)
-    .unit("linear RGB")
+pub static BASE_COLOR: Key = COLOR
     .is(Initial::Numbers(&[1.0, 1.0, 1.0]))
-    .within(0.0, 1.0)
-    .means("The base colour of glTF 2.0.")
-    .control("Colour", linear(0.0, 1.0), "On metals it tints the mirror image and the scratches in it; on coated surfaces it is the body under the coat, which scratches leave as it is. Dark bodies let scratches show.");
+    .means("The base colour of glTF 2.0.");
 
 pub static METALLIC: Key = Key::new("metallic", Form::Number)
     .number(1.0)

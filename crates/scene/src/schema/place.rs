@@ -29,13 +29,34 @@ pub static DENSITY: Key = Key::new("density", Form::File)
     .range_words("as `mask`")
     .means("A picture: a scratch is laid with the probability that the picture has at its middle, from 0 (black) to 1 (white).");
 
-pub static TILE_M: Key = Key::new("tile_m", Form::Number)
+/// Width of pictures that are laid on from three sides.
+pub(super) const TILE: Key = Key::new("tile_m", Form::Number)
     .unit("m")
     .words("by texture coordinates")
     .size()
-    .range_words("1e-5 to 1000; with a picture")
-    .means("The pictures are laid on the object along its own three axes, repeated, each so wide. For what has no texture coordinates.")
     .control("Tile", log(0.02, 2.0).sized(), "How wide the pictures are, laid on from three sides and repeated. Small ones show that they repeat.");
+
+/// The least and the greatest distance from a middle.
+pub(super) const RADII: Key = Key::new("radius_m", Form::Numbers(2))
+    .unit("m")
+    .words("everywhere")
+    .within(0.0, LARGEST_M)
+    .range_words("two numbers, the second greater");
+
+/// The middle that such distances are counted from.
+pub(super) const MIDDLE: Key = Key::new("center_m", Form::Numbers(3))
+    .unit("m")
+    .within(-1000.0, 1000.0)
+    .range_words("±1000 each; with `radius_m`")
+    .control(
+        "Middle",
+        linear(-1.0, 1.0).sized(),
+        "What the radii are counted from, in the object's own frame: the spot that a hand rubs.",
+    );
+
+pub static TILE_M: Key = TILE
+    .range_words("1e-5 to 1000; with a picture")
+    .means("The pictures are laid on the object along its own three axes, repeated, each so wide. For what has no texture coordinates.");
 
 pub static EDGES: Key = Key::new("edges", Form::Number)
     .number(0.0)
@@ -51,23 +72,11 @@ pub static EDGE_WIDTH_M: Key = Key::new("edge_width_m", Form::Number)
     .means("How far from an edge there are scratches; in the world's metres.")
     .control("Edge width", log(2e-3, 0.1).sized(), "How far from an edge there are scratches. Narrow: a bright line along it. Wide: a soft border.");
 
-pub static RADIUS_M: Key = Key::new("radius_m", Form::Numbers(2))
-    .unit("m")
-    .words("everywhere")
-    .within(0.0, LARGEST_M)
-    .range_words("two numbers, the second greater")
+pub static RADIUS_M: Key = RADII
     .means("The least and the greatest distance from `center_m`, in the world's metres: inside of a ball, outside of one, or between two. Scratches end there.")
     .control("Inner radius", linear(0.0, 1.0).sized(), "There are no scratches nearer to the middle than this.")
     .second("Outer radius", linear(0.0, 1.0).sized(), Bounds::Within(0.0, LARGEST_M), "m", "There are no scratches farther from the middle than this.");
 
-pub static CENTER_M: Key = Key::new("center_m", Form::Numbers(3))
-    .unit("m")
+pub static CENTER_M: Key = MIDDLE
     .words("the object's origin")
-    .within(-1000.0, 1000.0)
-    .range_words("±1000 each; with `radius_m`")
-    .means("What `radius_m` is counted from, in the object's own frame.")
-    .control(
-        "Middle",
-        linear(-1.0, 1.0).sized(),
-        "What the radii are counted from, in the object's own frame: the spot that a hand rubs.",
-    );
+    .means("What `radius_m` is counted from, in the object's own frame.");

@@ -141,32 +141,25 @@ pub static JITTER_DEG: Key = Key::new("jitter_deg", Form::Number)
     .means("Standard deviation of a scratch's angle to the pattern. A few degrees look made by hand.")
     .control("Jitter", linear(0.0, 30.0), "How far scratches stray from the pattern's direction. 0: fans and streaks with hard edges, as new. A few degrees soften them and look worn.");
 
-pub static BEND_PER_M: Key = Key::new("curvature_per_m", Form::Sizes)
+const CURVATURE_PER_M: Key = Key::new("curvature_per_m", Form::Sizes)
     .unit("1/m")
+    .within(-1e4, 1e4)
+    .range_words("mean ±10000, spread 0 to 10000")
+    .control("Curvature", linear(-50.0, 50.0).sized_by(-1), "One over the radius of the arcs. 0 is straight. Bent scratches turn through many directions, so each lights up over a shorter piece, and more of them light up at once.")
+    .second("Curvature spread", linear(0.0, 50.0).sized_by(-1), Bounds::Within(0.0, 1e4), "1/m", "How much bends differ, to both sides. Some is what makes wear look casual instead of ruled.");
+
+pub static BEND_PER_M: Key = CURVATURE_PER_M
     .number(0.0)
-    .within(-1e4, 1e4)
-    .range_words("mean ±10000, spread 0 to 10000")
-    .means("How much a scratch bends: one over its radius. A mean of 0 with a spread of 4 to 20 bends them both ways.")
-    .control("Curvature", linear(-50.0, 50.0).sized_by(-1), "One over the radius of the arcs. 0 is straight. Bent scratches turn through many directions, so each lights up over a shorter piece, and more of them light up at once.")
-    .second("Curvature spread", linear(0.0, 50.0).sized_by(-1), Bounds::Within(0.0, 1e4), "1/m", "How much bends differ, to both sides. Some is what makes wear look casual instead of ruled.");
+    .means("How much a scratch bends: one over its radius. A mean of 0 with a spread of 4 to 20 bends them both ways.");
 
-pub static TOOL_PER_M: Key = Key::new("curvature_per_m", Form::Sizes)
-    .unit("1/m")
+pub static TOOL_PER_M: Key = CURVATURE_PER_M
     .number(20.0)
-    .within(-1e4, 1e4)
-    .range_words("mean ±10000, spread 0 to 10000")
-    .means("One over the radius of the tool; its sign is the sense of the spiral.")
-    .control("Curvature", linear(-50.0, 50.0).sized_by(-1), "One over the radius of the arcs. 0 is straight. Bent scratches turn through many directions, so each lights up over a shorter piece, and more of them light up at once.")
-    .second("Curvature spread", linear(0.0, 50.0).sized_by(-1), Bounds::Within(0.0, 1e4), "1/m", "How much bends differ, to both sides. Some is what makes wear look casual instead of ruled.");
+    .means("One over the radius of the tool; its sign is the sense of the spiral.");
 
-pub static SWIRL_PER_M: Key = Key::new("curvature_per_m", Form::Sizes)
-    .unit("1/m")
+pub static SWIRL_PER_M: Key = CURVATURE_PER_M
     .sizes(25.0, 8.0)
-    .within(-1e4, 1e4)
     .range_words("mean ±10000, not 0; spread 0 to 10000")
-    .means("One over the distance to the centres.")
-    .control("Curvature", linear(-50.0, 50.0).sized_by(-1), "One over the radius of the arcs. 0 is straight. Bent scratches turn through many directions, so each lights up over a shorter piece, and more of them light up at once.")
-    .second("Curvature spread", linear(0.0, 50.0).sized_by(-1), Bounds::Within(0.0, 1e4), "1/m", "How much bends differ, to both sides. Some is what makes wear look casual instead of ruled.");
+    .means("One over the distance to the centres.");
 
 pub static FILE: Key = Key::new("file", Form::File)
     .range_words("CSV, UTF-8")

@@ -17,49 +17,47 @@ pub static SHAPE: Section = Section::many("shape", "", "a built-in shape.", &[])
     Choice::new("lathe", "A profile turned about the z axis: a plate, a pan, a ring.", &[&PROFILE_M, &SEGMENTS, &SMOOTH]),
 ]);
 
-pub static PLANE_SIZE_M: Key = Key::new("size_m", Form::Numbers(2))
+/// An edge along each of so many axes.
+const fn edges(count: usize) -> Key {
+    Key::new("size_m", Form::Numbers(count))
     .unit("m")
     .size()
-    .means("Its edges along x and y.")
-    .control("Edge", log(0.05, 5.0).sized(), "Length of an edge. With a count, the same scratches spread over more surface; with a density, there are more of them.");
+    .control("Edge", log(0.05, 5.0).sized(), "Length of an edge. With a count, the same scratches spread over more surface; with a density, there are more of them.")
+}
 
-pub static RADIUS_M: Key = Key::new("radius_m", Form::Number)
+const RADIUS: Key = Key::new("radius_m", Form::Number)
     .unit("m")
     .size()
-    .means("Its radius.")
     .control("Radius", log(0.05, 5.0).sized(), "Half its width. With a count, the same scratches spread over more surface; with a density, there are more of them.");
 
-pub static BOX_SIZE_M: Key = Key::new("size_m", Form::Numbers(3))
-    .unit("m")
-    .size()
-    .means("Its edges along x, y and z.")
-    .control("Edge", log(0.05, 5.0).sized(), "Length of an edge. With a count, the same scratches spread over more surface; with a density, there are more of them.");
+const HEIGHT: Key = Key::new("height_m", Form::Number).unit("m").size().control(
+    "Height",
+    log(0.05, 5.0).sized(),
+    "From its lower to its upper end.",
+);
 
-pub static BOX_ROUNDING_M: Key = Key::new("rounding_m", Form::Number)
+const ROUNDING: Key = Key::new("rounding_m", Form::Number)
     .unit("m")
-    .number(0.0)
     .within(0.0, LARGEST_M)
+    .control("Rounding", linear(0.0, 0.5).sized(), "Radius of its edges. Rounded edges catch a line of light from almost everywhere; 0 leaves them sharp and dark.");
+
+pub static PLANE_SIZE_M: Key = edges(2).means("Its edges along x and y.");
+
+pub static RADIUS_M: Key = RADIUS.means("Its radius.");
+
+pub static BOX_SIZE_M: Key = edges(3).means("Its edges along x, y and z.");
+
+pub static BOX_ROUNDING_M: Key = ROUNDING
+    .number(0.0)
     .range_words("0 to half of the shortest edge")
-    .means("Radius of its edges and corners. Each side has the whole texture.")
-    .control("Rounding", linear(0.0, 0.5).sized(), "Radius of its edges. Rounded edges catch a line of light from almost everywhere; 0 leaves them sharp and dark.");
+    .means("Radius of its edges and corners. Each side has the whole texture.");
 
-pub static HEIGHT_M: Key = Key::new("height_m", Form::Number)
-    .unit("m")
-    .size()
-    .means("From its lower to its upper end.")
-    .control(
-        "Height",
-        log(0.05, 5.0).sized(),
-        "From its lower to its upper end.",
-    );
+pub static HEIGHT_M: Key = HEIGHT.means("From its lower to its upper end.");
 
-pub static CYLINDER_ROUNDING_M: Key = Key::new("rounding_m", Form::Number)
-    .unit("m")
+pub static CYLINDER_ROUNDING_M: Key = ROUNDING
     .number(0.0)
-    .within(0.0, LARGEST_M)
     .range_words("0 to the radius and half of the height")
-    .means("Radius of its rims.")
-    .control("Rounding", linear(0.0, 0.5).sized(), "Radius of its edges. Rounded edges catch a line of light from almost everywhere; 0 leaves them sharp and dark.");
+    .means("Radius of its rims.");
 
 pub static TUBE_RADIUS_M: Key = Key::new("tube_radius_m", Form::Number)
     .unit("m")
@@ -68,44 +66,22 @@ pub static TUBE_RADIUS_M: Key = Key::new("tube_radius_m", Form::Number)
     .means("The radius of the tube.")
     .control("Tube radius", log(0.01, 1.0).sized(), "Half the thickness of the ring, below its radius. A thin tube draws highlights out to fine lines.");
 
-pub static RING_RADIUS_M: Key = Key::new("radius_m", Form::Number)
-    .unit("m")
-    .size()
-    .means("From the axis to the middle of the tube.")
-    .control("Radius", log(0.05, 5.0).sized(), "Half its width. With a count, the same scratches spread over more surface; with a density, there are more of them.");
+pub static RING_RADIUS_M: Key = RADIUS.means("From the axis to the middle of the tube.");
 
-pub static DOME_HEIGHT_M: Key = Key::new("height_m", Form::Number)
-    .unit("m")
-    .size()
+pub static DOME_HEIGHT_M: Key = HEIGHT
     .range_words("1e-5 to `radius_m`")
-    .means("The height of the top over the rim.")
-    .control(
-        "Height",
-        log(0.05, 5.0).sized(),
-        "From its lower to its upper end.",
-    );
+    .means("The height of the top over the rim.");
 
-pub static SWEEP_ROUNDING_M: Key = Key::new("rounding_m", Form::Number)
-    .unit("m")
+pub static SWEEP_ROUNDING_M: Key = ROUNDING
     .words("half of the most")
-    .within(0.0, LARGEST_M)
     .range_words("0 to the height and the floor's extent along y")
-    .means("Radius of the turn.")
-    .control("Rounding", linear(0.0, 0.5).sized(), "Radius of its edges. Rounded edges catch a line of light from almost everywhere; 0 leaves them sharp and dark.");
+    .means("Radius of the turn.");
 
 pub static LINE: Key = Key::new("line", Form::Text)
     .range_words("1 to 200 characters")
     .means("The letters. The font is built in, Ubuntu Light: Latin, Greek, Cyrillic.");
 
-pub static CAPITALS_M: Key = Key::new("height_m", Form::Number)
-    .unit("m")
-    .size()
-    .means("The height of capitals, along y.")
-    .control(
-        "Height",
-        log(0.05, 5.0).sized(),
-        "From its lower to its upper end.",
-    );
+pub static CAPITALS_M: Key = HEIGHT.means("The height of capitals, along y.");
 
 pub static DEPTH_M: Key = Key::new("depth_m", Form::Number)
     .unit("m")
