@@ -1,13 +1,13 @@
 //! Checks of the ranges of numbers, whoever wrote them.
 
+use super::keyed::Keyed;
 use super::ranges::{Check, check_radii, check_seed};
 use super::{
-    Amount, Around, Brush, Description, Distribution, Grating, Laid, Layer, LayerPlaces, Light,
-    Material, MaterialKind, MetalColor, Object, Override, Pattern, Render, Scratches, Stroke,
-    Surface,
+    Amount, Brush, Description, Distribution, Grating, Laid, Layer, LayerPlaces, Light, Material,
+    MaterialKind, MetalColor, Object, Override, Pattern, Scratches, Stroke, Surface,
 };
 use crate::error::Error;
-use crate::schema::{self, environment, material, object, place, scratches, stroke};
+use crate::schema::{environment, material, object, place, scratches, stroke};
 use hairline_model::text::shown;
 use hairline_optics::section::Section;
 use std::collections::HashSet;
@@ -19,14 +19,14 @@ impl Description {
     /// What is out of range, and where.
     pub fn check(&self) -> Result<(), Error> {
         self.camera.check_at("camera")?;
-        check_render(&self.render, "render")?;
+        self.render.check_keys("render")?;
         if let Some(it) = &self.environment {
             environment::ROTATION_DEG.check("environment", &it.rotation_deg)?;
             environment::INTENSITY.check("environment", &it.intensity)?;
         }
-        self.studio.check()?;
+        self.studio.check_keys("studio")?;
         if let Some(ground) = &self.ground {
-            ground.check()?;
+            ground.check_keys("ground")?;
         }
         each("material", &self.materials, check_material)?;
         unique("material", self.materials.iter().map(|m| m.name.as_str()))?;
@@ -64,11 +64,6 @@ fn unique<'n>(key: &str, names: impl Iterator<Item = &'n str>) -> Check {
     Ok(())
 }
 
-fn check_render(render: &Render, key: &str) -> Check {
-    schema::render::SIZE_PX.check(key, &render.size_px)?;
-    schema::render::FILTER_STD_PX.check(key, &render.filter_std_px)
-}
-
 fn check_material(it: &Material, key: &str) -> Check {
     material::ROUGHNESS.check(key, &it.roughness)?;
     material::COHERENCE_UM.check(key, &it.coherence_um)?;
@@ -77,10 +72,7 @@ fn check_material(it: &Material, key: &str) -> Check {
         material::CLEARCOAT_ROUGHNESS.check(key, &coat.roughness)?;
     }
     if let Some(cover) = it.cover {
-        let key = format!("{key}.cover");
-        schema::cover::IOR.check(&key, &cover.ior)?;
-        schema::cover::THICKNESS_MM.check(&key, &cover.thickness_mm)?;
-        schema::cover::COLOR.check(&key, &cover.color)?;
+        cover.check_keys(&format!("{key}.cover"))?;
     }
     if let Some(anisotropy) = it.anisotropy {
         material::ANISOTROPY.check(key, &anisotropy.strength)?;
@@ -198,12 +190,10 @@ fn check_place(it: &LayerPlaces, key: &str) -> Check {
         let found = "found it without what it belongs to";
         Err(Error::new(format!("{key}.{name}"), found, right))
     };
-    place::TILE_M.check(key, &it.tile_m)?;
+    it.check_keys(key)?;
     if it.tile_m.is_some() && it.files().next().is_none() {
         return alone("tile_m", "belongs to `mask` or `density`");
     }
-    place::EDGES.check(key, &it.edges)?;
-    place::EDGE_WIDTH_M.check(key, &it.edge_width_m)?;
     if it.edge_width_m.is_some() && it.edges == 0.0 {
         return alone("edge_width_m", "belongs to `edges`, such as `edges = 0.8`");
     }
@@ -211,7 +201,7 @@ fn check_place(it: &LayerPlaces, key: &str) -> Check {
     if it.center_m.is_some() && it.radius_m.is_none() {
         return alone("center_m", "belongs to `radius_m`");
     }
-    place::CENTER_M.check(key, &it.center_m)
+    Ok(())
 }
 
 /// Points of one stroke.
@@ -261,50 +251,14 @@ fn check_laid(laid: &Laid, key: &str) -> Check {
         scratches::DENSITY_PER_M2.check(key, &density)?;
     }
     check_drawn(laid.seed, laid.sizes(), key)?;
-    laid.pattern.check_at(key)
-}
-
-impl Pattern {
-    /// Refuses values out of range; `key` is the way to the table that has the pattern.
-    pub(super) fn check_at(&self, key: &str) -> Check {
-        match self {
-            Self::Random { curvature_per_m } => scratches::BEND_PER_M.check(key, curvature_per_m),
-            Self::Parallel {
-                direction,
-                jitter_deg,
-            } => {
-                scratches::DIRECTION.check(key, direction)?;
-                scratches::JITTER_DEG.check(key, jitter_deg)
-            }
-            Self::Circular(around) | Self::Radial(around) => around.check_at(key),
-            Self::Spun {
-                around,
-                curvature_per_m,
-            } => {
-                around.check_at(key)?;
-                scratches::TOOL_PER_M.check(key, curvature_per_m)
-            }
-            Self::Swirl { curvature_per_m } => {
-                scratches::SWIRL_PER_M.check(key, curvature_per_m)?;
-                if curvature_per_m.mean == 0.0 {
-                    return Err(Error::new(
-                        format!("{key}.curvature_per_m"),
-                        "found a mean of 0",
-                        "swirls need one: one over their radius",
-                    ));
-                }
-                Ok(())
-            }
-        }
-    }
-}
-
-impl Around {
-    /// Refuses values out of range; `key` is the way to the table that has the axis.
-    pub(super) fn check_at(&self, key: &str) -> Check {
-        scratches::AXIS.check(key, &self.axis)?;
-        scratches::CENTER_M.check(key, &self.center_m)?;
-        scratches::JITTER_DEG.check(key, &self.jitter_deg)
+    laid.pattern.check_keys(key)?;
+    match laid.pattern {
+        Pattern::Swirl { curvature_per_m } if curvature_per_m.mean == 0.0 => Err(Error::new(
+            format!("{key}.curvature_per_m"),
+            "found a mean of 0",
+            "swirls need one: one over their radius",
+        )),
+        _ => Ok(()),
     }
 }
 

@@ -287,31 +287,13 @@ fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
     }
     let seed = table.value(&scratches::SEED)?;
     let sizes = sizes(table)?;
-    let around = || Around::read_keys(table);
-    let pattern = match pattern {
-        "random" => Pattern::Random {
-            curvature_per_m: table.value(&scratches::BEND_PER_M)?,
-        },
-        "parallel" => Pattern::Parallel {
-            direction: table.value(&scratches::DIRECTION)?,
-            jitter_deg: table.value(&scratches::JITTER_DEG)?,
-        },
-        "circular" => Pattern::Circular(around()?),
-        "radial" => Pattern::Radial(around()?),
-        "spun" => Pattern::Spun {
-            around: around()?,
-            curvature_per_m: table.value(&scratches::TOOL_PER_M)?,
-        },
-        "swirl" => Pattern::Swirl {
-            curvature_per_m: table.value(&scratches::SWIRL_PER_M)?,
-        },
-        _ => {
-            return Ok(Layer::Brushed(Brushed {
-                seed,
-                ..Brushed::new(table.value(&scratches::JITTER_DEG)?, sizes)
-            }));
-        }
-    };
+    if pattern == "drawn" {
+        return Ok(Layer::Brushed(Brushed {
+            seed,
+            ..Brushed::new(table.value(&scratches::JITTER_DEG)?, sizes)
+        }));
+    }
+    let pattern = Pattern::read_kind(pattern, table)?;
     let amount = match table.either("count", "density_per_m2")? {
         "count" => Amount::Count(table.required("count")?),
         _ => Amount::DensityPerM2(table.required("density_per_m2")?),

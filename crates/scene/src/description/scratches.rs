@@ -5,8 +5,11 @@ use std::path::PathBuf;
 use hairline_optics::section::Section;
 use serde::{Serialize, Serializer};
 
+use super::keyed::kinds;
 use super::place::LayerPlaces;
 use super::ranges::{Check, Numbers, Take};
+use super::table::Table;
+use crate::error::Error;
 use crate::schema::scratches;
 
 /// `[[scratches]]`
@@ -266,17 +269,15 @@ pub enum Pattern {
     },
 }
 
-impl Pattern {
+kinds! { Pattern,
     /// Value of `pattern` for it.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Random { .. } => "random",
-            Self::Parallel { .. } => "parallel",
-            Self::Circular(_) => "circular",
-            Self::Radial(_) => "radial",
-            Self::Spun { .. } => "spun",
-            Self::Swirl { .. } => "swirl",
-        }
+    name {
+        "random" => Random { curvature_per_m: scratches::BEND_PER_M },
+        "parallel" => Parallel { direction: scratches::DIRECTION, jitter_deg: scratches::JITTER_DEG },
+        "circular" => Circular(around),
+        "radial" => Radial(around),
+        "spun" => Spun { around: Flat, curvature_per_m: scratches::TOOL_PER_M },
+        "swirl" => Swirl { curvature_per_m: scratches::SWIRL_PER_M },
     }
 }
 

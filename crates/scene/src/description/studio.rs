@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::Description;
-use super::keyed::{Keyed, keyed};
+use super::keyed::keyed;
 use super::ranges::Check;
 use super::table::{Read, Table, Value};
 use super::values::{is_false, is_zero};
@@ -36,10 +36,6 @@ impl Studio {
     pub(super) fn is_none(&self) -> bool {
         *self == Self::NONE
     }
-
-    pub(super) fn check(&self) -> Check {
-        self.check_keys("studio")
-    }
 }
 
 /// `[ground]`: a wide floor under all objects.
@@ -57,12 +53,6 @@ pub struct Ground {
     /// Height along the world's up axis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
-}
-
-impl Ground {
-    pub(super) fn check(&self) -> Check {
-        self.check_keys("ground")
-    }
 }
 
 impl Description {
