@@ -1,6 +1,5 @@
 //! `hairline bench`: how long the default method and the published one take, and how far they are from the truth.
 
-mod counts;
 mod curves;
 mod error;
 mod figures;

@@ -1,7 +1,9 @@
 //! Counts of the work for a picture.
 
+use serde::Serialize;
+
 /// Work for the scratches of a picture, counted where it is done.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counts {
     /// Segments that were projected.
     pub segments: u64,

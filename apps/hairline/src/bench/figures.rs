@@ -1,8 +1,8 @@
 //! Figures of a benchmark, as they go into the JSON file. The document is made of this alone.
 
+use hairline_cpu::closed_form::Counts;
 use serde::Serialize;
 
-use super::counts::Counts;
 use super::machine::Machine;
 use super::way::BenchMethod;
 

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::counts::Counts;
+use hairline_cpu::closed_form::Counts;
+
 use super::figures::{Cell, Curve, Figures, Outcome, TableRow};
 use super::stage::TALK_SCRATCHES;
 use super::way::BenchMethod;

@@ -5,13 +5,12 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
-use hairline_cpu::closed_form::{self, Prepared, RenderOptions};
+use hairline_cpu::closed_form::{self, Counts, Prepared, RenderOptions};
 use hairline_gpu::{Adapter, Canvas, Error, Gpu, GpuScene, PassTime, Renderer, headless};
 use hairline_image::Image;
 use hairline_published::Method;
 use hairline_scene::Scene;
 
-use super::counts::Counts;
 use super::way::BenchMethod;
 use crate::cli::Backend;
 use crate::console::tell;
@@ -43,7 +42,7 @@ pub fn counted(scene: &Scene, prepared: &Prepared, way: BenchMethod) -> Option<C
     (way == BenchMethod::Ours).then(|| {
         let options = RenderOptions::default();
         let rows = 0..scene.render.size_px[1];
-        prepared.render_counted(&options, rows, &|_| {}).1.into()
+        prepared.render_counted(&options, rows, &|_| {}).1
     })
 }
 
