@@ -1,9 +1,7 @@
-// The GGX lobe over a sphere by a pivot transform, as published and with what the fit misses put back (ltc_sphere is the default).
+// The GGX lobe over a sphere by a pivot transform, as published (ltc_sphere is the default).
 // Needs ggx, irradiance, lobe_table, ltc. Twin: src/sptd.rs, which explains the method and names the paper.
 
 struct SptdLobe {
-    wo: vec3f,
-    alpha: f32,
     axis: vec3f,
     rest: f32,
     pivot: vec3f,
@@ -29,8 +27,6 @@ fn sptd_lobe(wo: vec3f, roughness: f32, sptd_table: texture_2d<f32>, albedo_tabl
     let x = frame.sin_cos.x * lean.y - frame.sin_cos.y * lean.x;
     let z = frame.sin_cos.y * lean.y + frame.sin_cos.x * lean.x;
     return SptdLobe(
-        vec3f(frame.sin_cos.x, 0.0, frame.sin_cos.y),
-        alpha,
         vec3f(-x, 0.0, z),
         rest,
         (1.0 - rest) * vec3f(-x, 0.0, z),
@@ -69,29 +65,19 @@ fn sptd_horizon_share(lobe: SptdLobe) -> f32 {
     return max(0.5 * (1.0 + sptd_transform_cap(lobe, sptd_nadir()).cosine), 1e-6);
 }
 
-struct SphericalRegion {
-    vector: vec3f,
-    solid_angle: f32,
-}
-
-fn sptd_subtract(whole: SphericalRegion, part: SphericalRegion) -> SphericalRegion {
-    return SphericalRegion(whole.vector - part.vector, max(whole.solid_angle - part.solid_angle, 0.0));
-}
-
-fn sptd_cap_region(cap: SphericalCap) -> SphericalRegion {
-    let s2 = cap.sine * cap.sine;
-    var solid_angle = 2.0 * GGX_PI * (1.0 - cap.cosine);
+fn sptd_cap_area(cap: SphericalCap) -> f32 {
     if (cap.cosine > 0.0) {
-        solid_angle = 2.0 * GGX_PI * s2 / (1.0 + cap.cosine);
+        return 2.0 * GGX_PI * cap.sine * cap.sine / (1.0 + cap.cosine);
     }
-    return SphericalRegion(GGX_PI * s2 * cap.axis, solid_angle);
+    return 2.0 * GGX_PI * (1.0 - cap.cosine);
 }
 
 fn sptd_complement(cap: SphericalCap) -> SphericalCap {
     return SphericalCap(-cap.axis, -cap.cosine, cap.sine);
 }
 
-fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
+// The solid angle.
+fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> f32 {
     // Replaces each cap by its complement if it is larger than a hemisphere.
     let flip_a = a.cosine < 0.0;
     let flip_b = b.cosine < 0.0;
@@ -105,34 +91,29 @@ fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
     }
     let lens = sptd_lens(small_a, small_b);
     if (flip_a && flip_b) {
-        return sptd_subtract(sptd_cap_region(a), sptd_subtract(sptd_cap_region(small_b), lens));
+        return max(sptd_cap_area(a) - max(sptd_cap_area(small_b) - lens, 0.0), 0.0);
     }
     if (flip_b) {
-        return sptd_subtract(sptd_cap_region(a), lens);
+        return max(sptd_cap_area(a) - lens, 0.0);
     }
     if (flip_a) {
-        return sptd_subtract(sptd_cap_region(b), lens);
+        return max(sptd_cap_area(b) - lens, 0.0);
     }
     return lens;
 }
 
 // Intersection of caps that are at most hemispheres: two sectors less the kite between centres and corners.
-fn sptd_lens(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
-    let region_a = sptd_cap_region(a);
-    let region_b = sptd_cap_region(b);
-    let area_a = region_a.solid_angle;
-    let area_b = region_b.solid_angle;
+fn sptd_lens(a: SphericalCap, b: SphericalCap) -> f32 {
+    let area_a = sptd_cap_area(a);
+    let area_b = sptd_cap_area(b);
     let radius_a = irradiance_angle(a.sine, a.cosine);
     let radius_b = irradiance_angle(b.sine, b.cosine);
     let distance = irradiance_angle(length(cross(a.axis, b.axis)), dot(a.axis, b.axis));
     if (distance >= radius_a + radius_b) {
-        return SphericalRegion(vec3f(0.0), 0.0);
+        return 0.0;
     }
     if (distance <= abs(radius_a - radius_b)) {
-        if (area_a < area_b) {
-            return region_a;
-        }
-        return region_b;
+        return min(area_a, area_b);
     }
     let s = 0.5 * (radius_a + radius_b + distance);
     let rest_a = s - radius_a;
@@ -149,10 +130,7 @@ fn sptd_lens(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
     let product = sptd_tangent(0.5 * s) * sptd_tangent(0.5 * rest_a) * sptd_tangent(0.5 * rest_b) * sptd_tangent(0.5 * rest_d);
     let triangle = 4.0 * irradiance_angle(sqrt(max(product, 0.0)), 1.0);
     let sectors = (angle_a * area_a + angle_b * area_b) / GGX_PI;
-    return SphericalRegion(
-        sptd_segment(angle_a) * region_a.vector + sptd_segment(angle_b) * region_b.vector,
-        clamp(sectors - 2.0 * triangle, 0.0, min(area_a, area_b)),
-    );
+    return clamp(sectors - 2.0 * triangle, 0.0, min(area_a, area_b));
 }
 
 // Of small angles a device's sine has few digits: Taylor's series there, within 1e-7 of itself.
@@ -165,28 +143,19 @@ fn sptd_tangent(angle: f32) -> f32 {
     return sptd_sine(angle) / cos(angle);
 }
 
-// The share of a disk that a chord cuts off, by half the angle that it is seen under from the centre. Of a small one the difference is
-// all error where a device's sine has few digits: Taylor's series there, within 2e-7 of itself.
-fn sptd_segment(angle: f32) -> f32 {
-    let whole = 2.0 * angle;
-    let square = whole * whole;
-    let series = whole * square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)));
-    return select(whole - sin(whole), series, whole < 1.0) / (2.0 * GGX_PI);
-}
-
-// The published method: nothing put back.
 fn sptd_sphere_published(lobe: SptdLobe, axis: vec3f, sin2: f32) -> f32 {
     if (sin2 >= 1.0) {
         return lobe.albedo;
     }
     let lit = sptd_visible(lobe, axis, sin2);
-    return lobe.albedo * min(lit.solid_angle / (4.0 * GGX_PI * sptd_horizon_share(lobe)), 1.0);
+    return lobe.albedo * min(lit / (4.0 * GGX_PI * sptd_horizon_share(lobe)), 1.0);
 }
 
-fn sptd_visible(lobe: SptdLobe, axis: vec3f, sin2: f32) -> SphericalRegion {
+// The solid angle of the image of what is above the horizon.
+fn sptd_visible(lobe: SptdLobe, axis: vec3f, sin2: f32) -> f32 {
     let square = max(sin2, 0.0);
     let light = SphericalCap(lobe_rotate(lobe.x_axis, axis), sqrt(1.0 - square), sqrt(square));
     let image = sptd_transform_cap(lobe, light);
     let hidden = sptd_cap_intersection(image, sptd_transform_cap(lobe, sptd_nadir()));
-    return sptd_subtract(sptd_cap_region(image), hidden);
+    return max(sptd_cap_area(image) - hidden, 0.0);
 }

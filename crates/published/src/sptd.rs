@@ -3,11 +3,7 @@
 //! J. Dupuy, E. Heitz and L. Belcour, "A spherical cap preserving parameterization for spherical distributions"
 //! (SIGGRAPH 2017): chords through a pivot inside the unit sphere map the sphere to itself and caps to caps. The uniform
 //! distribution so transformed stands for the lobe; light and horizon become two caps, whose intersection has a
-//! closed form. That is [`sptd_sphere_published`], kept to be compared with.
-//!
-//! The pivot's lobe is symmetric about its axis, which GGX at grazing views is not. [`sptd_sphere`] puts back what the fit
-//! misses as [`hairline_optics::ltc`] does: the integral is multiplied by the mean of GGX over the fit at a few directions spread
-//! over the visible part of the light, where that is small against the lobe. The default for spheres is
+//! closed form. The pivot's lobe is symmetric about its axis, which GGX at grazing views is not: the default for spheres is
 //! [`hairline_optics::ltc::sphere_light`], whose fit is closer.
 
 use std::f64::consts::PI;
@@ -15,8 +11,8 @@ use std::sync::LazyLock;
 
 use glam::{DVec2, DVec3};
 
-use hairline_optics::ggx::{ggx_alpha, ggx_eval};
-use hairline_optics::irradiance::{irradiance_angle, irradiance_basis};
+use hairline_optics::ggx::ggx_alpha;
+use hairline_optics::irradiance::irradiance_angle;
 use hairline_optics::lobe_table::{LOBE_MIN_COS, LobeTable, albedo_lookup};
 use hairline_optics::ltc::viewer_frame;
 
@@ -40,10 +36,6 @@ pub struct SptdShape {
 /// The lobe seen from one direction on one surface, F = 1.
 #[derive(Clone, Copy, Debug)]
 pub struct SptdLobe {
-    /// Viewer in its own frame: y = 0, x >= 0.
-    pub wo: DVec3,
-    /// GGX alpha.
-    pub alpha: f64,
     /// The x axis of the viewer's frame in the local one.
     pub x_axis: DVec2,
     /// Unit direction of the lobe's peak, in the viewer's frame.
@@ -92,8 +84,6 @@ impl SptdLobe {
         let z = sin_cos.y * lean.cos() + sin_cos.x * lean.sin();
         let axis = DVec3::new(-x, 0.0, z);
         Self {
-            wo: DVec3::new(sin_cos.x, 0.0, sin_cos.y),
-            alpha,
             x_axis,
             axis,
             rest,
@@ -157,37 +147,12 @@ fn sptd_horizon_share(lobe: &SptdLobe) -> f64 {
     (0.5 * (1.0 + sptd_transform_cap(lobe, NADIR).cosine)).max(1e-6)
 }
 
-/// A part of the unit sphere.
-#[derive(Clone, Copy, Debug)]
-pub struct SphericalRegion {
-    /// Solid angle, in steradians.
-    pub solid_angle: f64,
-    /// The integral of the unit direction; points to the centroid.
-    pub vector: DVec3,
-}
-
-impl std::ops::Sub for SphericalRegion {
-    type Output = Self;
-
-    fn sub(self, part: Self) -> Self {
-        Self {
-            solid_angle: (self.solid_angle - part.solid_angle).max(0.0),
-            vector: self.vector - part.vector,
-        }
-    }
-}
-
-/// A cap as a region.
-fn sptd_cap_region(cap: SphericalCap) -> SphericalRegion {
-    let s2 = cap.sine * cap.sine;
-    SphericalRegion {
-        solid_angle: if cap.cosine > 0.0 {
-            2.0 * PI * s2 / (1.0 + cap.cosine)
-        } else {
-            2.0 * PI * (1.0 - cap.cosine)
-        },
-        // A region's vector is that of any surface with the same rim: here the plane disk's.
-        vector: PI * s2 * cap.axis,
+/// The solid angle of a cap.
+fn sptd_cap_area(cap: SphericalCap) -> f64 {
+    if cap.cosine > 0.0 {
+        2.0 * PI * cap.sine * cap.sine / (1.0 + cap.cosine)
+    } else {
+        2.0 * PI * (1.0 - cap.cosine)
     }
 }
 
@@ -200,18 +165,19 @@ fn sptd_complement(cap: SphericalCap) -> SphericalCap {
     }
 }
 
-/// The intersection of two caps.
-pub fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
+/// The solid angle of the intersection of two caps.
+pub fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> f64 {
     // Replaces each cap by its complement if it is larger than a hemisphere.
     let (flip_a, flip_b) = (a.cosine < 0.0, b.cosine < 0.0);
     let small_a = if flip_a { sptd_complement(a) } else { a };
     let small_b = if flip_b { sptd_complement(b) } else { b };
     let lens = sptd_lens(small_a, small_b);
+    let without = |whole: f64, part: f64| (whole - part).max(0.0);
     match (flip_a, flip_b) {
         (false, false) => lens,
-        (false, true) => sptd_cap_region(a) - lens,
-        (true, false) => sptd_cap_region(b) - lens,
-        (true, true) => sptd_cap_region(a) - (sptd_cap_region(small_b) - lens),
+        (false, true) => without(sptd_cap_area(a), lens),
+        (true, false) => without(sptd_cap_area(b), lens),
+        (true, true) => without(sptd_cap_area(a), without(sptd_cap_area(small_b), lens)),
     }
 }
 
@@ -219,20 +185,16 @@ pub fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> SphericalRegio
 ///
 /// Two sectors less the kite between the centres and the corners. With the kite's area by L'Huilier's formula all three are
 /// small when the caps are; the textbook sum of angles would cancel.
-fn sptd_lens(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
-    let (region_a, region_b) = (sptd_cap_region(a), sptd_cap_region(b));
-    let (area_a, area_b) = (region_a.solid_angle, region_b.solid_angle);
+fn sptd_lens(a: SphericalCap, b: SphericalCap) -> f64 {
+    let (area_a, area_b) = (sptd_cap_area(a), sptd_cap_area(b));
     let radius_a = irradiance_angle(a.sine, a.cosine);
     let radius_b = irradiance_angle(b.sine, b.cosine);
     let distance = irradiance_angle(a.axis.cross(b.axis).length(), a.axis.dot(b.axis));
     if distance >= radius_a + radius_b {
-        return SphericalRegion {
-            solid_angle: 0.0,
-            vector: DVec3::ZERO,
-        };
+        return 0.0;
     }
     if distance <= (radius_a - radius_b).abs() {
-        return if area_a < area_b { region_a } else { region_b };
+        return area_a.min(area_b);
     }
     // The triangle of the centres and one corner, by its half perimeter.
     let s = 0.5 * (radius_a + radius_b + distance);
@@ -248,50 +210,20 @@ fn sptd_lens(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
     let product = quarter(s) * quarter(rest_a) * quarter(rest_b) * quarter(rest_d);
     let triangle = 4.0 * irradiance_angle(product.max(0.0).sqrt(), 1.0);
     let sectors = (angle_a * area_a + angle_b * area_b) / PI;
-    // The plane surface with the lens's rim: a segment of either cap's disk, joined at the chord.
-    let segment = |angle: f64| angle / PI - angle.sin() * angle.cos() / PI;
-    SphericalRegion {
-        solid_angle: (sectors - 2.0 * triangle).clamp(0.0, area_a.min(area_b)),
-        vector: segment(angle_a) * region_a.vector + segment(angle_b) * region_b.vector,
-    }
+    (sectors - 2.0 * triangle).clamp(0.0, area_a.min(area_b))
 }
 
-/// The integral of the lobe (F = 1, cosine inside) over a sphere, cut by the horizon: as
-/// [`hairline_optics::ltc::sphere_light`], by a pivot.
-pub fn sptd_sphere_light(wo: DVec3, roughness: f64, axis: DVec3, sin2: f64) -> f64 {
-    sptd_sphere(&sptd_lobe(wo, roughness), axis, sin2)
-}
-
-/// [`sptd_sphere_light`] for a lobe at hand.
-pub fn sptd_sphere(lobe: &SptdLobe, axis: DVec3, sin2: f64) -> f64 {
-    if sin2 >= 1.0 {
-        return lobe.albedo;
-    }
-    let lit = sptd_visible(lobe, axis, sin2);
-    let sphere = 4.0 * PI * sptd_horizon_share(lobe);
-    let share = (lit.solid_angle / sphere).min(1.0);
-    if share <= 0.0 {
-        return 0.0;
-    }
-    let corrected = sphere * sptd_mean(lobe, lit);
-    // Five points know GGX over a part of the lobe better than the fit does, over half of it or more worse.
-    let wide = (2.0 * share).min(1.0);
-    let fade = wide * (2.0 - wide);
-    // A part returns no more than the whole: at grazing views GGX can be many times the fit at all five points.
-    (share * (corrected + fade * (lobe.albedo - corrected))).min(lobe.albedo)
-}
-
-/// The published method: the fitted lobe's own integral over a sphere, nothing put back. Arguments as for [`sptd_sphere`].
+/// The fitted lobe's own integral over a sphere, cut by the horizon: F = 1, cosine inside; as [`hairline_optics::ltc::ltc_sphere`].
 pub fn sptd_sphere_published(lobe: &SptdLobe, axis: DVec3, sin2: f64) -> f64 {
     if sin2 >= 1.0 {
         return lobe.albedo;
     }
     let lit = sptd_visible(lobe, axis, sin2);
-    lobe.albedo * (lit.solid_angle / (4.0 * PI * sptd_horizon_share(lobe))).min(1.0)
+    lobe.albedo * (lit / (4.0 * PI * sptd_horizon_share(lobe))).min(1.0)
 }
 
-/// The image of the part of a sphere above the horizon; `axis` in the local frame, sin2 < 1.
-fn sptd_visible(lobe: &SptdLobe, axis: DVec3, sin2: f64) -> SphericalRegion {
+/// The solid angle of the image of the part of a sphere above the horizon; `axis` in the local frame, sin2 < 1.
+fn sptd_visible(lobe: &SptdLobe, axis: DVec3, sin2: f64) -> f64 {
     let sin2 = sin2.max(0.0);
     let x = lobe.x_axis;
     let light = SphericalCap {
@@ -304,38 +236,6 @@ fn sptd_visible(lobe: &SptdLobe, axis: DVec3, sin2: f64) -> SphericalRegion {
         sine: sin2.sqrt(),
     };
     let image = sptd_transform_cap(lobe, light);
-    sptd_cap_region(image) - sptd_cap_intersection(image, sptd_transform_cap(lobe, NADIR))
-}
-
-/// Share of a cap's area inside the ring on which the fit is compared with GGX, besides the centre, with weights. On a small
-/// cap, a disk, the rule integrates cubics.
-const RING_SHARE: f64 = 0.75;
-const RING_WEIGHT: f64 = 1.0 / 6.0;
-const CENTRE_WEIGHT: f64 = 1.0 / 3.0;
-
-/// Mean of GGX times the map's Jacobian over the cap with the region's centroid and solid angle, for the cap's part above
-/// the horizon.
-fn sptd_mean(lobe: &SptdLobe, region: SphericalRegion) -> f64 {
-    let centre = region.vector.normalize_or(DVec3::Z);
-    let (u, v) = irradiance_basis(centre);
-    let depth = RING_SHARE * region.solid_angle / (2.0 * PI);
-    let height = 1.0 - depth;
-    let radius = (depth * (2.0 - depth)).max(0.0).sqrt();
-
-    let (mut sum, mut weights) = (0.0, 0.0);
-    let mut add = |weight: f64, w: DVec3| {
-        let d = -w - lobe.pivot;
-        let jacobian = lobe.gap / d.length_squared();
-        let wi = lobe.pivot - d * jacobian;
-        if wi.z > 0.0 {
-            sum += weight * ggx_eval(wi, lobe.wo, lobe.alpha) * jacobian * jacobian;
-            weights += weight;
-        }
-    };
-    add(CENTRE_WEIGHT, centre);
-    for offset in [u, v, -u, -v] {
-        add(RING_WEIGHT, height * centre + radius * offset);
-    }
-    // Rounding may leave no point of a sliver at the horizon above it; GGX ends there.
-    sum / weights.max(1e-30)
+    let hidden = sptd_cap_intersection(image, sptd_transform_cap(lobe, NADIR));
+    (sptd_cap_area(image) - hidden).max(0.0)
 }

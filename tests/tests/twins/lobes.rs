@@ -817,7 +817,6 @@ fn never_nan_in_the_optics() {
             of_sphere[1],
             of_sphere[2],
             lambert_sphere(axis, x[7]),
-            sptd_sphere(&pivot, axis, x[7]),
             sptd_sphere_published(&pivot, axis, x[7]),
             irradiance_cone(&cone).length() / PI,
             ggx_eval(axis, wo, lobe.alpha).min(1.0),
