@@ -231,34 +231,25 @@ fn names(keys: &[&'static Key]) -> Vec<&'static str> {
     keys.iter().map(|key| key.name).collect()
 }
 
-impl Held for f64 {
-    fn initial(initial: Initial) -> Option<Self> {
-        match initial {
-            Initial::Number(number) => Some(number),
-            _ => None,
-        }
-    }
+macro_rules! held {
+    ($($Type:ty: $initial:pat => $value:expr;)*) => {
+        $(impl Held for $Type {
+            fn initial(initial: Initial) -> Option<Self> {
+                match initial {
+                    $initial => Some($value),
+                    _ => None,
+                }
+            }
+        })*
+    };
 }
 
-impl Held for u64 {
-    fn initial(initial: Initial) -> Option<Self> {
-        f64::initial(initial).map(|number| number as Self)
-    }
-}
-
-impl Held for u32 {
-    fn initial(initial: Initial) -> Option<Self> {
-        f64::initial(initial).map(|number| number as Self)
-    }
-}
-
-impl Held for bool {
-    fn initial(initial: Initial) -> Option<Self> {
-        match initial {
-            Initial::Flag(flag) => Some(flag),
-            _ => None,
-        }
-    }
+held! {
+    f64: Initial::Number(number) => number;
+    u64: Initial::Number(number) => number as Self;
+    u32: Initial::Number(number) => number as Self;
+    bool: Initial::Flag(flag) => flag;
+    String: Initial::Text(text) => text.to_owned();
 }
 
 impl<const N: usize> Held for [f64; N] {
@@ -279,15 +270,6 @@ impl Held for [[f64; 3]; 2] {
 impl<const N: usize> Held for [u32; N] {
     fn initial(initial: Initial) -> Option<Self> {
         <[f64; N]>::initial(initial).map(|numbers| numbers.map(|number| number as u32))
-    }
-}
-
-impl Held for String {
-    fn initial(initial: Initial) -> Option<Self> {
-        match initial {
-            Initial::Text(text) => Some(text.to_owned()),
-            _ => None,
-        }
     }
 }
 
