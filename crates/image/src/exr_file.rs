@@ -41,22 +41,10 @@ pub(crate) fn channel_names(layer: crate::Layer) -> [&'static str; 3] {
 }
 
 /// The three channels of a layer's variance, if it has one.
-pub(crate) fn variance_channel_names(layer: crate::Layer) -> Option<[&'static str; 3]> {
-    match layer {
-        crate::Layer::Beauty => Some(["variance.R", "variance.G", "variance.B"]),
-        crate::Layer::Base => Some(["variance.base.R", "variance.base.G", "variance.base.B"]),
-        crate::Layer::Scratches => Some([
-            "variance.scratches.R",
-            "variance.scratches.G",
-            "variance.scratches.B",
-        ]),
-        crate::Layer::Density => Some([
-            "variance.density.R",
-            "variance.density.G",
-            "variance.density.B",
-        ]),
-        crate::Layer::Depth | crate::Layer::Normal | crate::Layer::Alpha => None,
-    }
+pub(crate) fn variance_channel_names(layer: crate::Layer) -> Option<[String; 3]> {
+    use crate::Layer as L;
+    let has_variance = matches!(layer, L::Beauty | L::Base | L::Scratches | L::Density);
+    has_variance.then(|| channel_names(layer).map(|name| format!("variance.{name}")))
 }
 
 /// Encodes all layers of a render with its noise and notes. The file reads back bit for bit, NaN payloads aside. [`Image::alpha`] is
@@ -233,22 +221,21 @@ fn check_lengths(image: &Image, path: &Path) -> std::result::Result<(), Error> {
 }
 
 /// Names for a message, each once: depth has one channel.
-fn listed(names: [&str; 3]) -> String {
-    if names[0] == names[1] {
-        names[0].to_owned()
-    } else {
-        names.join(", ")
+fn listed(names: [impl AsRef<str>; 3]) -> String {
+    match names.each_ref().map(AsRef::as_ref) {
+        [name, other, _] if name == other => name.to_owned(),
+        names => names.join(", "),
     }
 }
 
 fn push_channels(
     channels: &mut Vec<AnyChannel<FlatSamples>>,
-    names: [&str; 3],
+    names: [impl AsRef<str>; 3],
     values: &[[f32; 3]],
 ) {
-    for (i, name) in names.into_iter().enumerate() {
+    for (i, name) in names.iter().enumerate() {
         let samples = values.iter().map(|v| v[i]).collect();
-        channels.push(AnyChannel::new(name, FlatSamples::F32(samples)));
+        channels.push(AnyChannel::new(name.as_ref(), FlatSamples::F32(samples)));
     }
 }
 
@@ -520,7 +507,8 @@ impl Contents {
     }
 
     /// Three channels of one part.
-    pub(crate) fn find(&self, names: [&str; 3]) -> Option<Picture> {
+    pub(crate) fn find(&self, names: [impl AsRef<str>; 3]) -> Option<Picture> {
+        let names = names.each_ref().map(AsRef::as_ref);
         self.parts.iter().find_map(|part| part.interleaved(names))
     }
 
@@ -572,7 +560,7 @@ impl Contents {
         }
         let mut variance = |layer| {
             let names = variance_channel_names(layer)?;
-            let part = self.find(names);
+            let part = self.find(names.each_ref());
             match &part {
                 Some(_) => found += 1,
                 None => missing.push(listed(names)),
