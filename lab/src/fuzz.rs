@@ -1,5 +1,8 @@
 //! `cargo lab fuzz N`: mutated inputs of all kinds go through the command line, each in a process of its own with limits of time and
 //! memory. A case depends on the seed and its number alone.
+//!
+//! Not by cargo-fuzz: that needs a nightly compiler, and calls a function again and again in one process, where the command line's limits of time
+//! and memory, and the files that it leaves, cannot be judged.
 
 mod case;
 mod found;

@@ -59,7 +59,9 @@ class HairlineScratches {
         // A primitive is associated with its node too.
         if (object !== undefined && node.parent?.userData.hairlineObject === undefined) {
           node.userData.hairlineObject = object;
-          await this.dress(node, object, extension);
+          await this.dress(node, object, extension).catch(({ message }) => {
+            this.warn(`${message}: "${extension.object?.[object]?.name}" is shown plain`);
+          });
         }
       }
     }
@@ -109,7 +111,8 @@ class HairlineScratches {
 
   /** Gives the meshes of an object materials with its scratches. */
   async dress(node, number, extension) {
-    const object = extension.object[number];
+    const object = extension.object?.[number];
+    if (!object) throw new Error(`object: found ${number}; must be the number of one of the file's`);
     const found = [];
     node.traverse((mesh) => {
       if (mesh.isMesh) found.push(mesh);
@@ -118,7 +121,7 @@ class HairlineScratches {
     const all = await this.scratches(node, object, meshes, extension);
     const gratings = [];
     for (const grating of (extension.grating ?? []).filter((it) => it.object === object.name && !it.hidden)) {
-      if (grating.laid) gratings.push(await this.grating(grating.laid));
+      if (grating.laid) gratings.push(await this.grating(grating.laid, `grating[${extension.grating.indexOf(grating)}].laid`));
       else this.warn(`not drawn: grating ${grating.name ? `"${grating.name}" ` : ''}of pattern ${grating.pattern} on "${object.name}"`);
     }
     if (all === null && gratings.length === 0) return;
@@ -151,23 +154,23 @@ class HairlineScratches {
     const shown = layers.filter((layer) => !layer.hidden && (layer.solo || !isSolo));
     if (shown.length === 0) return null;
     const lists = shown.every(({ laid }) => laid)
-      ? await Promise.all(shown.map(({ laid, profile }) => this.laid(laid, profile)))
+      ? await Promise.all(shown.map((layer) => this.laid(layer, `${wayOf(layer, extension)}.laid`)))
       : await this.lay(layers, shown, node, meshes, extension);
     return lists.length > 0 ? lists.reduce((a, b) => a.joined(b)) : null;
   }
 
   /** The scratches of a layer as Hairline laid them. */
-  async laid({ start_m, end_m, normal, width_um, depth_nm, scratch }, profile = 'rectangle') {
-    const read = [start_m, end_m, normal, width_um, depth_nm, scratch].map((accessor) => this.numbers(accessor));
-    const [starts, ends, normals, widthsUm, depthsNm, numbers] = await Promise.all(read);
+  async laid({ laid, profile = 'rectangle' }, way) {
+    const keys = ['start_m', 'end_m', 'normal', 'width_um', 'depth_nm', 'scratch'];
+    const [starts, ends, normals, widthsUm, depthsNm, numbers] = await Promise.all(keys.map((key) => this.numbers(laid, key, way)));
     return new Scratches({ starts, ends, normals, widthsUm, depthsNm, scratch: numbers, profiles: profilesOf(profile, numbers.length) });
   }
 
   /** A grating with its table, in the frame of its object. */
-  async grating(laid) {
+  async grating(laid, way) {
     return {
       kind: laid.kind, axis: laid.axis, center: laid.center, radiiM: laid.radii_m, curvaturePerM: laid.curvature_per_m, coverage: laid.coverage,
-      angleStdRad: laid.angle_std_rad, coherenceUm: laid.coherence_um, texels: await this.numbers(laid.texels),
+      angleStdRad: laid.angle_std_rad, coherenceUm: laid.coherence_um, texels: await this.numbers(laid, 'texels', way),
     };
   }
 
@@ -186,16 +189,22 @@ class HairlineScratches {
       const own = meshes.filter((mesh) => (material === null || mesh.material.name === material) && (below === null || isBelow(mesh, node, below)));
       // All of them, as a layer's seed counts with those before it.
       const rows = described.map((row, i) => ({ ...row, solo: false, hidden: !shown.includes(layers[i]) || partOf(layers[i]) !== part }));
-      return layScratches(together(own, node), rows, { metresPerUnit, files });
+      try {
+        return layScratches(together(own, node), rows, { metresPerUnit, files });
+      } catch ({ message }) {
+        // By the layer's number in the file.
+        throw new Error(message.replace(/^scratches\[(\d+)\]/, (_, i) => wayOf(layers[i], extension)));
+      }
     });
   }
 
   /** A layer without the part that it lies on; what it names is added to `files`. */
-  async described({ laid, material, node, ...layer }, number, extension, files) {
+  async described(given, number, extension, files) {
+    const { laid, material, node, ...layer } = given;
     if (layer.pattern === 'file') {
       const list = layer.file;
       layer.file = `list ${number}`;
-      const [starts, ends, widthsUm, depthsNm] = await Promise.all(['start_m', 'end_m', 'width_um', 'depth_nm'].map((key) => this.numbers(list[key])));
+      const [starts, ends, widthsUm, depthsNm] = await Promise.all(['start_m', 'end_m', 'width_um', 'depth_nm'].map((key) => this.numbers(list, key, `${wayOf(given, extension)}.file`)));
       const exact = list.ends_f64 === undefined ? null : new Float64Array(await this.parser.getDependency('bufferView', list.ends_f64));
       const endsM = exact ?? Float64Array.from({ length: 2 * starts.length }, (_, i) => {
         const [scratch, k] = [Math.floor(i / 6), i % 6];
@@ -204,15 +213,19 @@ class HairlineScratches {
       files[layer.file] = { endsM, widthsUm, depthsNm };
     }
     for (const key of ['mask', 'density'].filter((it) => layer.where?.[it] !== undefined)) {
+      const file = extension.files?.[layer.where[key]];
+      if (!file) throw new Error(`${wayOf(given, extension)}.where.${key}: found ${layer.where[key]}; must be the number of one of \`files\``);
       const name = `picture ${layer.where[key]}`;
-      files[name] = await this.picture(extension.files[layer.where[key]].bufferView);
+      files[name] = await this.picture(file.bufferView);
       layer.where = { ...layer.where, [key]: name };
     }
     return layer;
   }
 
-  async numbers(accessor) {
-    return (await this.parser.getDependency('accessor', accessor)).array;
+  /** The numbers of the accessor that a key names. */
+  async numbers(list, key, way) {
+    if (!this.parser.json.accessors?.[list[key]]) throw new Error(`${way}.${key}: found ${list[key]}; must be the number of an accessor`);
+    return (await this.parser.getDependency('accessor', list[key])).array;
   }
 
   /** Texels of a picture in the file, as they are coded. */
@@ -289,6 +302,9 @@ function areaLight(color = [1, 1, 1], intensity = 1000, width, height) {
   light.color.setRGB(...color);
   return light;
 }
+
+/** The way to a layer in the file. */
+const wayOf = (layer, extension) => `scratches[${extension.scratches.indexOf(layer)}]`;
 
 /** The scale of a node in the world; null where it is not one number. */
 function scaleOf({ matrixWorld }) {

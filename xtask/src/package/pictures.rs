@@ -81,9 +81,7 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
                 "three.js, {name}: a file, against what was set by hand: {:.4} %",
                 100.0 * off
             );
-            // By hand all parts are one mesh; in a file each has a coherence of its own depths.
-            let limit = if *name == "layers" { LIMIT } else { FILE_LIMIT };
-            ensure!(off < limit, "{name}: the file is {off} off");
+            ensure!(off < FILE_LIMIT, "{name}: the file is {off} off");
             if let Ok(of_seeds) = find("seeds") {
                 let off = error(&colours(of_seeds), &of_file, &inner);
                 println!(
