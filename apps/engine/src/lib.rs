@@ -7,10 +7,8 @@ mod maps;
 mod metals;
 mod scratches;
 
-use hairline_optics::section::Section;
 use hairline_scene::Error;
-use hairline_scene::description::Scratches;
-use serde_json::{Value, json};
+use serde_json::Value;
 use wasm_bindgen::JsError;
 
 /// An error as JavaScript throws it.
@@ -20,11 +18,4 @@ fn thrown(error: Error) -> JsError {
 
 fn parsed(text: &str) -> Result<Value, JsError> {
     serde_json::from_str(text).map_err(|error| JsError::new(&error.to_string()))
-}
-
-/// The cross section that the key `profile` of a layer has.
-fn section(profile: Value) -> Result<Section, JsError> {
-    let layer = json!({ "object": "mesh", "pattern": "random", "count": 1, "profile": profile });
-    let mut layers = Scratches::from_json(json!([layer])).map_err(thrown)?;
-    Ok(layers.remove(0).profile)
 }

@@ -1,13 +1,13 @@
 //! Metals, and the spectra of their scratches.
 
-use hairline_engine::scratch_table as table;
+use hairline_engine::{scratch_table as table, section};
 use hairline_optics::metal::Metal;
 use hairline_optics::section::GrooveShape;
 use hairline_scene::description::metal_names;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use crate::{parsed, section};
+use crate::{parsed, thrown};
 
 fn metal_of(name: &str) -> Result<Metal, JsError> {
     let named = metal_names().iter().find(|(known, _)| *known == name);
@@ -39,7 +39,7 @@ pub fn scratch_table(
 ) -> Result<Vec<u32>, JsError> {
     let metal = metal.map(|name| metal_of(&name)).transpose()?;
     let shape = GrooveShape {
-        section: section(parsed(profile)?)?,
+        section: section(Some(parsed(profile)?)).map_err(thrown)?,
         width_class,
     };
     Ok(table(metal, &shape).into_flattened())

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use hairline_engine::{Pieces, ScratchTexels};
+use hairline_engine::{Pieces, ScratchTexels, section};
 use hairline_scene::description::Scratches;
 use hairline_scene::{Arrays, MeshArrays, ScratchArrays, SectionId};
 use serde_json::Value;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use crate::{parsed, section, thrown};
+use crate::{parsed, thrown};
 
 /// Lists and pictures that layers name.
 #[wasm_bindgen]
@@ -158,8 +158,9 @@ impl Tree {
         };
         let sections = profiles
             .into_iter()
-            .map(|profile| Ok(SectionId::new(&section(profile)?)));
-        let sections: Vec<SectionId> = sections.collect::<Result<_, JsError>>()?;
+            .map(|profile| Ok(SectionId::new(&section(Some(profile))?)));
+        let sections: Result<Vec<SectionId>, _> = sections.collect();
+        let sections = sections.map_err(thrown)?;
         let rows = |numbers: &[f32]| numbers.as_chunks::<3>().0.to_vec();
         let count = widths_um.len();
         let pieces = Pieces {

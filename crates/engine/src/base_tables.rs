@@ -5,7 +5,7 @@ use hairline_optics::lobe_table::{LOBE_TABLE_SIZE, albedo_table, shape_texels};
 use hairline_optics::metal::Metal;
 
 /// Refractive index of the last curve, which is a dielectric's.
-pub const IOR: f64 = 1.5;
+const IOR: f64 = 1.5;
 
 /// A texture of `rgba32float`.
 #[derive(Clone, Debug)]

@@ -25,5 +25,5 @@ pub mod scratch_tree;
 mod spectra;
 
 pub use gratings::{GratingField, GratingTexels};
-pub use pieces::{Pieces, ScratchTexels};
+pub use pieces::{Pieces, ScratchTexels, section};
 pub use spectra::scratch_table;

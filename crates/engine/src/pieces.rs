@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use hairline_index::ScratchIndex;
-use hairline_optics::section::GrooveShape;
+use hairline_optics::section::{GrooveShape, Section};
 use hairline_scene::description::Scratches;
 use hairline_scene::{
     Arrays, Error, GrooveShapes, LISTED_RANGES, MOST_SHAPES, Mesh, MeshArrays, Object, Profile,
     Scene, Scratch, SectionId, Segment, lay_on_mesh,
 };
+
+use serde_json::{Value, json};
 
 use crate::scratch_tree::{self, WIDTH};
 
@@ -37,6 +39,19 @@ pub struct Pieces {
     pub sections: Vec<SectionId>,
     /// Index of the layer.
     pub layers: Vec<u32>,
+}
+
+/// Reads the cross section that a layer has as `profile`; a rectangle without one.
+///
+/// # Errors
+/// What is no cross section, by the key of a layer.
+pub fn section(profile: Option<Value>) -> Result<Section, Error> {
+    let mut layer = json!({ "object": "mesh", "pattern": "random", "count": 1 });
+    if let Some(profile) = profile {
+        layer["profile"] = profile;
+    }
+    let mut layers = Scratches::from_json(json!([layer]))?;
+    Ok(layers.remove(0).profile)
 }
 
 /// Scratches as shaders find them.

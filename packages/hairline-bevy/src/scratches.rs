@@ -12,7 +12,8 @@ use hairline_index::ScratchIndex;
 use hairline_optics::metal::Metal;
 use hairline_optics::section::GrooveShape;
 use hairline_scene::{
-    Arrays, Base, Description, GrooveShapes, Loader, MeshArrays, Scene, SceneBuilder, description,
+    Arrays, Base, DEFAULT_COHERENCE_UM, Description, GrooveShapes, Loader, MeshArrays, Scene,
+    SceneBuilder, description,
 };
 
 /// Name of the mesh where a scene has a file.
@@ -24,9 +25,6 @@ camera = { position_m = [0.0, 0.0, 1.0], target_m = [0.0, 0.0, 0.0], up = [0.0, 
 material = [{ name = 'material', kind = 'mirror' }]
 object = [{ name = 'mesh', mesh = 'mesh', material = 'material' }]
 ";
-/// Width of the coherence window of materials that say nothing of it.
-pub(crate) const COHERENCE_UM: f64 = 20.0;
-
 /// The scratches and gratings of one mesh, in its own frame, with the tree that shaders find them by.
 #[derive(Clone, Debug)]
 pub struct Scratches {
@@ -49,7 +47,7 @@ impl Scratches {
         let mut files = Arrays::default();
         files.read_pictures(&layers, Path::new("."))?;
         let pieces = Pieces::lay(&arrays_of(mesh)?, &layers, &files, 1.0)?;
-        Ok(Self::of_pieces(&pieces, COHERENCE_UM, 1.0)?)
+        Ok(Self::of_pieces(&pieces, DEFAULT_COHERENCE_UM, 1.0)?)
     }
 
     pub(crate) fn of_pieces(

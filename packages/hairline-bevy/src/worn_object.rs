@@ -4,15 +4,14 @@ use std::sync::Arc;
 
 use bevy::log::warn;
 use gltf::accessor::{DataType, Dimensions, Item, Iter};
-use hairline_engine::{GratingField, GratingTexels, Pieces};
+use hairline_engine::{GratingField, GratingTexels, Pieces, section};
 use hairline_optics::metal::Metal;
 use hairline_optics::table::ENGINE_COLUMNS;
-use hairline_scene::description::{self, metal_names};
-use hairline_scene::{Error, SectionId};
-use serde_json::{Value, json};
+use hairline_scene::description::metal_names;
+use hairline_scene::{DEFAULT_COHERENCE_UM, Error, SectionId};
+use serde_json::Value;
 
 use crate::Scratches;
-use crate::scratches::COHERENCE_UM;
 
 pub(crate) const NAME: &str = "HAIRLINE_scratches";
 
@@ -78,7 +77,8 @@ impl WornObject {
         }
         let mut pieces = Pieces::default();
         for (i, row, laid) in layers {
-            let section = SectionId::new(&section(row)?);
+            let section = section(row.get("profile").cloned());
+            let section = SectionId::new(&section.map_err(|error| error.to_string())?);
             let way = format!("scratches[{i}].laid");
             read_layer(gltf, laid, &way, (i as u32, section), &mut pieces)?;
         }
@@ -95,22 +95,11 @@ impl WornObject {
         Ok(Some(Self {
             name: object["name"].as_str().unwrap_or_default().to_owned(),
             pieces,
-            coherence_um: number(material, "coherence_um").unwrap_or(COHERENCE_UM),
+            coherence_um: number(material, "coherence_um").unwrap_or(DEFAULT_COHERENCE_UM),
             gratings,
             metal: metal_names().iter().find(named).map(|(_, metal)| *metal),
         }))
     }
-}
-
-/// The cross section of a layer, which is read as that of a scene file.
-fn section(row: &Value) -> Result<hairline_optics::section::Section, String> {
-    let mut layer = json!({ "object": "object", "pattern": "random", "count": 1 });
-    if let Some(profile) = row.get("profile") {
-        layer["profile"] = profile.clone();
-    }
-    let read = description::Scratches::from_json(json!([layer]));
-    let mut layers = read.map_err(|error| error.to_string())?;
-    Ok(layers.remove(0).profile)
 }
 
 /// Rows of a table that are not hidden, with their numbers.

@@ -1,6 +1,7 @@
 // A plug-in for GLTFLoader of three.js: files with HAIRLINE_scratches (docs/HAIRLINE_scratches.md of the project Hairline) get scratched
 // materials and lights with a surface. Without it such files load as ever, without scratches.
 import { Box3, Matrix3, Matrix4, Mesh, RectAreaLight, Vector3 } from 'three/webgpu';
+import { COHERENCE_UM } from './data.js';
 import { Grating } from './gratings.js';
 import { ScratchedNodeMaterial, numbersOf } from './three.js';
 import { Scratches, layScratches, profilesOf } from './scratches.js';
@@ -254,7 +255,7 @@ class HairlineScratches {
     // Without tangents three.js has the bitangent where v rises, glTF where it falls.
     if (taken.anisotropyRotation && !geometry.attributes.tangent) taken.anisotropyRotation *= -1;
     return new ScratchedNodeMaterial({
-      tables, metal, scratches, gratings, metresPerUnit, coherenceUm: described?.coherence_um ?? 20, ...taken, ...parameters,
+      tables, metal, scratches, gratings, metresPerUnit, coherenceUm: described?.coherence_um ?? COHERENCE_UM, ...taken, ...parameters,
     });
   }
 }

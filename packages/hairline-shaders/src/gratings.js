@@ -1,4 +1,5 @@
 // Gratings: rows of grooves side by side, whose light interferes, with the table of what they send.
+import { COHERENCE_UM } from './data.js';
 import { tableSize } from './table.js';
 
 const KINDS = ['along', 'circular', 'radial', 'spun'];
@@ -10,7 +11,7 @@ const PRESETS = ['cd', 'dvd'];
 /** Grooves along a direction or about an axis, in a mesh's own frame. */
 export class Grating {
   constructor({
-    texels, kind = 'circular', axis = [0, 0, 1], center = [0, 0, 0], radiiM = [0, 1e9], curvaturePerM = 0, coverage = 1, angleStdRad = 0, coherenceUm = 20,
+    texels, kind = 'circular', axis = [0, 0, 1], center = [0, 0, 0], radiiM = [0, 1e9], curvaturePerM = 0, coverage = 1, angleStdRad = 0, coherenceUm = COHERENCE_UM,
   } = {}) {
     const sizes = [tableSize.rows, FINE_ROWS].map((rows) => 4 * tableSize.columns * rows);
     if (!(texels instanceof Uint32Array) || !sizes.includes(texels.length)) {

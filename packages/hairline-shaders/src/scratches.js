@@ -1,6 +1,6 @@
 // Scratches of a mesh as lists of straight pieces. Hairline's own code lays them, and makes the texture that shaders find them by.
 import { Files, Laid, Tree } from '../engine/engine.js';
-import { SIZES, TREE_WIDTH } from './data.js';
+import { COHERENCE_UM, SIZES, TREE_WIDTH } from './data.js';
 
 const RECTANGLE = 'rectangle';
 
@@ -144,7 +144,7 @@ export function layScratches({ positions, index = null, normals = null, uvs = nu
  * The texture that shaders find scratches by: texels of rgba32uint, four numbers each, `width` and `height` in texels; and the shapes of the grooves, each of
  * which needs a table. `metresPerUnit`: how long a unit of the object's frame is in the world.
  */
-export function scratchTree({ starts, ends, normals, widthsUm, depthsNm, scratch, profiles }, { coherenceUm = 20, metresPerUnit = 1 } = {}) {
+export function scratchTree({ starts, ends, normals, widthsUm, depthsNm, scratch, profiles }, { coherenceUm = COHERENCE_UM, metresPerUnit = 1 } = {}) {
   const known = new Map([[JSON.stringify(RECTANGLE), 0]]);
   const numberOf = (profile) => {
     const key = JSON.stringify(profile);

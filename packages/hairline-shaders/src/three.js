@@ -10,6 +10,7 @@ import {
 import { texture, uniform, vec4 } from 'three/tsl';
 import { Scratches, layScratches, readScratches, scratchTree } from './scratches.js';
 import { narrowRectangle, scratchTable, tableSize } from './table.js';
+import { COHERENCE_UM } from './data.js';
 import { curveOf } from './tables.js';
 import { metalColor } from './metals.js';
 import { Grating } from './gratings.js';
@@ -98,7 +99,7 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
     return 'ScratchedNodeMaterial';
   }
 
-  constructor({ tables, metal = null, scratches = null, gratings = [], coherenceUm = 20, metresPerUnit = 1, lightRadius = 0.005, ...parameters } = {}) {
+  constructor({ tables, metal = null, scratches = null, gratings = [], coherenceUm = COHERENCE_UM, metresPerUnit = 1, lightRadius = 0.005, ...parameters } = {}) {
     super();
     if (!tables) throw new Error('tables: found none; must be what loadTables() returned');
     if (scratches !== null && !(scratches instanceof Scratches)) {

@@ -7,13 +7,13 @@ use hairline_engine::scratch_tree;
 use hairline_optics::metal::Metal;
 use hairline_optics::table::{ENGINE_COLUMNS, ROWS};
 use hairline_scene::description::metal_names;
-use hairline_scene::{LISTED_RANGES, Scene, ScratchTables};
+use hairline_scene::{DEFAULT_COHERENCE_UM, LISTED_RANGES, Scene, ScratchTables};
 use serde_json::json;
 
 use super::files::write;
 use super::modules::TABLE_SIZE;
 
-/// Names of metals in the order of their curves, sizes of textures, and ranges of the sizes of grooves.
+/// Names of metals in the order of their curves, sizes of textures, the usual coherence window, and ranges of the sizes of grooves.
 pub(super) fn data() -> String {
     let names = Metal::ALL.iter().map(|metal| {
         let named = metal_names().iter().find(|(_, known)| known == metal);
@@ -24,6 +24,7 @@ pub(super) fn data() -> String {
     format!(
         "// Made by `cargo xtask package`.\n\
          export const COLUMNS = {columns};\nexport const ROWS = {rows};\nexport const TREE_WIDTH = {};\n\
+         export const COHERENCE_UM = {DEFAULT_COHERENCE_UM};\n\
          export const METALS = {};\nexport const SIZES = {};\n",
         scratch_tree::WIDTH,
         json!(names.collect::<Vec<_>>()),
