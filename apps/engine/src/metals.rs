@@ -27,7 +27,7 @@ pub fn metal_color(name: &str) -> Result<Vec<f64>, JsError> {
     Ok(metal_of(name)?.reflectance_rgb(1.0).to_vec())
 }
 
-/// Texels of the table of grooves in a metal, or in one given by its colour. `profile` is the key of a layer, as JSON.
+/// Texels of the table of grooves in a metal, or in one given by its colour. `profile` is the key of a layer, as JSON; of `rows` see `Tree`.
 ///
 /// # Errors
 /// A metal or a cross section that is not known.
@@ -36,11 +36,12 @@ pub fn scratch_table(
     metal: Option<String>,
     profile: &str,
     width_class: u8,
+    rows: usize,
 ) -> Result<Vec<u32>, JsError> {
     let metal = metal.map(|name| metal_of(&name)).transpose()?;
     let shape = GrooveShape {
         section: section(Some(parsed(profile)?)).map_err(thrown)?,
         width_class,
     };
-    Ok(table(metal, &shape).into_flattened())
+    Ok(table(metal, &shape, rows).into_flattened())
 }

@@ -184,6 +184,12 @@ impl Tree {
         self.made.tree.as_flattened().to_vec()
     }
 
+    /// Rows that tables need for the deepest scratch.
+    #[wasm_bindgen(js_name = tableRows)]
+    pub fn table_rows(&self) -> usize {
+        self.made.table_rows
+    }
+
     /// Shapes of the grooves, two numbers each: the index of the cross section, and the class of widths.
     pub fn shapes(&self) -> Vec<u32> {
         let shapes = self.made.shapes.iter().flat_map(|shape| {

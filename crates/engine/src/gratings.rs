@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_ROWS, ROWS};
+use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_GRATING_ROWS, ROWS, last_depth_nm};
 use hairline_scene::{Scene, ScratchTables};
 
 /// Fields of grooves, in the order of the constants of groove_field.wgsl.
@@ -43,8 +43,10 @@ impl GratingTexels {
     /// None of a kind that is not known, or of a table of another size.
     pub fn new(field: &GratingField, texels: Arc<Vec<[u32; 4]>>) -> Option<Self> {
         let kind = KINDS.iter().position(|kind| *kind == field.kind)?;
-        let is_fine = texels.len() == ROWS * ENGINE_COLUMNS;
-        if !is_fine && texels.len() != ENGINE_ROWS * ENGINE_COLUMNS {
+        let rows = texels.len() / ENGINE_COLUMNS;
+        let is_fine = rows == ROWS;
+        let is_right = is_fine || (2..=ENGINE_GRATING_ROWS).contains(&rows);
+        if !is_right || rows * ENGINE_COLUMNS != texels.len() {
             return None;
         }
         let [x, y, z] = field.axis;
@@ -59,7 +61,12 @@ impl GratingTexels {
                 field.coverage,
                 field.angle_std_rad,
             ],
-            [field.coherence_um, f64::from(is_fine), 0.0, 0.0],
+            [
+                field.coherence_um,
+                f64::from(is_fine),
+                0.0,
+                last_depth_nm(rows),
+            ],
         ];
         Some(Self {
             numbers: std::array::from_fn(|i| numbers[i / 4][i % 4] as f32),
@@ -79,10 +86,6 @@ impl GratingTexels {
         let gratings = object.gratings.iter().map(|grating| {
             let plain = grating.field.plain().filter(|_| grating.mask.is_none())?;
             let table = &tables.tables[tables.grating_table(grating, material)?];
-            let rows = match table.by_incidence {
-                true => ROWS,
-                false => ENGINE_ROWS,
-            };
             let field = GratingField {
                 kind: plain.kind,
                 axis: plain.axis.normalize_or_zero().to_array(),
@@ -93,7 +96,7 @@ impl GratingTexels {
                 angle_std_rad: grating.angle_std_rad,
                 coherence_um: scene.materials[material].coherence_um,
             };
-            Self::new(&field, Arc::new(table.resampled(ENGINE_COLUMNS, rows)))
+            Self::new(&field, Arc::new(table.for_engines(grating.row.depth_nm)))
         });
         gratings.collect()
     }

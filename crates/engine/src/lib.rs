@@ -25,5 +25,6 @@ pub mod scratch_tree;
 mod spectra;
 
 pub use gratings::{GratingField, GratingTexels};
-pub use pieces::{Pieces, ScratchTexels, section};
+pub use pieces::{Pieces, section};
+pub use scratch_tree::ScratchTexels;
 pub use spectra::scratch_table;

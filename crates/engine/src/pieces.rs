@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use hairline_index::ScratchIndex;
-use hairline_optics::section::{GrooveShape, Section};
+use hairline_optics::section::Section;
 use hairline_scene::description::Scratches;
 use hairline_scene::{
     Arrays, Error, GrooveShapes, LISTED_RANGES, MOST_SHAPES, Mesh, MeshArrays, Object, Profile,
@@ -13,7 +12,7 @@ use hairline_scene::{
 
 use serde_json::{Value, json};
 
-use crate::scratch_tree::{self, WIDTH};
+use crate::scratch_tree::{ScratchTexels, WIDTH};
 
 /// Longer pieces are cut: the box of a long slanting one is mostly empty.
 const LONGEST_M: f32 = 4e-3;
@@ -52,15 +51,6 @@ pub fn section(profile: Option<Value>) -> Result<Section, Error> {
     }
     let mut layers = Scratches::from_json(json!([layer]))?;
     Ok(layers.remove(0).profile)
-}
-
-/// Scratches as shaders find them.
-#[derive(Clone, Debug)]
-pub struct ScratchTexels {
-    /// The tree: a texture of `rgba32uint`, whole rows of [`WIDTH`] texels.
-    pub tree: Vec<[u32; 4]>,
-    /// Shapes of the grooves, each with a layer of [`scratch_table`](crate::scratch_table).
-    pub shapes: Vec<GrooveShape>,
 }
 
 impl Pieces {
@@ -117,8 +107,8 @@ impl Pieces {
             );
             return Err(Error::new("scratches", found, right));
         }
-        let tree = scratch_tree::texels(&ScratchIndex::build(&scene), 0, metres_per_unit as f32);
-        let rows = tree.len() / WIDTH;
+        let texels = ScratchTexels::of_scene(&scene, 0, metres_per_unit as f32);
+        let rows = texels.tree.len() / WIDTH;
         if rows > ROWS_MAX {
             let found = format!(
                 "found {} pieces, which need {rows} rows of a texture",
@@ -127,10 +117,7 @@ impl Pieces {
             let right = format!("must be at most {ROWS_MAX} rows");
             return Err(Error::new("scratches", found, right));
         }
-        Ok(ScratchTexels {
-            tree,
-            shapes: shapes.shapes().collect(),
-        })
+        Ok(texels)
     }
 
     /// Checks that all lists are as long, and that numbers are in range.
@@ -231,6 +218,9 @@ impl Pieces {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scratch_table;
+    use hairline_optics::metal::Metal;
+    use hairline_optics::table::{ROWS, last_depth_nm};
     use hairline_scene::{Description, Loader, SceneBuilder};
     use std::path::Path;
 
@@ -327,7 +317,25 @@ mod tests {
             assert_eq!(sizes, (profile.width_um, profile.depth_nm, scratch.layer));
         }
         // V grooves of 30 µm are wide under a window of 20 µm, and so are a shape of their own.
-        assert_eq!(pieces.texels(20.0, 0.5).unwrap().shapes.len(), 2);
+        let texels = pieces.texels(20.0, 0.5).unwrap();
+        assert_eq!(texels.shapes.len(), 2);
+        // A table with its rows is the beginning of one with all.
+        let tables = [texels.table_rows, ROWS].map(|rows| {
+            texels
+                .shapes
+                .iter()
+                .map(move |shape| scratch_table(Some(Metal::Gold), shape, rows))
+                .collect::<Vec<_>>()
+        });
+        for (short, whole) in tables[0].iter().zip(&tables[1]) {
+            assert!(short.len() < whole.len() / 4);
+            assert_eq!(short[..], whole[..short.len()]);
+        }
+        let deepest_nm = pieces
+            .depths_nm
+            .iter()
+            .fold(0.0, |most: f32, nm| most.max(*nm));
+        assert!(last_depth_nm(texels.table_rows) > deepest_nm.into());
     }
 
     #[test]

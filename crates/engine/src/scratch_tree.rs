@@ -6,15 +6,45 @@
 use glam::Vec3;
 use hairline_index::ScratchIndex;
 use hairline_index::packed_profile::profile_words;
+use hairline_optics::section::GrooveShape;
+use hairline_optics::table::{ROWS, rows_down_to};
+use hairline_scene::{GrooveShapes, Scene};
 
 /// Texels in a row of the texture.
 pub const WIDTH: usize = 1024;
+/// Tables have a multiple of so many rows: materials with scratches of about the same depth share one.
+const TABLE_ROWS: usize = 32;
 /// Bits of a node that hold its first piece.
 const FIRST_BITS: u32 = 28;
 
+/// Scratches as shaders find them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScratchTexels {
+    /// The tree: a texture of `rgba32uint`, whole rows of [`WIDTH`] texels.
+    pub tree: Vec<[u32; 4]>,
+    /// Shapes of the grooves, each with a layer of [`scratch_table`](crate::scratch_table).
+    pub shapes: Vec<GrooveShape>,
+    /// Rows that the table needs for the deepest of them.
+    pub table_rows: usize,
+}
+
+impl ScratchTexels {
+    /// Those of one of a scene's objects; `unit_m` is the length of the engine's unit.
+    pub fn of_scene(scene: &Scene, object: usize, unit_m: f32) -> Self {
+        let depths = scene.objects[object].scratches.iter();
+        let deepest_nm = depths.fold(0.0, |deepest, it| it.profile.depth_nm.max(deepest));
+        let rows = rows_down_to(deepest_nm.into()) + 1;
+        Self {
+            tree: texels(&ScratchIndex::build(scene), object, unit_m),
+            shapes: GrooveShapes::new(scene).shapes().collect(),
+            table_rows: rows.next_multiple_of(TABLE_ROWS).min(ROWS),
+        }
+    }
+}
+
 /// The scratches of one of a scene's objects, by the index of the scene: texels of an `rgba32uint` texture, whole rows of [`WIDTH`].
 /// Positions are those of the scene, over `unit_m`, the length of the engine's unit.
-pub fn texels(index: &ScratchIndex, object: usize, unit_m: f32) -> Vec<[u32; 4]> {
+fn texels(index: &ScratchIndex, object: usize, unit_m: f32) -> Vec<[u32; 4]> {
     let range = index.tree.objects[object].clone();
     let first_node = range.start;
     let nodes = &index.tree.nodes[range.start as usize..range.end as usize];

@@ -287,21 +287,14 @@ pub static FOR_ENGINES: &[&Module] = &[
     &PIXEL_FRAME,
 ];
 
-/// The text of a module as it is packed for other engines: with their size of tables, a quarter of the renderer's.
+/// The text of a module as it is packed for other engines, whose tables have half of the renderer's columns.
 pub fn for_engines(module: &Module) -> String {
     let text = module.source.trim_end();
     if module.name != SCRATCH_TABLE.name {
         return text.to_owned();
     }
-    let size = |name: &str, size: usize| format!("{name}: i32 = {size};");
-    text.replace(
-        &size("COLUMNS", table::COLUMNS),
-        &size("COLUMNS", table::ENGINE_COLUMNS),
-    )
-    .replace(
-        &size("ROWS", table::ROWS),
-        &size("ROWS", table::ENGINE_ROWS),
-    )
+    let columns = |count: usize| format!("COLUMNS: i32 = {count};");
+    text.replace(&columns(table::COLUMNS), &columns(table::ENGINE_COLUMNS))
 }
 
 /// `modules` and everything that they need, each once and after its own needs.

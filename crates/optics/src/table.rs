@@ -11,7 +11,6 @@ mod grid;
 mod smooth;
 
 use crate::groove_spectrum::{GrooveSpectrum, Places, add_times};
-use crate::scratch::DEPTH_MAX_NM;
 use crate::section::GrooveShape;
 use crate::spectrum::Observer;
 use crate::vectors::with_widest;
@@ -19,14 +18,15 @@ use crate::{diffraction, scratch};
 use rayon::prelude::*;
 use smooth::SmoothTable;
 
+use grid::ROWS_PER_NM;
 pub(crate) use grid::U_HALF_UM;
-pub use grid::{COLUMNS, ENGINE_COLUMNS, ENGINE_ROWS, ROWS};
+pub use grid::{COLUMNS, ENGINE_COLUMNS, ENGINE_GRATING_ROWS, ROWS, last_depth_nm, rows_down_to};
 pub use smooth::SmoothRow;
 
 /// T and its slope at every (u, d), 16 bytes each.
 #[derive(Clone, Debug)]
 pub struct ScratchTable {
-    /// Row-major, `ROWS` rows of `COLUMNS` texels: the bits of three f32, T in each channel, then `pack_slopes` of the
+    /// Row-major, rows of `COLUMNS` texels, `ROWS` where all depths are asked for: the bits of three f32, T in each channel, then `pack_slopes` of the
     /// derivatives by the column index. The slope makes the look-up one of the nearest column alone, and small lights
     /// need it: they see differences of T much finer than a column.
     pub texels: Vec<[u32; 4]>,
@@ -74,11 +74,21 @@ impl ScratchTable {
 
     /// The table of grooves of a shape. Wide ones are looked up by the width of a [part](crate::section::Section::parts).
     pub fn of_shape(shape: &GrooveShape, reflectance: impl Fn(f64) -> f64 + Sync) -> Self {
+        Self::first_rows(ROWS, shape, reflectance)
+    }
+
+    /// The first rows of [`Self::of_shape`]: two or more, of depths as far as [`rows_down_to`] counts them. Deeper grooves get the last one.
+    pub fn first_rows(
+        rows: usize,
+        shape: &GrooveShape,
+        reflectance: impl Fn(f64) -> f64 + Sync,
+    ) -> Self {
+        let observer = Observer::eye();
         match *shape == GrooveShape::default() {
-            true => Self::new(reflectance),
+            true => Self::from_rows(rows, rows_of_rectangle(observer, reflectance)),
             false => {
                 let grid = GrooveSpectrum::new(shape);
-                Self::seen_by(Observer::eye(), Some(&grid), reflectance)
+                Self::from_rows(rows, rows_of_spectrum(observer, &grid, reflectance))
             }
         }
     }
@@ -90,8 +100,8 @@ impl ScratchTable {
         reflectance: impl Fn(f64) -> f64 + Sync,
     ) -> Self {
         match grid {
-            Some(grid) => Self::from_rows(rows_of_spectrum(observer, grid, reflectance)),
-            None => Self::from_rows(rows_of_rectangle(observer, reflectance)),
+            Some(grid) => Self::from_rows(ROWS, rows_of_spectrum(observer, grid, reflectance)),
+            None => Self::from_rows(ROWS, rows_of_rectangle(observer, reflectance)),
         }
     }
 
@@ -105,7 +115,7 @@ impl ScratchTable {
                 SmoothTable::from_rows(rows_of_spectrum(observer, &grid, reflectance))
             }
         };
-        let rounded = Self::from_rows(|row, sums| sums.copy_from_slice(smooth.row(row)));
+        let rounded = Self::from_rows(ROWS, |row, sums| sums.copy_from_slice(smooth.row(row)));
         Self {
             smooth: Some(smooth),
             ..rounded
@@ -113,8 +123,8 @@ impl ScratchTable {
     }
 
     /// `fill` adds to zeros the columns of a row: T in each channel, and its derivatives by the column index.
-    pub(crate) fn from_rows(fill: impl Fn(usize, &mut [[f64; 6]]) + Sync) -> Self {
-        let mut texels = vec![[0u32; 4]; ROWS * COLUMNS];
+    pub(crate) fn from_rows(rows: usize, fill: impl Fn(usize, &mut [[f64; 6]]) + Sync) -> Self {
+        let mut texels = vec![[0u32; 4]; rows * COLUMNS];
         let rows = texels.par_chunks_exact_mut(COLUMNS).enumerate();
         rows.for_each(|(row, texels)| {
             let mut sums = vec![[0f64; 6]; COLUMNS];
@@ -141,12 +151,23 @@ impl ScratchTable {
         }
     }
 
-    /// Texels of a table with fewer columns and rows, as other engines look it up.
+    /// Texels of the table of a grating of this depth as other engines look it up, [`ENGINE_COLUMNS`] wide. Its rows are even over the depth: as many as
+    /// the depth needs, up to [`ENGINE_GRATING_ROWS`], or [`ROWS`] by incidence.
+    pub fn for_engines(&self, depth_nm: f64) -> Vec<[u32; 4]> {
+        let rows = match self.by_incidence {
+            true => ROWS,
+            false => rows_down_to(depth_nm).min(ENGINE_GRATING_ROWS),
+        };
+        self.resampled(ENGINE_COLUMNS, rows)
+    }
+
+    /// Texels of a table with other columns and rows, as other engines look it up: the first row and the last one stay.
     pub fn resampled(&self, columns: usize, rows: usize) -> Vec<[u32; 4]> {
         let stretch = (COLUMNS - 1) as f64 / (columns - 1) as f64;
+        let last = self.totals.len() - 1;
         let texels = (0..rows).into_par_iter().flat_map_iter(|row| {
-            let y = row as f64 * (ROWS - 1) as f64 / (rows - 1) as f64;
-            let first = (y as usize).min(ROWS - 2);
+            let y = row as f64 * last as f64 / (rows - 1) as f64;
+            let first = (y as usize).min(last - 1);
             let between = self.between_rows(first, y - first as f64);
             (0..columns).map(move |column| {
                 let (values, slopes) = between.near_column(column as f64 * stretch);
@@ -165,8 +186,17 @@ impl ScratchTable {
     /// T_c(., d), for several look-ups at one depth.
     #[inline]
     pub fn at_depth(&self, depth_nm: f64) -> TableRow<'_> {
-        let (row, share) = row_at(depth_nm);
+        let (row, share) = self.row_at(depth_nm);
         self.between_rows(row, share)
+    }
+
+    /// The row at or below a depth, and the share of the next one.
+    #[inline]
+    fn row_at(&self, depth_nm: f64) -> (usize, f64) {
+        let last = self.totals.len() - 1;
+        let y = (depth_nm * ROWS_PER_NM).clamp(0.0, last as f64);
+        let row = (y as usize).min(last - 1);
+        (row, y - row as f64)
     }
 
     /// T_c(., d) with all digits and without kinks, of a table made by [`Self::smooth`].
@@ -188,7 +218,7 @@ impl ScratchTable {
         if let Some(row) = self.smooth_row(depth_nm) {
             return row.at(f64::INFINITY).map(|half| 2.0 * half);
         }
-        let (row, g) = row_at(depth_nm);
+        let (row, g) = self.row_at(depth_nm);
         let (near, far) = (self.totals[row], self.totals[row + 1]);
         std::array::from_fn(|c| (1.0 - g) * near[c] as f64 + g * far[c] as f64)
     }
@@ -216,7 +246,7 @@ fn rows_of_rectangle(
         })
         .collect();
     move |row, sums| {
-        let depth_nm = row as f64 * DEPTH_MAX_NM / (ROWS - 1) as f64;
+        let depth_nm = row as f64 / ROWS_PER_NM;
         for (sample, chords) in samples.iter().zip(&chords) {
             let energy = reflectance(sample.wavelength_nm)
                 * scratch::phase_step_energy(depth_nm, sample.wavelength_nm);
@@ -248,7 +278,7 @@ fn rows_of_spectrum(
         .map(|sample| Places::new(&columns_um.map(|u_um| per_um(sample.wavelength_nm) * u_um)))
         .collect();
     move |row, sums| {
-        let depth_nm = row as f64 * DEPTH_MAX_NM / (ROWS - 1) as f64;
+        let depth_nm = row as f64 / ROWS_PER_NM;
         let [mut densities, mut integrals] = [[0.0; COLUMNS]; 2];
         // T in each channel, then its derivatives by u.
         let mut channels = [[0.0; COLUMNS]; 6];
@@ -278,14 +308,6 @@ fn rows_of_spectrum(
             }
         }
     }
-}
-
-/// The row at or below a depth, and the share of the next one.
-#[inline]
-fn row_at(depth_nm: f64) -> (usize, f64) {
-    let y = depth_nm.clamp(0.0, DEPTH_MAX_NM) * ((ROWS - 1) as f64 / DEPTH_MAX_NM);
-    let row = (y as usize).min(ROWS - 2);
-    (row, y - row as f64)
 }
 
 /// T at one depth.
@@ -411,11 +433,16 @@ mod tests {
     #[test]
     fn a_table_with_fewer_texels_sends_the_same_light() {
         let own = ScratchTable::new(|nm| Metal::Gold.reflectance(1.0, nm));
-        let texels = own.resampled(ENGINE_COLUMNS, ENGINE_ROWS);
+        let texels = {
+            let reflectance = |nm| Metal::Gold.reflectance(1.0, nm);
+            let rows = rows_down_to(1000.0);
+            let first = ScratchTable::first_rows(rows, &GrooveShape::default(), reflectance);
+            first.resampled(ENGINE_COLUMNS, rows)
+        };
         // As scratch_table.wgsl looks it up.
         let small = |u: f64, depth_nm: f64| -> [f64; 3] {
             let x = u / (u + U_HALF_UM) * (ENGINE_COLUMNS - 1) as f64;
-            let y = depth_nm / DEPTH_MAX_NM * (ENGINE_ROWS - 1) as f64;
+            let y = depth_nm * ROWS_PER_NM;
             let (column, row) = ((x + 0.5) as usize, y as usize);
             let near = |row: usize| {
                 let texel = texels[row * ENGINE_COLUMNS + column];

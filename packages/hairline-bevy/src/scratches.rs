@@ -7,12 +7,10 @@ use std::sync::Arc;
 use bevy::log::warn;
 use bevy::mesh::{Indices, Mesh, PrimitiveTopology, VertexAttributeValues};
 use bevy::prelude::BevyError;
-use hairline_engine::{GratingTexels, Pieces, scratch_tree};
-use hairline_index::ScratchIndex;
+use hairline_engine::{GratingTexels, Pieces, ScratchTexels};
 use hairline_optics::metal::Metal;
-use hairline_optics::section::GrooveShape;
 use hairline_scene::{
-    Arrays, Base, DEFAULT_COHERENCE_UM, Description, GrooveShapes, Loader, MeshArrays, Scene,
+    Arrays, Base, DEFAULT_COHERENCE_UM, Description, Loader, MeshArrays, Scene,
     SceneBuilder, description,
 };
 
@@ -28,9 +26,7 @@ object = [{ name = 'mesh', mesh = 'mesh', material = 'material' }]
 /// The scratches and gratings of one mesh, in its own frame, with the tree that shaders find them by.
 #[derive(Clone, Debug)]
 pub struct Scratches {
-    pub(crate) tree: Vec<[u32; 4]>,
-    /// Shapes of the grooves, each with a layer of the spectra.
-    pub(crate) shapes: Vec<GrooveShape>,
+    pub(crate) texels: ScratchTexels,
     pub(crate) gratings: Vec<GratingTexels>,
 }
 
@@ -55,10 +51,8 @@ impl Scratches {
         coherence_um: f64,
         metres_per_unit: f64,
     ) -> Result<Self, hairline_scene::Error> {
-        let made = pieces.texels(coherence_um, metres_per_unit)?;
         Ok(Self {
-            tree: made.tree,
-            shapes: made.shapes,
+            texels: pieces.texels(coherence_um, metres_per_unit)?,
             gratings: Vec::new(),
         })
     }
@@ -95,8 +89,7 @@ impl Scratches {
     /// are left out, which a warning tells.
     pub fn of_scene(scene: &Scene, object: usize) -> Self {
         Self {
-            tree: scratch_tree::texels(&ScratchIndex::build(scene), object, 1.0),
-            shapes: GrooveShapes::new(scene).shapes().collect(),
+            texels: ScratchTexels::of_scene(scene, object, 1.0),
             gratings: gratings_of(scene, object),
         }
     }

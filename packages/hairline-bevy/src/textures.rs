@@ -8,14 +8,14 @@ use bevy::render::render_resource::{
     Extent3d, TextureDimension, TextureFormat, TextureViewDescriptor, TextureViewDimension,
 };
 use hairline_engine::base_tables::{self, Texels};
-use hairline_engine::{GratingTexels, scratch_table, scratch_tree};
+use hairline_engine::{GratingTexels, ScratchTexels, scratch_table, scratch_tree};
 use hairline_optics::metal::Metal;
 use hairline_optics::section::GrooveShape;
-use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_ROWS};
+use hairline_optics::table::ENGINE_COLUMNS;
 
 use crate::{MOST_GRATINGS, Scratched, ScratchedMaterial, Scratches, Settings};
 
-/// Makes [`ScratchedMaterial`]s: 0.35 MB of textures for all, and 2 MB for each metal, shape of grooves and grating, each once.
+/// Makes [`ScratchedMaterial`]s: 0.35 MB of textures for all, and 0.3 to 2 MB for each metal and shape of grooves, by the deepest of them, and up to 4 MB for each grating, each once.
 #[derive(Resource, Clone)]
 pub struct ScratchedTextures(Arc<Shared>);
 
@@ -31,6 +31,7 @@ struct Shared {
 struct Spectrum {
     metal: Option<Metal>,
     shapes: Vec<GrooveShape>,
+    table_rows: usize,
     gratings: Vec<Arc<Vec<[u32; 4]>>>,
     image: Handle<Image>,
 }
@@ -73,7 +74,8 @@ impl ScratchedTextures {
         is_coated: bool,
         scratches: &Scratches,
     ) -> Scratched {
-        let rows = scratches.tree.len() / scratch_tree::WIDTH;
+        let texels = &scratches.texels;
+        let rows = texels.tree.len() / scratch_tree::WIDTH;
         let size = [scratch_tree::WIDTH, rows].map(|n| n as u32);
         let gratings = &scratches.gratings[..scratches.gratings.len().min(MOST_GRATINGS)];
         if gratings.len() < scratches.gratings.len() {
@@ -90,13 +92,13 @@ impl ScratchedTextures {
         };
         for (i, (numbers, grating)) in settings.gratings.iter_mut().zip(gratings).enumerate() {
             *numbers = Mat4::from_cols_array(&grating.numbers);
-            numbers.w_axis.z = (scratches.shapes.len() + i) as f32;
+            numbers.w_axis.z = (texels.shapes.len() + i) as f32;
         }
         // What lies in a coat has no colour of its own.
         let spectrum = metal.filter(|_| !is_coated);
         Scratched {
-            tree: self.0.server.add(words(size, &scratches.tree)),
-            tables: self.tables(spectrum, &scratches.shapes, gratings),
+            tree: self.0.server.add(words(size, &texels.tree)),
+            tables: self.tables(spectrum, texels, gratings),
             shapes: self.0.shapes.clone(),
             albedo: self.0.albedo.clone(),
             curves: self.0.curves.clone(),
@@ -112,23 +114,29 @@ impl ScratchedTextures {
     fn tables(
         &self,
         metal: Option<Metal>,
-        shapes: &[GrooveShape],
+        scratches: &ScratchTexels,
         gratings: &[GratingTexels],
     ) -> Handle<Image> {
         let spectra = self.0.spectra.lock();
         let mut spectra = spectra.unwrap_or_else(PoisonError::into_inner);
+        let ScratchTexels {
+            ref shapes,
+            table_rows,
+            ..
+        } = *scratches;
         let of_gratings = || gratings.iter().map(|it| &it.texels);
         let is_known = |it: &&Spectrum| {
-            it.metal == metal && it.shapes == shapes && it.gratings.iter().eq(of_gratings())
+            let is_of_scratches = it.shapes == *shapes && it.table_rows == table_rows;
+            it.metal == metal && is_of_scratches && it.gratings.iter().eq(of_gratings())
         };
         if let Some(known) = spectra.iter().find(is_known) {
             return known.image.clone();
         }
         // Layers are as high as the highest.
         let rows = gratings.iter().map(GratingTexels::rows).max();
-        let rows = rows.unwrap_or(0).max(ENGINE_ROWS);
+        let rows = rows.unwrap_or(0).max(table_rows);
         let mut texels = Vec::new();
-        let layers = shapes.iter().map(|shape| scratch_table(metal, shape));
+        let layers = shapes.iter().map(|shape| scratch_table(metal, shape, table_rows));
         for layer in layers.chain(of_gratings().map(|it| it.to_vec())) {
             texels.extend(layer);
             texels.resize(texels.len().next_multiple_of(rows * ENGINE_COLUMNS), [0; 4]);
@@ -141,7 +149,8 @@ impl ScratchedTextures {
         let image = self.0.server.add(tables);
         spectra.push(Spectrum {
             metal,
-            shapes: shapes.to_vec(),
+            shapes: shapes.clone(),
+            table_rows,
             gratings: of_gratings().cloned().collect(),
             image: image.clone(),
         });

@@ -6,7 +6,7 @@ use bevy::log::warn;
 use gltf::accessor::{DataType, Dimensions, Item, Iter};
 use hairline_engine::{GratingField, GratingTexels, Pieces, section};
 use hairline_optics::metal::Metal;
-use hairline_optics::table::ENGINE_COLUMNS;
+use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_GRATING_ROWS, ROWS};
 use hairline_scene::description::metal_names;
 use hairline_scene::{DEFAULT_COHERENCE_UM, Error, SectionId};
 use serde_json::Value;
@@ -170,7 +170,7 @@ fn read_grating(gltf: &gltf::Gltf, laid: &Value, way: &str) -> Result<GratingTex
     let texels = words.as_chunks::<4>().0.to_vec();
     GratingTexels::new(&field, Arc::new(texels)).ok_or_else(|| {
         let found = format!("found the kind {} and {count} words of `texels`", laid["kind"]);
-        format!("{way}: {found}; must be along, circular, radial or spun, and {ENGINE_COLUMNS} columns of 256 or 512 rows")
+        format!("{way}: {found}; must be along, circular, radial or spun, and {ENGINE_COLUMNS} columns of 2 to {ENGINE_GRATING_ROWS} rows or {ROWS}")
     })
 }
 

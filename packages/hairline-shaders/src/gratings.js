@@ -1,10 +1,7 @@
 // Gratings: rows of grooves side by side, whose light interferes, with the table of what they send.
-import { COHERENCE_UM } from './data.js';
-import { tableSize } from './table.js';
+import { COHERENCE_UM, COLUMNS, FINE_ROWS, GRATING_ROWS, ROW_NM } from './data.js';
 
 const KINDS = ['along', 'circular', 'radial', 'spun'];
-/** Rows of a table by the direction to the viewer, which fine gratings have. */
-const FINE_ROWS = 512;
 /** Gratings that the package has tables of. */
 const PRESETS = ['cd', 'dvd'];
 
@@ -13,9 +10,11 @@ export class Grating {
   constructor({
     texels, kind = 'circular', axis = [0, 0, 1], center = [0, 0, 0], radiiM = [0, 1e9], curvaturePerM = 0, coverage = 1, angleStdRad = 0, coherenceUm = COHERENCE_UM,
   } = {}) {
-    const sizes = [tableSize.rows, FINE_ROWS].map((rows) => 4 * tableSize.columns * rows);
-    if (!(texels instanceof Uint32Array) || !sizes.includes(texels.length)) {
-      throw new Error(`texels: found ${texels?.length ?? 'none'}; must be a Uint32Array of ${sizes.join(' or ')} numbers, of a file or of loadGrating()`);
+    const found = texels instanceof Uint32Array ? texels.length / (4 * COLUMNS) : 0;
+    const isRight = Number.isInteger(found) && (found === FINE_ROWS || (found >= 2 && found <= GRATING_ROWS));
+    if (!isRight) {
+      const right = `must be a Uint32Array of ${COLUMNS} columns and 2 to ${GRATING_ROWS} rows, of a fine grating ${FINE_ROWS}, four numbers each: of a file or of loadGrating()`;
+      throw new Error(`texels: found ${texels?.length ?? 'none'}; ${right}`);
     }
     if (!KINDS.includes(kind)) throw new Error(`kind: found ${JSON.stringify(kind)}; must be one of ${KINDS.join(', ')}`);
     const length = Math.hypot(...axis);
@@ -24,15 +23,23 @@ export class Grating {
     this.axis = axis.map((x) => x / length);
   }
 
+  get columns() {
+    return COLUMNS;
+  }
+
   /** Rows of its table. */
   get rows() {
-    return this.texels.length / (4 * tableSize.columns);
+    return this.texels.length / (4 * COLUMNS);
+  }
+
+  get layers() {
+    return 1;
   }
 
   /** What shaders are given: `Grooves` of grated_surface.wgsl, in 16 numbers. */
   get numbers() {
     const { axis, kind, center, curvaturePerM, radiiM, coverage, angleStdRad, coherenceUm, rows } = this;
-    return [...axis, KINDS.indexOf(kind), ...center, curvaturePerM, ...radiiM, coverage, angleStdRad, coherenceUm, Number(rows === FINE_ROWS), 0, 0];
+    return [...axis, KINDS.indexOf(kind), ...center, curvaturePerM, ...radiiM, coverage, angleStdRad, coherenceUm, Number(rows === FINE_ROWS), 0, (rows - 1) * ROW_NM];
   }
 }
 

@@ -33,11 +33,12 @@ export type GrooveProfile = 'rectangle' | 'v' | 'round' | 'shoulders' | number[]
 /** Grooves of one table: a cross section, and a class of widths over the coherence length, 0 for narrow ones. */
 export interface GrooveShape { profile: GrooveProfile; widthClass: number }
 
-export const tableSize: { columns: number; rows: number };
-/** Texels of T(u, d), four numbers each, rgba32uint; null: a metal given by its colour. Without a shape: narrow rectangles. */
-export function scratchTable(metal: Metal | null, shape?: GrooveShape): Uint32Array;
-/** The same as a texture of a layer for each shape of each metal. */
-export function makeScratchTable(device: GPUDevice, metal: Metal | null | (Metal | null)[], shapes?: GrooveShape[]): GPUTexture;
+/** What tables need to know of scratches: what scratchTree() returns has it. */
+export interface TableOf { shapes: readonly GrooveShape[]; tableRows: number }
+/** Texels of T(u, d), four numbers each, rgba32uint, a layer for each shape of each metal; null: a metal given by its colour. */
+export function scratchTables(metal: Metal | null | (Metal | null)[], scratches: TableOf): { texels: Uint32Array; columns: number; rows: number; layers: number };
+/** The same as a texture. */
+export function makeScratchTables(device: GPUDevice, metal: Metal | null | (Metal | null)[], scratches: TableOf): GPUTexture;
 
 /** Straight pieces of scratches, in an object's own frame. */
 export interface ScratchArrays {

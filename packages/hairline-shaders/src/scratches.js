@@ -141,8 +141,8 @@ export function layScratches({ positions, index = null, normals = null, uvs = nu
 }
 
 /**
- * The texture that shaders find scratches by: texels of rgba32uint, four numbers each, `width` and `height` in texels; and the shapes of the grooves, each of
- * which needs a table. `metresPerUnit`: how long a unit of the object's frame is in the world.
+ * The texture that shaders find scratches by: texels of rgba32uint, four numbers each, `width` and `height` in texels; the shapes of the grooves, each of
+ * which needs a table; and the rows that these need for the deepest one. `metresPerUnit`: how long a unit of the object's frame is in the world.
  */
 export function scratchTree({ starts, ends, normals, widthsUm, depthsNm, scratch, profiles }, { coherenceUm = COHERENCE_UM, metresPerUnit = 1 } = {}) {
   const known = new Map([[JSON.stringify(RECTANGLE), 0]]);
@@ -158,6 +158,6 @@ export function scratchTree({ starts, ends, normals, widthsUm, depthsNm, scratch
   return using(new Tree(...lists, JSON.stringify(names), coherenceUm, metresPerUnit), (tree) => {
     const [texels, pairs] = [tree.texels(), tree.shapes()];
     const shapes = Array.from({ length: pairs.length / 2 }, (_, i) => ({ profile: names[pairs[2 * i]], widthClass: pairs[2 * i + 1] }));
-    return { texels, width: TREE_WIDTH, height: texels.length / (4 * TREE_WIDTH), shapes };
+    return { texels, width: TREE_WIDTH, height: texels.length / (4 * TREE_WIDTH), shapes, tableRows: tree.tableRows() };
   });
 }

@@ -9,7 +9,7 @@ import {
 } from 'three/webgpu';
 import { texture, uniform, vec4 } from 'three/tsl';
 import { Scratches, layScratches, readScratches, scratchTree } from './scratches.js';
-import { narrowRectangle, scratchTable, tableSize } from './table.js';
+import { noScratches, scratchTables } from './table.js';
 import { COHERENCE_UM } from './data.js';
 import { curveOf } from './tables.js';
 import { metalColor } from './metals.js';
@@ -54,8 +54,8 @@ function texturesOf(tables) {
   return shared.get(tables);
 }
 
-function layersTexture(texels, rows) {
-  const made = new DataArrayTexture(texels, tableSize.columns, rows, texels.length / (4 * tableSize.columns * rows));
+function layersTexture({ texels, columns, rows, layers }) {
+  const made = new DataArrayTexture(texels, columns, rows, layers);
   made.format = RGBAIntegerFormat;
   made.type = UnsignedIntType;
   made.needsUpdate = true;
@@ -63,23 +63,19 @@ function layersTexture(texels, rows) {
 }
 
 /** The tables of a metal: a layer for each shape of grooves. */
-function tableTexture(tables, metal, shapes) {
+function tableTexture(tables, metal, scratches) {
   const { metals } = texturesOf(tables);
-  const key = JSON.stringify([metal, shapes]);
-  if (!metals.has(key)) {
-    const layers = shapes.map((shape) => scratchTable(metal, shape));
-    const texels = new Uint32Array(layers.length * layers[0].length);
-    layers.forEach((layer, i) => texels.set(layer, i * layer.length));
-    metals.set(key, layersTexture(texels, tableSize.rows));
-  }
+  const key = JSON.stringify([metal, scratches]);
+  if (!metals.has(key)) metals.set(key, layersTexture(scratchTables(metal, scratches)));
   return metals.get(key);
 }
 
 const rowsOf = new WeakMap();
 
 /** The table of a grating, made once. */
-function rowsTexture({ texels, rows }) {
-  if (!rowsOf.has(texels)) rowsOf.set(texels, layersTexture(texels, rows));
+function rowsTexture(grating) {
+  const { texels } = grating;
+  if (!rowsOf.has(texels)) rowsOf.set(texels, layersTexture(grating));
   return rowsOf.get(texels);
 }
 
@@ -111,7 +107,8 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
     this.isScratchedNodeMaterial = true;
     Object.assign(this, { tables, metal, coherenceUm, metresPerUnit, lightRadius });
     const tree = scratches && scratchTree(scratches, { coherenceUm, metresPerUnit });
-    Object.assign(this, { scratches, gratings, shapes: tree?.shapes ?? [narrowRectangle] });
+    const { shapes: grooves, tableRows } = tree ?? noScratches;
+    Object.assign(this, { scratches, gratings, tableOf: { shapes: grooves, tableRows } });
     if (metal !== null) {
       this.color.setRGB(...metalColor(metal));
       this.metalness = 1;
@@ -129,7 +126,7 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
 
   /** The spectra of the scratches: a coat, in which they lie, has no colour of its own. */
   table() {
-    return tableTexture(this.tables, this.useClearcoat ? null : this.metal, this.shapes);
+    return tableTexture(this.tables, this.useClearcoat ? null : this.metal, this.tableOf);
   }
 
   setupLightingModel(builder) {

@@ -34,7 +34,7 @@ fn hairline_brushed(
 }
 fn hairline_grooves(field: mat4x4f) -> Grooves {
   let rows = GrooveField(field[0].xyz, u32(field[0].w), field[2].xy, field[1].w, field[2].z, field[2].w);
-  return Grooves(rows, field[1].xyz, field[3].x, 0u, field[3].y > 0.0);
+  return Grooves(rows, field[1].xyz, field[3].x, 0u, field[3].y > 0.0, field[3].w);
 }
 // The light, the point and the axes of the surface in the light's frame.
 struct HairlineOutline { light: OutlineLight, point_m: vec3f, surface: mat3x3f }

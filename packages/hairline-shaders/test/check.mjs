@@ -21,8 +21,8 @@ assert.deepEqual([tables.shapes, tables.albedo, tables.curves].map(({ data, widt
 // Schlick's curve first: the fifth power of one less the cosine.
 const atHalf = Math.round(Math.SQRT1_2 * 127);
 assert.ok(Math.abs(tables.curves.data[4 * atHalf] - (1 - (atHalf / 127) ** 2) ** 5) < 1e-6);
-const [gold, goldIn] = timed(() => hairline.scratchTable('gold'));
-assert.equal(gold.length, 4 * hairline.tableSize.columns * hairline.tableSize.rows);
+const [gold, goldIn] = timed(() => hairline.scratchTables('gold', { shapes: [{ profile: 'rectangle', widthClass: 0 }], tableRows: 64 }));
+assert.equal(gold.texels.length, 4 * gold.columns * 64);
 // A wider light sends more, and copper's red is more than its blue.
 const [red, , blue] = hairline.metalColor('copper');
 assert.ok(red > 0.9 && blue < 0.6, `copper: ${red} ${blue}`);
@@ -85,6 +85,8 @@ const random = hairline.layScratches(square, [{ pattern: 'random', count: 800, s
 const [tree, treeIn] = timed(() => hairline.scratchTree(random));
 console.log(`tree of ${tree.texels[1]} pieces in ${treeIn}`);
 assert.deepEqual(tree.shapes, [{ profile: 'rectangle', widthClass: 0 }, { profile: 'v', widthClass: 0 }]);
+// Tables go as deep as the deepest scratch, in steps of 32 rows.
+assert.equal(tree.tableRows, 32 * Math.ceil((Math.max(...random.depthsNm) / (2000 / 511) + 2) / 32));
 const sum = (list) => list.reduce((a, b) => a + b, 0);
 for (let n = 0; n < 50; n += 1) {
   const [position] = pieceAt(tree.texels, (n * 97) % tree.texels[1]);
@@ -119,7 +121,7 @@ assert.throws(() => few.joined(new hairline.Scratches({ ...more, normals: null }
   const wide = hairline.scratchTree(piece(12, [0, 0, 1]));
   assert.deepEqual(wide.shapes, [{ profile: 'rectangle', widthClass: 0 }, { profile: 'v', widthClass: 1 }]);
   assert.deepEqual([0, 1].map((i) => pieceAt(wide.texels, i)[0][1]).sort(), [-3e-6, 3e-6].map(Math.fround));
-  assert.ok(hairline.scratchTable('gold', wide.shapes[1]).some((word) => word !== 0));
+  assert.ok(hairline.scratchTables('gold', { ...wide, shapes: [wide.shapes[1]] }).texels.some((word) => word !== 0));
 }
 
 const layer = { pattern: 'random', count: 1 };
@@ -143,8 +145,8 @@ for (const [list, message] of [
 ]) {
   assert.throws(() => hairline.readScratches(list, 'list.csv'), message);
 }
-assert.throws(() => new hairline.Grating({ texels: new Uint32Array(4) }), /texels: found 4; must be a Uint32Array of 524288 or 1048576 numbers/);
+assert.throws(() => new hairline.Grating({ texels: new Uint32Array(4) }), /texels: found 4; must be a Uint32Array of 512 columns and 2 to 256 rows, of a fine grating 512/);
 assert.throws(() => new hairline.Grating({ texels: new Uint32Array(524288), kind: 'uv' }), /kind: found "uv"; must be one of along, circular/);
-assert.throws(() => hairline.scratchTable('tin'), /metal: found "tin"; must be one of iron, steel/);
+assert.throws(() => hairline.scratchTables('tin', tree), /metal: found "tin"; must be one of iron, steel/);
 console.log('the package is right');
 process.exit(0);

@@ -4,10 +4,6 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use hairline_gpu::shaders::{Module, for_engines, with_needs};
-use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_ROWS};
-
-/// Columns and rows of the package's tables: 2 MiB a metal, a quarter of the renderer's.
-pub(super) const TABLE_SIZE: [u32; 2] = [ENGINE_COLUMNS as u32, ENGINE_ROWS as u32];
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 

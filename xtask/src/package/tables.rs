@@ -5,13 +5,12 @@ use std::path::Path;
 use anyhow::Context;
 use hairline_engine::scratch_tree;
 use hairline_optics::metal::Metal;
-use hairline_optics::table::{ENGINE_COLUMNS, ROWS};
+use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_GRATING_ROWS, ROWS, last_depth_nm};
 use hairline_scene::description::metal_names;
 use hairline_scene::{DEFAULT_COHERENCE_UM, LISTED_RANGES, Scene, ScratchTables};
 use serde_json::json;
 
 use super::files::write;
-use super::modules::TABLE_SIZE;
 
 /// Names of metals in the order of their curves, sizes of textures, the usual coherence window, and ranges of the sizes of grooves.
 pub(super) fn data() -> String {
@@ -20,10 +19,11 @@ pub(super) fn data() -> String {
         named.map_or("", |(name, _)| *name)
     });
     let sizes = LISTED_RANGES.map(|(name, (least, most))| json!([name, least, most]));
-    let [columns, rows] = TABLE_SIZE;
+    let row_nm = last_depth_nm(ROWS) / (ROWS - 1) as f64;
     format!(
         "// Made by `cargo xtask package`.\n\
-         export const COLUMNS = {columns};\nexport const ROWS = {rows};\nexport const TREE_WIDTH = {};\n\
+         export const COLUMNS = {ENGINE_COLUMNS};\nexport const ROW_NM = {row_nm};\n\
+         export const GRATING_ROWS = {ENGINE_GRATING_ROWS};\nexport const FINE_ROWS = {ROWS};\nexport const TREE_WIDTH = {};\n\
          export const COHERENCE_UM = {DEFAULT_COHERENCE_UM};\n\
          export const METALS = {};\nexport const SIZES = {};\n",
         scratch_tree::WIDTH,
@@ -57,9 +57,10 @@ pub(super) fn write_gratings(folder: &Path) -> anyhow::Result<()> {
         );
         let scene = Scene::from_toml(&text, name, ".")?;
         let tables = ScratchTables::new(&scene);
-        let table = tables.grating_table(&scene.objects[0].gratings[0], 0);
+        let grating = &scene.objects[0].gratings[0];
+        let table = tables.grating_table(grating, 0);
         let table = table.context("a grating without a table")?;
-        let texels = tables.tables[table].resampled(ENGINE_COLUMNS, ROWS);
+        let texels = tables.tables[table].for_engines(grating.row.depth_nm);
         let bytes: Vec<u8> = (texels.iter().flatten())
             .flat_map(|word| word.to_le_bytes())
             .collect();

@@ -1,7 +1,7 @@
 // A surface with rows of grooves as an engine shades it: a grating, whose light lies about its orders.
 //
 // Needs: grating, groove_field, outline_light, scratched_surface (SurfaceView). Frame: as of scratched_surface. Tables are a texture of their own: each
-// layer that of one grating, SCRATCH_TABLE_ROWS high, or INCIDENCE_ROWS of a fine one.
+// layer that of one grating, over its depth, or INCIDENCE_ROWS high of a fine one.
 //
 //   let point = grated_point(view, grooves, 1.0);                             // once
 //   light += radiance * grated_sphere(tables, point, center, r);              // for each light
@@ -14,6 +14,7 @@ struct Grooves {
     coherence_um: f32,
     table: u32,                     // its layer
     is_fine: bool,                  // whether that is one by incidence
+    depth_nm: f32,                  // of the last row of one that is not, as scratches count rows
 }
 
 struct GratedPoint {
@@ -35,7 +36,8 @@ fn grated_point(view: SurfaceView, grooves: Grooves, covered: f32) -> GratedPoin
     let place = grooves_seen(view, grooves);
     let length_sq = dot(place.tangent.xy, place.tangent.xy);
     let tangent = select(vec2f(1.0, 0.0), place.tangent.xy * inverseSqrt(max(length_sq, 1e-30)), length_sq > 0.0);
-    let seen = row_seen(tangent, place.share / max(covered, 1.0), place.turns_rad, place.angle_std_rad, grooves.is_fine);
+    var seen = row_seen(tangent, place.share / max(covered, 1.0), place.turns_rad, place.angle_std_rad, grooves.is_fine);
+    seen.profile.depth_nm = grooves.depth_nm;
     return GratedPoint(surface_lit_point(view, grooves.coherence_um, grooves.table), seen);
 }
 

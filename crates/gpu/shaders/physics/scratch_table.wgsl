@@ -1,5 +1,6 @@
 // The spectrum of a scratch as a table over u = W q and depth. Twin: optics/src/table.rs.
-// A layer of the texture holds one material's table: T in three channels and, packed, its slopes by the column; rows over depth.
+// A layer of the texture holds one material's table: T in three channels and, packed, its slopes by the column; rows over depth. Rows below the
+// deepest groove may be missing: nothing reads them.
 
 const SCRATCH_TABLE_COLUMNS: i32 = 1024;
 const SCRATCH_TABLE_ROWS: i32 = 512;

@@ -97,7 +97,7 @@ impl RigorousGrating<'_> {
                 .collect(),
             false => Vec::new(),
         };
-        let mut table = ScratchTable::from_rows(|row, sums| {
+        let mut table = ScratchTable::from_rows(ROWS, |row, sums| {
             let viewer = components((row % INCIDENCES[0]) as f64, (row / INCIDENCES[0]) as f64);
             self.fill(viewer, &columns, &sent, &rests, sums);
         });

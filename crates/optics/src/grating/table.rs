@@ -101,7 +101,7 @@ impl Grating {
                 (together, alone)
             })
             .collect();
-        ScratchTable::from_rows(|row, sums| {
+        ScratchTable::from_rows(ROWS, |row, sums| {
             let depth_share = row as f64 / (ROWS - 1) as f64;
             for (sample, (together, alone)) in samples.iter().zip(&parts) {
                 let nm = sample.wavelength_nm;

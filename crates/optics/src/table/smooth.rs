@@ -1,7 +1,7 @@
 //! A table with all its digits and without kinks, for derivatives of pictures: differences of [`super::ScratchTable`] show the rounding of its
 //! texels and the lines between its rows.
 
-use super::grid::{COLUMNS, ROWS, U_HALF_UM};
+use super::grid::{COLUMNS, ROWS, ROWS_PER_NM, U_HALF_UM};
 use crate::scratch::DEPTH_MAX_NM;
 use rayon::prelude::*;
 
@@ -32,7 +32,7 @@ impl SmoothTable {
     #[cold]
     #[inline(never)]
     pub(super) fn at_depth(&self, depth_nm: f64) -> SmoothRow<'_> {
-        let y = depth_nm.clamp(0.0, DEPTH_MAX_NM) * ((ROWS - 1) as f64 / DEPTH_MAX_NM);
+        let y = depth_nm.clamp(0.0, DEPTH_MAX_NM) * ROWS_PER_NM;
         let before = (y as usize).saturating_sub(ROWS_AT_ONCE / 2 - 1);
         let first = before.min(ROWS - ROWS_AT_ONCE);
         let at = y - first as f64;

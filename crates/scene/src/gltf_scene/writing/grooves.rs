@@ -5,7 +5,6 @@ use std::ops::Deref;
 
 use glam::DVec3;
 use hairline_model::gltf_file::GltfFile;
-use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_ROWS, ROWS};
 use serde_json::{Value, json};
 
 use crate::description::Description;
@@ -45,11 +44,7 @@ pub(super) fn write(
     let index = tables.grating_table(grating, material)?;
     let table = &tables.tables[index];
     let texels = *known.entry(index).or_insert_with(|| {
-        let rows = match table.by_incidence {
-            true => ROWS,
-            false => ENGINE_ROWS,
-        };
-        file.push_wholes(table.resampled(ENGINE_COLUMNS, rows).as_flattened())
+        file.push_wholes(table.for_engines(grating.row.depth_nm).as_flattened())
     });
     let object_from_world = described.objects[object].world_from_object().inverse();
     let axis = object_from_world.transform_vector3(field.axis);
