@@ -1,6 +1,6 @@
 //! Metals, and the spectra of their scratches.
 
-use hairline_engine::{scratch_table as table, section};
+use hairline_engine::{base_tables, scratch_table as table, section};
 use hairline_optics::metal::Metal;
 use hairline_optics::section::GrooveShape;
 use hairline_scene::description::metal_names;
@@ -25,6 +25,16 @@ fn metal_of(name: &str) -> Result<Metal, JsError> {
 #[wasm_bindgen(js_name = metalColor)]
 pub fn metal_color(name: &str) -> Result<Vec<f64>, JsError> {
     Ok(metal_of(name)?.reflectance_rgb(1.0).to_vec())
+}
+
+/// The curve of a metal among those of the base, or of one given by its colour.
+///
+/// # Errors
+/// A metal that is not known.
+#[wasm_bindgen(js_name = curveOf)]
+pub fn curve_of(metal: Option<String>) -> Result<u32, JsError> {
+    let metal = metal.map(|name| metal_of(&name)).transpose()?;
+    Ok(base_tables::curve_of(metal))
 }
 
 /// Texels of the table of grooves in a metal, or in one given by its colour. `profile` is the key of a layer, as JSON; of `rows` see `Tree`.

@@ -12,9 +12,8 @@ use crate::vectors::with_widest;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Depth over wavelength of the last row: the table's deepest groove in the shortest wavelength.
-const ROW_MAX: f64 = DEPTH_MAX_NM / WAVELENGTH_MIN_NM;
-const ROWS: usize = 1025;
+/// Rows for a unit of depth over wavelength: 1024 for the deepest groove in the shortest wavelength, beside that of depth 0.
+const ROWS_PER_DEPTH: f64 = 1024.0 * WAVELENGTH_MIN_NM / DEPTH_MAX_NM;
 /// Step of u over wavelength. All that varies along it has a period of 1 or longer.
 const STEP: f64 = 0.05;
 /// Columns over u/lambda up to 64. Beyond, what is left falls as 1/u.
@@ -39,15 +38,23 @@ pub struct GrooveSpectrum {
 impl GrooveSpectrum {
     /// Computes the grid: a transform for each depth.
     pub fn new(shape: &GrooveShape) -> Self {
+        Self::down_to(DEPTH_MAX_NM, shape)
+    }
+
+    /// The grid for grooves of this depth and less.
+    pub fn down_to(depth_nm: f64, shape: &GrooveShape) -> Self {
         let kernel = match shape.is_wide() {
             false => Kernel::narrow(),
             true => Kernel::wide(shape.width_in_windows()),
         };
-        let rows: Vec<usize> = (0..ROWS).collect();
+        let last = (depth_nm / WAVELENGTH_MIN_NM * ROWS_PER_DEPTH)
+            .ceil()
+            .max(1.0) as usize;
+        let rows: Vec<usize> = (0..=last).collect();
         let tasks: Vec<Vec<(Vec<f64>, f64)>> = rows
             .par_chunks(TASK)
             .map(|rows| {
-                let depth = |row: &usize| *row as f64 * ROW_MAX / (ROWS - 1) as f64;
+                let depth = |row: &usize| *row as f64 / ROWS_PER_DEPTH;
                 let steps = rows
                     .iter()
                     .map(|row| PhaseSteps::new(&shape.section, depth(row)));
@@ -55,7 +62,7 @@ impl GrooveSpectrum {
             })
             .collect();
         let rows = tasks.into_iter().flatten();
-        let mut texels = Vec::with_capacity(ROWS * COLUMNS);
+        let mut texels = Vec::with_capacity((last + 1) * COLUMNS);
         let limits = rows.map(|(density, limit)| {
             append_with_integral(&density, &mut texels);
             limit
@@ -70,8 +77,9 @@ impl GrooveSpectrum {
 
     /// The grid at a depth over wavelength.
     pub fn at_depth(&self, depth: f64) -> SpectrumRow<'_> {
-        let y = depth.clamp(0.0, ROW_MAX) * ((ROWS - 1) as f64 / ROW_MAX);
-        let row = (y as usize).min(ROWS - 2);
+        let last = self.limits.len() - 1;
+        let y = (depth * ROWS_PER_DEPTH).clamp(0.0, last as f64);
+        let row = (y as usize).min(last - 1);
         let (near, far) = self.texels[row * COLUMNS..][..2 * COLUMNS].split_at(COLUMNS);
         let share = y - row as f64;
         SpectrumRow {

@@ -87,7 +87,7 @@ impl ScratchTable {
         match *shape == GrooveShape::default() {
             true => Self::from_rows(rows, rows_of_rectangle(observer, reflectance)),
             false => {
-                let grid = GrooveSpectrum::new(shape);
+                let grid = GrooveSpectrum::down_to(last_depth_nm(rows), shape);
                 Self::from_rows(rows, rows_of_spectrum(observer, &grid, reflectance))
             }
         }

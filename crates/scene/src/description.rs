@@ -49,7 +49,8 @@ pub use overrides::Override;
 pub use place::LayerPlaces;
 pub use ranges::LARGEST_SEED;
 pub use scratches::{
-    Amount, Around, Brush, Brushed, Distribution, Laid, Layer, Listed, Pattern, Scratches, Stroke,
+    Amount, Around, Brush, Brushed, Distribution, Laid, Layer, Listed, Pattern, Scratches,
+    Standing, Stroke, standings,
 };
 pub use shapes::Shape;
 pub use studio::{Ground, Studio};

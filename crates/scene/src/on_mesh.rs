@@ -1,6 +1,5 @@
 //! Scratches on a mesh in memory, without a scene about it: what other engines ask for.
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -8,14 +7,14 @@ use glam::{DMat4, DVec2, DVec3};
 use hairline_image::ToneMap;
 
 use crate::arrays::{Arrays, MeshArrays};
-use crate::description;
+use crate::description::{self, standings};
 use crate::error::Error;
 use crate::loader::Loader;
 use crate::scene::{Base, Camera, Lens, Material, Mesh, Object, RenderSettings, Scene};
 use crate::scratches::{Ground, PlaceInputs, Table, lay, put_together};
 use crate::section_id::SectionId;
 
-/// Lays layers of scratches on a mesh whose unit is `metres_per_unit` long, and returns them in metres. The objects that the layers name do not matter;
+/// Lays layers of scratches on a mesh whose unit is `metres_per_unit` long, and returns them in metres. The layers name one object, any;
 /// pictures that they name are in `arrays`, and so are lists, or they are files. A seed means the same scratches as in a scene.
 ///
 /// # Errors
@@ -35,20 +34,13 @@ pub fn lay_on_mesh(
     }
     let mesh = Arc::new(baked);
     let ground = Arc::new(Ground::new(mesh.clone(), world_from_object));
-    let solo = layers.iter().any(|layer| layer.solo);
-    let mut numbers: HashMap<u64, u64> = HashMap::new();
     let mut tables = Vec::new();
     let mut shown = Vec::new();
-    for (i, layer) in (0..).zip(layers) {
-        let key = format!("scratches[{i}]");
-        let number = layer.layer.seed().map_or(0, |seed| {
-            let next = numbers.entry(seed).or_insert(0);
-            *next += 1;
-            *next - 1
-        });
-        if layer.hidden || solo && !layer.solo {
+    for ((i, layer), standing) in (0..).zip(layers).zip(standings(layers)) {
+        if !standing.is_shown {
             continue;
         }
+        let key = format!("scratches[{i}]");
         refuse_parts(layer, &key)?;
         let picture = |name: &str, file: &Option<PathBuf>| {
             let way = format!("{key}.where.{name}");
@@ -65,7 +57,7 @@ pub fn lay_on_mesh(
             layer: &layer.layer,
             section: SectionId::new(&layer.profile),
             strokes: &layer.strokes,
-            number,
+            number: standing.number,
             ground: &ground,
             means: PlaceInputs {
                 described: &layer.place,

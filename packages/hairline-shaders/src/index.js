@@ -1,7 +1,7 @@
 // hairline-shaders: scratches that split light into colours, for engines on WebGPU. README.md shows how they are put together.
 export { hairlineWgsl } from './wgsl.js';
-export { Tables, curveOf, loadTables } from './tables.js';
+export { Tables, loadTables } from './tables.js';
 export { makeScratchTables, scratchTables } from './table.js';
 export { Scratches, layScratches, readScratches, scratchTree } from './scratches.js';
 export { Grating, loadGrating } from './gratings.js';
-export { metalColor, metals } from './metals.js';
+export { curveOf, metalColor, metals } from './metals.js';

@@ -1,7 +1,6 @@
 // The table T(u, d) of a metal, which scratch_table.wgsl looks up.
 import { scratchTable as table } from '../engine/engine.js';
 import { COLUMNS } from './data.js';
-import { checkMetal } from './metals.js';
 
 /** What a surface without scratches has in the place of a tree's: the first shape of every list, and the fewest rows. */
 export const noScratches = Object.freeze({ shapes: Object.freeze([Object.freeze({ profile: 'rectangle', widthClass: 0 })]), tableRows: 2 });
@@ -11,10 +10,7 @@ export const noScratches = Object.freeze({ shapes: Object.freeze([Object.freeze(
  * as its deepest scratch. `metal` null: a metal given by its colour. An array of metals: the layers of one after those of the other.
  */
 export function scratchTables(metal, { shapes, tableRows }) {
-  const layers = [metal].flat().flatMap((each) => shapes.map(({ profile, widthClass }) => {
-    checkMetal(each);
-    return table(each ?? undefined, JSON.stringify(profile), widthClass, tableRows);
-  }));
+  const layers = [metal].flat().flatMap((each) => shapes.map(({ profile, widthClass }) => table(each ?? undefined, JSON.stringify(profile), widthClass, tableRows)));
   const texels = new Uint32Array(layers.length * layers[0].length);
   layers.forEach((layer, i) => texels.set(layer, i * layer.length));
   return { texels, columns: COLUMNS, rows: tableRows, layers: layers.length };

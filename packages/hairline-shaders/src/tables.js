@@ -1,6 +1,5 @@
 // What all materials share: Hairline's own code, and the tables of the base: shapes and albedo of rough lobes, and how reflectance goes with the angle.
 import init, { BaseTable } from '../engine/engine.js';
-import { checkMetal, metals } from './metals.js';
 
 /** Three textures, rgba32float: `{ data, width, height }` each. */
 export class Tables {
@@ -13,15 +12,6 @@ export class Tables {
     }
   }
 }
-
-/** The curve of a metal, for FresnelRgb; null: Schlick's, for colours. */
-export function curveOf(metal) {
-  checkMetal(metal);
-  return metal === null ? 0 : 1 + metals.indexOf(metal);
-}
-
-/** The curve of a dielectric of refractive index 1.5, of which clear coats are. */
-export const dielectricCurve = 1 + metals.length;
 
 /** Loads Hairline's own code, engine_bg.wasm, from beside the package's folder `src` or from an address, and makes the tables. The rest of the package needs it first. */
 export async function loadTables(url = new URL('../engine/engine_bg.wasm', import.meta.url)) {

@@ -10,7 +10,7 @@ import {
   bandCell, bandOf, brushedBase, environmentOnBody, fresnelOf, gratingCell, gratingSends, gratingShare, gratingTaken, maskOf, roundBase, scratchesSend, viewFromSurface,
 } from './three_functions.js';
 import { EnvironmentNodes } from './environment.js';
-import { dielectricCurve } from './tables.js';
+import { dielectricCurve } from './metals.js';
 import { hasOutline, isFar } from './three_lights.js';
 import { outlineNodes } from './three_outlines.js';
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use hairline_scene::Description;
 use hairline_scene::description::LARGEST_SEED;
-use hairline_scene::description::{Layer, Listed, Object, Pattern, Scratches};
+use hairline_scene::description::{Layer, Listed, Object, Pattern, Scratches, standings};
 
 use super::{ActionError, list};
 use crate::{Selection, paths};
@@ -79,9 +79,9 @@ pub fn toggle_solo(description: &mut Description, index: usize) -> Result<Select
 
 /// Whether the scene shows a layer: it is not hidden, and solo if any layer is.
 pub fn is_shown(description: &Description, index: usize) -> bool {
-    let any_solo = description.scratches.iter().any(|layer| layer.solo);
-    let layer = description.scratches.get(index);
-    layer.is_some_and(|layer| !layer.hidden && (layer.solo || !any_solo))
+    standings(&description.scratches)
+        .nth(index)
+        .is_some_and(|standing| standing.is_shown)
 }
 
 /// Title of a layer in a list: its name, else its pattern.

@@ -1,6 +1,5 @@
 //! The scratches of a scene: those that a build lays, and those that it has from the last one.
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -8,7 +7,7 @@ use super::Work;
 use super::kept::{KeptLayer, KeptSurface};
 use super::parts::{OnPart, PartGround};
 use crate::description::references::find;
-use crate::description::{self, Layer, LayerPlaces};
+use crate::description::{self, Layer, LayerPlaces, standings};
 use crate::error::Error;
 use crate::grey_map::GreyMap;
 use crate::scene::Scene;
@@ -105,24 +104,13 @@ impl<'a> Work<'a> {
     /// Pairs all tables with the scratches that the last build has laid for them.
     fn coats(&self, surfaces: &[Arc<KeptSurface>]) -> Result<Vec<Coat<'a>>, Error> {
         let tables = &self.description.scratches;
-        let solo = tables.iter().any(|table| table.solo);
         let mut coats: Vec<Coat> = Vec::new();
-        let mut numbers: HashMap<(usize, u64), u64> = HashMap::new();
-        for (i, table) in tables.iter().enumerate() {
+        for (i, (table, standing)) in tables.iter().zip(standings(tables)).enumerate() {
             let names = self.description.objects.iter().map(|o| o.name.as_str());
             let key = format!("scratches[{i}].object");
             let object = find(&table.object, names, &key, "object")?;
-            let seed = table.layer.seed();
-            let number = match seed {
-                Some(seed) => {
-                    let next = numbers.entry((object, seed)).or_insert(0);
-                    *next += 1;
-                    *next - 1
-                }
-                None => 0,
-            };
-            let is_on_shown = !self.description.objects[object].hidden;
-            let is_shown = is_on_shown && !table.hidden && (table.solo || !solo);
+            let number = standing.number;
+            let is_shown = standing.is_shown && !self.description.objects[object].hidden;
             let ground = surfaces[object].ground_if_made(&OnPart::of(table));
             // Before they are read.
             let files = self.stamps(table);

@@ -1,5 +1,6 @@
 //! The `[[scratches]]` tables of a scene file.
 
+use std::collections::HashMap;
 use std::path::PathBuf;
 
 use hairline_optics::section::Section;
@@ -65,6 +66,32 @@ impl Scratches {
             strokes: Vec::new(),
         }
     }
+}
+
+/// How a layer stands among those of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Standing {
+    /// Number of earlier layers on the same object with the same seed: they draw other scratches. 0 without a seed.
+    pub number: u64,
+    /// Whether it is shown: not hidden, and solo if any layer is.
+    pub is_shown: bool,
+}
+
+/// How each of a scene's layers stands among them.
+pub fn standings(layers: &[Scratches]) -> impl Iterator<Item = Standing> {
+    let any_solo = layers.iter().any(|layer| layer.solo);
+    let mut numbers = HashMap::new();
+    layers.iter().map(move |layer| {
+        let number = layer.layer.seed().map_or(0, |seed| {
+            let next = numbers.entry((&layer.object, seed)).or_insert(0);
+            *next += 1;
+            *next - 1
+        });
+        Standing {
+            number,
+            is_shown: !layer.hidden && (layer.solo || !any_solo),
+        }
+    })
 }
 
 /// Source of a layer's scratches.
