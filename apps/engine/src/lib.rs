@@ -3,6 +3,7 @@
 #![cfg(target_arch = "wasm32")]
 
 mod base_tables;
+mod gratings;
 mod maps;
 mod metals;
 mod scratches;

@@ -9,7 +9,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::{parsed, thrown};
 
-fn metal_of(name: &str) -> Result<Metal, JsError> {
+pub(crate) fn metal_of(name: &str) -> Result<Metal, JsError> {
     let named = metal_names().iter().find(|(known, _)| *known == name);
     named.map(|(_, metal)| *metal).ok_or_else(|| {
         let all: Vec<_> = metal_names().iter().map(|(name, _)| *name).collect();

@@ -1,12 +1,26 @@
 //! Gratings of one mesh: where their grooves run, and the texture of what they send.
 
+use std::path::Path;
 use std::sync::Arc;
 
+use hairline_optics::metal::Metal;
 use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_GRATING_ROWS, ROWS, last_depth_nm};
-use hairline_scene::{Scene, ScratchTables};
+use hairline_scene::description;
+use hairline_scene::{
+    Arrays, Base, Description, Error, Loader, MeshArrays, Scene, SceneBuilder, ScratchTables,
+};
 
 /// Fields of grooves, in the order of the constants of groove_field.wgsl.
 const KINDS: [&str; 4] = ["along", "circular", "radial", "spun"];
+/// Name of the mesh of [`GratingTexels::lay`].
+const MESH: &str = "mesh";
+/// Rest of its scene, of which no picture is rendered.
+const REST: &str = "
+studio = { hidden = true }
+camera = { position_m = [0.0, 0.0, 1.0], target_m = [0.0, 0.0, 0.0], up = [0.0, 1.0, 0.0] }
+material = [{ name = 'material', kind = 'mirror' }]
+object = [{ name = 'mesh', mesh = 'mesh', material = 'material' }]
+";
 /// Stands for everywhere.
 const FAR_M: f64 = 1e9;
 
@@ -72,6 +86,40 @@ impl GratingTexels {
             numbers: std::array::from_fn(|i| numbers[i / 4][i % 4] as f32),
             texels,
         })
+    }
+
+    /// Rows of grooves in a metal, or in a colour of metal, in the frame of a mesh, whose unit is the metre: the scratches' like of
+    /// [`Pieces::lay`](crate::Pieces::lay). `coherence_um` is the width of the material's coherence window. Fine rows take seconds. None in the place of
+    /// those that have no form here.
+    ///
+    /// # Errors
+    /// A picture that is not there, by the key of the row.
+    pub fn lay(
+        rows: &[description::Grating],
+        metal: Option<Metal>,
+        coherence_um: f64,
+    ) -> Result<Vec<Option<Self>>, Error> {
+        let mut described = Description::from_toml(REST, Path::new("gratings"))?;
+        described.gratings = rows.to_vec();
+        for row in &mut described.gratings {
+            row.object = MESH.to_owned();
+        }
+        let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let uvs = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let mut named = Arrays::default();
+        let any = MeshArrays::new(corners, vec![[0, 1, 2]], None, Some(uvs))?;
+        named.insert_mesh(MESH, Arc::new(any));
+        let loader = Loader {
+            arrays: &named,
+            ..Loader::default()
+        };
+        let mut scene = SceneBuilder::new().build(&loader, &described, Path::new("."))?;
+        let material = &mut scene.materials[0];
+        material.coherence_um = coherence_um;
+        if let Some(metal) = metal {
+            material.base = Base::Metal(metal);
+        }
+        Ok(Self::of_scene(&scene, 0))
     }
 
     /// The gratings of one of a scene's objects, in world space. None in the place of those by texture coordinates, in spots or with a mask, which have no

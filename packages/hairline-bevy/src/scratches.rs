@@ -9,20 +9,10 @@ use bevy::mesh::{Indices, Mesh, PrimitiveTopology, VertexAttributeValues};
 use bevy::prelude::BevyError;
 use hairline_engine::{GratingTexels, Pieces, ScratchTexels};
 use hairline_optics::metal::Metal;
-use hairline_scene::{
-    Arrays, Base, DEFAULT_COHERENCE_UM, Description, Loader, MeshArrays, Scene,
-    SceneBuilder, description,
-};
+use hairline_scene::{Arrays, DEFAULT_COHERENCE_UM, MeshArrays, Scene, description};
 
 /// Name of the mesh where a scene has a file.
 const NAME: &str = "mesh";
-/// Rest of the scene of gratings; no picture is rendered of it, so nothing lights it.
-const REST: &str = "
-studio = { hidden = true }
-camera = { position_m = [0.0, 0.0, 1.0], target_m = [0.0, 0.0, 0.0], up = [0.0, 1.0, 0.0] }
-material = [{ name = 'material', kind = 'mirror' }]
-object = [{ name = 'mesh', mesh = 'mesh', material = 'material' }]
-";
 /// The scratches and gratings of one mesh, in its own frame, with the tree that shaders find them by.
 #[derive(Clone, Debug)]
 pub struct Scratches {
@@ -67,21 +57,10 @@ impl Scratches {
         metal: Option<Metal>,
         gratings: &[&str],
     ) -> Result<Self, BevyError> {
-        let text = REST.to_owned() + &tables("grating", gratings)?;
-        let description = Description::from_toml(&text, Path::new("gratings"))?;
-        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        let any = MeshArrays::new(corners.into(), vec![[0, 1, 2]], None, None)?;
-        let mut named = Arrays::default();
-        named.insert_mesh(NAME, Arc::new(any));
-        let loader = Loader {
-            arrays: &named,
-            ..Loader::default()
-        };
-        let mut scene = SceneBuilder::new().build(&loader, &description, Path::new("."))?;
-        if let Some(metal) = metal {
-            scene.materials[0].base = Base::Metal(metal);
-        }
-        self.gratings.extend(gratings_of(&scene, 0));
+        let text = tables("grating", gratings)?;
+        let rows = description::Grating::from_toml(&text, Path::new("gratings"))?;
+        let laid = GratingTexels::lay(&rows, metal, DEFAULT_COHERENCE_UM)?;
+        self.gratings.extend(drawn(laid));
         Ok(self)
     }
 
@@ -90,7 +69,7 @@ impl Scratches {
     pub fn of_scene(scene: &Scene, object: usize) -> Self {
         Self {
             texels: ScratchTexels::of_scene(scene, object, 1.0),
-            gratings: gratings_of(scene, object),
+            gratings: drawn(GratingTexels::of_scene(scene, object)),
         }
     }
 }
@@ -104,8 +83,7 @@ fn tables(name: &str, rows: &[&str]) -> Result<String, std::fmt::Error> {
     Ok(text)
 }
 
-fn gratings_of(scene: &Scene, object: usize) -> Vec<GratingTexels> {
-    let all = GratingTexels::of_scene(scene, object);
+fn drawn(all: Vec<Option<GratingTexels>>) -> Vec<GratingTexels> {
     if all.iter().any(Option::is_none) {
         warn!("not drawn: a grating by texture coordinates, in spots or with a mask");
     }

@@ -136,7 +136,9 @@ impl ScratchedTextures {
         let rows = gratings.iter().map(GratingTexels::rows).max();
         let rows = rows.unwrap_or(0).max(table_rows);
         let mut texels = Vec::new();
-        let layers = shapes.iter().map(|shape| scratch_table(metal, shape, table_rows));
+        let layers = shapes
+            .iter()
+            .map(|shape| scratch_table(metal, shape, table_rows));
         for layer in layers.chain(of_gratings().map(|it| it.to_vec())) {
             texels.extend(layer);
             texels.resize(texels.len().next_multiple_of(rows * ENGINE_COLUMNS), [0; 4]);

@@ -37,7 +37,7 @@ impl Description {
         each("object", &self.objects, check_object)?;
         unique("object", self.objects.iter().map(|o| o.name.as_str()))?;
         check_layers(&self.scratches)?;
-        each("grating", &self.gratings, Grating::check_at)?;
+        check_gratings(&self.gratings)?;
         each("light", &self.lights, Light::check_at)
     }
 }
@@ -136,6 +136,11 @@ fn check_object(it: &Object, key: &str) -> Check {
 /// Checks the tables `[[scratches]]`.
 pub(super) fn check_layers(layers: &[Scratches]) -> Check {
     each("scratches", layers, check_scratches)
+}
+
+/// Checks the tables `[[grating]]`.
+pub(super) fn check_gratings(gratings: &[Grating]) -> Check {
+    each("grating", gratings, Grating::check_at)
 }
 
 fn check_scratches(it: &Scratches, key: &str) -> Check {

@@ -3,10 +3,10 @@
 use serde_json::{Map, Value};
 use toml::de::DeTable;
 
-use super::check::check_layers;
+use super::check::{check_gratings, check_layers};
 use super::read;
-use super::table::Table;
-use super::{Description, Scratches};
+use super::table::{Read, Table};
+use super::{Description, Grating, Scratches};
 use crate::error::Error;
 
 impl Description {
@@ -39,13 +39,32 @@ impl Scratches {
     /// # Errors
     /// What is wrong with a row, by its key.
     pub fn from_json(rows: Value) -> Result<Vec<Self>, Error> {
-        let text = text_of(&Map::from_iter([("scratches".to_owned(), rows)]))?;
-        let root = DeTable::parse(&text).map_err(|error| wrong(error.message()))?;
-        let all = Table::open(root.get_ref(), "", &["scratches"])?;
-        let all = all.or("scratches", Vec::new())?;
+        let all = rows_of("scratches", rows)?;
         check_layers(&all)?;
         Ok(all)
     }
+}
+
+impl Grating {
+    /// Reads rows of `grating` as [`Scratches::from_json`] reads those of `scratches`.
+    ///
+    /// # Errors
+    /// What is wrong with a row, by its key.
+    pub fn from_json(rows: Value) -> Result<Vec<Self>, Error> {
+        let all = rows_of("grating", rows)?;
+        check_gratings(&all)?;
+        Ok(all)
+    }
+}
+
+/// Rows of a table that stands alone.
+fn rows_of<T>(name: &'static str, rows: Value) -> Result<Vec<T>, Error>
+where
+    Vec<T>: Read,
+{
+    let text = text_of(&Map::from_iter([(name.to_owned(), rows)]))?;
+    let root = DeTable::parse(&text).map_err(|error| wrong(error.message()))?;
+    Table::open(root.get_ref(), "", &[name])?.or(name, Vec::new())
 }
 
 /// The text of a scene file with these tables.

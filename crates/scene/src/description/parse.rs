@@ -6,8 +6,8 @@ use hairline_model::text::printable;
 use hairline_optics::ggx::GGX_MIN_ALPHA;
 use toml::de::DeTable;
 
-use super::table::Table;
-use super::{Description, Material, MaterialKind, Scratches};
+use super::table::{Read, Table};
+use super::{Description, Grating, Material, MaterialKind, Scratches};
 use super::{check, read};
 use crate::error::Error;
 use crate::key_line::{line_of, line_of_key};
@@ -82,15 +82,38 @@ impl Scratches {
     /// # Errors
     /// What is wrong with a table, by its line and key.
     pub fn from_toml(text: &str, name: &Path) -> Result<Vec<Self>, Error> {
-        check_text(text.len()).map_err(|error| error.at(name, None))?;
-        let root = parse(text, name)?;
-        let read = || {
-            let all = Table::open(&root, "", &["scratches"])?.or("scratches", Vec::new())?;
-            check::check_layers(&all)?;
-            Ok(all)
-        };
-        read().map_err(|error: Error| error.in_scene_file(text, name))
+        rows_of(text, name, "scratches", check::check_layers)
     }
+}
+
+impl Grating {
+    /// Reads a text of tables `[[grating]]` alone, as [`Scratches::from_toml`] does those of scratches.
+    ///
+    /// # Errors
+    /// What is wrong with a table, by its line and key.
+    pub fn from_toml(text: &str, name: &Path) -> Result<Vec<Self>, Error> {
+        rows_of(text, name, "grating", check::check_gratings)
+    }
+}
+
+/// Rows of a table that stands alone in a text.
+fn rows_of<T>(
+    text: &str,
+    name: &Path,
+    table: &'static str,
+    check: impl Fn(&[T]) -> Result<(), Error>,
+) -> Result<Vec<T>, Error>
+where
+    Vec<T>: Read,
+{
+    check_text(text.len()).map_err(|error| error.at(name, None))?;
+    let root = parse(text, name)?;
+    let read = || {
+        let all: Vec<T> = Table::open(&root, "", &[table])?.or(table, Vec::new())?;
+        check(&all)?;
+        Ok(all)
+    };
+    read().map_err(|error: Error| error.in_scene_file(text, name))
 }
 
 /// A note about a key of the file: `file:line: key: why`, as errors are written.
