@@ -1,7 +1,7 @@
 //! Rows of grooves, and the tables of what they send.
 
-use hairline_engine::GratingTexels;
-use hairline_scene::description::Grating;
+use hairline_engine::LaidGrating;
+use hairline_scene::description;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -10,42 +10,46 @@ use crate::{parsed, thrown};
 
 /// A grating on a mesh.
 #[wasm_bindgen]
-pub struct LaidGrating(GratingTexels);
+pub struct Grooves(LaidGrating);
 
 #[wasm_bindgen]
-impl LaidGrating {
-    /// The sixteen numbers of `Grooves` of grated_surface.wgsl.
-    pub fn numbers(&self) -> Vec<f32> {
-        self.0.numbers.to_vec()
+impl Grooves {
+    /// Where they run which way: `kind` of HAIRLINE_scratches.
+    pub fn kind(&self) -> String {
+        self.0.field.kind.to_owned()
     }
 
-    /// Texels of its table, four words each.
+    /// Direction or axis, centre in metres, least and greatest radius in metres, curvature, coverage, standard deviation of angles: eleven numbers.
+    pub fn numbers(&self) -> Vec<f64> {
+        let field = &self.0.field;
+        let more = [field.curvature_per_m, field.coverage, field.angle_std_rad];
+        [&field.axis[..], &field.center_m, &field.radii_m, &more].concat()
+    }
+
+    /// Texels of the table, four words each.
     pub fn texels(&self) -> Vec<u32> {
         self.0.texels.as_flattened().to_vec()
     }
 }
 
-/// Makes the gratings of a mesh in metres. `rows` is JSON, rows with the keys of `[[grating]]`.
+/// Makes the gratings of a mesh in metres. `rows` is JSON, rows with the keys of `[[grating]]`, without pictures.
 ///
 /// # Errors
-/// What is wrong with a row; one that follows pictures, texture coordinates or spots.
+/// What is wrong with a row; grooves in spots.
 #[wasm_bindgen(js_name = layGratings)]
 pub fn lay_gratings(
     rows: &str,
     metal: Option<String>,
     coherence_um: f64,
-) -> Result<Vec<LaidGrating>, JsError> {
+) -> Result<Vec<Grooves>, JsError> {
     let metal = metal.map(|name| metal_of(&name)).transpose()?;
-    let rows = Grating::from_json(parsed(rows)?).map_err(thrown)?;
-    let laid = GratingTexels::lay(&rows, metal, coherence_um).map_err(thrown)?;
+    let rows = description::Grating::from_json(parsed(rows)?).map_err(thrown)?;
+    let laid = LaidGrating::lay(&rows, metal, coherence_um).map_err(thrown)?;
     let laid = (0..).zip(laid).map(|(i, grating)| {
-        let found =
-            format!("grating[{i}]: found one in spots, by texture coordinates or with a mask");
-        let made = grating.map(LaidGrating);
+        let made = grating.map(Grooves);
         made.ok_or_else(|| {
-            JsError::new(&format!(
-                "{found}; must lie along a direction or about an axis"
-            ))
+            let right = "must lie along a direction or texture coordinates, or about an axis";
+            JsError::new(&format!("grating[{i}].pattern: found spots; {right}"))
         })
     });
     laid.collect()

@@ -12,7 +12,7 @@ use hairline_scene::{
 
 /// Fields of grooves, in the order of the constants of groove_field.wgsl.
 const KINDS: [&str; 4] = ["along", "circular", "radial", "spun"];
-/// Name of the mesh of [`GratingTexels::lay`].
+/// Name of the mesh of [`LaidGrating::lay`].
 const MESH: &str = "mesh";
 /// Rest of its scene, of which no picture is rendered.
 const REST: &str = "
@@ -33,9 +33,10 @@ pub struct GratingTexels {
     pub texels: Arc<Vec<[u32; 4]>>,
 }
 
-/// Grooves along a direction or about an axis, lengths in metres.
+/// Where grooves run which way, lengths in metres.
+#[derive(Clone, Debug, PartialEq)]
 pub struct GratingField<'a> {
-    /// `"along"`, `"circular"`, `"radial"` or `"spun"`.
+    /// `"along"`, `"circular"`, `"radial"` or `"spun"`; `"along-u"` or `"along-v"`, by texture coordinates.
     pub kind: &'a str,
     /// A unit vector.
     pub axis: [f64; 3],
@@ -53,8 +54,19 @@ pub struct GratingField<'a> {
     pub coherence_um: f64,
 }
 
+/// A grating of an object, with the table of what it sends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LaidGrating {
+    /// Where its grooves run.
+    pub field: GratingField<'static>,
+    /// Whether a picture is a factor on their coverage.
+    pub has_mask: bool,
+    /// A texture of `rgba32uint`, [`ENGINE_COLUMNS`] wide.
+    pub texels: Arc<Vec<[u32; 4]>>,
+}
+
 impl GratingTexels {
-    /// None of a kind that is not known, or of a table of another size.
+    /// None of a kind that shaders do not know by itself, or of a table of another size.
     pub fn new(field: &GratingField, texels: Arc<Vec<[u32; 4]>>) -> Option<Self> {
         let kind = KINDS.iter().position(|kind| *kind == field.kind)?;
         let rows = texels.len() / ENGINE_COLUMNS;
@@ -88,9 +100,16 @@ impl GratingTexels {
         })
     }
 
-    /// Rows of grooves in a metal, or in a colour of metal, in the frame of a mesh, whose unit is the metre: the scratches' like of
-    /// [`Pieces::lay`](crate::Pieces::lay). `coherence_um` is the width of the material's coherence window. Fine rows take seconds. None in the place of
-    /// those that have no form here.
+    /// Rows of the table.
+    pub fn rows(&self) -> usize {
+        self.texels.len() / ENGINE_COLUMNS
+    }
+}
+
+impl LaidGrating {
+    /// Rows of grooves in a metal, or in a colour of metal, in the frame of a mesh whose unit is the metre, as
+    /// [`Pieces::lay`](crate::Pieces::lay) lays scratches. `coherence_um` is the width of the material's coherence window. Fine rows take seconds. None in
+    /// the place of those in spots.
     ///
     /// # Errors
     /// A picture that is not there, by the key of the row.
@@ -122,8 +141,7 @@ impl GratingTexels {
         Ok(Self::of_scene(&scene, 0))
     }
 
-    /// The gratings of one of a scene's objects, in world space. None in the place of those by texture coordinates, in spots or with a mask, which have no
-    /// form here.
+    /// The gratings of one of a scene's objects, in world space. None in the place of those in spots.
     pub fn of_scene(scene: &Scene, object: usize) -> Vec<Option<Self>> {
         let object = &scene.objects[object];
         if object.gratings.is_empty() {
@@ -132,7 +150,7 @@ impl GratingTexels {
         let material = object.mesh.triangle_materials[0] as usize;
         let tables = ScratchTables::new(scene);
         let gratings = object.gratings.iter().map(|grating| {
-            let plain = grating.field.plain().filter(|_| grating.mask.is_none())?;
+            let plain = grating.field.plain()?;
             let table = &tables.tables[tables.grating_table(grating, material)?];
             let field = GratingField {
                 kind: plain.kind,
@@ -144,13 +162,20 @@ impl GratingTexels {
                 angle_std_rad: grating.angle_std_rad,
                 coherence_um: scene.materials[material].coherence_um,
             };
-            Self::new(&field, Arc::new(table.for_engines(grating.row.depth_nm)))
+            Some(Self {
+                field,
+                has_mask: grating.mask.is_some(),
+                texels: Arc::new(table.for_engines(grating.row.depth_nm)),
+            })
         });
         gratings.collect()
     }
 
-    /// Rows of the table.
-    pub fn rows(&self) -> usize {
-        self.texels.len() / ENGINE_COLUMNS
+    /// The grating as shaders take it that look up no pictures; none where it has a mask or follows texture coordinates.
+    pub fn without_pictures(self) -> Option<GratingTexels> {
+        match self.has_mask {
+            true => None,
+            false => GratingTexels::new(&self.field, self.texels),
+        }
     }
 }

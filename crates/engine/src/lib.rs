@@ -24,7 +24,7 @@ mod pieces;
 pub mod scratch_tree;
 mod spectra;
 
-pub use gratings::{GratingField, GratingTexels};
+pub use gratings::{GratingField, GratingTexels, LaidGrating};
 pub use pieces::{Pieces, section};
 pub use scratch_tree::ScratchTexels;
 pub use spectra::scratch_table;

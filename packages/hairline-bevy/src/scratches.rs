@@ -7,7 +7,7 @@ use std::sync::Arc;
 use bevy::log::warn;
 use bevy::mesh::{Indices, Mesh, PrimitiveTopology, VertexAttributeValues};
 use bevy::prelude::BevyError;
-use hairline_engine::{GratingTexels, Pieces, ScratchTexels};
+use hairline_engine::{GratingTexels, LaidGrating, Pieces, ScratchTexels};
 use hairline_optics::metal::Metal;
 use hairline_scene::{Arrays, DEFAULT_COHERENCE_UM, MeshArrays, Scene, description};
 
@@ -59,7 +59,7 @@ impl Scratches {
     ) -> Result<Self, BevyError> {
         let text = tables("grating", gratings)?;
         let rows = description::Grating::from_toml(&text, Path::new("gratings"))?;
-        let laid = GratingTexels::lay(&rows, metal, DEFAULT_COHERENCE_UM)?;
+        let laid = LaidGrating::lay(&rows, metal, DEFAULT_COHERENCE_UM)?;
         self.gratings.extend(drawn(laid));
         Ok(self)
     }
@@ -69,7 +69,7 @@ impl Scratches {
     pub fn of_scene(scene: &Scene, object: usize) -> Self {
         Self {
             texels: ScratchTexels::of_scene(scene, object, 1.0),
-            gratings: drawn(GratingTexels::of_scene(scene, object)),
+            gratings: drawn(LaidGrating::of_scene(scene, object)),
         }
     }
 }
@@ -83,7 +83,9 @@ fn tables(name: &str, rows: &[&str]) -> Result<String, std::fmt::Error> {
     Ok(text)
 }
 
-fn drawn(all: Vec<Option<GratingTexels>>) -> Vec<GratingTexels> {
+fn drawn(laid: Vec<Option<LaidGrating>>) -> Vec<GratingTexels> {
+    let all = laid.into_iter().map(|it| it?.without_pictures());
+    let all: Vec<_> = all.collect();
     if all.iter().any(Option::is_none) {
         warn!("not drawn: a grating by texture coordinates, in spots or with a mask");
     }
