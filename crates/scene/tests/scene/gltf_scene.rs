@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use hairline_optics::grating::GRATING_DEPTH_NM;
+use hairline_optics::table::rows_down_to;
 use hairline_scene::description::Surface;
 use hairline_scene::gltf_scene::{Export, Exported};
 use hairline_scene::{
@@ -401,13 +403,16 @@ fn a_grating_as_it_lies_is_in_the_frame_of_its_object_and_has_its_table() {
     assert_eq!(laid["radii_m"], json!([0.0, 0.03]));
     // Light of all orders at the depth of the first row and of the last one, over that of the scene's own table.
     let texels = words(&root, &chunk, &laid["texels"]);
-    assert_eq!(texels.len(), 4 * 512 * 256);
     let scene = Scene::build(&description, dir.path()).unwrap();
+    let grating = &scene.objects[0].gratings[0];
+    let rows = rows_down_to(grating.row.depth_nm);
+    assert_eq!(texels.len(), 4 * 512 * rows);
     let tables = ScratchTables::new(&scene);
-    let own = tables
-        .grating_table(&scene.objects[0].gratings[0], 0)
-        .unwrap();
-    for (row, depth_nm) in [(1, 2000.0 / 255.0), (255, 2000.0)] {
+    let own = tables.grating_table(grating, 0).unwrap();
+    for (row, depth_nm) in [
+        (1, GRATING_DEPTH_NM / (rows - 1) as f64),
+        (rows - 1, GRATING_DEPTH_NM),
+    ] {
         let expected = tables.tables[own].scratch_table(1e18, depth_nm);
         for (c, expected) in expected.into_iter().enumerate() {
             let found = f32::from_bits(texels[4 * (512 * row + 511) + c]);
