@@ -118,7 +118,7 @@ fn base_quad(base: Base, light: QuadLight) -> BaseLit {
 fn grooves(i: u32) -> Grooves {
     let field = settings.gratings[i];
     let rows = GrooveField(field[0].xyz, u32(field[0].w), field[2].xy, field[1].w, field[2].z, field[2].w);
-    return Grooves(rows, field[1].xyz, field[3].x, u32(field[3].z), field[3].y > 0.0, field[3].w);
+    return Grooves(rows, field[1].xyz, field[3].x, u32(field[3].z), field[3].y > 0.0, field[3].w, mat2x3f());
 }
 
 fn grating(lit: ptr<function, Lit>, i: u32) -> GratedPoint {

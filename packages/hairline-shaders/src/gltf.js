@@ -1,6 +1,8 @@
 // A plug-in for GLTFLoader of three.js: files with HAIRLINE_scratches (docs/HAIRLINE_scratches.md of the project Hairline) get scratched
 // materials and lights with a surface. Without it such files load as ever, without scratches.
-import { Box3, Matrix3, Matrix4, Mesh, RectAreaLight, Vector3 } from 'three/webgpu';
+import {
+  Box3, DataTexture, LinearFilter, LinearMipmapLinearFilter, Matrix3, Matrix4, Mesh, RectAreaLight, RepeatWrapping, RGBAFormat, Vector3,
+} from 'three/webgpu';
 import { COHERENCE_UM } from './data.js';
 import { Grating } from './gratings.js';
 import { ScratchedNodeMaterial, numbersOf } from './three.js';
@@ -28,6 +30,8 @@ class HairlineScratches {
     this.parser = parser;
     this.tables = tables;
     this.parameters = parameters;
+    /** Textures of pictures on gratings, by their keys and numbers. */
+    this.groovePictures = new Map();
     const told = new Set();
     this.warn = (what) => {
       if (!told.has(what)) warn(`${NAME}: ${what}`);
@@ -122,7 +126,7 @@ class HairlineScratches {
     const all = await this.scratches(node, object, meshes, extension);
     const gratings = [];
     for (const grating of (extension.grating ?? []).filter((it) => it.object === object.name && !it.hidden)) {
-      if (grating.laid) gratings.push(await this.grating(grating.laid, `grating[${extension.grating.indexOf(grating)}].laid`));
+      if (grating.laid) gratings.push(await this.grating(grating, `grating[${extension.grating.indexOf(grating)}]`, extension));
       else this.warn(`not drawn: grating ${grating.name ? `"${grating.name}" ` : ''}of pattern ${grating.pattern} on "${object.name}"`);
     }
     if (all === null && gratings.length === 0) return;
@@ -141,7 +145,7 @@ class HairlineScratches {
       const toMesh = new Matrix4().copy(mesh.matrixWorld).invert().multiply(fromObject);
       const own = all && within(all.transformed(toMesh.elements), mesh.geometry);
       const rows = gratings.map((grating) => new Grating({
-        ...grating, axis: new Vector3(...grating.axis).transformDirection(toMesh).toArray(),
+        ...grating, axis: grating.axis && new Vector3(...grating.axis).transformDirection(toMesh).toArray(),
         center: new Vector3(...grating.center).applyMatrix4(toMesh).toArray(),
       }));
       if (own !== null || rows.length > 0) mesh.material = this.material(mesh, described, own, rows, scale);
@@ -167,12 +171,25 @@ class HairlineScratches {
     return new Scratches({ starts, ends, normals, widthsUm, depthsNm, scratch: numbers, profiles: profilesOf(profile, numbers.length) });
   }
 
-  /** A grating with its table, in the frame of its object. */
-  async grating(laid, way) {
+  /** A grating with its table and its pictures, in the frame of its object. */
+  async grating(row, way, extension) {
+    const { laid } = row;
+    const [mask, directions] = await Promise.all(['mask', 'directions'].map((key) => this.groovePicture(row, key, way, extension)));
     return {
       kind: laid.kind, axis: laid.axis, center: laid.center, radiiM: laid.radii_m, curvaturePerM: laid.curvature_per_m, coverage: laid.coverage,
-      angleStdRad: laid.angle_std_rad, coherenceUm: laid.coherence_um, texels: await this.numbers(laid, 'texels', way),
+      angleStdRad: laid.angle_std_rad, coherenceUm: laid.coherence_um, texels: await this.numbers(laid, 'texels', `${way}.laid`), mask, directions,
     };
+  }
+
+  /** The picture that a key of a grating names, as a texture; null without one. */
+  async groovePicture(row, key, way, extension) {
+    if (row[key] === undefined) return null;
+    const name = `${key} ${row[key]}`;
+    if (!this.groovePictures.has(name)) {
+      const { width, rgba } = await this.picture(fileOf(row, key, way, extension).bufferView);
+      this.groovePictures.set(name, grooveTexture(width, key === 'mask' ? greyOf(rgba) : rgba));
+    }
+    return this.groovePictures.get(name);
   }
 
   /** Lays layers by Hairline's own code, those on each part of the object by themselves. */
@@ -214,8 +231,7 @@ class HairlineScratches {
       files[layer.file] = { endsM, widthsUm, depthsNm };
     }
     for (const key of ['mask', 'density'].filter((it) => layer.where?.[it] !== undefined)) {
-      const file = extension.files?.[layer.where[key]];
-      if (!file) throw new Error(`${wayOf(given, extension)}.where.${key}: found ${layer.where[key]}; must be the number of one of \`files\``);
+      const file = fileOf(layer.where, key, `${wayOf(given, extension)}.where`, extension);
       const name = `picture ${layer.where[key]}`;
       files[name] = await this.picture(file.bufferView);
       layer.where = { ...layer.where, [key]: name };
@@ -306,6 +322,28 @@ function areaLight(color = [1, 1, 1], intensity = 1000, width, height) {
 
 /** The way to a layer in the file. */
 const wayOf = (layer, extension) => `scratches[${extension.scratches.indexOf(layer)}]`;
+
+/** The file that a key of a table names. */
+function fileOf(table, key, way, { files }) {
+  const file = files?.[table[key]];
+  if (!file) throw new Error(`${way}.${key}: found ${table[key]}; must be the number of one of \`files\``);
+  return file;
+}
+
+/** Values of a mask as red: of each texel the mean of its colours, times its alpha. */
+function greyOf(rgba) {
+  const grey = new Uint8Array(rgba.length);
+  for (let i = 0; i < rgba.length; i += 4) grey[i] = Math.round(((rgba[i] + rgba[i + 1] + rgba[i + 2]) * rgba[i + 3]) / 765);
+  return grey;
+}
+
+/** A picture on a surface, which is there again beyond its border. */
+function grooveTexture(width, rgba) {
+  const made = new DataTexture(new Uint8Array(rgba), width, rgba.length / (4 * width), RGBAFormat);
+  return Object.assign(made, {
+    wrapS: RepeatWrapping, wrapT: RepeatWrapping, magFilter: LinearFilter, minFilter: LinearMipmapLinearFilter, generateMipmaps: true, needsUpdate: true,
+  });
+}
 
 /** The scale of a node in the world; null where it is not one number. */
 function scaleOf({ matrixWorld }) {

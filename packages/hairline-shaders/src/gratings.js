@@ -1,14 +1,19 @@
 // Gratings: rows of grooves side by side, whose light interferes, with the table of what they send.
 import { COHERENCE_UM, COLUMNS, FINE_ROWS, GRATING_ROWS, ROW_NM } from './data.js';
 
-const KINDS = ['along', 'circular', 'radial', 'spun'];
+/** With the constants of groove_field.wgsl. Grooves by texture coordinates lie along a direction that differs from pixel to pixel. */
+const KINDS = { along: 0, circular: 1, radial: 2, spun: 3, 'along-u': 0, 'along-v': 0 };
 /** Gratings that the package has tables of. */
 const PRESETS = ['cd', 'dvd'];
 
-/** Grooves along a direction or about an axis, in a mesh's own frame. */
+/** Whether grooves follow texture coordinates. */
+export const isByUv = ({ kind }) => kind === 'along-u' || kind === 'along-v';
+
+/** Grooves along a direction, about an axis or along texture coordinates, in a mesh's own frame. */
 export class Grating {
   constructor({
     texels, kind = 'circular', axis = [0, 0, 1], center = [0, 0, 0], radiiM = [0, 1e9], curvaturePerM = 0, coverage = 1, angleStdRad = 0, coherenceUm = COHERENCE_UM,
+    mask = null, directions = null,
   } = {}) {
     const found = texels instanceof Uint32Array ? texels.length / (4 * COLUMNS) : 0;
     const isRight = Number.isInteger(found) && (found === FINE_ROWS || (found >= 2 && found <= GRATING_ROWS));
@@ -16,10 +21,14 @@ export class Grating {
       const right = `must be a Uint32Array of ${COLUMNS} columns and 2 to ${GRATING_ROWS} rows, of a fine grating ${FINE_ROWS}, four numbers each: of a file or of loadGrating()`;
       throw new Error(`texels: found ${texels?.length ?? 'none'}; ${right}`);
     }
-    if (!KINDS.includes(kind)) throw new Error(`kind: found ${JSON.stringify(kind)}; must be one of ${KINDS.join(', ')}`);
+    if (!Object.hasOwn(KINDS, kind)) throw new Error(`kind: found ${JSON.stringify(kind)}; must be one of ${Object.keys(KINDS).join(', ')}`);
+    for (const [name, picture] of Object.entries({ mask, directions })) {
+      if (picture !== null && !picture?.isTexture) throw new Error(`${name}: found something else; must be a Texture of three.js, or null`);
+    }
+    if (directions !== null && !isByUv({ kind })) throw new Error(`directions: found a picture for grooves of kind ${JSON.stringify(kind)}; must be along-u or along-v`);
     const length = Math.hypot(...axis);
     if (!(length > 0)) throw new Error(`axis: found ${JSON.stringify(axis)}; must be three numbers that are not all 0`);
-    Object.assign(this, { texels, kind, center, radiiM, curvaturePerM, coverage, angleStdRad, coherenceUm });
+    Object.assign(this, { texels, kind, center, radiiM, curvaturePerM, coverage, angleStdRad, coherenceUm, mask, directions });
     this.axis = axis.map((x) => x / length);
   }
 
@@ -39,7 +48,7 @@ export class Grating {
   /** What shaders are given: `Grooves` of grated_surface.wgsl, in 16 numbers. */
   get numbers() {
     const { axis, kind, center, curvaturePerM, radiiM, coverage, angleStdRad, coherenceUm, rows } = this;
-    return [...axis, KINDS.indexOf(kind), ...center, curvaturePerM, ...radiiM, coverage, angleStdRad, coherenceUm, Number(rows === FINE_ROWS), 0, (rows - 1) * ROW_NM];
+    return [...axis, KINDS[kind], ...center, curvaturePerM, ...radiiM, coverage, angleStdRad, coherenceUm, Number(rows === FINE_ROWS), 0, (rows - 1) * ROW_NM];
   }
 }
 

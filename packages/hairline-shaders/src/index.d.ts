@@ -98,27 +98,34 @@ export interface LayingOptions {
 /** Lays scratches on triangles, as Hairline does: a seed means the same scratches. */
 export function layScratches(mesh: MeshArrays, layers: Layer | Layer[], options?: LayingOptions): Scratches;
 
+/** A Texture of three.js, whose values are numbers: it has no colour space. */
+export interface GroovePicture { readonly isTexture: true; channel: number; flipY: boolean }
+/** Grooves along a direction, about an axis, or along texture coordinates. */
+export type GratingKind = 'along' | 'circular' | 'radial' | 'spun' | 'along-u' | 'along-v';
 export interface GratingOptions {
   /** Texels of the table, rgba32uint, 512 wide; 256 high, or 512 of a fine grating. */
   texels: Uint32Array;
-  /** Along a direction, or about an axis. */
-  kind?: 'along' | 'circular' | 'radial' | 'spun';
-  /** In the mesh's own frame. */
+  kind?: GratingKind;
+  /** In the mesh's own frame; not of 'along-u' and 'along-v'. */
   axis?: number[];
   center?: number[];
-  /** From the axis, or from the centre of grooves along a direction: metres in the world. */
+  /** From the axis, or from the centre of grooves without one: metres in the world. */
   radiiM?: [number, number];
   /** Of 'spun'. */
   curvaturePerM?: number;
   coverage?: number;
   angleStdRad?: number;
   coherenceUm?: number;
+  /** A picture by texture coordinates in three.js: its red, from 0 to 1, is a factor on the coverage. */
+  mask?: GroovePicture | null;
+  /** In three.js, of 'along-u' and 'along-v': a picture that turns the grooves. Red is the part along the coordinate, green that up across it, from -1 (0) to 1 (1). */
+  directions?: GroovePicture | null;
 }
 /** Rows of grooves whose light interferes. */
 export class Grating implements Required<GratingOptions> {
   constructor(options: GratingOptions);
   readonly texels: Uint32Array;
-  readonly kind: 'along' | 'circular' | 'radial' | 'spun';
+  readonly kind: GratingKind;
   readonly axis: number[];
   readonly center: number[];
   readonly radiiM: [number, number];
@@ -126,6 +133,8 @@ export class Grating implements Required<GratingOptions> {
   readonly coverage: number;
   readonly angleStdRad: number;
   readonly coherenceUm: number;
+  readonly mask: GroovePicture | null;
+  readonly directions: GroovePicture | null;
   readonly rows: number;
   /** `Grooves` of grated_surface.wgsl. */
   readonly numbers: number[];

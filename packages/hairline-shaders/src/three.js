@@ -12,7 +12,7 @@ import { Scratches, layScratches, readScratches, scratchTree } from './scratches
 import { noScratches, scratchTables } from './table.js';
 import { COHERENCE_UM } from './data.js';
 import { curveOf, metalColor } from './metals.js';
-import { Grating } from './gratings.js';
+import { Grating, isByUv } from './gratings.js';
 import { mapsOf, preparedCount } from './environment.js';
 import { ScratchedLightingModel, isBent } from './three_lighting.js';
 
@@ -134,6 +134,7 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
       return super.setupLightingModel(builder);
     }
     this.checkScale(builder.object);
+    this.checkUvs(builder);
     this.hairlineNodes.table.value = this.table();
     const environment = this.environmentOf(builder);
     return new ScratchedLightingModel(this, environment, environment && mapsOf(environment));
@@ -162,6 +163,15 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
     const scale = new Vector3().setFromMatrixScale(object.matrixWorld).toArray();
     if (scale.some((s) => Math.abs(s / this.metresPerUnit - 1) >= 0.01)) {
       console.warn(`ScratchedNodeMaterial: found the scale ${scale.join(', ')} of mesh "${object.name}"; must be metresPerUnit, ${this.metresPerUnit}`);
+    }
+  }
+
+  /** Without texture coordinates a picture has one value, and grooves have no direction. */
+  checkUvs({ object, geometry }) {
+    for (const { kind, mask, directions } of this.gratings) {
+      const channels = [...[mask, directions].flatMap((it) => it?.channel ?? []), ...(isByUv({ kind }) ? [0] : [])];
+      const name = channels.map((channel) => (channel ? `uv${channel}` : 'uv')).find((it) => !geometry.hasAttribute(it));
+      if (name) console.warn(`ScratchedNodeMaterial: found no attribute ${name} of mesh "${object.name}"; must be there for a grating with a picture or of kind along-u or along-v`);
     }
   }
 

@@ -9,8 +9,10 @@ const HERE = `pixel_frame(position, view_from_object, position_view, normal_view
 const SCRATCHES = `${PLACE}, tree: texture_2d<u32>, tables: texture_2d_array<u32>`;
 // The base: reflectance at normal incidence and roughness; curve, reflectance at grazing incidence, variance of a normal map's slopes.
 const BASE = `${PLACE}, surface: vec4f, more: vec3f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>`;
-const GRATED = `${PLACE}, rows: texture_2d_array<u32>, field: mat4x4f, covered: f32`;
-const GROOVES = `grated_point(here.view, hairline_grooves(field), covered)`;
+// A grating: its numbers, and how its direction changes from pixel to pixel.
+const FIELD = `field: mat4x4f, bend_x: vec3f, bend_y: vec3f`;
+const GRATED = `${PLACE}, rows: texture_2d_array<u32>, ${FIELD}, covered: f32`;
+const GROOVES = `grated_point(here.view, hairline_grooves(field, bend_x, bend_y), covered)`;
 // An environment's levels, and the way from the view's frame to that of its map.
 const AROUND = `levels: texture_2d<f32>, map_from_view: mat3x3f`;
 const MAP = `levels, map_from_view * transpose(here.surface_from_view)`;
@@ -32,9 +34,9 @@ fn hairline_brushed(
   let fresnel = hairline_fresnel_rgb(surface, more);
   return brushed_base(normalize(here.view.to_viewer_m), surface.w, unit, facets.w, fresnel, pixel_slopes(here, more.z), shapes, albedo, curves);
 }
-fn hairline_grooves(field: mat4x4f) -> Grooves {
+fn hairline_grooves(${FIELD}) -> Grooves {
   let rows = GrooveField(field[0].xyz, u32(field[0].w), field[2].xy, field[1].w, field[2].z, field[2].w);
-  return Grooves(rows, field[1].xyz, field[3].x, 0u, field[3].y > 0.0, field[3].w);
+  return Grooves(rows, field[1].xyz, field[3].x, 0u, field[3].y > 0.0, field[3].w, mat2x3f(bend_x, bend_y));
 }
 // The light, the point and the axes of the surface in the light's frame.
 struct HairlineOutline { light: OutlineLight, point_m: vec3f, surface: mat3x3f }
@@ -83,8 +85,8 @@ export const scratchesSend = sentFunctions('scratches', SCRATCHES, 'scratched', 
 export const gratingSends = sentFunctions('grating', GRATED, 'grated', `rows, ${GROOVES}`);
 
 /** The share of a pixel that a grating would cover. */
-export const gratingShare = wgslFn(`fn hairline_grating_share(${PLACE}, field: mat4x4f) -> f32 {
-  return grooves_seen(${HERE}.view, hairline_grooves(field)).share;
+export const gratingShare = wgslFn(`fn hairline_grating_share(${PLACE}, ${FIELD}) -> f32 {
+  return grooves_seen(${HERE}.view, hairline_grooves(field, bend_x, bend_y)).share;
 }`, [library]);
 
 /** What it takes of the base. */
@@ -98,6 +100,12 @@ export const gratingCell = wgslFn(`fn hairline_grating_cell(${GRATED}, j: u32) -
   let here = ${HERE};
   let cell = grated_cell(rows, ${GROOVES}, j);
   return mat4x4f(vec4f(cell.direction, cell.roughness), vec4f(cell.response, 0.0), vec4f(0.0), vec4f(0.0));
+}`, [library]);
+
+/** From where attributes are interpolated to the middle of the pixel, and from there by a pixel to the right and down, in steps of dFdx and dFdy. */
+export const pixelWays = wgslFn(`fn hairline_pixel_ways(${PLACE}) -> mat3x3f {
+  let ways = pixel_ways(${HERE}, position_view, move_x, move_y);
+  return mat3x3f(vec3f(ways[0], 0.0), vec3f(ways[1], 0.0), vec3f(ways[2], 0.0));
 }`, [library]);
 
 export const viewFromSurface = wgslFn(`fn hairline_view_from_surface(${PLACE}) -> mat3x3f {

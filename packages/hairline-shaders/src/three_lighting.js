@@ -13,6 +13,7 @@ import { EnvironmentNodes } from './environment.js';
 import { dielectricCurve } from './metals.js';
 import { hasOutline, isFar } from './three_lights.js';
 import { outlineNodes } from './three_outlines.js';
+import { groovesAt } from './three_grooves.js';
 
 /** The sun's, as a light's `userData.angle`. */
 const SUN_RAD = 0.00465;
@@ -118,8 +119,9 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       this.coatSpecular = vec3(0).toVar();
     }
     this.scratches = material.scratches ? { ...top, tree: nodes.tree, tables: nodes.table } : null;
-    const gratings = nodes.gratings.slice(0, material.gratings.length);
-    const covered = gratings.length > 1 ? gratings.map(({ field }) => gratingShare({ ...top, field })).reduce((a, b) => a.add(b)).toVar() : float(1);
+    const gratings = material.gratings.map((grating, i) => ({ rows: nodes.gratings[i].rows, ...groovesAt(grating, nodes.gratings[i].field, top, builder.geometry) }));
+    const share = ({ rows: _, ...grooves }) => gratingShare({ ...top, ...grooves });
+    const covered = gratings.length > 1 ? gratings.map(share).reduce((a, b) => a.add(b)).toVar() : float(1);
     this.gratings = gratings.map((grating) => ({ ...top, ...grating, covered }));
     this.specular = vec3(0).toVar();
     this.diffuse = vec3(0).toVar();

@@ -146,7 +146,14 @@ for (const [list, message] of [
   assert.throws(() => hairline.readScratches(list, 'list.csv'), message);
 }
 assert.throws(() => new hairline.Grating({ texels: new Uint32Array(4) }), /texels: found 4; must be a Uint32Array of 512 columns and 2 to 256 rows, of a fine grating 512/);
-assert.throws(() => new hairline.Grating({ texels: new Uint32Array(524288), kind: 'uv' }), /kind: found "uv"; must be one of along, circular/);
+assert.throws(() => new hairline.Grating({ texels: new Uint32Array(524288), kind: 'uv' }), /kind: found "uv"; must be one of along, circular.*along-v/);
+{
+  const texels = new Uint32Array(524288);
+  // Grooves by texture coordinates are of the first kind in WGSL, along a direction.
+  assert.equal(new hairline.Grating({ texels, kind: 'along-v' }).numbers[3], 0);
+  assert.throws(() => new hairline.Grating({ texels, mask: 'mask.png' }), /mask: found something else; must be a Texture/);
+  assert.throws(() => new hairline.Grating({ texels, kind: 'along', directions: { isTexture: true } }), /directions: found a picture for grooves of kind "along"; must be along-u or along-v/);
+}
 assert.throws(() => hairline.scratchTables('tin', tree), /metal: found "tin"; must be one of iron, steel/);
 console.log('the package is right');
 process.exit(0);

@@ -15,6 +15,7 @@ struct Grooves {
     table: u32,                     // its layer
     is_fine: bool,                  // whether that is one by incidence
     depth_nm: f32,                  // of the last row of one that is not, as scratches count rows
+    bends: mat2x3f,                 // of grooves along a direction: how it changes over a pixel to the right and down; 0 of one direction everywhere
 }
 
 struct GratedPoint {
@@ -24,11 +25,14 @@ struct GratedPoint {
 
 fn grooves_seen(view: SurfaceView, grooves: Grooves) -> GroovePlace {
     var field = grooves.field;
-    field.axis = normalize(view.surface_from_object * field.axis);
+    let axis = view.surface_from_object * field.axis;
+    let shorter = inverseSqrt(max(dot(axis, axis), 1e-30));
+    field.axis = shorter * axis;
+    let bends = SCRATCHED_FILTER_STD * shorter * (view.surface_from_object * grooves.bends);
     let arm_m = view.surface_from_object * (view.position - grooves.center);
     let right_m = vec3f(SCRATCHED_FILTER_STD * view.footprint_x_m.xy, 0.0);
     let down_m = vec3f(SCRATCHED_FILTER_STD * view.footprint_y_m.xy, 0.0);
-    return groove_field_place(field, mat3x3f(field.axis, vec3f(0.0), vec3f(0.0)), arm_m, arm_m, vec3f(0.0, 0.0, 1.0), right_m, down_m);
+    return groove_field_place(field, mat3x3f(field.axis, bends[0], bends[1]), arm_m, arm_m, vec3f(0.0, 0.0, 1.0), right_m, down_m);
 }
 
 // Gratings lie side by side: `covered` is the sum of the shares of all that a point sees, beyond 1 each gets its part.

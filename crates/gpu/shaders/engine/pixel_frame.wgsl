@@ -69,11 +69,28 @@ fn pixel_frame(
     return PixelFrame(view, exact, surface_from_view);
 }
 
-fn pixel_turn(moves: mat2x2f, turns: mat2x3f, way: vec2f) -> vec3f {
+// A way in the plane of the surface in steps of the quad, along x and y.
+fn pixel_steps(moves: mat2x2f, way: vec2f) -> vec2f {
     let area = determinant(moves);
     let safe = select(area, 1e-30, abs(area) < 1e-30);
-    let shares = vec2f(way.x * moves[1].y - way.y * moves[1].x, moves[0].x * way.y - moves[0].y * way.x) / safe;
-    return turns * clamp(shares, vec2f(-4.0), vec2f(4.0));
+    let steps = vec2f(way.x * moves[1].y - way.y * moves[1].x, moves[0].x * way.y - moves[0].y * way.x) / safe;
+    return clamp(steps, vec2f(-4.0), vec2f(4.0));
+}
+
+fn pixel_turn(moves: mat2x2f, turns: mat2x3f, way: vec2f) -> vec3f {
+    return turns * pixel_steps(moves, way);
+}
+
+// Ways in steps of the quad, for what a rasteriser interpolates: to the point that the ray through the middle of the pixel meets, and by one pixel to the
+// right and down. Facets do not lie as the smooth normal has it, along which pixels are as far apart as these.
+fn pixel_ways(here: PixelFrame, position_view: vec3f, move_x: vec3f, move_y: vec3f) -> mat3x2f {
+    let turn = here.surface_from_view;
+    let moves = mat2x2f((turn * move_x).xy, (turn * move_y).xy);
+    return mat3x2f(
+        pixel_steps(moves, (turn * (here.position_view - position_view)).xy),
+        pixel_steps(moves, here.view.footprint_x_m.xy),
+        pixel_steps(moves, here.view.footprint_y_m.xy),
+    );
 }
 
 // Slopes that the pixel sees, with those of a normal map of a variance in each direction.
