@@ -66,6 +66,11 @@ impl WornObject {
         let mut gratings = Vec::new();
         for (i, row) in of_object("grating") {
             match row.get("laid") {
+                Some(laid) if row.get("mask").is_some() || is_by_uv(laid) => {
+                    warn!(
+                        "{NAME}: not drawn: grating[{i}], which has a mask or follows texture coordinates"
+                    )
+                }
                 Some(laid) => {
                     gratings.push(read_grating(gltf, laid, &format!("grating[{i}].laid"))?)
                 }
@@ -142,6 +147,11 @@ fn read_layer(
     pieces.sections.extend(vec![section; count]);
     pieces.layers.extend(vec![layer; count]);
     pieces.check().map_err(|error| format!("{way}: {error}"))
+}
+
+/// Whether grooves follow texture coordinates.
+fn is_by_uv(laid: &Value) -> bool {
+    laid["kind"] == "along-u" || laid["kind"] == "along-v"
 }
 
 fn read_grating(gltf: &gltf::Gltf, laid: &Value, way: &str) -> Result<GratingTexels, String> {

@@ -3,7 +3,7 @@ import * as THREE from 'three/webgpu';
 import { RectAreaLightTexturesLib } from 'three/addons/lights/RectAreaLightTexturesLib.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { hairlineScratches } from 'hairline-shaders/gltf';
-import { ScratchedNodeMaterial, loadTables, prepareEnvironment, readScratches, scratchesOn } from 'hairline-shaders/three';
+import { Grating, ScratchedNodeMaterial, loadTables, prepareEnvironment, readScratches, scratchesOn } from 'hairline-shaders/three';
 
 const send = (path, body) => fetch(path, { method: 'POST', body });
 const fail = (reason) => send('/failure', String(reason?.stack ?? reason));
@@ -119,6 +119,24 @@ function byHand(page, { geometry, scratches }, tables, what) {
   return all.add(mesh, ...page.lights.map(lightOf));
 }
 
+/** Makes a plane as three.js's own are: v rises, and triangles have no tangents. */
+function toUpwards(geometry) {
+  const { uv } = geometry.attributes;
+  for (let i = 0; i < uv.count; i += 1) uv.setY(i, 1 - uv.getY(i));
+  geometry.deleteAttribute('tangent');
+}
+
+function flipped(picture) {
+  return picture && Object.assign(picture.clone(), { source: new THREE.Source(picture.image), flipY: true, needsUpdate: true });
+}
+
+/** Gratings on such a plane, which give the same picture; without their masks, and along the other texture coordinate, which give others. */
+const GRATINGS = {
+  faceted: (grating) => new Grating({ ...grating, mask: flipped(grating.mask), directions: flipped(grating.directions) }),
+  unmasked: (grating) => new Grating({ ...grating, mask: null }),
+  swapped: (grating) => new Grating({ ...grating, kind: { 'along-u': 'along-v', 'along-v': 'along-u' }[grating.kind] ?? grating.kind }),
+};
+
 /** The same scene from a file, as the plug-in makes it; plain as GLTFLoader does without it, bare without scratches. */
 async function byFile(name, tables, what, told) {
   const isPlain = what === 'plain';
@@ -138,6 +156,11 @@ async function byFile(name, tables, what, told) {
       node.material = node.material.clone();
       node.material.scratches = null;
       node.material.gratings = [];
+    }
+    if (node.isMesh && what === 'faceted') toUpwards(node.geometry);
+    if (node.isMesh && GRATINGS[what]) {
+      node.material = node.material.clone();
+      node.material.gratings = node.material.gratings.map(GRATINGS[what]);
     }
   });
   if (!isPlain && lights === 0) throw new Error(`${name}: found no light in the file`);
@@ -176,6 +199,7 @@ function surround(scene, map, { intensity, mapFromWorld }, turn) {
 const BY_HAND = ['worn', 'bare'];
 const PICTURES = {
   plate: ['instanced', 'file', 'seeds', 'plain'], grooves: ['file', 'skinned'], tiles: ['file', 'seeds'], layers: ['file', 'seeds'], sky: ['turned'],
+  foil: ['faceted', 'unmasked', 'swapped'], bauble: ['swapped'],
 };
 
 async function draw(renderer, name, tables) {

@@ -14,8 +14,8 @@ use super::browser::{Folders, answers};
 use super::files::{install, write};
 
 /// The scenes in packages/hairline-shaders/test.
-const SCENES: [&str; 8] = [
-    "plate", "sheet", "grooves", "lacquer", "disc", "tiles", "layers", "sky",
+const SCENES: [&str; 10] = [
+    "plate", "sheet", "grooves", "lacquer", "disc", "foil", "bauble", "tiles", "layers", "sky",
 ];
 /// The most that a picture may be off, as rms over that of the picture.
 const LIMIT: f64 = 0.005;
@@ -96,14 +96,16 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
             let has_none = off > 10.0 * FILE_LIMIT;
             ensure!(has_none, "{name}: a file without the plug-in has scratches");
         }
-        // An environment that is turned a little.
-        if let Ok(turned) = find("turned") {
-            let off = error(&colours(turned), &beauty, &inner);
-            println!(
-                "three.js, {name}: an environment that is turned by 5 degrees: {:.1} %",
-                100.0 * off
-            );
-            ensure!(off > 4.0 * LIMIT, "{name}: no environment is seen");
+        for (sent, what) in [
+            ("turned", "an environment that is turned by 5 degrees"),
+            ("unmasked", "gratings without their masks"),
+            ("swapped", "gratings along the other texture coordinate"),
+        ] {
+            if let Ok(other) = find(sent) {
+                let off = error(&colours(other), &beauty, &inner);
+                println!("three.js, {name}: {what}: {:.1} %", 100.0 * off);
+                ensure!(off > 4.0 * LIMIT, "{name}: {what} is not seen");
+            }
         }
         let mut errors = vec![
             ("picture", error(&three_worn, &beauty, &inner)),
@@ -117,7 +119,11 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
                 ),
             ),
         ];
-        for (sent, what) in [("instanced", "as an instance"), ("skinned", "as a skin")] {
+        for (sent, what) in [
+            ("instanced", "as an instance"),
+            ("skinned", "as a skin"),
+            ("faceted", "without tangents"),
+        ] {
             if let Ok(other) = find(sent) {
                 errors.push((what, error(&colours(other), &beauty, &inner)));
             }

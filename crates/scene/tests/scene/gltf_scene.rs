@@ -427,6 +427,51 @@ fn a_grating_as_it_lies_is_in_the_frame_of_its_object_and_has_its_table() {
 }
 
 #[test]
+fn a_grating_by_texture_coordinates_has_no_axis_and_its_mesh_has_tangents() {
+    let text = "
+        camera = { position_m = [0.0, 0.0, 0.3], target_m = [0.0, 0.0, 0.0], up = [0.0, 1.0, 0.0] }
+        material = [{ name = \"m\", kind = \"metal\", metal = \"gold\" }]
+        object = [
+            { name = \"o\", material = \"m\", shape = { sphere = { radius_m = 0.05 } } },
+            { name = \"p\", material = \"m\", shape = { sphere = { radius_m = 0.01 } } },
+        ]
+        grating = [
+            { object = \"o\", pattern = \"uv\", along = \"v\", pitch_um = 20.0, mask = \"mask.png\", directions = \"mask.png\" },
+            { object = \"p\", pattern = \"circular\", pitch_um = 20.0, mask = \"mask.png\" },
+            { object = \"p\", pattern = \"circular\", pitch_um = 20.0, mask = \"mask.png\", tile_m = 0.01 },
+        ]
+    ";
+    let dir = temporary_dir();
+    let picture = image::RgbImage::from_pixel(2, 2, image::Rgb([255, 128, 0]));
+    picture.save(dir.path().join("mask.png")).unwrap();
+    let description = Description::from_toml(text, Path::new("rows.toml")).unwrap();
+    let (root, chunk) = taken_apart(&exported(&description, dir.path()).bytes);
+    let gratings = &root["extensions"]["HAIRLINE_scratches"]["grating"];
+    assert_eq!(gratings[0]["laid"]["kind"], "along-v");
+    assert_eq!(gratings[0]["laid"].get("axis"), None);
+    assert_eq!(
+        (&gratings[0]["mask"], &gratings[0]["directions"]),
+        (&json!(0), &json!(0))
+    );
+    assert_eq!(gratings[1]["laid"]["kind"], "circular");
+    assert_eq!(gratings[2].get("laid"), None);
+    // Grooves around the axis: tangents are horizontal units, across the way to the middle.
+    let attributes = |mesh: usize| &root["meshes"][mesh]["primitives"][0]["attributes"];
+    assert_eq!(attributes(1).get("TANGENT"), None);
+    let floats = |name: &str| {
+        let words = words(&root, &chunk, &attributes(0)[name]);
+        words.into_iter().map(f32::from_bits).collect::<Vec<f32>>()
+    };
+    let (tangents, normals) = (floats("TANGENT"), floats("NORMAL"));
+    assert_eq!(tangents.len() / 4, normals.len() / 3);
+    for (tangent, normal) in tangents.chunks(4).zip(normals.chunks(3)) {
+        let across = tangent[0] * normal[0] + tangent[1] * normal[1];
+        assert!(across.abs() < 1e-6 && tangent[2] == 0.0, "{tangent:?}");
+        assert!((tangent[0].hypot(tangent[1]) - 1.0).abs() < 1e-6 && tangent[3] == 1.0);
+    }
+}
+
+#[test]
 fn lights_without_words_have_a_node_that_names_their_table() {
     let (dir, description) = whole();
     let (root, _) = taken_apart(&exported(&description, dir.path()).bytes);

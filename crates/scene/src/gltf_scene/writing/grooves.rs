@@ -8,7 +8,9 @@ use hairline_model::gltf_file::GltfFile;
 use serde_json::{Value, json};
 
 use crate::description::Description;
+use crate::grating::{GrooveField, PlainField};
 use crate::material_optics::ScratchTables;
+use crate::picture_lie::PictureLie;
 use crate::scene::Scene;
 
 /// Stands for everywhere: JSON has no infinity.
@@ -17,7 +19,8 @@ const FAR_M: f64 = 1e9;
 /// Tables of gratings that are in the file, by their index.
 pub(super) type Known = HashMap<usize, usize>;
 
-/// Adds a grating; `tables` are made where they are asked for, which takes seconds. None where its grooves follow a picture, spots or texture coordinates, or lie on several materials.
+/// Adds a grating; `tables` are made where they are asked for, which takes seconds. None where its grooves lie in spots or on several materials, or where its
+/// mask is laid on from three sides.
 pub(super) fn write(
     described: &Description,
     scene: &Scene,
@@ -37,20 +40,18 @@ pub(super) fn write(
         return None;
     };
     let grating = in_scene.gratings.get(at).filter(|_| !own.hidden)?;
-    if grating.mask.is_some() {
+    if grating.mask.is_some_and(|it| it.lie != PictureLie::ByUv) {
         return None;
     }
-    let field = grating.field.plain()?;
+    let field = field(&grating.field)?;
     let index = tables.grating_table(grating, material)?;
     let table = &tables.tables[index];
     let texels = *known.entry(index).or_insert_with(|| {
         file.push_wholes(table.for_engines(grating.row.depth_nm).as_flattened())
     });
     let object_from_world = described.objects[object].world_from_object().inverse();
-    let axis = object_from_world.transform_vector3(field.axis);
-    Some(json!({
+    let mut laid = json!({
         "kind": field.kind,
-        "axis": axis.normalize_or(DVec3::Z).to_array(),
         "center": object_from_world.transform_point3(field.center_m).to_array(),
         "radii_m": grating.radii_m.map(|radius_m| radius_m.min(FAR_M)),
         "curvature_per_m": field.curvature_per_m,
@@ -59,5 +60,25 @@ pub(super) fn write(
         "coherence_um": scene.materials[material].coherence_um,
         "is_fine": table.by_incidence,
         "texels": texels,
-    }))
+    });
+    if let Some(axis) = object_from_world
+        .transform_vector3(field.axis)
+        .try_normalize()
+    {
+        laid["axis"] = json!(axis.to_array());
+    }
+    Some(laid)
+}
+
+/// A field in the words of the extension; along texture coordinates it has no axis. Pictures are keys of the grating.
+fn field(field: &GrooveField) -> Option<PlainField> {
+    match *field {
+        GrooveField::ByUv { uv, center_m } => Some(PlainField {
+            kind: if uv.along_v { "along-v" } else { "along-u" },
+            axis: DVec3::ZERO,
+            center_m,
+            curvature_per_m: 0.0,
+        }),
+        _ => field.plain(),
+    }
 }

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::looks;
 use super::nodes::{children, node};
-use crate::description::{Description, FileUse, Object, Surface};
+use crate::description::{Description, FileUse, Grating, GroovePattern, Object, Surface};
 use crate::error::Error;
 use crate::gltf_scene::extension::EXTENSION;
 use crate::loader::Loader;
@@ -88,8 +88,13 @@ impl<'a> Objects<'a> {
             let name = match &object.surface {
                 Surface::Shape(shape) => {
                     let material = self.look(object);
-                    outer["mesh"] =
-                        json!(self.mesh(&object.name, &shape::surface(shape), material));
+                    let surface = shape::surface(shape);
+                    let mut attributes = self.attributes(&surface);
+                    if self.has_grooves_by_uv(&object.name) {
+                        attributes["TANGENT"] = json!(self.tangents(&surface));
+                    }
+                    let mesh = self.mesh(&object.name, attributes, &surface, material);
+                    outer["mesh"] = json!(mesh);
                     None
                 }
                 Surface::Mesh(path) => {
@@ -182,7 +187,8 @@ impl<'a> Objects<'a> {
         let material = self.look(object);
         let turned = turned(surface, &object_from_file.transpose());
         self.file.pushes_own = true;
-        let mesh = self.mesh(name, &turned, material);
+        let attributes = self.attributes(&turned);
+        let mesh = self.mesh(name, attributes, &turned, material);
         let leaf = self.file.push("nodes", json!({ "mesh": mesh }));
         self.file.pushes_own = false;
         let mut inner = node(name, &DMat4::from_mat3(object_from_file));
@@ -217,7 +223,23 @@ impl<'a> Objects<'a> {
         self.loader.arrays.mesh(path).is_some()
     }
 
-    fn mesh(&mut self, name: &str, surface: &Triangles, material: Option<usize>) -> usize {
+    /// Whether a grating of the object follows its texture coordinates, as its tangents say.
+    fn has_grooves_by_uv(&self, object: &str) -> bool {
+        let is_by_uv = |it: &Grating| matches!(it.pattern, GroovePattern::Uv { .. });
+        let mut gratings = self.described.gratings.iter();
+        gratings.any(|it| it.object == object && is_by_uv(it))
+    }
+
+    fn tangents(&mut self, surface: &Triangles) -> usize {
+        let vertices = surface.vertices.iter();
+        let all = vertices.flat_map(|it| {
+            let sign = it.handedness as f32;
+            it.tangent.as_vec3().extend(sign).to_array()
+        });
+        self.file.push_floats(&all.collect::<Vec<f32>>(), 4, false)
+    }
+
+    fn attributes(&mut self, surface: &Triangles) -> Value {
         let vertices = surface.vertices.iter();
         let flat = |of: fn(&hairline_model::surface::Vertex) -> [f32; 3]| -> Vec<f32> {
             vertices.clone().flat_map(of).collect()
@@ -225,12 +247,22 @@ impl<'a> Objects<'a> {
         let positions = flat(|it| it.position_m.as_vec3().to_array());
         let normals = flat(|it| it.normal.as_vec3().to_array());
         let uvs: Vec<f32> = vertices.clone().flat_map(|it| it.uv.to_array()).collect();
+        json!({
+            "POSITION": self.file.push_floats(&positions, 3, true),
+            "NORMAL": self.file.push_floats(&normals, 3, false),
+            "TEXCOORD_0": self.file.push_floats(&uvs, 2, false),
+        })
+    }
+
+    fn mesh(
+        &mut self,
+        name: &str,
+        attributes: Value,
+        surface: &Triangles,
+        material: Option<usize>,
+    ) -> usize {
         let mut primitive = json!({
-            "attributes": {
-                "POSITION": self.file.push_floats(&positions, 3, true),
-                "NORMAL": self.file.push_floats(&normals, 3, false),
-                "TEXCOORD_0": self.file.push_floats(&uvs, 2, false),
-            },
+            "attributes": attributes,
             "indices": self.file.push_wholes(surface.triangles.as_flattened()),
         });
         if let Some(material) = material {
