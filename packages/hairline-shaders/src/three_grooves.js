@@ -45,7 +45,8 @@ function triangleAxes(channel, isFlipped) {
 
 /** Look-ups of the direction of grooves by texture coordinates, in the frame of the geometry. */
 function directionsOf({ kind, directions }, geometry) {
-  const axes = geometry.hasAttribute('tangent') ? ownAxes() : triangleAxes(directions?.channel ?? 0, directions?.flipY);
+  const hasAxes = ['tangent', 'normal'].every((name) => geometry.hasAttribute(name));
+  const axes = hasAxes ? ownAxes() : triangleAxes(directions?.channel ?? 0, directions?.flipY);
   const means = directions && meansOf(directions);
   return (off) => {
     const [tangent, bitangent] = axes(off);

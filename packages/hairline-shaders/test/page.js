@@ -277,23 +277,32 @@ async function outlives(renderer, tables) {
   if (!plain.split(',').some((value, i) => i % 4 < 3 && value > 0)) throw new Error('WebGL: found a black picture');
 }
 
-/** A file with a mistake in a layer has a message, and is shown plain. */
-async function refusesLayers(tables) {
-  const bytes = new Uint8Array(await (await fetch('/pages/layers/seeds.glb')).arrayBuffer());
-  const text = Array.from(bytes, (byte) => String.fromCharCode(byte)).join('');
-  for (const [right, wrong, message] of [
-    ['"count":300', '"count":-30', /scratches\[1\]\.count: found .*-30.*: "tiles" is shown plain/],
-    ['"mask":0', '"mask":9', /scratches\[1\]\.where\.mask: found 9; must be the number of one of `files`: "tiles" is shown plain/],
-    ['"start_m":', '"start_n":', /scratches\[3\]\.file\.start_m: found undefined; must be the number of an accessor: "tiles" is shown plain/],
-  ]) {
-    if (!text.includes(right)) throw new Error(`layers: found no ${right}`);
-    const told = [];
-    const loader = new GLTFLoader().register(hairlineScratches({ tables, warn: (said) => told.push(said) }));
-    const { scene } = await loader.parseAsync(Uint8Array.from(text.replace(right, wrong), (char) => char.charCodeAt(0)).buffer, '');
-    if (told.length !== 1 || !message.test(told[0])) throw new Error(`layers: found the messages ${told}; must be ${message}`);
-    scene.traverse(({ material }) => {
-      if (material?.isScratchedNodeMaterial) throw new Error(`layers: found scratches after ${told}`);
-    });
+/** A file with a mistake in a layer or a grating has a message, and is shown plain. */
+async function refusesMistakes(tables) {
+  const mistakes = {
+    'layers/seeds.glb': [
+      ['"count":300', '"count":-30', /scratches\[1\]\.count: found .*-30.*: "tiles" is shown plain/],
+      ['"mask":0', '"mask":9', /scratches\[1\]\.where\.mask: found 9; must be the number of one of `files`: "tiles" is shown plain/],
+      ['"start_m":', '"start_n":', /scratches\[3\]\.file\.start_m: found undefined; must be the number of an accessor: "tiles" is shown plain/],
+    ],
+    'foil/worn.glb': [
+      ['"mask":0', '"mask":9', /grating\[0\]\.mask: found 9; must be the number of one of `files`: "plate" is shown plain/],
+      ['"kind":"along-v"', '"kind":"along-w"', /kind: found "along-w"; must be one of along, .*: "plate" is shown plain/],
+    ],
+  };
+  for (const [file, rows] of Object.entries(mistakes)) {
+    const bytes = new Uint8Array(await (await fetch(`/pages/${file}`)).arrayBuffer());
+    const text = Array.from(bytes, (byte) => String.fromCharCode(byte)).join('');
+    for (const [right, wrong, message] of rows) {
+      if (!text.includes(right)) throw new Error(`${file}: found no ${right}`);
+      const told = [];
+      const loader = new GLTFLoader().register(hairlineScratches({ tables, warn: (said) => told.push(said) }));
+      const { scene } = await loader.parseAsync(Uint8Array.from(text.replace(right, wrong), (char) => char.charCodeAt(0)).buffer, '');
+      if (told.length !== 1 || !message.test(told[0])) throw new Error(`${file}: found the messages ${told}; must be ${message}`);
+      scene.traverse(({ material }) => {
+        if (material?.isScratchedNodeMaterial) throw new Error(`${file}: found scratches after ${told}`);
+      });
+    }
   }
 }
 
@@ -314,7 +323,7 @@ try {
   const tables = await loadTables();
   for (const name of new URLSearchParams(location.search).get('scenes').split(',')) await draw(renderer, name, tables);
   await refusesMaps();
-  await refusesLayers(tables);
+  await refusesMistakes(tables);
   await outlives(renderer, tables);
   await send('/done', '');
 } catch (error) {
