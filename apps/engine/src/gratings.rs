@@ -44,7 +44,7 @@ pub fn lay_gratings(
 ) -> Result<Vec<Grooves>, JsError> {
     let metal = metal.map(|name| metal_of(&name)).transpose()?;
     let rows = description::Grating::from_json(parsed(rows)?).map_err(thrown)?;
-    let laid = LaidGrating::lay(&rows, metal, coherence_um).map_err(thrown)?;
+    let laid = LaidGrating::lay(&rows, metal, coherence_um);
     let laid = (0..).zip(laid).map(|(i, grating)| {
         let made = grating.map(Grooves);
         made.ok_or_else(|| {

@@ -1,26 +1,13 @@
 //! Gratings of one mesh: where their grooves run, and the texture of what they send.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use hairline_optics::metal::Metal;
 use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_GRATING_ROWS, ROWS, last_depth_nm};
-use hairline_scene::description;
-use hairline_scene::{
-    Arrays, Base, Description, Error, Loader, MeshArrays, Scene, SceneBuilder, ScratchTables,
-};
+use hairline_scene::{Base, Scene, ScratchTables, description, object_of_gratings};
 
 /// Fields of grooves, in the order of the constants of groove_field.wgsl.
 const KINDS: [&str; 4] = ["along", "circular", "radial", "spun"];
-/// Name of the mesh of [`LaidGrating::lay`].
-const MESH: &str = "mesh";
-/// Rest of its scene, of which no picture is rendered.
-const REST: &str = "
-studio = { hidden = true }
-camera = { position_m = [0.0, 0.0, 1.0], target_m = [0.0, 0.0, 0.0], up = [0.0, 1.0, 0.0] }
-material = [{ name = 'material', kind = 'mirror' }]
-object = [{ name = 'mesh', mesh = 'mesh', material = 'material' }]
-";
 /// Stands for everywhere.
 const FAR_M: f64 = 1e9;
 
@@ -110,35 +97,22 @@ impl LaidGrating {
     /// Rows of grooves in a metal, or in a colour of metal, in the frame of a mesh whose unit is the metre, as
     /// [`Pieces::lay`](crate::Pieces::lay) lays scratches. `coherence_um` is the width of the material's coherence window. Fine rows take seconds. None in
     /// the place of those in spots.
-    ///
-    /// # Errors
-    /// A picture that is not there, by the key of the row.
     pub fn lay(
         rows: &[description::Grating],
         metal: Option<Metal>,
         coherence_um: f64,
-    ) -> Result<Vec<Option<Self>>, Error> {
-        let mut described = Description::from_toml(REST, Path::new("gratings"))?;
-        described.gratings = rows.to_vec();
-        for row in &mut described.gratings {
-            row.object = MESH.to_owned();
-        }
-        let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        let uvs = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-        let mut named = Arrays::default();
-        let any = MeshArrays::new(corners, vec![[0, 1, 2]], None, Some(uvs))?;
-        named.insert_mesh(MESH, Arc::new(any));
-        let loader = Loader {
-            arrays: &named,
-            ..Loader::default()
-        };
-        let mut scene = SceneBuilder::new().build(&loader, &described, Path::new("."))?;
-        let material = &mut scene.materials[0];
-        material.coherence_um = coherence_um;
+    ) -> Vec<Option<Self>> {
+        let mut scene = Scene::of_object(object_of_gratings(rows), coherence_um);
         if let Some(metal) = metal {
-            material.base = Base::Metal(metal);
+            scene.materials[0].base = Base::Metal(metal);
         }
-        Ok(Self::of_scene(&scene, 0))
+        let mut laid = Self::of_scene(&scene, 0);
+        for (grating, row) in laid.iter_mut().zip(rows) {
+            if let Some(grating) = grating {
+                grating.has_mask = row.mask.is_some();
+            }
+        }
+        laid
     }
 
     /// The gratings of one of a scene's objects, in world space. None in the place of those in spots.

@@ -11,7 +11,7 @@ pub struct Vertex {
     pub position_m: DVec3,
     /// Unit.
     pub normal: DVec3,
-    /// Unit, along increasing u; or zero for "any".
+    /// Unit, along increasing u; or zero for that of the texture coordinates.
     pub tangent: DVec3,
     /// The bitangent is `normal x tangent` times this, as in glTF.
     pub handedness: f64,
@@ -78,13 +78,14 @@ impl Surface {
             mesh.colors
                 .extend(self.vertices.iter().map(|vertex| vertex.color));
         }
-        for vertex in &self.vertices {
+        let tangents = self.tangents();
+        for (vertex, (tangent, handedness)) in self.vertices.iter().zip(tangents) {
             let position = world_from_local.transform_point3(vertex.position_m);
             let normal = (mirror * (cofactor * vertex.normal)).normalize_or(DVec3::Z);
-            let tangent = perpendicular(linear * vertex.tangent, normal);
+            let tangent = perpendicular(linear * tangent, normal);
             mesh.positions_m.push(position.as_vec3());
             mesh.normals.push(normal.as_vec3());
-            let w = (vertex.handedness * mirror) as f32;
+            let w = (handedness * mirror) as f32;
             mesh.tangents.push(tangent.as_vec3().extend(w));
             mesh.uvs.push(vertex.uv);
         }
@@ -98,6 +99,48 @@ impl Surface {
                 mesh.triangle_materials.push(material);
             }
         }
+    }
+
+    /// Tangents and handedness of the vertices. Those without a tangent get the mean of their triangles' derivatives of the position by u: grooves and
+    /// brushing follow it. It is zero where there are no texture coordinates.
+    fn tangents(&self) -> Vec<(DVec3, f64)> {
+        let own = self.vertices.iter().map(|it| (it.tangent, it.handedness));
+        let mut tangents: Vec<_> = own.collect();
+        let is_open = |vertex: &Vertex| vertex.tangent == DVec3::ZERO;
+        if !self
+            .vertices
+            .iter()
+            .any(|it| is_open(it) && it.uv != Vec2::ZERO)
+        {
+            return tangents;
+        }
+        let mut sides = vec![0.0; self.vertices.len()];
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|v| self.vertices[v as usize]);
+            let [e1, e2] = [b, c].map(|it| it.position_m - a.position_m);
+            let [d1, d2] = [b, c].map(|it| (it.uv - a.uv).as_dvec2());
+            let area = d1.perp_dot(d2);
+            let along_u = (e1 * d2.y - e2 * d1.y) / area;
+            if !along_u.is_finite() {
+                continue;
+            }
+            for v in triangle
+                .map(|v| v as usize)
+                .into_iter()
+                .filter(|v| is_open(&self.vertices[*v]))
+            {
+                tangents[v].0 += along_u;
+                // The bitangent is the way that v falls.
+                let around = e1.cross(e2).dot(self.vertices[v].normal);
+                sides[v] -= area.signum() * around;
+            }
+        }
+        for ((_, handedness), side) in tangents.iter_mut().zip(sides) {
+            if side != 0.0 {
+                *handedness = side.signum();
+            }
+        }
+        tangents
     }
 
     /// Winds each triangle as the normals of its vertices say, and returns how many were wound the other way. Exports of mirrored parts
@@ -206,6 +249,39 @@ mod tests {
             30f64.to_radians(),
         );
         assert!(free.abs_diff_eq(expected, 1e-14));
+    }
+
+    #[test]
+    fn tangents_follow_texture_coordinates() {
+        // A strip around a cylinder; u runs around it, and back where `turn` is negative.
+        for (turn, handedness) in [(1.0, 1.0), (-1.0, -1.0)] {
+            let vertex = |i: u32| {
+                let (column, row) = (i / 2, f64::from(i % 2));
+                let angle = 0.2 * f64::from(column);
+                let normal = DVec3::new(angle.cos(), angle.sin(), 0.0);
+                Vertex {
+                    position_m: normal + row * DVec3::Z,
+                    normal,
+                    uv: Vec2::new((turn * angle) as f32, (1.0 - row) as f32),
+                    ..Vertex::default()
+                }
+            };
+            let quad = |i: u32| [[2 * i, 2 * i + 2, 2 * i + 3], [2 * i, 2 * i + 3, 2 * i + 1]];
+            let surface = Surface {
+                vertices: (0..20).map(vertex).collect(),
+                triangles: (0..9).flat_map(quad).collect(),
+            };
+            for scale in [DVec3::ONE, DVec3::new(1.0, 1.0, -1.0)] {
+                let mut mesh = Mesh::default();
+                surface.bake(&DMat4::from_scale(scale), 0, &mut mesh);
+                for (tangent, vertex) in mesh.tangents.iter().zip(&surface.vertices) {
+                    let around = turn * DVec3::Z.cross(vertex.normal);
+                    let along = tangent.truncate().as_dvec3();
+                    assert!(along.dot(around) > 0.99, "{along} {around}");
+                    assert_eq!(f64::from(tangent.w), handedness * scale.z);
+                }
+            }
+        }
     }
 
     #[test]

@@ -83,12 +83,12 @@ pub enum GrooveField {
     },
 }
 
-/// Grooves along a direction or about an axis, in the words of HAIRLINE_scratches: programs that draw no pictures on surfaces draw these.
+/// Where grooves run, in the words of HAIRLINE_scratches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlainField {
-    /// `"along"`, `"circular"`, `"radial"` or `"spun"`.
+    /// `"along"`, `"circular"`, `"radial"` or `"spun"`; `"along-u"` or `"along-v"`, by texture coordinates.
     pub kind: &'static str,
-    /// The direction of the grooves, of any length, or a unit vector along the axis.
+    /// The direction of the grooves, of any length, or a unit vector along the axis; zero by texture coordinates.
     pub axis: DVec3,
     /// Point from which [`Grating::radii_m`] are measured.
     pub center_m: DVec3,
@@ -163,7 +163,7 @@ impl GroovePlace {
 }
 
 impl GrooveField {
-    /// The field without pictures; none where grooves lie in spots or follow texture coordinates.
+    /// The field without its pictures; none where grooves lie in spots.
     pub fn plain(&self) -> Option<PlainField> {
         let (kind, axis, center_m, curvature_per_m) = match *self {
             Self::Along {
@@ -179,7 +179,11 @@ impl GrooveField {
                 Bearing::Radial => ("radial", axis, center_m, 0.0),
                 Bearing::Spun { curvature_per_m } => ("spun", axis, center_m, curvature_per_m),
             },
-            Self::Spots { .. } | Self::ByUv { .. } => return None,
+            Self::ByUv { uv, center_m } => {
+                let kind = if uv.along_v { "along-v" } else { "along-u" };
+                (kind, DVec3::ZERO, center_m, 0.0)
+            }
+            Self::Spots { .. } => return None,
         };
         Some(PlainField {
             kind,

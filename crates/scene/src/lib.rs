@@ -78,7 +78,7 @@ pub use hairline_model::mesh_file::LeftOut;
 pub use hairline_model::{text, texture_lookup};
 pub use loader::{Loader, Progress, Stage};
 pub use material_optics::{GratingSpectrum, MaterialOptics, Reflector, ScratchTables};
-pub use on_mesh::lay_on_mesh;
+pub use on_mesh::{lay_on_mesh, object_of_gratings};
 pub use picture_lie::{PictureLie, three_sides};
 pub use polygon::vector_area_m2;
 pub use scene::*;

@@ -86,6 +86,26 @@ pub fn lay_on_mesh(
     })
 }
 
+/// An object with rows of grooves, in the frame of a mesh whose unit is the metre. Their pictures are left out. Its mesh stands for the surface's material
+/// alone.
+pub fn object_of_gratings(rows: &[description::Grating]) -> Object {
+    let gratings = rows
+        .iter()
+        .map(|row| row.in_scene(&DMat4::IDENTITY, None, None));
+    Object {
+        name: String::new(),
+        mesh: Arc::new(Mesh {
+            triangle_materials: vec![0],
+            ..Mesh::default()
+        }),
+        scratches: Arc::default(),
+        segments: Arc::default(),
+        parts: Arc::default(),
+        gratings: gratings.collect(),
+        is_lamp: false,
+    }
+}
+
 /// Refuses what a mesh in memory does not have.
 fn refuse_parts(layer: &description::Scratches, key: &str) -> Result<(), Error> {
     let keys = [

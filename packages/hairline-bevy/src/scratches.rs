@@ -59,7 +59,7 @@ impl Scratches {
     ) -> Result<Self, BevyError> {
         let text = tables("grating", gratings)?;
         let rows = description::Grating::from_toml(&text, Path::new("gratings"))?;
-        let laid = LaidGrating::lay(&rows, metal, DEFAULT_COHERENCE_UM)?;
+        let laid = LaidGrating::lay(&rows, metal, DEFAULT_COHERENCE_UM);
         self.gratings.extend(drawn(laid));
         Ok(self)
     }

@@ -4,7 +4,7 @@ import {
   Box3, DataTexture, LinearFilter, LinearMipmapLinearFilter, Matrix3, Matrix4, Mesh, RectAreaLight, RepeatWrapping, RGBAFormat, Vector3,
 } from 'three/webgpu';
 import { COHERENCE_UM } from './data.js';
-import { Grating } from './gratings.js';
+import { Grating, layGratings } from './gratings.js';
 import { ScratchedNodeMaterial, numbersOf } from './three.js';
 import { Scratches, layScratches, profilesOf } from './scratches.js';
 import { metals } from './metals.js';
@@ -124,14 +124,15 @@ class HairlineScratches {
     });
     const meshes = found.flatMap((mesh) => (mesh.isInstancedMesh ? apart(mesh) : mesh));
     const all = await this.scratches(node, object, meshes, extension);
+    const described = (extension.material ?? []).find(({ name }) => name === object.material);
     const gratings = [];
     for (const grating of (extension.grating ?? []).filter((it) => it.object === object.name && !it.hidden)) {
-      if (grating.laid) gratings.push(await this.grating(grating, `grating[${extension.grating.indexOf(grating)}]`, extension));
+      const isDrawn = grating.pattern !== 'swirl' && grating.tile_m === undefined;
+      if (isDrawn) gratings.push(await this.grating(grating, `grating[${extension.grating.indexOf(grating)}]`, extension, described));
       else this.warn(`not drawn: grating ${grating.name ? `"${grating.name}" ` : ''}of pattern ${grating.pattern} on "${object.name}"`);
     }
     if (all === null && gratings.length === 0) return;
     const fromObject = node.matrixWorld;
-    const described = (extension.material ?? []).find(({ name }) => name === object.material);
     for (const mesh of meshes) {
       if (!isAtRest(mesh)) {
         this.warn(`scratches on skins and morphs that are not in their pose of rest are not drawn: those on "${object.name}"`);
@@ -172,9 +173,16 @@ class HairlineScratches {
   }
 
   /** A grating with its table and its pictures, in the frame of its object. */
-  async grating(row, way, extension) {
-    const { laid } = row;
+  async grating(row, way, extension, described) {
+    const { laid, mask: _, directions: __, ...bare } = row;
     const [mask, directions] = await Promise.all(['mask', 'directions'].map((key) => this.groovePicture(row, key, way, extension)));
+    if (!laid) {
+      try {
+        return { ...layGratings(bare, { metal: metalOf(described), coherenceUm: described?.coherence_um })[0], mask, directions };
+      } catch ({ message }) {
+        throw new Error(message.replace(/^grating\[0\]/, way));
+      }
+    }
     return {
       kind: laid.kind, axis: laid.axis, center: laid.center, radiiM: laid.radii_m, curvaturePerM: laid.curvature_per_m, coverage: laid.coverage,
       angleStdRad: laid.angle_std_rad, coherenceUm: laid.coherence_um, texels: await this.numbers(laid, 'texels', `${way}.laid`), mask, directions,
@@ -262,7 +270,7 @@ class HairlineScratches {
       if (from[key] > 0) this.warn(`drawn under environments, not under lights: ${key}`);
     }
     if (described?.cover) this.warn(`not drawn: the plate over the material "${described.name}"`);
-    const metal = metals.includes(described?.metal) ? described.metal : null;
+    const metal = metalOf(described);
     const taken = {};
     for (const key of KEYS) {
       const isOfMetal = metal !== null && (key === 'color' || key === 'metalness');
@@ -319,6 +327,9 @@ function areaLight(color = [1, 1, 1], intensity = 1000, width, height) {
   light.color.setRGB(...color);
   return light;
 }
+
+/** The metal of the scene's own material, by its name; null where it has none. */
+const metalOf = (described) => (metals.includes(described?.metal) ? described.metal : null);
 
 /** The way to a layer in the file. */
 const wayOf = (layer, extension) => `scratches[${extension.scratches.indexOf(layer)}]`;

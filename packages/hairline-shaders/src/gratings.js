@@ -1,4 +1,6 @@
 // Gratings: rows of grooves side by side, whose light interferes, with the table of what they send.
+import { layGratings as lay } from '../engine/engine.js';
+import { using } from './scratches.js';
 import { COHERENCE_UM, COLUMNS, FINE_ROWS, GRATING_ROWS, ROW_NM } from './data.js';
 
 /** With the constants of groove_field.wgsl. Grooves by texture coordinates lie along a direction that differs from pixel to pixel. */
@@ -18,7 +20,7 @@ export class Grating {
     const found = texels instanceof Uint32Array ? texels.length / (4 * COLUMNS) : 0;
     const isRight = Number.isInteger(found) && (found === FINE_ROWS || (found >= 2 && found <= GRATING_ROWS));
     if (!isRight) {
-      const right = `must be a Uint32Array of ${COLUMNS} columns and 2 to ${GRATING_ROWS} rows, of a fine grating ${FINE_ROWS}, four numbers each: of a file or of loadGrating()`;
+      const right = `must be a Uint32Array of ${COLUMNS} columns and 2 to ${GRATING_ROWS} rows, of a fine grating ${FINE_ROWS}, four numbers each: of a file, of layGratings() or of loadGrating()`;
       throw new Error(`texels: found ${texels?.length ?? 'none'}; ${right}`);
     }
     if (!Object.hasOwn(KINDS, kind)) throw new Error(`kind: found ${JSON.stringify(kind)}; must be one of ${Object.keys(KINDS).join(', ')}`);
@@ -50,6 +52,29 @@ export class Grating {
     const { axis, kind, center, curvaturePerM, radiiM, coverage, angleStdRad, coherenceUm, rows } = this;
     return [...axis, KINDS[kind], ...center, curvaturePerM, ...radiiM, coverage, angleStdRad, coherenceUm, Number(rows === FINE_ROWS), 0, (rows - 1) * ROW_NM];
   }
+}
+
+/**
+ * Rows of grooves by the keys of `[[grating]]` in docs/scene.md, but `object`: a Grating for each that is not hidden. `metal` null: one given by its colour.
+ * `pictures`: Textures of three.js by the names that `mask` and `directions` of rows have. Brightness of orders is that of `theory = "scalar"`.
+ */
+export function layGratings(rows, { metal = null, coherenceUm = COHERENCE_UM, pictures = {} } = {}) {
+  const shown = [rows].flat().filter(({ hidden }) => !hidden);
+  const bare = shown.map(({ mask, directions, ...row }) => ({ object: 'mesh', ...row }));
+  const pictureOf = (i, key) => {
+    const name = shown[i][key];
+    if (name !== undefined && !pictures[name]) throw new Error(`grating[${i}].${key}: found ${JSON.stringify(name)}; must be the name of one of \`pictures\``);
+    return name === undefined ? null : pictures[name];
+  };
+  return lay(JSON.stringify(bare), metal ?? undefined, coherenceUm).map((grooves, i) => using(grooves, (held) => {
+    const numbers = Array.from(held.numbers());
+    const [curvaturePerM, coverage, angleStdRad] = numbers.slice(8);
+    const kind = held.kind();
+    return new Grating({
+      texels: held.texels(), kind, axis: isByUv({ kind }) ? undefined : numbers.slice(0, 3), center: numbers.slice(3, 6), radiiM: numbers.slice(6, 8).map((radius) => Math.min(radius, 1e9)),
+      curvaturePerM, coverage, angleStdRad, coherenceUm, mask: pictureOf(i, 'mask'), directions: pictureOf(i, 'directions'),
+    });
+  }));
 }
 
 /** Fetches the table of a grating that the package has, "cd" or "dvd" in aluminium; `options` are those of Grating. */

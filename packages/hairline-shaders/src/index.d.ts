@@ -1,6 +1,6 @@
-import type { Layer } from './layer.js';
+import type { GratingRow, Layer } from './layer.js';
 
-export type { Layer } from './layer.js';
+export type { GratingRow, Layer } from './layer.js';
 
 /** All shader modules in one file. */
 export const hairlineWgsl: string;
@@ -103,7 +103,7 @@ export interface GroovePicture { readonly isTexture: true; channel: number; flip
 /** Grooves along a direction, about an axis, or along texture coordinates. */
 export type GratingKind = 'along' | 'circular' | 'radial' | 'spun' | 'along-u' | 'along-v';
 export interface GratingOptions {
-  /** Texels of the table, rgba32uint, 512 wide; 256 high, or 512 of a fine grating. */
+  /** Texels of the table, rgba32uint, 512 wide; 2 to 256 high, or 512 of a fine grating. */
   texels: Uint32Array;
   kind?: GratingKind;
   /** In the mesh's own frame; not of 'along-u' and 'along-v'. */
@@ -139,5 +139,15 @@ export class Grating implements Required<GratingOptions> {
   /** `Grooves` of grated_surface.wgsl. */
   readonly numbers: number[];
 }
+export interface GratingLaying {
+  /** Null: one given by its colour. */
+  metal?: Metal | null;
+  /** The material's. */
+  coherenceUm?: number;
+  /** By the names that `mask` and `directions` of the rows have. */
+  pictures?: Record<string, GroovePicture>;
+}
+/** Makes the tables of rows of grooves, as Hairline does with `theory = "scalar"`; of hidden rows none. */
+export function layGratings(rows: GratingRow | GratingRow[], options?: GratingLaying): Grating[];
 /** Fetches the table of a grating that the package has, in aluminium. */
 export function loadGrating(name: 'cd' | 'dvd', options?: Omit<GratingOptions, 'texels'>, url?: string | URL): Promise<Grating>;

@@ -3,5 +3,5 @@ export { hairlineWgsl } from './wgsl.js';
 export { Tables, loadTables } from './tables.js';
 export { makeScratchTables, scratchTables } from './table.js';
 export { Scratches, layScratches, readScratches, scratchTree } from './scratches.js';
-export { Grating, loadGrating } from './gratings.js';
+export { Grating, layGratings, loadGrating } from './gratings.js';
 export { curveOf, metalColor, metals } from './metals.js';

@@ -110,7 +110,7 @@ export function profilesOf(profile, count) {
 }
 
 /** Calls with what WebAssembly holds, and lets it go; after an error the browser does. */
-function using(held, call) {
+export function using(held, call) {
   const made = call(held);
   held.free();
   return made;

@@ -2,7 +2,7 @@ import type { BufferGeometry, DataTexture, MeshPhysicalMaterialParameters } from
 import { MeshPhysicalNodeMaterial } from 'three/webgpu';
 import { Grating, Layer, LayingOptions, Metal, Scratches, Tables } from './index.js';
 
-export { Grating, Scratches, loadGrating, loadTables, readScratches } from './index.js';
+export { Grating, Scratches, layGratings, loadGrating, loadTables, readScratches } from './index.js';
 
 /** Lays scratches on a geometry, as Hairline does: a seed means the same scratches. */
 export function scratchesOn(geometry: BufferGeometry, layers: Layer | Layer[], options?: LayingOptions): Scratches;

@@ -18,7 +18,7 @@ import { ScratchedLightingModel, isBent } from './three_lighting.js';
 
 export { loadTables } from './tables.js';
 export { prepareEnvironment } from './environment.js';
-export { Grating, loadGrating } from './gratings.js';
+export { Grating, layGratings, loadGrating } from './gratings.js';
 export { Scratches, readScratches };
 
 /** The greatest number of half floats. */

@@ -1,7 +1,6 @@
 // Pictures on gratings and texture coordinates that they follow: a grating as one pixel has it.
-import {
-  cross, dFdx, dFdy, mat4, normalGeometry, positionGeometry, tangentGeometry, texture, textureSize, uv, vec2, vec3, vec4,
-} from 'three/tsl';
+import { BufferAttribute, Vector2, Vector3 } from 'three/webgpu';
+import { attribute, cross, dFdx, dFdy, mat4, normalGeometry, positionGeometry, texture, textureSize, uv, vec2, vec3, vec4 } from 'three/tsl';
 import { isByUv } from './gratings.js';
 import { pixelWays } from './three_functions.js';
 
@@ -22,31 +21,64 @@ function meansOf(picture) {
   return (off) => texture(picture, at(off), level);
 }
 
-/** Look-ups of tangent and bitangent of the geometry, in its own frame. */
-function ownAxes() {
-  const [tangent, normal] = [tangentGeometry.xyz, normalGeometry].map(valueOf);
-  return (off) => {
-    const n = normal.at(off).normalize().toVar();
-    const given = tangent.at(off).toVar();
-    const t = given.sub(n.mul(n.dot(given))).toVar();
-    return [t, cross(n, t).mul(tangentGeometry.w)];
-  };
+/**
+ * Adds tangents to a geometry as an attribute, as Hairline makes them for models without: of each vertex the mean of its triangles' derivatives of the position
+ * by u. In pictures that are not flipped v falls along the bitangent. Returns the attribute's name.
+ */
+function addTangents(geometry, channel, isFlipped) {
+  const name = `grooveTangent${channel}${isFlipped ? 'Flipped' : ''}`;
+  const { position, normal } = geometry.attributes;
+  const uvs = geometry.attributes[channel > 0 ? `uv${channel}` : 'uv'];
+  if (geometry.hasAttribute(name) || !uvs) return name;
+  const tangents = new Float32Array(4 * position.count);
+  const corners = geometry.index?.array ?? Uint32Array.from({ length: position.count }, (_, i) => i);
+  const [e1, e2, n, along] = [0, 1, 2, 3].map(() => new Vector3());
+  const [a, b, c] = [0, 1, 2].map(() => ({ place: new Vector3(), at: new Vector2() }));
+  for (let i = 0; i + 2 < corners.length; i += 3) {
+    [a, b, c].forEach(({ place, at }, k) => {
+      place.fromBufferAttribute(position, corners[i + k]);
+      at.fromBufferAttribute(uvs, corners[i + k]);
+    });
+    e1.subVectors(b.place, a.place);
+    e2.subVectors(c.place, a.place);
+    const [d1, d2] = [b, c].map(({ at }) => at.sub(a.at));
+    const area = d1.cross(d2);
+    along.copy(e1).multiplyScalar(d2.y).addScaledVector(e2, -d1.y).divideScalar(area);
+    if (![along.x, along.y, along.z].every(Number.isFinite)) continue;
+    const across = e1.cross(e2);
+    for (const corner of corners.subarray(i, i + 3)) {
+      along.toArray().forEach((x, k) => { tangents[4 * corner + k] += x; });
+      const around = normal ? across.dot(n.fromBufferAttribute(normal, corner)) : across.length();
+      tangents[4 * corner + 3] += Math.sign(area) * around;
+    }
+  }
+  for (let i = 0; i < position.count; i += 1) {
+    along.fromArray(tangents, 4 * i);
+    if (normal) along.projectOnPlane(n.fromBufferAttribute(normal, i));
+    along.normalize().toArray(tangents, 4 * i);
+    tangents[4 * i + 3] = tangents[4 * i + 3] > 0 === isFlipped ? 1 : -1;
+  }
+  geometry.setAttribute(name, new BufferAttribute(tangents, 4));
+  return name;
 }
 
-/** The same of each triangle, for a geometry without tangents. In pictures that are not flipped v falls along the bitangent. */
-function triangleAxes(channel, isFlipped) {
-  const [place, at] = [positionGeometry, uv(channel)].map(valueOf);
-  const side = at.x.x.mul(at.y.y).sub(at.x.y.mul(at.y.x)).sign();
-  const unit = (v) => v.mul(v.dot(v).max(1e-30).inverseSqrt()).toVar();
-  const tangent = unit(place.x.mul(at.y.y).sub(place.y.mul(at.x.y)).mul(side));
-  const axes = [tangent, cross(unit(cross(place.x, place.y)), tangent).mul(side.mul(isFlipped ? 1 : -1))];
-  return () => axes;
+/** Look-ups of tangent and bitangent of the geometry, in its own frame. */
+function axesOf(geometry, { channel = 0, flipY: isFlipped = false } = {}) {
+  const given = attribute(geometry.hasAttribute('tangent') ? 'tangent' : addTangents(geometry, channel, isFlipped), 'vec4');
+  const tangent = valueOf(given.xyz);
+  // Without normals each triangle is flat.
+  const normal = valueOf(geometry.hasAttribute('normal') ? normalGeometry : cross(dFdx(positionGeometry), dFdy(positionGeometry)));
+  return (off) => {
+    const n = normal.at(off).normalize().toVar();
+    const along = tangent.at(off).toVar();
+    const t = along.sub(n.mul(n.dot(along))).toVar();
+    return [t, cross(n, t).mul(given.w)];
+  };
 }
 
 /** Look-ups of the direction of grooves by texture coordinates, in the frame of the geometry. */
 function directionsOf({ kind, directions }, geometry) {
-  const hasAxes = ['tangent', 'normal'].every((name) => geometry.hasAttribute(name));
-  const axes = hasAxes ? ownAxes() : triangleAxes(directions?.channel ?? 0, directions?.flipY);
+  const axes = axesOf(geometry, directions ?? undefined);
   const means = directions && meansOf(directions);
   return (off) => {
     const [tangent, bitangent] = axes(off);

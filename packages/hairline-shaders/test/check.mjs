@@ -151,6 +151,16 @@ assert.throws(() => new hairline.Grating({ texels: new Uint32Array(524288), kind
   const texels = new Uint32Array(524288);
   // Grooves by texture coordinates are of the first kind in WGSL, along a direction.
   assert.equal(new hairline.Grating({ texels, kind: 'along-v' }).numbers[3], 0);
+  // Rows in the words of scene files; of hidden ones none.
+  const row = { pattern: 'circular', pitch_um: 30, depth_nm: 140, axis: [0, 0, 2], center_m: [0.01, 0, 0], radius_m: [0.02, 0.05], coverage: 0.5 };
+  const mask = { isTexture: true };
+  const [laid, ...others] = hairline.layGratings([{ ...row, mask: 'motif' }, { ...row, hidden: true }], { metal: 'steel', pictures: { motif: mask } });
+  assert.deepEqual([laid.kind, laid.axis, laid.center, laid.radiiM, laid.coverage, laid.mask, others.length], ['circular', [0, 0, 1], [0.01, 0, 0], [0.02, 0.05], 0.5, mask, 0]);
+  assert.ok(laid.rows > 30 && laid.rows < 40, `${laid.rows} rows`);
+  assert.throws(() => hairline.layGratings({ ...row, pitch: 30 }), /grating\[0\]\.pitch: unknown key/);
+  assert.throws(() => hairline.layGratings({ ...row, pitch_um: 300 }), /grating\[0\]\.pitch_um: found 300/);
+  assert.throws(() => hairline.layGratings({ ...row, mask: 'motif' }), /grating\[0\]\.mask: found "motif"; must be the name of one of `pictures`/);
+  assert.throws(() => hairline.layGratings({ pattern: 'swirl', pitch_um: 30, spacing_m: 0.004 }), /grating\[0\]\.pattern: found spots; must lie along/);
   assert.throws(() => new hairline.Grating({ texels, mask: 'mask.png' }), /mask: found something else; must be a Texture/);
   assert.throws(() => new hairline.Grating({ texels, kind: 'along', directions: { isTexture: true } }), /directions: found a picture for grooves of kind "along"; must be along-u or along-v/);
 }

@@ -199,7 +199,7 @@ function surround(scene, map, { intensity, mapFromWorld }, turn) {
 const BY_HAND = ['worn', 'bare'];
 const PICTURES = {
   plate: ['instanced', 'file', 'seeds', 'plain'], grooves: ['file', 'skinned'], tiles: ['file', 'seeds'], layers: ['file', 'seeds'], sky: ['turned'],
-  foil: ['faceted', 'unmasked', 'swapped'], bauble: ['swapped'],
+  foil: ['file', 'seeds', 'faceted', 'unmasked', 'swapped'], bauble: ['faceted', 'swapped'],
 };
 
 async function draw(renderer, name, tables) {

@@ -1,11 +1,11 @@
-//! Types of TypeScript for layers of scratches, from the schema of scene files.
+//! Types of TypeScript for layers of scratches and rows of grooves, from the schema of scene files.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use hairline_scene::schema::{Form, Initial, Key, Section, place, scratches, stroke};
+use hairline_scene::schema::{Form, Initial, Key, Section, grating, place, scratches, stroke};
 
-/// The interfaces of a layer and of the tables in it.
+/// The interfaces of a layer, of the tables in it, and of a grating.
 pub(super) fn layer() -> String {
     let mut text = String::from(
         "// Made by `cargo xtask package` from the schema of scene files.\n\n\
@@ -15,6 +15,7 @@ pub(super) fn layer() -> String {
     interface(&mut text, "Layer", &scratches::SCRATCHES);
     interface(&mut text, "LayerPlaces", &place::WHERE);
     interface(&mut text, "LayerStroke", &stroke::STROKES);
+    interface(&mut text, "GratingRow", &grating::GRATING);
     text
 }
 

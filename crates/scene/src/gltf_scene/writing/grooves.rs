@@ -3,12 +3,10 @@
 use std::collections::HashMap;
 use std::ops::Deref;
 
-use glam::DVec3;
 use hairline_model::gltf_file::GltfFile;
 use serde_json::{Value, json};
 
 use crate::description::Description;
-use crate::grating::{GrooveField, PlainField};
 use crate::material_optics::ScratchTables;
 use crate::picture_lie::PictureLie;
 use crate::scene::Scene;
@@ -43,7 +41,7 @@ pub(super) fn write(
     if grating.mask.is_some_and(|it| it.lie != PictureLie::ByUv) {
         return None;
     }
-    let field = field(&grating.field)?;
+    let field = grating.field.plain()?;
     let index = tables.grating_table(grating, material)?;
     let table = &tables.tables[index];
     let texels = *known.entry(index).or_insert_with(|| {
@@ -68,17 +66,4 @@ pub(super) fn write(
         laid["axis"] = json!(axis.to_array());
     }
     Some(laid)
-}
-
-/// A field in the words of the extension; along texture coordinates it has no axis. Pictures are keys of the grating.
-fn field(field: &GrooveField) -> Option<PlainField> {
-    match *field {
-        GrooveField::ByUv { uv, center_m } => Some(PlainField {
-            kind: if uv.along_v { "along-v" } else { "along-u" },
-            axis: DVec3::ZERO,
-            center_m,
-            curvature_per_m: 0.0,
-        }),
-        _ => field.plain(),
-    }
 }
