@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 use std::path::Path;
-use std::sync::Arc;
 
 use bevy::log::warn;
 use bevy::mesh::{Indices, Mesh, PrimitiveTopology, VertexAttributeValues};
