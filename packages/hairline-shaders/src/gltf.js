@@ -1,11 +1,11 @@
 // A plug-in for GLTFLoader of three.js: files with HAIRLINE_scratches (docs/HAIRLINE_scratches.md of the project Hairline) get scratched
 // materials and lights with a surface. Without it such files load as ever, without scratches.
 import {
-  Box3, DataTexture, LinearFilter, LinearMipmapLinearFilter, Matrix3, Matrix4, Mesh, RectAreaLight, RepeatWrapping, RGBAFormat, Vector3,
+  Box3, DataTexture, LinearFilter, LinearMipmapLinearFilter, Matrix3, Matrix4, Mesh, RectAreaLight, RepeatWrapping, RGBAFormat, Vector2, Vector3,
 } from 'three/webgpu';
 import { COHERENCE_UM } from './data.js';
 import { Grating, layGratings } from './gratings.js';
-import { ScratchedNodeMaterial, numbersOf } from './three.js';
+import { ScratchedNodeMaterial } from './three.js';
 import { Scratches, layScratches, profilesOf } from './scratches.js';
 import { metals } from './metals.js';
 
@@ -147,7 +147,7 @@ class HairlineScratches {
       const own = all && within(all.transformed(toMesh.elements), mesh.geometry);
       const rows = gratings.map((grating) => new Grating({
         ...grating, axis: grating.axis && new Vector3(...grating.axis).transformDirection(toMesh).toArray(),
-        center: new Vector3(...grating.center).applyMatrix4(toMesh).toArray(),
+        center: new Vector3(...grating.center).applyMatrix4(toMesh).toArray(), mask: laidOn(grating.mask, mesh), directions: laidOn(grating.directions, mesh),
       }));
       if (own !== null || rows.length > 0) mesh.material = this.material(mesh, described, own, rows, scale);
     }
@@ -370,6 +370,39 @@ function isBelow(mesh, node, name) {
   return false;
 }
 
+/** Maps of a material, in the order in which their texture coordinates stand for those of its mesh. */
+const MAPS = [
+  'normalMap', 'clearcoatNormalMap', 'map', 'metalnessMap', 'emissiveMap', 'aoMap', 'clearcoatMap', 'clearcoatRoughnessMap', 'anisotropyMap', 'specularIntensityMap',
+  'specularColorMap',
+];
+
+/** How pictures lie on a mesh: `{ channel, matrix }`, as its material's first map by KHR_texture_transform, where three.js itself turns before it scales. */
+function mappingOf({ material }) {
+  const map = MAPS.map((key) => material[key]).find(Boolean);
+  const matrix = new Matrix3();
+  if (!map) return { channel: 0, matrix };
+  const { channel, offset: { x, y }, repeat: scale, rotation } = map;
+  const [cosine, sine] = [Math.cos(rotation), Math.sin(rotation)];
+  return { channel, matrix: matrix.set(cosine * scale.x, sine * scale.y, x, -sine * scale.x, cosine * scale.y, y, 0, 0, 1) };
+}
+
+/** Texture coordinates of a mesh, one after the other. */
+function coordinates(mesh) {
+  const { channel, matrix } = mappingOf(mesh);
+  const { attributes } = mesh.geometry;
+  const uvs = attributes[channel > 0 ? `uv${channel}` : 'uv'];
+  const at = new Vector2();
+  const placed = (_, i) => (uvs ? at.fromBufferAttribute(uvs, i).applyMatrix3(matrix).toArray() : [0, 0]);
+  return Array.from({ length: attributes.position.count }, placed).flat();
+}
+
+/** A picture on a mesh. */
+function laidOn(picture, mesh) {
+  const { channel, matrix } = mappingOf(mesh);
+  if (!picture || (channel === 0 && matrix.equals(new Matrix3()))) return picture;
+  return Object.assign(picture.clone(), { channel, matrix, matrixAutoUpdate: false, needsUpdate: true });
+}
+
 /** The triangles of meshes in the frame of their object, in the order of the file. */
 function together(meshes, node) {
   const toObject = new Matrix4().copy(node.matrixWorld).invert();
@@ -384,7 +417,7 @@ function together(meshes, node) {
       lists.positions.push(...mesh.getVertexPosition(i, at).applyMatrix4(matrix).toArray());
       if (attributes.normal) lists.normals.push(...at.fromBufferAttribute(attributes.normal, i).applyMatrix3(normalMatrix).normalize().toArray());
     }
-    lists.uvs.push(...(numbersOf(attributes.uv) ?? new Array(2 * attributes.position.count).fill(0)));
+    lists.uvs.push(...coordinates(mesh));
     const corners = index?.array ?? Uint32Array.from({ length: attributes.position.count }, (_, i) => i);
     for (const corner of corners) lists.index.push(first + corner);
   }

@@ -25,7 +25,7 @@ export { Scratches, readScratches };
 const GREATEST_HALF = 65504;
 
 /** An attribute as numbers, one after the other; null without one. */
-export function numbersOf(attribute) {
+function numbersOf(attribute) {
   if (!attribute) return null;
   const { count, itemSize } = attribute;
   return Float64Array.from({ length: count * itemSize }, (_, i) => attribute.getComponent(Math.floor(i / itemSize), i % itemSize));
