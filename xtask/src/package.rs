@@ -97,6 +97,7 @@ impl Package {
             }
         }
         if self.pictures {
+            types::check(&tests, &self.output)?;
             pictures::run(&root, &self.output)?;
         }
         if self.viewer {

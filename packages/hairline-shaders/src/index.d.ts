@@ -72,9 +72,7 @@ export class Scratches implements ScratchArrays {
 /** Reads a list (CSV). `name` is what errors call it; `profile` the cross section of all of them. */
 export function readScratches(text: string, name?: string, options?: { profile?: GrooveProfile }): Scratches;
 /** The texture that shaders find scratches by, rgba32uint, and the shapes of their grooves, of which the first is that of narrow rectangles. */
-export function scratchTree(scratches: Scratches, options?: { coherenceUm?: number; metresPerUnit?: number }): {
-  texels: Uint32Array; width: number; height: number; shapes: GrooveShape[];
-};
+export function scratchTree(scratches: Scratches, options?: { coherenceUm?: number; metresPerUnit?: number }): TableOf & { texels: Uint32Array; width: number; height: number };
 
 /** Triangles in the object's own frame. */
 export interface MeshArrays {

@@ -2,8 +2,12 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
+use std::path::Path;
 
 use hairline_scene::schema::{Form, Initial, Key, Section, grating, place, scratches, stroke};
+use serde_json::json;
+
+use super::files::{node, write};
 
 /// The interfaces of a layer, of the tables in it, and of a grating.
 pub(super) fn layer() -> String {
@@ -17,6 +21,29 @@ pub(super) fn layer() -> String {
     interface(&mut text, "LayerStroke", &stroke::STROKES);
     interface(&mut text, "GratingRow", &grating::GRATING);
     text
+}
+
+/// Checks the types of the package by the programs in types.ts, and those of the package itself.
+pub(super) fn check(tests: &Path, output: &Path) -> anyhow::Result<()> {
+    let output = output.canonicalize()?;
+    let three = |file: &str| tests.join("node_modules/@types/three").join(file);
+    let source = |file: &str| output.join("hairline-shaders/src").join(file);
+    let settings = json!({
+        "compilerOptions": {
+            "strict": true, "noEmit": true, "target": "es2022", "module": "esnext", "moduleResolution": "bundler", "types": [],
+            "paths": {
+                "hairline-shaders": [source("index.d.ts")],
+                "hairline-shaders/*": [source("*.d.ts")],
+                "three": [three("build/three.module.d.ts")],
+                "three/webgpu": [three("build/three.webgpu.d.ts")],
+                "three/addons/*": [three("examples/jsm/*")],
+            },
+        },
+        "files": [tests.join("types.ts")],
+    });
+    let file = output.join("tsconfig.json");
+    write(&file, settings.to_string().as_bytes())?;
+    node(tests, &["node_modules/typescript/bin/tsc", "-p"], &file)
 }
 
 fn interface(text: &mut String, name: &str, section: &Section) {
