@@ -29,7 +29,7 @@ pub struct GratingField<'a> {
     pub axis: [f64; 3],
     /// A point of the axis, or that from which the radii are measured.
     pub center_m: [f64; 3],
-    /// Least and greatest distance from it.
+    /// Least and greatest distance from it; both are finite.
     pub radii_m: [f64; 2],
     /// Curvature of spun grooves.
     pub curvature_per_m: f64,
@@ -53,7 +53,7 @@ pub struct LaidGrating {
 }
 
 impl GratingTexels {
-    /// None of a kind that shaders do not know by itself, or of a table of another size.
+    /// None where the kind is not one of shaders, as along texture coordinates, or the table has another size.
     pub fn new(field: &GratingField, texels: Arc<Vec<[u32; 4]>>) -> Option<Self> {
         let kind = KINDS.iter().position(|kind| *kind == field.kind)?;
         let rows = texels.len() / ENGINE_COLUMNS;
@@ -68,12 +68,7 @@ impl GratingTexels {
         let numbers = [
             [x, y, z, kind as f64],
             [at_x, at_y, at_z, field.curvature_per_m],
-            [
-                inner_m,
-                outer_m.min(FAR_M),
-                field.coverage,
-                field.angle_std_rad,
-            ],
+            [inner_m, outer_m, field.coverage, field.angle_std_rad],
             [
                 field.coherence_um,
                 f64::from(is_fine),
@@ -130,7 +125,7 @@ impl LaidGrating {
                 kind: plain.kind,
                 axis: plain.axis.normalize_or_zero().to_array(),
                 center_m: plain.center_m.to_array(),
-                radii_m: grating.radii_m,
+                radii_m: grating.radii_m.map(|radius_m| radius_m.min(FAR_M)),
                 curvature_per_m: plain.curvature_per_m,
                 coverage: grating.coverage,
                 angle_std_rad: grating.angle_std_rad,

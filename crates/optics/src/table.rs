@@ -83,14 +83,9 @@ impl ScratchTable {
         shape: &GrooveShape,
         reflectance: impl Fn(f64) -> f64 + Sync,
     ) -> Self {
-        let observer = Observer::eye();
-        match *shape == GrooveShape::default() {
-            true => Self::from_rows(rows, rows_of_rectangle(observer, reflectance)),
-            false => {
-                let grid = GrooveSpectrum::down_to(last_depth_nm(rows), shape);
-                Self::from_rows(rows, rows_of_spectrum(observer, &grid, reflectance))
-            }
-        }
+        let is_rectangle = *shape == GrooveShape::default();
+        let grid = (!is_rectangle).then(|| GrooveSpectrum::down_to(last_depth_nm(rows), shape));
+        Self::rows_seen_by(rows, Observer::eye(), grid.as_ref(), reflectance)
     }
 
     /// The table of the grooves of a spectrum, or of narrow rectangles, for the channels of an observer.
@@ -99,9 +94,18 @@ impl ScratchTable {
         grid: Option<&GrooveSpectrum>,
         reflectance: impl Fn(f64) -> f64 + Sync,
     ) -> Self {
+        Self::rows_seen_by(ROWS, observer, grid, reflectance)
+    }
+
+    fn rows_seen_by(
+        rows: usize,
+        observer: &Observer,
+        grid: Option<&GrooveSpectrum>,
+        reflectance: impl Fn(f64) -> f64 + Sync,
+    ) -> Self {
         match grid {
-            Some(grid) => Self::from_rows(ROWS, rows_of_spectrum(observer, grid, reflectance)),
-            None => Self::from_rows(ROWS, rows_of_rectangle(observer, reflectance)),
+            Some(grid) => Self::from_rows(rows, rows_of_spectrum(observer, grid, reflectance)),
+            None => Self::from_rows(rows, rows_of_rectangle(observer, reflectance)),
         }
     }
 

@@ -12,6 +12,7 @@ use hairline_scene::{Arrays, DEFAULT_COHERENCE_UM, MeshArrays, Scene, descriptio
 
 /// Name of the mesh where a scene has a file.
 const NAME: &str = "mesh";
+
 /// The scratches and gratings of one mesh, in its own frame, with the tree that shaders find them by.
 #[derive(Clone, Debug)]
 pub struct Scratches {
@@ -82,6 +83,7 @@ fn tables(name: &str, rows: &[&str]) -> Result<String, std::fmt::Error> {
     Ok(text)
 }
 
+/// Those that this package draws; a warning tells of others.
 fn drawn(laid: Vec<Option<LaidGrating>>) -> Vec<GratingTexels> {
     let all = laid.into_iter().map(|it| it?.without_pictures());
     let all: Vec<_> = all.collect();

@@ -15,7 +15,8 @@ use hairline_optics::table::ENGINE_COLUMNS;
 
 use crate::{MOST_GRATINGS, Scratched, ScratchedMaterial, Scratches, Settings};
 
-/// Makes [`ScratchedMaterial`]s: 0.35 MB of textures for all, and 0.3 to 2 MB for each metal and shape of grooves, by the deepest of them, and up to 4 MB for each grating, each once.
+/// Makes [`ScratchedMaterial`]s, with textures of 0.35 MB for all. Each metal has 0.3 to 4 MB for each shape of its grooves, by the deepest of them, and
+/// each grating up to 4 MB. All are made once.
 #[derive(Resource, Clone)]
 pub struct ScratchedTextures(Arc<Shared>);
 

@@ -71,7 +71,7 @@ export function layGratings(rows, { metal = null, coherenceUm = COHERENCE_UM, pi
     const [curvaturePerM, coverage, angleStdRad] = numbers.slice(8);
     const kind = held.kind();
     return new Grating({
-      texels: held.texels(), kind, axis: isByUv({ kind }) ? undefined : numbers.slice(0, 3), center: numbers.slice(3, 6), radiiM: numbers.slice(6, 8).map((radius) => Math.min(radius, 1e9)),
+      texels: held.texels(), kind, axis: isByUv({ kind }) ? undefined : numbers.slice(0, 3), center: numbers.slice(3, 6), radiiM: numbers.slice(6, 8),
       curvaturePerM, coverage, angleStdRad, coherenceUm, mask: pictureOf(i, 'mask'), directions: pictureOf(i, 'directions'),
     });
   }));

@@ -10,7 +10,7 @@ pub const ROWS: usize = 512;
 pub const ENGINE_COLUMNS: usize = 512;
 /// Most rows over depth of a grating's table as other engines look it up; tables by incidence keep all [`ROWS`].
 pub const ENGINE_GRATING_ROWS: usize = 256;
-/// Rows are counted from depth 0.
+/// Rows for each nanometre of depth; the first row is depth 0.
 pub(super) const ROWS_PER_NM: f64 = (ROWS - 1) as f64 / DEPTH_MAX_NM;
 /// The u of the middle column. Columns are even in u/(u + U_HALF_UM), so that the last one lies at infinity: fine where
 /// the colours are (one fringe spans about 0.5 um of u), coarse where they have blurred into the tail.
