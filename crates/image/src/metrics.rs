@@ -21,9 +21,7 @@ pub use compare::{Comparison, LayerComparison, Problem, Side, compare};
 pub use difference::{Difference, layer_difference};
 pub use error_map::{ErrorMap, error_map, magma};
 pub use estimate::Estimate;
-pub use flip::Flip;
-#[cfg(feature = "flip")]
-pub use flip::flip;
+pub use flip::{Flip, flip};
 pub use metric::Metric;
 pub use noise::BeyondNoise;
 pub use psnr::{Psnr, psnr_displayed, psnr_of_values};

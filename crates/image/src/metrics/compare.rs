@@ -108,7 +108,7 @@ pub struct LayerComparison {
     pub relative_mse: f64,
     /// PSNR of the displayed colours for beauty, base and scratches; of the values for the others.
     pub psnr: Option<Psnr>,
-    /// FLIP for beauty, base and scratches; `None` in a build without the feature `flip`.
+    /// FLIP for beauty, base and scratches.
     pub flip: Option<Flip>,
     /// Difference that is left when the noise is taken off, if one of the images states its noise.
     pub beyond_noise: Option<BeyondNoise>,
@@ -263,7 +263,6 @@ fn compare_layer(
     }
 }
 
-#[cfg(feature = "flip")]
 fn flip_of(
     size_px: [u32; 2],
     layer: Layer,
@@ -279,18 +278,6 @@ fn flip_of(
     psnr::is_displayed(layer)
         .then(|| super::flip(&picture(a), &picture(b), display, mask))
         .flatten()
-}
-
-#[cfg(not(feature = "flip"))]
-fn flip_of(
-    _: [u32; 2],
-    _: Layer,
-    _: &[[f32; 3]],
-    _: &[[f32; 3]],
-    _: &Display,
-    _: Option<&[bool]>,
-) -> Option<Flip> {
-    None
 }
 
 fn not_finite(estimate: &Estimate, mask: Option<&[bool]>) -> usize {

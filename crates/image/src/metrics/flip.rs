@@ -1,15 +1,13 @@
 //! FLIP: the difference that a viewer sees when two pictures alternate in place.
 //!
 //! * Pontus Andersson, Jim Nilsson, Tomas Akenine-Moller, Magnus Oskarsson, Kalle Astrom, Mark D. Fairchild, "FLIP: A
-//!   Difference Evaluator for Alternating Images", 2020. The computation is its authors' own.
+//!   Difference Evaluator for Alternating Images", 2020.
 
-#[cfg(feature = "flip")]
+mod evaluator;
+
+use super::error_map::magma;
 use crate::Display;
 use crate::Picture;
-
-/// The authors' default: a 0.7 m wide display of 3840 pixels, seen from 0.7 m.
-#[cfg(feature = "flip")]
-const PIXELS_PER_DEGREE: f32 = 67.0;
 
 /// The perceived difference of two displayed pictures, 0 where none is seen to 1 for black against white.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,30 +25,23 @@ pub struct Flip {
 ///
 /// # Panics
 /// If the sizes differ.
-#[cfg(feature = "flip")]
 pub fn flip(
     image: &Picture,
     reference: &Picture,
     display: &Display,
     mask: Option<&[bool]>,
 ) -> Option<Flip> {
-    use super::error_map::magma;
     assert_eq!(
         image.size_px, reference.size_px,
         "images of different sizes"
     );
-    let [width, height] = image.size_px;
-    let encoded = |picture: &Picture| {
-        // Without dither, which would be a difference of its own against a picture that has none.
-        let codes: Vec<u8> = picture
-            .rgb
-            .iter()
-            .flat_map(|&rgb| display.apply(rgb).map(|c| (c * 255.0).round() as u8))
-            .collect();
-        nv_flip::FlipImageRgb8::with_data(width, height, &codes)
+    let size_px = image.size_px.map(|side| side as usize);
+    // Without dither, which would be a difference of its own against a picture that has none.
+    let codes = |picture: &Picture| -> Vec<[u8; 3]> {
+        let code = |rgb: &[f32; 3]| display.apply(*rgb).map(|c| (c * 255.0).round() as u8);
+        picture.rgb.iter().map(code).collect()
     };
-    let errors: Vec<f32> =
-        nv_flip::flip(encoded(reference), encoded(image), PIXELS_PER_DEGREE).to_vec();
+    let errors = evaluator::errors(&codes(reference), &codes(image), size_px);
     let mut counted: Vec<f32> = errors
         .iter()
         .enumerate()

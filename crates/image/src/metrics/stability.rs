@@ -59,14 +59,8 @@ impl Stability {
     }
 }
 
-#[cfg(feature = "flip")]
 fn difference(frame: &Picture, moved: &Picture, display: &Display, seen: &[bool]) -> f64 {
     super::flip(moved, frame, display, Some(seen)).map_or(0.0, |flip| flip.mean)
-}
-
-#[cfg(not(feature = "flip"))]
-fn difference(frame: &Picture, moved: &Picture, _display: &Display, seen: &[bool]) -> f64 {
-    super::Difference::between(&moved.rgb, &frame.rgb, Some(seen)).relative_rms()
 }
 
 /// The frame before, where its surfaces are in `frame`, and where that is known; elsewhere `frame` itself, so that neighbours see

@@ -3,7 +3,6 @@
 
 mod compare;
 mod files;
-#[cfg(feature = "flip")]
 mod flip;
 mod foreign_files;
 mod metrics;
