@@ -147,7 +147,8 @@ fn decoded(value: f32) -> f32 {
     }
 }
 
-/// Mean and 95th percentile by the evaluator of FLIP's authors (nv-flip 0.1.2). Seen: pixels differ by 7e-6 at most.
+/// Mean and 95th percentile by the evaluator of FLIP's authors (nv-flip 0.1.2). Seen: pixels differ by 7e-6 at most. A feature 5 % wider changes
+/// the means by 3e-4 to 1e-3, another shape of the yellow filter by 2e-4 to 7e-4, an exponent of 0.71 by 6e-3.
 #[test]
 fn errors_are_those_of_the_authors_evaluator() {
     const SIZES_PX: [[u32; 2]; 5] = [[64, 48], [97, 31], [40, 80], [128, 96], [33, 33]];
@@ -166,9 +167,9 @@ fn errors_are_those_of_the_authors_evaluator() {
     for (n, [mean, percentile_95]) in (0..).zip(expected) {
         let [reference, image] = waves(n, SIZES_PX[n as usize % 5]);
         let found = flip(&image, &reference, &DISPLAY, None).unwrap();
-        assert!((found.mean - mean).abs() < 1e-3, "{n}: {}", found.mean);
+        assert!((found.mean - mean).abs() < 1e-5, "{n}: {}", found.mean);
         assert!(
-            (found.percentile_95 - percentile_95).abs() < 1e-3,
+            (found.percentile_95 - percentile_95).abs() < 1e-4,
             "{n}: {}",
             found.percentile_95
         );
