@@ -18,7 +18,7 @@ pub struct Primaries {
     pub white: [f64; 2],
 }
 
-type Matrix = [[f64; 3]; 3];
+pub(crate) type Matrix = [[f64; 3]; 3];
 
 /// Conversion from another linear space to Rec.709.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,7 +85,7 @@ impl Primaries {
     }
 
     /// Matrix from RGB whose white has luminance 1 to XYZ.
-    fn to_xyz(self) -> Option<Matrix> {
+    pub(crate) fn to_xyz(self) -> Option<Matrix> {
         let column = |[x, y]: [f64; 2]| [x, y, 1.0 - x - y];
         let columns = [self.red, self.green, self.blue].map(column);
         let primaries: Matrix = std::array::from_fn(|row| columns.map(|column| column[row]));
@@ -135,7 +135,7 @@ fn adaptation(from: [f64; 2], to: [f64; 2]) -> Matrix {
     product(&back, &scaled)
 }
 
-fn times(matrix: &Matrix, v: [f64; 3]) -> [f64; 3] {
+pub(crate) fn times(matrix: &Matrix, v: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
@@ -143,7 +143,7 @@ fn product(a: &Matrix, b: &Matrix) -> Matrix {
     a.map(|row| std::array::from_fn(|j| (0..3).map(|k| row[k] * b[k][j]).sum()))
 }
 
-fn inverse(m: &Matrix) -> Option<Matrix> {
+pub(crate) fn inverse(m: &Matrix) -> Option<Matrix> {
     let cofactor = |i: usize, j: usize| {
         let [a, b] = [(i + 1) % 3, (i + 2) % 3];
         let [c, d] = [(j + 1) % 3, (j + 2) % 3];
