@@ -9,6 +9,8 @@ use anyhow::{Context, bail, ensure};
 use clap::Args;
 use serde_json::Value;
 
+use crate::program;
+
 #[derive(Args)]
 pub struct Dist {
     /// Path of the archive.
@@ -16,7 +18,9 @@ pub struct Dist {
     output: PathBuf,
 }
 
-/// Files of the repository that are copied beside the program.
+const PROGRAMS: [&str; 2] = ["hairline", "hairline-viewer"];
+
+/// Files of the repository that are copied beside the programs.
 const COPIED: [&str; 8] = [
     "README.md",
     "ARCHITECTURE.md",
@@ -32,7 +36,7 @@ impl Dist {
     pub fn run(self) -> anyhow::Result<()> {
         ensure!(
             cfg!(target_os = "linux"),
-            "archives are made on Linux alone so far; elsewhere: cargo install --path apps/hairline"
+            "archives are made on Linux alone so far; elsewhere: cargo install --path apps/hairline, and apps/hairline-viewer"
         );
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let name = format!(
@@ -48,15 +52,13 @@ impl Dist {
         }
         fs::create_dir(&folder)?;
 
-        // Builds the whole workspace, as `.ci/run` does: alone the program would have other features and be compiled again.
-        cargo(&root, &["build", "--release", "--workspace", "--bins"])?;
         let metadata = metadata(&root)?;
-        let target = metadata["target_directory"]
-            .as_str()
-            .context("cargo metadata names no target directory")?;
-        let program = folder.join("hairline");
-        fs::copy(Path::new(target).join("release/hairline"), &program)?;
-        run(Command::new("strip").arg(&program))?;
+        // The first one starts the second, which lies beside it.
+        for name in PROGRAMS {
+            let program = folder.join(name);
+            fs::copy(program::build(&root, name)?, &program)?;
+            run(Command::new("strip").arg(&program))?;
+        }
         for name in COPIED {
             copy(&root.join(name), &folder.join(name))?;
         }
@@ -85,10 +87,6 @@ fn run(command: &mut Command) -> anyhow::Result<()> {
     let status = command.status().with_context(|| format!("{command:?}"))?;
     ensure!(status.success(), "{command:?}: {status}");
     Ok(())
-}
-
-fn cargo(root: &Path, arguments: &[&str]) -> anyhow::Result<()> {
-    run(Command::new("cargo").current_dir(root).args(arguments))
 }
 
 fn metadata(root: &Path) -> anyhow::Result<Value> {
@@ -157,7 +155,16 @@ fn copy_licences(root: &Path, metadata: &Value, to: &Path) -> anyhow::Result<()>
 fn linked(root: &Path) -> anyhow::Result<BTreeSet<String>> {
     let output = Command::new("cargo")
         .current_dir(root)
-        .args(["tree", "--locked", "-p", "hairline", "-e", "normal"])
+        .args([
+            "tree",
+            "--locked",
+            "-p",
+            "hairline",
+            "-p",
+            "hairline-viewer",
+            "-e",
+            "normal",
+        ])
         .args(["--prefix", "none", "--format", "{p}"])
         .output()?;
     ensure!(output.status.success(), "cargo tree failed");

@@ -5,6 +5,7 @@ mod dist;
 mod package;
 mod paths;
 mod pictures;
+mod program;
 mod rooms;
 mod shaders;
 mod wasm;

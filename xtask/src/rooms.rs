@@ -66,7 +66,7 @@ fn crates() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let libraries = std::fs::read_dir(root.join("crates")).into_iter().flatten();
     let libraries = libraries.flatten().map(|entry| entry.path());
-    let programs = ["apps/hairline", "xtask"].map(|name| root.join(name));
+    let programs = ["apps/hairline", "apps/hairline-viewer", "xtask"].map(|name| root.join(name));
     let mut folders: Vec<_> = libraries.chain(programs).collect();
     folders.sort();
     folders

@@ -81,7 +81,7 @@ impl Web {
             .args(["ci", "--no-audit", "--no-fund"]))?;
         let program = match &self.program {
             Some(program) => program.canonicalize()?,
-            None => command_line(root)?,
+            None => crate::program::build(root, "hairline")?,
         };
         run(Command::new("node")
             .current_dir(&tests)
@@ -96,18 +96,6 @@ fn gzip_bytes(bytes: &[u8]) -> anyhow::Result<usize> {
     let mut packed = GzEncoder::new(Vec::new(), Compression::best());
     packed.write_all(bytes)?;
     Ok(packed.finish()?.len())
-}
-
-/// Builds the command line as `.ci/run` does.
-fn command_line(root: &Path) -> anyhow::Result<PathBuf> {
-    run(Command::new("cargo").current_dir(root).args([
-        "build",
-        "--release",
-        "--workspace",
-        "--bins",
-    ]))?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root.join("target"), PathBuf::from);
-    Ok(target.join("release/hairline"))
 }
 
 /// Copies the page itself, with its pictures and scenes.

@@ -69,8 +69,7 @@ pub fn build(package: &Path, programs: &Path, output: &Path) -> anyhow::Result<P
         .args(["build", "--release", "--quiet", "--out"])
         .arg(output)
         .arg("--manifest-path")
-        .arg(package.join("Cargo.toml"))
-        .env("CARGO", package.join("cargo-of-workspace")))?;
+        .arg(package.join("Cargo.toml")))?;
     wheels(output)?.pop().context("maturin made no wheel")
 }
 
@@ -112,15 +111,14 @@ impl Wheel {
             .args(["--mypy-config-file", "pyproject.toml"]))?;
 
         // Another folder than the sources, so that the installed package is tested.
-        let target = root.join("target");
-        let target = std::env::var_os("CARGO_TARGET_DIR").map_or(target, PathBuf::from);
+        let program = crate::program::build(&root, "hairline")?;
         let tests = |which: &[&str]| {
             run(python()
                 .current_dir(&output)
                 .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
                 .args(which)
                 .arg(package.join("tests"))
-                .env("HAIRLINE_PROGRAM", target.join("release/hairline"))
+                .env("HAIRLINE_PROGRAM", &program)
                 .env("HAIRLINE_REPOSITORY", &root)
                 .env(
                     "HAIRLINE_ALL_SCENES",

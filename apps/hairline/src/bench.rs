@@ -16,11 +16,11 @@ mod worker;
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
+use hairline_console::{print, tell};
 use hairline_image::output::{check_writable, write_atomically};
 use hairline_scene::Object;
 
 use crate::cli::{self, BenchPart};
-use crate::console::{print, tell};
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
 use figures::Figures;

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use hairline_console::{Backend, EXIT_CODES, Switch, View};
 use hairline_image::{FPS_MAX, Layer, ToneMap};
 use hairline_scene::DEFAULT_SAMPLES;
 use hairline_scene::schema::camera::EXPOSURE_EV;
@@ -14,7 +15,6 @@ use crate::compare::limits::{self, Limit};
 use crate::highlight;
 use crate::method_flags::{Mask, MethodFlags};
 use crate::size_limit::SIDE_MAX_PX;
-use crate::switch::Switch;
 
 /// Renders the coloured, hair-thin scratches of worn surfaces. Without a command: opens the viewer on the built-in scene.
 #[derive(Debug, Parser)]
@@ -24,9 +24,6 @@ pub struct Cli {
     #[command(subcommand)]
     pub command: Option<Command>,
 }
-
-const EXIT_CODES: &str =
-    "Exit codes: 0 done; 1 the work failed; 2 the command line or the scene is wrong.";
 
 /// A subcommand.
 #[derive(Debug, Subcommand)]
@@ -124,28 +121,6 @@ pub struct SceneFlags {
 pub struct Completions {
     /// The shell.
     pub shell: clap_complete::Shell,
-}
-
-/// `hairline view`
-#[derive(Args, Debug, Default)]
-pub struct View {
-    /// The scene file (TOML), or a model (.glb, .gltf), which is shown in a lit scene. Without it: the built-in scene.
-    pub scene: Option<PathBuf>,
-    /// Renderer. auto: the window's GPU, or the CPU renderer where the window is drawn by a software driver.
-    #[arg(long, value_enum, default_value_t = Backend::Auto)]
-    pub backend: Backend,
-    /// Folder for autosaves and the list of recent files, in place of the user's folders.
-    #[arg(long, value_name = "FOLDER")]
-    pub state_dir: Option<PathBuf>,
-    /// Ask for files by a line in the window, not by the system's dialogs.
-    #[arg(long)]
-    pub plain_dialogs: bool,
-    /// Whether objects hide lights and the environment from one another. The window can switch it. [default: on]
-    #[arg(long, value_enum)]
-    pub shadows: Option<Switch>,
-    /// Objects that light may go by on its way besides the one that is seen, with shadows. [default: 1]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=8))]
-    pub bounces: Option<u32>,
 }
 
 /// `hairline render`
@@ -396,28 +371,6 @@ pub enum Model {
     Separable,
     /// All phases: interference between scratches and with the base, exact ends, oblique paths.
     Full,
-}
-
-/// Renderer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Backend {
-    #[default]
-    /// A GPU if there is one, else the CPU renderer.
-    Auto,
-    /// A graphics adapter, be it a GPU or a software driver.
-    Gpu,
-    /// The CPU renderer: needs no driver.
-    Cpu,
-}
-
-impl From<Backend> for hairline_work::backend::Backend {
-    fn from(flag: Backend) -> Self {
-        match flag {
-            Backend::Auto => Self::Auto,
-            Backend::Gpu => Self::Gpu,
-            Backend::Cpu => Self::Cpu,
-        }
-    }
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {

@@ -9,13 +9,13 @@ mod table;
 use std::path::Path;
 
 use anyhow::anyhow;
+use hairline_console::{print, tell};
 use hairline_image::metrics::{self, Comparison, Problem};
 use hairline_image::{Display, Layers};
 use hairline_scene::inputs::Input;
 
 use self::limits::Finding;
 use crate::cli;
-use crate::console::{print, tell};
 use crate::progress::Progress;
 use crate::scene_file::refuse_inputs;
 use hairline_work::failure::Failure;

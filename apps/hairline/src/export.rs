@@ -1,6 +1,7 @@
 //! `hairline export`: a scene as one glTF file.
 
 use anyhow::anyhow;
+use hairline_console::{Switch, tell};
 use hairline_image::output::{check_writable, write_atomically};
 use hairline_memory::in_words;
 use hairline_scene::Loader;
@@ -8,9 +9,7 @@ use hairline_scene::gltf_scene::Export;
 use hairline_work::failure::Failure;
 
 use crate::cli;
-use crate::console::tell;
 use crate::scene_file::{self, Overrides};
-use crate::switch::Switch;
 
 /// Writes the file.
 pub fn run(arguments: &cli::Export) -> Result<(), Failure> {

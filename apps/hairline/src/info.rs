@@ -4,10 +4,10 @@ mod scene;
 
 use std::fmt::{self, Write};
 
+use hairline_console::print;
 use hairline_gpu::headless;
 
 use crate::cli;
-use crate::console::print;
 use hairline_work::failure::Failure;
 
 /// Prints to stdout.

@@ -6,7 +6,7 @@ use clap_mangen::Man;
 use clap_mangen::roff::Roff;
 
 use crate::cli::Cli;
-use crate::console::print;
+use hairline_console::print;
 use hairline_work::failure::Failure;
 
 /// Prints a shell's completions of the command line.

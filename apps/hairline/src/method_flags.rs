@@ -2,11 +2,11 @@
 
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
+use hairline_console::Switch;
 use hairline_optics::mask;
 use hairline_published::sine_integral::SineIntegral;
 use hairline_published::{Method, PublishedMethod, Structure};
 
-use crate::switch::Switch;
 use hairline_work::failure::Failure;
 
 /// Flags of the method by which scratches are computed.

@@ -3,10 +3,9 @@
 use std::sync::Mutex;
 use std::time::Duration;
 
+use hairline_console::tell;
 use hairline_work::Listener;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-
-use crate::console::tell;
 
 /// A bar on stderr, gone when dropped.
 pub struct Progress {

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use anyhow::anyhow;
+use hairline_console::{Switch, tell};
 use hairline_image::{Display, Format, Output};
 use hairline_optics::mask::Mask;
 use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
@@ -10,11 +11,9 @@ use hairline_scene::Arrays;
 use hairline_work::reference::{self, Count, End, Limits, identity};
 
 use crate::cli;
-use crate::console::tell;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::{Progress, Terminal};
 use crate::scene_file::{self, Overrides};
-use crate::switch::Switch;
 use hairline_work::failure::Failure;
 
 /// Largest time whose samples a crash or a power cut may lose.

@@ -8,20 +8,19 @@ mod steadiness;
 use std::path::Path;
 
 use anyhow::anyhow;
+use hairline_console::{Switch, tell};
 use hairline_image::exr_file::Notes;
 use hairline_image::{Animation, Display, Format, Image, Output};
 use hairline_published::Method;
 use hairline_scene::inputs::is_same_file;
 use hairline_scene::{Scene, Transport};
 
-use crate::console::tell;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::{Progress, Terminal};
 use crate::scene_file::{self, Overrides};
-use crate::switch::Switch;
 use crate::{cli, method_flags};
 use goals::Goals;
-use hairline_work::backend::{self, BouncesWithoutShadows, Painter, Rendered, Task};
+use hairline_work::backend::{self, Painter, Rendered, Task};
 use hairline_work::bands;
 use hairline_work::failure::Failure;
 use hairline_work::labels;
@@ -243,18 +242,15 @@ pub fn transport(
     bounces: Option<u32>,
     method: &Method,
 ) -> Result<Transport, Failure> {
-    let mut shadows = shadows.map(|switch| switch == Switch::On);
-    if method.published.is_some() && shadows.replace(false) == Some(true) {
+    if method.published.is_none() {
+        return hairline_console::transport(shadows, bounces);
+    }
+    if shadows == Some(Switch::On) {
         return Err(Failure::Input(anyhow!(
             "--shadows on: the published method has no shadows; leave out --method published"
         )));
     }
-    backend::transport(shadows, bounces).map_err(|BouncesWithoutShadows| {
-        let bounces = bounces.unwrap_or(0);
-        Failure::Input(anyhow!(
-            "--bounces {bounces}: without shadows the light that an object hides would be counted beside its own; add --shadows on"
-        ))
-    })
+    hairline_console::transport(Some(Switch::Off), bounces)
 }
 
 /// The method for both renderers, unless it is Hairline's own.

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
+use hairline_console::{BUILT_IN, refuse_other_files, tell};
 use hairline_image::ToneMap;
 use hairline_memory::budget_bytes;
 use hairline_scene::description::{Description, Surface};
@@ -10,13 +11,9 @@ use hairline_scene::estimate::Estimate;
 use hairline_scene::inputs::{Input, is_same_file};
 use hairline_scene::{Loader, Scene, SceneBuilder, Stage, reading};
 
-use crate::console::tell;
 use crate::highlight::{self, Highlight};
 use crate::progress::Progress;
 use hairline_work::failure::Failure;
-
-/// The scene that is there without a file.
-pub const BUILT_IN: &str = include_str!("built_in_scene.toml");
 
 /// Values of flags that replace those of the scene file.
 #[derive(Clone, Copy, Debug, Default)]
@@ -239,26 +236,4 @@ impl Source {
             None => Ok(Description::from_toml(&self.text, &self.name)?),
         }
     }
-}
-
-/// Refuses pictures and lists with a hint at their use; files of other names are read.
-pub fn refuse_other_files(path: &Path) -> Result<(), Failure> {
-    let ending = path
-        .extension()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .to_lowercase();
-    let what = match ending.as_str() {
-        "hdr" | "exr" => "an environment map; name it in a scene as `file` of [environment]",
-        "png" | "jpg" | "jpeg" | "webp" | "apng" | "tif" | "tiff" => "a picture",
-        "csv" => "a list of scratches; name it in a scene as `file` of a [[scratches]]",
-        "obj" | "fbx" | "stl" | "ply" | "blend" | "usd" | "usdz" => {
-            "a model of another format; export it as .glb"
-        }
-        _ => return Ok(()),
-    };
-    Err(Failure::Input(anyhow!(
-        "{}: it is {what}; give a scene (.toml) or a model (.glb, .gltf)",
-        path.display()
-    )))
 }

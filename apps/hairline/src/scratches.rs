@@ -4,11 +4,11 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 
 use anyhow::{Context, anyhow};
+use hairline_console::tell;
 use hairline_scene::text::shown;
 use hairline_scene::{Object, write_scratches};
 
 use crate::cli;
-use crate::console::tell;
 use crate::scene_file::{self, Overrides};
 use hairline_work::failure::Failure;
 

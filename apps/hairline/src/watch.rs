@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use anyhow::anyhow;
+use hairline_console::tell;
 use hairline_scene::Description;
 
 use crate::cli;
-use crate::console::tell;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::render;
 use hairline_work::failure::Failure;

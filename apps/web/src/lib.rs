@@ -13,7 +13,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use web_sys::HtmlCanvasElement;
 
 /// The scene that the page opens on: that of `hairline view`.
-const BUILT_IN: &str = include_str!("../../hairline/src/built_in_scene.toml");
+const BUILT_IN: &str = include_str!("../../../crates/console/src/built_in_scene.toml");
 
 /// The files that a scene's text names; none where it is no scene.
 #[wasm_bindgen(js_name = filesOf)]

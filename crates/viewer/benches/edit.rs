@@ -14,7 +14,7 @@ use hairline_scene::description::{Amount, Layer};
 use hairline_viewer::engine::{Backend, Latency};
 use hairline_viewer::{Options, Viewer};
 
-const BUILT_IN: &str = include_str!("../../../apps/hairline/src/built_in_scene.toml");
+const BUILT_IN: &str = include_str!("../../../crates/console/src/built_in_scene.toml");
 const SCRATCHES: u64 = 100_000;
 /// Half a kilometre of scratches in all, as on a pan that was scoured for years.
 const LENGTH_M: f64 = 0.005;

@@ -17,7 +17,7 @@ use hairline_viewer::engine::Backend;
 use hairline_viewer::window::{Renderer, open_as};
 use hairline_viewer::{Options, Viewer};
 
-const BUILT_IN: &str = include_str!("../../../apps/hairline/src/built_in_scene.toml");
+const BUILT_IN: &str = include_str!("../../../crates/console/src/built_in_scene.toml");
 const SCRATCHES: u64 = 100_000;
 /// Length of scratches, that of the bench `edit`.
 const LENGTH_M: f64 = 0.005;

@@ -169,7 +169,7 @@ mod tests {
     fn the_desktop_file_names_the_window_and_the_command() {
         let text = include_str!("../assets/hairline.desktop");
         for line in [
-            "Exec=hairline view %f",
+            "Exec=hairline-viewer %f",
             "Icon=hairline",
             "StartupWMClass=hairline",
         ] {

@@ -49,7 +49,7 @@ struct View {
 const VIEWS: [View; 7] = [
     View {
         name: "hairline",
-        file: "apps/hairline/src/built_in_scene.toml",
+        file: "crates/console/src/built_in_scene.toml",
         middle: DVec2::new(0.394, 0.529),
         shows: "the fan of a turned pan",
         full_samples: 4096,

@@ -25,7 +25,7 @@ fn root() -> PathBuf {
 /// A scene of [`ALL`].
 pub(super) fn scene(name: &str) -> Scene {
     let path = match name {
-        "built_in_scene" => root().join("apps/hairline/src/built_in_scene.toml"),
+        "built_in_scene" => root().join("crates/console/src/built_in_scene.toml"),
         _ => root().join("scenes").join(name).with_extension("toml"),
     };
     Scene::load(path).unwrap_or_else(|error| panic!("{error}"))

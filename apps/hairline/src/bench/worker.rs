@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
+use hairline_console::{Backend, tell};
 use hairline_cpu::closed_form::{self, Counts, Prepared, RenderOptions};
 use hairline_gpu::{Adapter, Canvas, Error, Gpu, GpuScene, PassTime, Renderer, headless};
 use hairline_image::Image;
@@ -12,8 +13,6 @@ use hairline_published::Method;
 use hairline_scene::Scene;
 
 use super::way::BenchMethod;
-use crate::cli::Backend;
-use crate::console::tell;
 use hairline_work::failure::Failure;
 
 /// A renderer.

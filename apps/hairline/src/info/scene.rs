@@ -4,6 +4,7 @@ use std::fmt::{self, Write};
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
+use hairline_console::print;
 use hairline_memory::{available_bytes, in_words};
 use hairline_scene::description::{self, LightKind};
 use hairline_scene::estimate::{Estimate, scratches_bytes, textures_bytes};
@@ -11,7 +12,6 @@ use hairline_scene::text::shown;
 use hairline_scene::{Light, LightShape};
 use serde::Serialize;
 
-use crate::console::print;
 use crate::scene_file::{self, Loaded, Overrides};
 use hairline_work::failure::Failure;
 

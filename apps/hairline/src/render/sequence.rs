@@ -2,13 +2,13 @@
 //! whole or not there.
 
 use anyhow::anyhow;
+use hairline_console::print;
 use hairline_image::{Animation, Display, Image, Output};
 use hairline_scene::Scene;
 
 use super::goals::Goals;
 use super::motion::Motion;
 use super::steadiness::Steadiness;
-use crate::console::print;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::{Progress, Terminal};
 use crate::scene_file::Loaded;

@@ -435,41 +435,17 @@ fn a_watched_scene_is_rendered_again() {
 }
 
 #[test]
-fn the_viewer_says_in_one_sentence_what_it_lacks() {
-    let folder = folder_with("s.toml", &scene(""));
-    fs::write(folder.path().join("wrong.toml"), scene("[lamp]\n")).unwrap();
-    let view = |arguments: &str, code: i32| {
-        let mut command = command(folder.path(), arguments);
-        command
-            .env_remove("DISPLAY")
-            .env_remove("WAYLAND_DISPLAY")
-            .env_remove("WAYLAND_SOCKET");
-        stderr_of(&command.assert().code(code))
-    };
-    if cfg!(target_os = "linux") {
-        let text = view("view s.toml", 1);
-        assert!(
-            text.contains("there is no display") && text.contains("hairline render"),
-            "{text}"
-        );
-        assert!(
-            !text.contains(".rs") && !text.contains("{}") && text.lines().count() == 1,
-            "{text}"
-        );
-        // Errors of the scene come first.
-        let text = view("view wrong.toml", 1);
-        assert!(text.contains("wrong.toml:27: lamp: unknown key"), "{text}");
-    }
+fn other_files_than_scenes_are_refused_with_their_use() {
+    let folder = tempfile::tempdir().unwrap();
     for (arguments, message) in [
         (
-            "view picture.png",
+            "render picture.png",
             "it is a picture; give a scene (.toml) or a model (.glb, .gltf)",
         ),
-        ("view map.hdr", "an environment map"),
+        ("render map.hdr", "an environment map"),
         ("render model.obj", "export it as .glb"),
-        ("view -", "needs a file"),
     ] {
-        let text = view(arguments, 2);
+        let text = stderr_of(&hairline(folder.path(), arguments).code(2));
         assert!(text.contains(message), "{arguments}: {text}");
     }
 }

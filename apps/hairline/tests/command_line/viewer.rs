@@ -1,4 +1,4 @@
-//! The viewer ends with the picture of `hairline render`, to the last bit.
+//! The viewer: it is started from the command line, and ends with the picture of `hairline render`, to the last bit.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use hairline_image::Display;
 use hairline_scene::{DEFAULT_TRANSPORT, Description};
 use hairline_viewer::engine::{Backend, Engine, Picture, View};
 
-use crate::common::{folder_with, hairline};
+use crate::common::{folder_with, hairline, stderr_of};
 
 /// A scratched disk before a bright wall: in its mirror few rays find much.
 const SCENE: &str = r#"
@@ -85,4 +85,57 @@ fn a_view_that_stands_still_is_the_picture_that_is_rendered() {
     };
     let (same, unlike) = (off(&rendered), off(&unfiltered));
     assert!(same < 3.0 && same < unlike, "{same} {unlike}");
+}
+
+/// A folder with the program, and with what lies beside it.
+#[cfg(unix)]
+fn installed(viewer: Option<&str>) -> tempfile::TempDir {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::copy(
+        env!("CARGO_BIN_EXE_hairline"),
+        folder.path().join("hairline"),
+    )
+    .unwrap();
+    if let Some(script) = viewer {
+        let path = folder.path().join("hairline-viewer");
+        std::fs::write(&path, script).unwrap();
+        std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+    }
+    folder
+}
+
+#[test]
+#[cfg(unix)]
+fn the_viewer_beside_it_is_started_with_all_arguments() {
+    let folder = installed(Some("#!/bin/sh\necho \"$# $*\"\nexit 3\n"));
+    for (arguments, expected) in [
+        (&[][..], "0 \n"),
+        (&["view"], "0 \n"),
+        (
+            &["view", "my scene.toml", "--backend", "cpu", "--shadows=off"],
+            "4 my scene.toml --backend cpu --shadows=off\n",
+        ),
+    ] {
+        let mut program = assert_cmd::Command::new(folder.path().join("hairline"));
+        program.args(arguments).assert().code(3).stdout(expected);
+    }
+    // What the viewer would refuse is refused here.
+    let mut program = assert_cmd::Command::new(folder.path().join("hairline"));
+    let refused = program.args(["view", "--backend", "tpu"]).assert().code(2);
+    assert!(stderr_of(&refused).contains("auto, gpu, cpu"));
+}
+
+#[test]
+#[cfg(unix)]
+fn without_a_viewer_beside_it_a_sentence_says_how_to_get_one() {
+    let folder = installed(None);
+    for arguments in [&[][..], &["view", "scene.toml"]] {
+        let mut program = assert_cmd::Command::new(folder.path().join("hairline"));
+        let text = stderr_of(&program.args(arguments).assert().code(1));
+        assert!(
+            text.contains("cargo build --release -p hairline-viewer") && text.lines().count() == 1,
+            "{text}"
+        );
+    }
 }

@@ -125,8 +125,8 @@ fn lists_hold_what_has_a_share() {
 fn margins_of_scenes() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     for (name, height) in [
-        ("apps/hairline/src/built_in_scene.toml", 720),
-        ("apps/hairline/src/built_in_scene.toml", 90),
+        ("crates/console/src/built_in_scene.toml", 720),
+        ("crates/console/src/built_in_scene.toml", 90),
         ("scenes/spoon.toml", 720),
         ("scenes/spoon.toml", 90),
         ("scenes/pan.toml", 720),

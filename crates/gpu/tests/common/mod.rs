@@ -38,7 +38,7 @@ const TUBE_M: [[f64; 3]; 4] = [
 ];
 
 /// Scene that `hairline render` shows without a file.
-pub const BUILT_IN: &str = include_str!("../../../../apps/hairline/src/built_in_scene.toml");
+pub const BUILT_IN: &str = include_str!("../../../../crates/console/src/built_in_scene.toml");
 
 pub fn scene(text: &str) -> Scene {
     Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"))

@@ -13,7 +13,7 @@ use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 
 /// The scene of `hairline view` without a file.
-pub const BUILT_IN: &str = include_str!("../../../../apps/hairline/src/built_in_scene.toml");
+pub const BUILT_IN: &str = include_str!("../../../../crates/console/src/built_in_scene.toml");
 
 /// A disk with a few scratches, a lamp and a square light, all in the picture; small enough to be built at once.
 pub const SMALL: &str = include_str!("small_scene.toml");

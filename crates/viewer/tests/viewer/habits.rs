@@ -139,7 +139,7 @@ fn is_framed(scene: &str, object: &str) {
 
 #[test]
 fn frame_all_shows_the_pan_and_not_the_table() {
-    is_framed("apps/hairline/src/built_in_scene.toml", "pan");
+    is_framed("crates/console/src/built_in_scene.toml", "pan");
     is_framed("scenes/plate.toml", "plate");
 }
 

@@ -14,7 +14,7 @@ use crate::display::{Display, Picture};
 use crate::layout::Layout;
 use crate::{Window, keep};
 
-const BUILT_IN: &str = include_str!("../../src/built_in_scene.toml");
+const BUILT_IN: &str = hairline_console::BUILT_IN;
 const PLATE: &str = include_str!("../../../../scenes/plate.toml");
 
 /// Positions of lamps whose handles lie in the picture, but not in its middle, where changes are measured.

@@ -82,8 +82,8 @@ impl<'d> Window<'d> {
         flags: &[&str],
         title: &str,
     ) -> Self {
-        let program = Command::new(env!("CARGO_BIN_EXE_hairline"))
-            .args(["view", "--backend", "cpu", "--plain-dialogs", "--state-dir"])
+        let program = Command::new(env!("CARGO_BIN_EXE_hairline-viewer"))
+            .args(["--backend", "cpu", "--plain-dialogs", "--state-dir"])
             .arg(folder.join("state"))
             .arg(scene)
             .args(flags)

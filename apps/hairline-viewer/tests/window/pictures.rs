@@ -14,7 +14,7 @@ use crate::layout::Layout;
 use crate::{Window, display, keep};
 
 /// The built-in scene, with a name.
-const SCENE: &str = include_str!("../../src/built_in_scene.toml");
+const SCENE: &str = hairline_console::BUILT_IN;
 const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/models/spoon.glb");
 /// Time after which a picture is taken even if it still changes.
 const LONGEST: Duration = Duration::from_secs(300);
