@@ -38,6 +38,8 @@ pub mod ggx;
 pub mod grating;
 pub mod groove_spectrum;
 pub mod irradiance;
+#[cfg(not(target_arch = "wasm32"))]
+mod linear_algebra;
 pub mod lobe_table;
 pub mod ltc;
 pub mod mask;

@@ -6,8 +6,8 @@
 //! and one without H_x, whose D_x obeys that of TM. Both are the same at every component of the wave vector along y. So the eigenvalues serve all
 //! incidences that differ in it, and all that differ by an order of the grating.
 
-use faer::linalg::solvers::{PartialPivLu, Solve};
-use faer::{Mat, c64};
+use crate::linear_algebra::{Eigen, Lu, Matrix};
+use num_complex::Complex64;
 use std::f64::consts::PI;
 
 /// A layer of grooves.
@@ -29,12 +29,18 @@ pub struct Relief {
     /// Refractive index above, real.
     pub above: f64,
     /// Refractive index below.
-    pub below: c64,
+    pub below: Complex64,
 }
 
 impl Relief {
     /// Rectangular grooves.
-    pub fn lamellar(pitch_um: f64, width_um: f64, depth_nm: f64, above: f64, below: c64) -> Self {
+    pub fn lamellar(
+        pitch_um: f64,
+        width_um: f64,
+        depth_nm: f64,
+        above: f64,
+        below: Complex64,
+    ) -> Self {
         let half = 0.5 * width_um / pitch_um;
         Self {
             pitch_um,
@@ -63,8 +69,8 @@ pub struct CoupledWaves {
     kx: Vec<f64>,
     /// Angular wave number, 1/nm.
     k_per_nm: f64,
-    above: c64,
-    below: c64,
+    above: Complex64,
+    below: Complex64,
     layers: Vec<LayerModes>,
 }
 
@@ -72,77 +78,77 @@ pub struct CoupledWaves {
 struct LayerModes {
     thickness_nm: f64,
     /// Squares of the components of the modes' wave vectors across x: of those without H_x, then of those without E_x.
-    beta2: Vec<c64>,
+    beta2: Vec<Complex64>,
     /// E_x, D_x, and K E_z of the modes without H_x.
-    without_hx: [Mat<c64>; 3],
+    without_hx: [Matrix; 3],
     /// H_x of the modes without E_x, and K H_x.
-    without_ex: [Mat<c64>; 2],
+    without_ex: [Matrix; 2],
 }
 
 /// Least magnitude of a wave's component along z: at exactly the horizon the field has no direction.
 const LEAST_KZ: f64 = 1e-7;
 
-fn kz(beta2: c64, ky: f64) -> c64 {
+fn kz(beta2: Complex64, ky: f64) -> Complex64 {
     let root = (beta2 - ky * ky).sqrt();
     let root = if root.im < 0.0 { -root } else { root };
     if root.norm() < LEAST_KZ {
-        c64::new(0.0, LEAST_KZ)
+        Complex64::new(0.0, LEAST_KZ)
     } else {
         root
     }
 }
 
 /// Products of the coefficients of a piecewise constant function with those of a field.
-fn toeplitz(layer: &Layer, open: c64, filled: c64, count: usize) -> Mat<c64> {
+fn toeplitz(layer: &Layer, open: Complex64, filled: Complex64, count: usize) -> Matrix {
     let coefficient = |order: i32| {
         let of = |&[from, to]: &[f64; 2]| {
             if order == 0 {
-                return c64::new(to - from, 0.0);
+                return Complex64::new(to - from, 0.0);
             }
             let turn = -2.0 * PI * f64::from(order);
-            (c64::from_polar(1.0, turn * to) - c64::from_polar(1.0, turn * from))
-                / c64::new(0.0, turn)
+            (Complex64::from_polar(1.0, turn * to) - Complex64::from_polar(1.0, turn * from))
+                / Complex64::new(0.0, turn)
         };
-        let share: c64 = layer.open.iter().map(of).sum();
-        let rest = if order == 0 { filled } else { c64::ZERO };
+        let share: Complex64 = layer.open.iter().map(of).sum();
+        let rest = if order == 0 { filled } else { Complex64::ZERO };
         (open - filled) * share + rest
     };
     let last = count as i32 - 1;
-    let all: Vec<c64> = (-last..=last).map(coefficient).collect();
-    Mat::from_fn(count, count, |i, j| all[i + count - 1 - j])
+    let all: Vec<Complex64> = (-last..=last).map(coefficient).collect();
+    Matrix::from_fn(count, count, |i, j| all[i + count - 1 - j])
 }
 
 impl LayerModes {
-    fn new(layer: &Layer, kx: &[f64], above: c64, below: c64) -> Self {
+    fn new(layer: &Layer, kx: &[f64], above: Complex64, below: Complex64) -> Self {
         let n = kx.len();
         let epsilon = toeplitz(layer, above, below, n);
         let inverse = toeplitz(layer, above.inv(), below.inv(), n);
-        let k = Mat::from_fn(
-            n,
-            n,
-            |i, j| if i == j { c64::from(kx[i]) } else { c64::ZERO },
-        );
-        let scaled = |m: &Mat<c64>| Mat::from_fn(n, n, |i, j| kx[i] * m[(i, j)]);
+        let k = Matrix::from_fn(n, n, |i, j| {
+            if i == j {
+                Complex64::from(kx[i])
+            } else {
+                Complex64::ZERO
+            }
+        });
+        let scaled = |m: &Matrix| Matrix::from_fn(n, n, |i, j| kx[i] * m[(i, j)]);
         // E^-1 K, and 1 - K E^-1 K.
-        let by_z = epsilon.partial_piv_lu().solve(&k);
-        let one = Mat::<c64>::identity(n, n);
-        let tm = inverse.partial_piv_lu().solve(&(one - scaled(&by_z)));
-        let te = Mat::from_fn(n, n, |i, j| {
+        let by_z = Lu::new(&epsilon).solve(&k);
+        let one = Matrix::identity(n);
+        let tm = Lu::new(&inverse).solve(&(&one - &scaled(&by_z)));
+        let te = Matrix::from_fn(n, n, |i, j| {
             epsilon[(i, j)] - if i == j { kx[i] * kx[i] } else { 0.0 }
         });
-        let [tm, te] = [tm, te].map(|m| m.eigen().expect("a matrix of numbers has eigenvalues"));
-        let apart = |b: &c64| {
+        let [tm, te] =
+            [tm, te].map(|m| Eigen::new(&m).expect("a matrix of numbers has eigenvalues"));
+        let apart = |b: &Complex64| {
             if b.norm() < 1e-12 {
-                c64::from(1e-12)
+                Complex64::from(1e-12)
             } else {
                 *b
             }
         };
-        let beta2 = (tm.S().column_vector().iter())
-            .chain(te.S().column_vector().iter())
-            .map(apart)
-            .collect();
-        let (d, h) = (tm.U().to_owned(), te.U().to_owned());
+        let beta2 = (tm.values.iter()).chain(&te.values).map(apart).collect();
+        let (d, h) = (tm.vectors, te.vectors);
         let k_h = scaled(&h);
         Self {
             thickness_nm: layer.thickness_nm,
@@ -153,34 +159,36 @@ impl LayerModes {
     }
 
     /// The tangential fields (E_x, E_y) and (H_x, H_y) of each mode.
-    fn fields(&self, kz: &[c64], ky: f64) -> [Mat<c64>; 2] {
+    fn fields(&self, kz: &[Complex64], ky: f64) -> [Matrix; 2] {
         let n = kz.len() / 2;
         let [ex, d, ez] = &self.without_hx;
         let [hx, k_h] = &self.without_ex;
-        let e = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+        let along: Vec<Complex64> = self.beta2.iter().map(|b| ky / b).collect();
+        let down: Vec<Complex64> = kz.iter().zip(&self.beta2).map(|(z, b)| z / b).collect();
+        let e = Matrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
             (true, true) => ex[(i, j)],
-            (true, false) => c64::ZERO,
-            (false, true) => -ky * ez[(i - n, j)] / self.beta2[j],
-            (false, false) => -kz[j] * hx[(i - n, j - n)] / self.beta2[j],
+            (true, false) => Complex64::ZERO,
+            (false, true) => -along[j] * ez[(i - n, j)],
+            (false, false) => -down[j] * hx[(i - n, j - n)],
         });
-        let h = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
-            (true, true) => c64::ZERO,
+        let h = Matrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+            (true, true) => Complex64::ZERO,
             (true, false) => hx[(i, j - n)],
-            (false, true) => kz[j] * d[(i - n, j)] / self.beta2[j],
-            (false, false) => -ky * k_h[(i - n, j - n)] / self.beta2[j],
+            (false, true) => down[j] * d[(i - n, j)],
+            (false, false) => -along[j] * k_h[(i - n, j - n)],
         });
         [e, h]
     }
 }
 
 /// Admittance of waves that leave through a homogeneous medium: (H_x, H_y) from (E_x, E_y), order by order.
-struct Admittance(Vec<[c64; 4]>);
+struct Admittance(Vec<[Complex64; 4]>);
 
 impl Admittance {
-    fn new(epsilon: c64, kx: &[f64], ky: f64) -> Self {
+    fn new(epsilon: Complex64, kx: &[f64], ky: f64) -> Self {
         let of = |kx: &f64| {
             let z = kz(epsilon - kx * kx, ky);
-            let mixed = c64::from(kx * ky) / z;
+            let mixed = Complex64::from(kx * ky) / z;
             [
                 -mixed,
                 -(epsilon - kx * kx) / z,
@@ -191,9 +199,9 @@ impl Admittance {
         Self(kx.iter().map(of).collect())
     }
 
-    fn times(&self, e: &Mat<c64>) -> Mat<c64> {
+    fn times(&self, e: &Matrix) -> Matrix {
         let n = self.0.len();
-        Mat::from_fn(2 * n, e.ncols(), |i, j| {
+        Matrix::from_fn(2 * n, e.columns(), |i, j| {
             let (order, row) = (i % n, 2 * (i / n));
             let y = &self.0[order];
             y[row] * e[(order, j)] + y[row + 1] * e[(order + n, j)]
@@ -209,7 +217,7 @@ impl CoupledWaves {
             .map(|order| (bloch + f64::from(order)) * per_order)
             .collect();
         let (above, below) = (
-            c64::from(relief.above * relief.above),
+            Complex64::from(relief.above * relief.above),
             relief.below * relief.below,
         );
         let modes = |layer: &Layer| LayerModes::new(layer, &kx, above, below);
@@ -234,7 +242,7 @@ impl CoupledWaves {
         let back = self.reflected_fields(&sent, &by_incident, &above, ky);
         let by_back = above.times(&back);
         // Re (E x H*)_z
-        let flux = |e: &Mat<c64>, h: &Mat<c64>, i: usize, j: usize| {
+        let flux = |e: &Matrix, h: &Matrix, i: usize, j: usize| {
             (e[(i, j)] * h[(i + n, j)].conj() - e[(i + n, j)] * h[(i, j)].conj()).re
         };
         let most = (n / 2) as i32;
@@ -253,9 +261,9 @@ impl CoupledWaves {
     }
 
     /// Tangential E of the incident waves, in two columns each: across the plane of incidence and in it.
-    fn incident_fields(&self, incident: &[usize], ky: f64) -> Mat<c64> {
+    fn incident_fields(&self, incident: &[usize], ky: f64) -> Matrix {
         let n = self.kx.len();
-        let mut sent = Mat::zeros(2 * n, 2 * incident.len());
+        let mut sent = Matrix::zeros(2 * n, 2 * incident.len());
         for (c, &i) in incident.iter().enumerate() {
             let length = self.kx[i].hypot(ky);
             let [x, y] = if length < 1e-9 {
@@ -264,8 +272,8 @@ impl CoupledWaves {
                 [self.kx[i] / length, ky / length]
             };
             for (j, [ex, ey]) in [[-y, x], [x, y]].into_iter().enumerate() {
-                sent[(i, 2 * c + j)] = c64::from(ex);
-                sent[(i + n, 2 * c + j)] = c64::from(ey);
+                sent[(i, 2 * c + j)] = Complex64::from(ex);
+                sent[(i + n, 2 * c + j)] = Complex64::from(ey);
             }
         }
         sent
@@ -274,40 +282,40 @@ impl CoupledWaves {
     /// Tangential E of what comes back from all layers.
     fn reflected_fields(
         &self,
-        sent: &Mat<c64>,
-        by_sent: &Mat<c64>,
+        sent: &Matrix,
+        by_sent: &Matrix,
         above: &Admittance,
         ky: f64,
-    ) -> Mat<c64> {
+    ) -> Matrix {
         let n2 = 2 * self.kx.len();
         let below = Admittance::new(self.below, &self.kx, ky);
         // H from E at the lower side of a layer; none for the medium below.
-        let mut by_lower: Option<Mat<c64>> = None;
-        let twice = |m: &Mat<c64>| Mat::from_fn(m.nrows(), m.ncols(), |i, j| 2.0 * m[(i, j)]);
+        let mut by_lower: Option<Matrix> = None;
+        let twice = |m: &Matrix| Matrix::from_fn(m.rows(), m.columns(), |i, j| 2.0 * m[(i, j)]);
         for (i, layer) in self.layers.iter().enumerate().rev() {
-            let kz: Vec<c64> = layer.beta2.iter().map(|b| kz(*b, ky)).collect();
-            let through: Vec<c64> = (kz.iter())
-                .map(|kz| (c64::I * kz * self.k_per_nm * layer.thickness_nm).exp())
+            let kz: Vec<Complex64> = layer.beta2.iter().map(|b| kz(*b, ky)).collect();
+            let through: Vec<Complex64> = (kz.iter())
+                .map(|kz| (Complex64::I * kz * self.k_per_nm * layer.thickness_nm).exp())
                 .collect();
             let [e, h] = layer.fields(&kz, ky);
-            let lower = by_lower.map_or_else(|| below.times(&e), |by| by * &e);
+            let lower = by_lower.map_or_else(|| below.times(&e), |by| &by * &e);
             // Waves that come up at the lower side, from those that go down at the upper one.
-            let down = Mat::from_fn(n2, n2, |i, j| (h[(i, j)] - lower[(i, j)]) * through[j]);
-            let up: Mat<c64> = (&h + &lower).partial_piv_lu().solve(&down);
-            let risen = Mat::from_fn(n2, n2, |i, j| through[i] * up[(i, j)]);
+            let down = Matrix::from_fn(n2, n2, |i, j| (h[(i, j)] - lower[(i, j)]) * through[j]);
+            let up = Lu::new(&(&h + &lower)).solve(&down);
+            let risen = Matrix::from_fn(n2, n2, |i, j| through[i] * up[(i, j)]);
             if i > 0 {
-                let (e, h) = (&e + &e * &risen, &h - &h * &risen);
+                let (e, h) = (&e + &(&e * &risen), &h - &(&h * &risen));
                 // H E^-1, by its transpose.
-                let e: PartialPivLu<c64> = e.transpose().partial_piv_lu();
-                by_lower = Some(e.solve(h.transpose()).transpose().to_owned());
+                let e = Lu::new(&e.transpose());
+                by_lower = Some(e.solve(&h.transpose()).transpose());
                 continue;
             }
             let upper = above.times(&e);
-            let all = (&h + &upper) + (&upper - &h) * &risen;
-            let down: Mat<c64> = all.partial_piv_lu().solve(&twice(by_sent));
-            return &e * (&down + &risen * &down) - sent;
+            let all = &(&h + &upper) + &(&(&upper - &h) * &risen);
+            let down = Lu::new(&all).solve(&twice(by_sent));
+            return &(&e * &(&down + &(&risen * &down))) - sent;
         }
         // A flat surface.
-        Mat::from_fn(n2, sent.ncols(), |_, _| c64::ZERO)
+        Matrix::from_fn(n2, sent.columns(), |_, _| Complex64::ZERO)
     }
 }

@@ -2,12 +2,12 @@ use super::efficiencies::kept_orders;
 use super::*;
 use crate::fresnel;
 use crate::metal::Metal;
-use faer::c64;
+use num_complex::Complex64;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// Aluminium at 550 nm.
-const ALUMINIUM: c64 = c64::new(0.96, 6.69);
+const ALUMINIUM: Complex64 = Complex64::new(0.96, 6.69);
 
 /// Efficiencies of both polarisations from a direction with the sine `across` in the plane across the grooves, and `along` them, by the order.
 fn efficiencies(
@@ -34,13 +34,13 @@ fn efficiencies(
 /// grooves of half the pitch, n = 0.22 + 6.71 i, 30 degrees: 0.7342789 in order -1 of TE and 0.8484817 in order 0 of TM.
 #[test]
 fn a_published_grating_has_its_efficiencies() {
-    let relief = Relief::lamellar(1.0, 0.5, 1000.0, 1.0, c64::new(0.22, 6.71));
+    let relief = Relief::lamellar(1.0, 0.5, 1000.0, 1.0, Complex64::new(0.22, 6.71));
     let found = efficiencies(&relief, 1000.0, [0.5, 0.0], 60);
     let [te, tm] = [found(-1)[0], found(0)[1]];
     println!("order -1 of TE {te:.5}, order 0 of TM {tm:.5}");
     assert!((te - 0.734_278_9).abs() < 3e-4 && (tm - 0.848_481_7).abs() < 1.2e-3);
     // Another metal is told apart.
-    let wrong = Relief::lamellar(1.0, 0.5, 1000.0, 1.0, c64::new(0.22, 6.0));
+    let wrong = Relief::lamellar(1.0, 0.5, 1000.0, 1.0, Complex64::new(0.22, 6.0));
     assert!((efficiencies(&wrong, 1000.0, [0.5, 0.0], 60)(0)[1] - tm).abs() > 0.01);
 }
 
@@ -57,7 +57,11 @@ const PROTOTYPE: [f64; 2] = [0.265679, 0.218854];
 
 #[test]
 fn a_flat_surface_has_its_fresnel_reflectance() {
-    for (above, below) in [(1.0, ALUMINIUM), (1.0, c64::from(1.5)), (1.58, ALUMINIUM)] {
+    for (above, below) in [
+        (1.0, ALUMINIUM),
+        (1.0, Complex64::from(1.5)),
+        (1.58, ALUMINIUM),
+    ] {
         let relief = Relief::lamellar(1.0, 1e-9, 100.0, above, below);
         for [across, along] in [[0.0, 0.0], [0.5, 0.0], [-0.3, 0.7], [0.0, 0.9]] {
             let [s, p] = efficiencies(&relief, 550.0, [across, along], 8)(0);
@@ -117,7 +121,13 @@ fn no_light_is_made() {
         let metal = Metal::ALL[between(0.0, 9.99) as usize];
         let nm = between(380.0, 780.0);
         let (n, k) = metal.n_k(nm);
-        let relief = Relief::lamellar(pitch_um, width_um, between(1.0, 400.0), 1.0, c64::new(n, k));
+        let relief = Relief::lamellar(
+            pitch_um,
+            width_um,
+            between(1.0, 400.0),
+            1.0,
+            Complex64::new(n, k),
+        );
         let waves = CoupledWaves::new(&relief, nm, between(-0.5, 0.5), 20);
         for from in waves.reflected(between(0.0, 0.99)) {
             for s in 0..2 {
