@@ -1,7 +1,7 @@
 //! Maps of one size, and sums of blurred ones.
 
-use glam::Vec4;
 use hairline_image::Picture;
+use hairline_optics::vectors::with_widest;
 use rayon::prelude::*;
 
 /// Weights with which a row of a map adds to all texels of another row.
@@ -12,24 +12,32 @@ pub(super) struct RowTaps {
     pub weights: Vec<f32>,
 }
 
-/// Maps of one size, with a weight for each texel, which is 1 before anything is added up. A row of one map follows that of another.
+/// Maps of one size, with a weight for each row of them, which is 1 before anything is added up.
 pub(super) struct Mip {
     width: usize,
     height: usize,
     pub(super) maps: usize,
-    texels: Vec<Vec4>,
+    /// Rows of one channel: by row, by map, by channel.
+    lines: Vec<f32>,
+    /// A weight for each row.
+    weights: Vec<f32>,
 }
+
+/// Channels of a texel.
+const CHANNELS: usize = 3;
 
 impl Mip {
     pub(super) fn of(maps: &[Picture]) -> Self {
         let [width, height] = maps[0].size_px.map(|n| n as usize);
         let rows = (0..height).flat_map(|y| maps.iter().map(move |map| &map.rgb[y * width..]));
-        let texels = rows.flat_map(|row| &row[..width]);
+        let lines =
+            rows.flat_map(|row| (0..CHANNELS).flat_map(|c| row[..width].iter().map(move |t| t[c])));
         Self {
             width,
             height,
             maps: maps.len(),
-            texels: texels.map(|t| Vec4::new(t[0], t[1], t[2], 1.0)).collect(),
+            lines: lines.collect(),
+            weights: vec![1.0; height],
         }
     }
 
@@ -39,13 +47,19 @@ impl Mip {
             width,
             height,
             maps,
-            texels: vec![Vec4::ZERO; width * height * maps],
+            lines: vec![0.0; width * height * maps * CHANNELS],
+            weights: vec![0.0; height],
         }
     }
 
-    fn row(&self, y: usize, map: usize) -> &[Vec4] {
-        let first = (y * self.maps + map) * self.width;
-        &self.texels[first..first + self.width]
+    /// Number of lines of a row.
+    fn per_row(&self) -> usize {
+        self.maps * CHANNELS
+    }
+
+    fn line(&self, row: usize, line: usize) -> &[f32] {
+        let first = (row * self.per_row() + line) * self.width;
+        &self.lines[first..first + self.width]
     }
 
     /// Returns the weighted means: sums over weights.
@@ -53,8 +67,11 @@ impl Mip {
         let picture = |map: usize| Picture {
             size_px: [self.width as u32, self.height as u32],
             rgb: (0..self.height)
-                .flat_map(|y| self.row(y, map))
-                .map(|t| (t.truncate() / t.w).to_array())
+                .flat_map(|y| {
+                    let lines: [&[f32]; CHANNELS] =
+                        std::array::from_fn(|c| self.line(y, map * CHANNELS + c));
+                    (0..self.width).map(move |x| lines.map(|line| line[x] / self.weights[y]))
+                })
                 .collect(),
         };
         (0..self.maps).map(picture).collect()
@@ -67,19 +84,17 @@ impl Mip {
         mip: &Self,
         taps: impl Fn([usize; 2], f64, usize) -> Vec<RowTaps> + Sync,
     ) {
-        let (width, height) = (self.width, self.height);
-        let stride = mip.width / width;
-        let rows = self.texels.par_chunks_mut(width * self.maps).enumerate();
-        rows.for_each(|(y, rows)| {
+        let (width, height, per_row) = (self.width, self.height, self.per_row());
+        let strided = Strided::new(mip, mip.width / width);
+        let rows = self.lines.par_chunks_mut(width * per_row);
+        let rows = rows.zip(&mut self.weights).enumerate();
+        rows.for_each(|(y, (lines, weight))| {
             let v = (y as f64 + 0.5) / height as f64;
-            for taps in taps([mip.width, mip.height], v, stride) {
-                for (map, sums) in rows.chunks_mut(width).enumerate() {
-                    let row = mip.row(taps.row, map);
-                    for (x, sum) in sums.iter_mut().enumerate() {
-                        let first = (x * stride) as isize + taps.first;
-                        let first = first.rem_euclid(mip.width as isize) as usize;
-                        *sum += around(row, first, &taps.weights);
-                    }
+            for taps in taps([mip.width, mip.height], v, strided.stride) {
+                *weight += taps.weights.iter().sum::<f32>();
+                let places = strided.places(&taps);
+                for (i, sums) in lines.chunks_exact_mut(width).enumerate() {
+                    strided.add(taps.row * per_row + i, &places, sums);
                 }
             }
         });
@@ -87,57 +102,119 @@ impl Mip {
 
     /// Twice as wide and high, linear between texels. Beyond a pole lies the row on its other side.
     pub(super) fn doubled(&self) -> Self {
-        let (width, height) = (self.width, self.height);
-        let at = |x: isize, y: isize, map: usize| {
+        let (width, height, per_row) = (self.width, self.height, self.per_row());
+        let at = |x: isize, y: isize, line: usize| {
             let is_beyond = y < 0 || y >= height as isize;
             let y = y.clamp(0, height as isize - 1) as usize;
             let x = if is_beyond { x + width as isize / 2 } else { x };
-            self.row(y, map)[x.rem_euclid(width as isize) as usize]
+            self.line(y, line)[x.rem_euclid(width as isize) as usize]
         };
         // A quarter of a texel from the middle of one.
         let near = |i: usize| {
             let i = i as isize;
             (i / 2, if i % 2 == 0 { i / 2 - 1 } else { i / 2 + 1 })
         };
-        let texels = (0..2 * height * self.maps)
+        let lines = (0..2 * height * per_row)
             .into_par_iter()
             .flat_map_iter(|row| {
-                let ((y0, y1), map) = (near(row / self.maps), row % self.maps);
+                let ((y0, y1), line) = (near(row / per_row), row % per_row);
                 (0..2 * width).map(move |x| {
                     let (x0, x1) = near(x);
-                    let across = |y: isize| 0.75 * at(x0, y, map) + 0.25 * at(x1, y, map);
+                    let across = |y: isize| 0.75 * at(x0, y, line) + 0.25 * at(x1, y, line);
                     0.75 * across(y0) + 0.25 * across(y1)
                 })
             })
             .collect();
+        let weight = |y: isize| self.weights[y.clamp(0, height as isize - 1) as usize];
+        let weights = (0..2 * height).map(|row| {
+            let (y0, y1) = near(row);
+            0.75 * weight(y0) + 0.25 * weight(y1)
+        });
         Self {
             width: 2 * width,
             height: 2 * height,
             maps: self.maps,
-            texels,
+            weights: weights.collect(),
+            lines,
         }
     }
 }
 
-/// The sum over texels from `first` on, around the map, with these weights: no more than there are texels.
-fn around(row: &[Vec4], first: usize, weights: &[f32]) -> Vec4 {
-    let before = weights.len().min(row.len() - first);
-    let (left, right) = weights.split_at(before);
-    weighted(&row[first..first + before], left) + weighted(&row[..right.len()], right)
+/// Lines of a map, each as lines of every so manieth texel, so that what neighbours take lies side by side.
+struct Strided {
+    stride: usize,
+    /// Length of a part.
+    width: usize,
+    /// By line, by the part's first texel. Each part stands there twice, as lines run around the map.
+    parts: Vec<f32>,
 }
 
-fn weighted(texels: &[Vec4], weights: &[f32]) -> Vec4 {
-    // Four sums at once: each addition would wait for the one before it.
-    let mut sums = [Vec4::ZERO; 4];
-    let (fours, rest) = texels.as_chunks::<4>();
-    let (weight_fours, weight_rest) = weights.as_chunks::<4>();
-    for (texels, weights) in fours.iter().zip(weight_fours) {
-        for i in 0..4 {
-            sums[i] += texels[i] * weights[i];
+impl Strided {
+    fn new(mip: &Mip, stride: usize) -> Self {
+        let width = mip.width / stride;
+        let mut parts = vec![0.0; 2 * mip.lines.len()];
+        let lines = mip.lines.par_chunks(mip.width);
+        parts
+            .par_chunks_mut(2 * mip.width)
+            .zip(lines)
+            .for_each(|(parts, line)| {
+                for (first, part) in parts.chunks_exact_mut(2 * width).enumerate() {
+                    let texels = line[first..].iter().step_by(stride);
+                    for (x, texel) in texels.enumerate() {
+                        part[x] = *texel;
+                        part[x + width] = *texel;
+                    }
+                }
+            });
+        Self {
+            stride,
+            width,
+            parts,
         }
     }
-    for (texel, weight) in rest.iter().zip(weight_rest) {
-        sums[0] += *texel * *weight;
+
+    /// Where the texels of each weight begin in a line's parts, and the weight. Where the part of a lobe has not begun there are zeros, which are
+    /// left out.
+    fn places(&self, taps: &RowTaps) -> Vec<(usize, f32)> {
+        let (stride, width) = (self.stride, self.width);
+        let first = taps.first.rem_euclid((stride * width) as isize) as usize;
+        let place = |i: usize| {
+            let texel = first + i;
+            2 * (texel % stride) * width + (texel / stride) % width
+        };
+        let taps = taps.weights.iter().enumerate();
+        let taps = taps.filter(|(_, weight)| **weight != 0.0);
+        taps.map(|(i, weight)| (place(i), *weight)).collect()
     }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
+
+    /// Adds what a line gives to a line of sums.
+    fn add(&self, line: usize, places: &[(usize, f32)], sums: &mut [f32]) {
+        let length = 2 * self.stride * self.width;
+        let parts = &self.parts[line * length..][..length];
+        with_widest(|| add_weighted(parts, places, sums));
+    }
+}
+
+/// Adds to each sum the values that lie as far from these places as it lies from the first sum, with their weights.
+#[inline(always)]
+fn add_weighted(values: &[f32], places: &[(usize, f32)], sums: &mut [f32]) {
+    // So many sums stay in registers.
+    const SIDE: usize = 32;
+    let done = sums.len() / SIDE * SIDE;
+    let (blocks, rest) = sums.as_chunks_mut::<SIDE>();
+    for (block, sums) in blocks.iter_mut().enumerate() {
+        let mut all = *sums;
+        for (place, weight) in places {
+            let values = &values[place + block * SIDE..][..SIDE];
+            for (sum, value) in all.iter_mut().zip(values) {
+                *sum += value * weight;
+            }
+        }
+        *sums = all;
+    }
+    for (place, weight) in places {
+        for (sum, value) in rest.iter_mut().zip(&values[place + done..]) {
+            *sum += value * weight;
+        }
+    }
 }
