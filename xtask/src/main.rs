@@ -2,6 +2,7 @@
 
 mod blender;
 mod dist;
+mod mutate;
 mod package;
 mod paths;
 mod pictures;
@@ -21,6 +22,8 @@ enum Command {
     Blender(blender::Blender),
     /// Make an archive of the program with scenes, docs and licences, for Linux.
     Dist(dist::Dist),
+    /// Make each fault of tests/mutants.toml, which a test must find.
+    Mutate(mutate::Mutate),
     /// Make the package of shaders, tables and JavaScript for other engines.
     Package(package::Package),
     /// Find paths in documents and shaders that name no file.
@@ -41,6 +44,7 @@ fn main() -> anyhow::Result<()> {
     match Command::parse() {
         Command::Blender(command) => command.run(),
         Command::Dist(command) => command.run(),
+        Command::Mutate(command) => command.run(),
         Command::Package(command) => command.run(),
         Command::Paths => paths::run(),
         Command::Pictures(command) => command.run(),
