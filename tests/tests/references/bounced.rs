@@ -103,7 +103,7 @@ fn settings(bounces: u32) -> Settings {
 #[test]
 fn light_by_way_of_objects_is_that_of_the_path_tracer() {
     // Rays by way of rows of grooves scatter the most.
-    let settings_of = [(1, 256), (1, 256), (4, 512), (1, 1024), (1, 512)];
+    let settings_of = [(1, 512), (1, 768), (4, 512), (1, 1024), (1, 768)];
     for ((bounces, samples), (name, scene)) in settings_of.into_iter().zip(scenes()) {
         let reference = sampled(&scene, settings(bounces), 6);
         let image = bounced(&scene, samples, true, bounces);
@@ -145,7 +145,7 @@ fn light_of_a_sky_by_way_of_a_wall() {
     assert!((found - 1.0).abs() < 0.03 && all > 0.02, "{found} {all}");
 }
 
-/// Few rays are right in the mean, and the error falls by half for four times as many.
+/// Few rays are right in the mean, and the error falls to a quarter for sixteen times as many.
 #[test]
 fn few_rays_find_the_light_of_objects_in_the_mean() {
     for (name, scene) in scenes() {
@@ -153,7 +153,7 @@ fn few_rays_find_the_light_of_objects_in_the_mean() {
         let count = truth.len() as f64;
         let mean = truth.iter().sum::<f64>() / count;
         let mut last = f64::INFINITY;
-        for samples in [2, 8, 32] {
+        for samples in [2, 32] {
             let image = luminance(&bounced(&scene, samples, true, 1), Layer::Base);
             let errors = image.iter().zip(&truth).map(|(a, b)| a - b);
             let bias = errors.clone().sum::<f64>() / count;
@@ -164,7 +164,7 @@ fn few_rays_find_the_light_of_objects_in_the_mean() {
                 100.0 * rms / mean
             );
             assert!(z.abs() < 4.0, "{name}");
-            assert!(rms < 0.7 * last, "{name}");
+            assert!(rms < 0.5 * last, "{name}");
             last = rms;
         }
     }

@@ -41,16 +41,16 @@ fn plates() {
         base_color: [0.2, 0.1, 0.05],
     };
     for (base, angle_deg, pixel_um, count, batches) in [
-        (Base::Mirror, 30.0_f64, 5.0, 24, 6),
-        (Base::Mirror, 60.0, 20.0, 24, 8),
-        (Base::Metal(Metal::Gold), 45.0, 15.0, 24, 6),
-        (Base::Metal(Metal::Aluminium), 50.0, 60.0, 40, 10),
-        (dielectric, 45.0, 30.0, 30, 10),
+        (Base::Mirror, 30.0_f64, 10.0, 24, 6),
+        (Base::Mirror, 60.0, 40.0, 24, 8),
+        (Base::Metal(Metal::Gold), 45.0, 30.0, 24, 6),
+        (Base::Metal(Metal::Aluminium), 50.0, 120.0, 40, 10),
+        (dielectric, 45.0, 60.0, 30, 10),
     ] {
         let view = View {
             angle_rad: angle_deg.to_radians(),
             pixel_um,
-            size_px: 16,
+            size_px: 8,
         };
         let mut scene = plate(base, view);
         light(&mut scene, view);
@@ -69,8 +69,8 @@ fn plates() {
 fn lamps_as_small_as_pixels() {
     let view = View {
         angle_rad: 30f64.to_radians(),
-        pixel_um: 500.0,
-        size_px: 16,
+        pixel_um: 1000.0,
+        size_px: 8,
     };
     let brushed = Anisotropy {
         strength: 0.7,
@@ -96,8 +96,8 @@ fn lamps_as_small_as_pixels() {
 fn coated_plates() {
     let view = View {
         angle_rad: 50f64.to_radians(),
-        pixel_um: 20.0,
-        size_px: 16,
+        pixel_um: 40.0,
+        size_px: 8,
     };
     let body = Base::Dielectric {
         ior: 1.3,
@@ -130,8 +130,8 @@ fn coated_plates() {
 fn plates_under_coats_of_other_normals() {
     let view = View {
         angle_rad: 50f64.to_radians(),
-        pixel_um: 20.0,
-        size_px: 16,
+        pixel_um: 40.0,
+        size_px: 8,
     };
     let body = Base::Dielectric {
         ior: 1.3,
@@ -186,8 +186,8 @@ fn plates_under_coats_of_other_normals() {
 fn scratched_plate(base: Base, angle_deg: f64, roughness: f64) -> (View, Scene) {
     let view = View {
         angle_rad: angle_deg.to_radians(),
-        pixel_um: 20.0,
-        size_px: 16,
+        pixel_um: 40.0,
+        size_px: 8,
     };
     let mut scene = plate(base, view);
     scene.materials[0].roughness = roughness;
@@ -259,12 +259,12 @@ fn brushed_plates() {
 #[test]
 fn tubes() {
     for (angle_deg, pixel_um, half_rad, radius_rad) in
-        [(30.0_f64, 10.0, 0.03, 0.05), (50.0, 20.0, 0.06, 0.03)]
+        [(30.0_f64, 20.0, 0.03, 0.05), (50.0, 40.0, 0.06, 0.03)]
     {
         let view = View {
             angle_rad: angle_deg.to_radians(),
             pixel_um,
-            size_px: 16,
+            size_px: 8,
         };
         let mut scene = plate(Base::Metal(Metal::Aluminium), view);
         scene.lights = vec![
@@ -294,8 +294,8 @@ fn tubes() {
 fn disks_and_stars() {
     let view = View {
         angle_rad: 0.7,
-        pixel_um: 20.0,
-        size_px: 16,
+        pixel_um: 40.0,
+        size_px: 8,
     };
     let star = |i: i32| if i % 2 == 0 { 0.09 } else { 0.05 };
     for (name, corners_rad) in [
@@ -324,8 +324,8 @@ fn disks_and_stars() {
 fn cones() {
     let view = View {
         angle_rad: 0.6,
-        pixel_um: 10.0,
-        size_px: 16,
+        pixel_um: 20.0,
+        size_px: 8,
     };
     for (radius_rad, limit) in [(0.01, 0.03), (0.02, 0.06), (0.04, 0.15)] {
         let mut scene = plate(Base::Metal(Metal::Aluminium), view);
@@ -448,8 +448,8 @@ fn a_ball() {
 fn plates_of_profiles_and_wide_grooves() {
     let view = View {
         angle_rad: 40f64.to_radians(),
-        pixel_um: 60.0,
-        size_px: 16,
+        pixel_um: 120.0,
+        size_px: 8,
     };
     let listed = Section::Listed([1.0, 0.8, 0.1, -0.3, 0.0].into());
     for (section, width_um) in [

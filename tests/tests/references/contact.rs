@@ -26,7 +26,7 @@ fn a_lamp_in_the_plane_of_a_ceiling_lights_the_floor() {
     ];
     for (keys, (turn_deg, below_m)) in lamps
         .into_iter()
-        .flat_map(|keys| [(0.0, 0.0), (0.0, 1e-6), (0.0, 3e-6), (20.0, 0.0)].map(|at| (keys, at)))
+        .flat_map(|keys| [(0.0, 0.0), (0.0, 1e-6), (20.0, 0.0)].map(|at| (keys, at)))
     {
         let (sin, cos) = f64::to_radians(turn_deg).sin_cos();
         let below = DVec3::new(0.0, sin, -cos);
@@ -116,7 +116,8 @@ fn no_light_comes_through_a_sheet() {
 /// No light comes on the plate, away from the foot of the can, except by rounding.
 #[test]
 fn no_light_comes_through_a_sheet_on_the_gpu() {
-    let scene = under_a_can([0.0; 3], 15.0);
+    let mut scene = under_a_can([0.0; 3], 15.0);
+    scene.render.size_px = [12, 8];
     let open = on_gpu(&scene, 16, None);
     let image = on_gpu(&scene, 16, Some(0));
     let Some((open, image)) = open.zip(image) else {
@@ -207,12 +208,13 @@ fn no_light_comes_from_beyond_a_wall() {
 fn balls_do_not_shade_themselves() {
     for (slices, stacks) in [(4, 3), (64, 33)] {
         let mut scene = plate(WHITE, VIEW);
+        scene.render.size_px = [16; 2];
         scene.materials[0].roughness = 0.4;
         scene.lights = vec![sphere(VIEW, 0.3, -0.6, 0.05)];
         set_ball(&mut scene, slices, stacks, 2e-4);
         let towards = off_the_mirror(VIEW.angle_rad, 0.3, -0.6);
         let facing = facets_facing(&scene, towards);
-        let side = VIEW.size_px as usize;
+        let side = scene.render.size_px[0] as usize;
         // The filter reaches this far.
         let around = |i: usize| {
             let (x, y) = (i % side, i / side);

@@ -53,8 +53,8 @@ fn a_smooth_sky() {
     for (base, angle_rad) in [(Base::Mirror, 0.4), (Base::Metal(Metal::Aluminium), 0.9)] {
         let view = View {
             angle_rad,
-            pixel_um: 20.0,
-            size_px: 16,
+            pixel_um: 40.0,
+            size_px: 8,
         };
         let mut scene = plate(base, view);
         scene.materials[0].roughness = 0.3;
@@ -78,12 +78,12 @@ fn a_smooth_sky() {
 /// and split sum.
 #[test]
 fn a_sun_in_the_sky() {
-    const SIZE_PX: [u32; 2] = [1024, 512];
+    const SIZE_PX: [u32; 2] = [512, 256];
     for (base, angle_rad) in [(Base::Mirror, 0.4), (Base::Metal(Metal::Aluminium), 0.9)] {
         let view = View {
             angle_rad,
-            pixel_um: 20.0,
-            size_px: 16,
+            pixel_um: 40.0,
+            size_px: 8,
         };
         let mut scene = plate(base, view);
         scene.materials[0].roughness = 0.3;
@@ -120,7 +120,7 @@ fn a_sun_in_the_sky() {
 /// A lamp of 0.1 rad, too large to be a sun, in a rough metal seen from aside: its reflection is drawn out, and its tails are dim but all there is.
 #[test]
 fn a_lamp_is_drawn_out() {
-    const SIZE_PX: [u32; 2] = [512, 256];
+    const SIZE_PX: [u32; 2] = [256, 128];
     // The last numbers: at most, by how much. One round look-up errs by 4, 24, 14 and 8 %.
     let cases = [
         (0.2, 0.4, 0.025),
@@ -132,7 +132,7 @@ fn a_lamp_is_drawn_out() {
         let (sin, cos) = f64::sin_cos(angle_rad);
         let mut scene = SceneFile::seen_from([0.0, -sin, cos])
             .fov_y_deg(25.0)
-            .size_px([48, 36])
+            .size_px([16, 12])
             .metal("metal", "aluminium")
             .with(&format!("roughness = {roughness}"))
             .object("disk", "metal", "disk = { radius_m = 50.0 }")
@@ -157,12 +157,12 @@ fn a_lamp_is_drawn_out() {
 /// the rest as cells.
 #[test]
 fn a_window_in_the_sky() {
-    const SIZE_PX: [u32; 2] = [1024, 512];
+    const SIZE_PX: [u32; 2] = [512, 256];
     let angle_rad = 0.6;
     let view = View {
         angle_rad,
-        pixel_um: 20.0,
-        size_px: 16,
+        pixel_um: 40.0,
+        size_px: 8,
     };
     let mut scene = plate(Base::Metal(Metal::Aluminium), view);
     scene.materials[0].roughness = 0.3;

@@ -41,7 +41,7 @@ fn means_stay() {
     for (name, bound) in bounds {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shadows");
         let scene = Scene::load(folder.join(name).with_extension("toml")).unwrap();
-        let [found, filtered] = found_and_filtered(&at_width(scene, 96));
+        let [found, filtered] = found_and_filtered(&at_width(scene, 64));
         for layer in [Layer::Base, Layer::Scratches] {
             let [before, after] = [&found, &filtered].map(|image| mean(&luminance(image, layer)));
             let off = after / before - 1.0;
@@ -55,7 +55,8 @@ fn means_stay() {
 #[test]
 fn scratches_in_half_shadow_stay_sharp() {
     // The others have gratings and a sky, which are smooth.
-    for (name, scene) in scenes().into_iter().take(7) {
+    for (name, mut scene) in scenes().into_iter().take(7).step_by(3) {
+        scene.render.size_px = [16; 2];
         let images = found_and_filtered(&scene);
         let truth = luminance(&bounced(&scene, 256, true, 1), Layer::Scratches);
         let [before, after] =

@@ -128,8 +128,8 @@ fn many_scratches_are_alike_in_the_mean() {
 fn profiles_and_wide_grooves_alone() {
     let view = View {
         angle_rad: 0.15,
-        pixel_um: 40.0,
-        size_px: 8,
+        pixel_um: 80.0,
+        size_px: 4,
     };
     for (section, width_um, limit) in [
         (Section::V, 2.0, 0.05),

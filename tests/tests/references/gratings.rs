@@ -195,7 +195,7 @@ fn small_spots_show_their_mean() {
         (200.0, 0.3, 0.2, 0.11),
     ] {
         let of = |along_row| spots(along_row, 30.0, angle_deg, off_mirror, light_rad);
-        let (exact, reference) = (closed(&of(DVec3::X)), sampled(&of(DVec3::X), LINEAR, 12));
+        let (exact, reference) = (closed(&of(DVec3::X)), sampled(&of(DVec3::X), LINEAR, 4));
         let name = format!(
             "small spots, light of {light_rad} rad {off_mirror} off at {angle_deg} degrees"
         );
@@ -263,17 +263,14 @@ fn rows_of_grooves() {
 #[test]
 fn rows_of_grooves_with_all_phases() {
     for (row, light_rad, limit) in [
-        (row(0.74, 0.35, 0.0, 0.0), 0.05, 0.03),
-        (row(1.6, 0.6, 0.0, 0.0), 0.02, 0.03),
         (row(1.6, 0.6, 0.0, 0.0), 0.002, 0.08),
         (row(10.0, 3.0, 0.2, 0.0), 0.05, 0.03),
-        (row(30.0, 5.0, 0.0, 0.0), 0.05, 0.03),
     ] {
         let scene = grated(row, 0.0, light_rad);
-        let (exact, reference) = (closed(&scene), sampled(&scene, FULL, 12));
+        let (exact, reference) = (closed(&scene), sampled(&scene, FULL, 8));
         let name = format!("{row:?} with all phases, light of {light_rad} rad");
         let (off, error) = compared(&name, &exact, &reference);
-        assert!(off < limit + 2.0 * error && error < 0.03, "{name}: {off}");
+        assert!(off < limit + 2.0 * error && error < 0.04, "{name}: {off}");
     }
     // The comparison rejects the light of single scratches.
     let scene = grated(row(1.6, 0.6, 0.0, 0.0), 0.0, 0.02);
@@ -316,16 +313,14 @@ fn fine_gratings_in_metals() {
         scene
     };
     for (row, light_rad, settings, batches, limit) in [
-        (row(0.74, 0.32, 0.0, 0.0), 0.05, LINEAR, 20, 0.03),
-        (row(1.6, 0.6, 0.05, 0.1), 0.1, LINEAR, 20, 0.03),
-        (row(0.74, 0.32, 0.0, 0.0), 0.05, FULL, 12, 0.05),
-        (row(1.6, 0.6, 0.0, 0.0), 0.05, FULL, 12, 0.05),
+        (row(0.74, 0.32, 0.0, 0.0), 0.05, LINEAR, 12, 0.03),
+        (row(1.6, 0.6, 0.0, 0.0), 0.05, FULL, 8, 0.05),
     ] {
         let scene = metal(row, light_rad, true);
         let reference = sampled(&scene, settings, batches);
         let name = format!("{row:?} in aluminium, {:?}", settings.model);
         let (off, error) = compared(&name, &closed(&scene), &reference);
-        assert!(off < limit + 2.0 * error && error < 0.03, "{name}: {off}");
+        assert!(off < limit + 2.0 * error && error < 0.04, "{name}: {off}");
         if row.pitch_um == 0.74 {
             let scalar = metal(row, light_rad, false);
             let (off, _) = compared("scalar", &closed(&scalar), &reference);

@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 const VIEW: View = View {
     angle_rad: 0.6,
-    pixel_um: 20.0,
-    size_px: 16,
+    pixel_um: 40.0,
+    size_px: 8,
 };
 
 /// Aluminium whose highlight is wide enough for the base to be lit, under two lights beside the mirror's direction.
@@ -112,7 +112,7 @@ fn a_plate_under_each_kind_of_light() {
         ("sun", scene(sun), [0.01, 0.02]),
     ];
     for (kind, scene, limits) in kinds {
-        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 16));
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
         let of = |image, layer| compared(kind, image, &reference, layer);
         let found = [Layer::Base, Layer::Scratches].map(|layer| of(&exact, layer));
         row(kind, found.each_ref());

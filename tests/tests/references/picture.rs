@@ -64,8 +64,8 @@ fn wrong(name: &str, scene: &Scene, even: &Scene, limits: [f64; 2]) -> Vec<Compa
 
 const VIEW: View = View {
     angle_rad: 0.4,
-    pixel_um: 20.0,
-    size_px: 16,
+    pixel_um: 40.0,
+    size_px: 8,
 };
 
 const BODIED: Base = Base::Dielectric {
@@ -108,7 +108,7 @@ fn a_soft_box_on_a_coat() {
 #[test]
 fn a_soft_box_on_a_grating() {
     let mut failures = Vec::new();
-    for (jitter_um, angle_std_rad, scratches) in [(0.0, 0.0, 0), (0.0, 0.03, 0), (0.1, 0.03, 20)] {
+    for (jitter_um, angle_std_rad, scratches) in [(0.0, 0.0, 0), (0.1, 0.03, 20)] {
         let [scene, even] = [Some(0), None].map(|picture| {
             let mut scene = lit(Base::Metal(Metal::Aluminium), VIEW, picture);
             if scratches == 0 {
@@ -132,7 +132,7 @@ fn a_soft_box_on_a_grating() {
                 radii_m: [0.0, f64::INFINITY],
                 mask: None,
                 seed: 1,
-                is_rigorous: true,
+                is_rigorous: false,
             }];
             scene
         });

@@ -16,8 +16,8 @@ use std::sync::LazyLock;
 
 pub(super) const VIEW: View = View {
     angle_rad: 0.7,
-    pixel_um: 30.0,
-    size_px: 16,
+    pixel_um: 60.0,
+    size_px: 8,
 };
 pub(super) const WHITE: Base = Base::Dielectric {
     ior: 1.5,
@@ -274,7 +274,7 @@ fn many_rays_come_to_the_path_tracers_shadows() {
     }
 }
 
-/// Few rays are right in the mean, and the error falls by half for four times as many.
+/// Few rays are right in the mean, and the error falls to a quarter for sixteen times as many.
 #[test]
 fn few_rays_are_right_in_the_mean() {
     for (name, scene) in scenes() {
@@ -283,7 +283,7 @@ fn few_rays_are_right_in_the_mean() {
             let truth = luminance(&truth, layer);
             let mean = truth.iter().sum::<f64>() / truth.len() as f64;
             let mut last = f64::INFINITY;
-            for samples in [2, 8, 32] {
+            for samples in [2, 32] {
                 let image = luminance(&closed(&scene, samples, true), layer);
                 let errors: Vec<f64> = image.iter().zip(&truth).map(|(a, b)| a - b).collect();
                 let count = errors.len() as f64;
@@ -297,7 +297,7 @@ fn few_rays_are_right_in_the_mean() {
                     100.0 * bias / mean
                 );
                 assert!(z.abs() < 4.0, "{name}");
-                assert!(rms < 0.7 * last, "{name}");
+                assert!(rms < 0.5 * last, "{name}");
                 last = rms;
             }
         }

@@ -71,8 +71,8 @@ fn rays_come_to_the_cpus_shadows() {
 /// Rays change nothing where nothing is in the way. Without them the device adds up the layers, with them the host does: the last bits may differ.
 #[test]
 fn nothing_in_the_way_changes_nothing_on_the_gpu() {
-    // Half of the scenes: each has shaders of its own, which take seconds to compile.
-    for (name, mut scene) in scenes().into_iter().step_by(2) {
+    // The scene whose shaders other tests have compiled, which takes seconds.
+    for (name, mut scene) in scenes().into_iter().skip(7).take(1) {
         scene.objects.truncate(1);
         let Some(open) = on_gpu(&scene, 3, None) else {
             return;
@@ -103,15 +103,15 @@ fn what_rays_find_is_what_the_cpus_find() {
 #[test]
 fn on_edges_rays_find_what_the_cpus_find() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/lid.toml");
-    let scene = middle_of(Scene::load(&path).unwrap(), 1280, [72, 56]);
-    let Some(on_gpu) = on_gpu(&scene, 8, Some(1)) else {
+    let scene = middle_of(Scene::load(&path).unwrap(), 1280, [36, 28]);
+    let Some(on_gpu) = on_gpu(&scene, 4, Some(1)) else {
         return;
     };
-    let on_cpu = bounced(&scene, 8, true, 1);
+    let on_cpu = bounced(&scene, 4, true, 1);
     let one = closed(&scene, 1, false);
     let is_edge = |i: usize| one.density[i] != on_cpu.density[i];
     let edges = (0..one.density.len()).filter(|i| is_edge(*i)).count();
-    assert!(edges > 100, "{edges}");
+    assert!(edges > 25, "{edges}");
     compare_found("edges of the lid", &on_gpu, &on_cpu, &is_edge);
 }
 
@@ -155,7 +155,7 @@ fn compare_found(name: &str, on_gpu: &Image, on_cpu: &Image, counts: &dyn Fn(usi
 /// However few rays there are, no light is below zero.
 #[test]
 fn no_layer_is_negative() {
-    let (name, scene) = &scenes()[6];
+    let (name, scene) = &scenes()[7];
     for samples in [1, 2, 4] {
         let Some(image) = on_gpu(scene, samples, Some(1)) else {
             return;

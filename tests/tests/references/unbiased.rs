@@ -9,7 +9,7 @@ use hairline_image::metrics::Verdict;
 use hairline_scene::{Scene, Transport};
 use hairline_work::backend::Backend;
 
-const SAMPLES: [u32; 3] = [64, 128, 512];
+const SAMPLES: [u32; 2] = [64, 512];
 
 fn picture(scene: &Scene, samples: u32, transport: Transport) -> Image {
     rendered(scene, Backend::Cpu, samples, transport).unwrap_or_else(|error| panic!("{error}"))
@@ -29,7 +29,7 @@ fn noise_explains_what_few_rays_differ_by_and_no_fault() {
             bounces,
         };
         let open = picture(&right, 256, Transport::DIRECT);
-        let expected = expected(&right, &open, bounces, 512);
+        let expected = expected(&right, &open, bounces, 256);
         let images = SAMPLES.map(|samples| picture(&right, samples, shadows));
         let bright = picture(&small(brighter(name, 0.03)), SAMPLES[0], shadows);
         let occluders = SCENES
@@ -47,7 +47,7 @@ fn noise_explains_what_few_rays_differ_by_and_no_fault() {
                 assert!(found.off.abs() < 4.0 * found.off_std, "{name}");
             }
             // A quarter, or less.
-            let [few, .., many] = images.each_ref().map(|image| of(image).rms);
+            let [few, many] = images.each_ref().map(|image| of(image).rms);
             assert!(many < 0.45 * few, "{name}: {few} {many}");
             let bright = of(&bright);
             println!("{name}, too bright, {}: {bright:?}", layer.name());

@@ -64,7 +64,7 @@ fn pictures_of_any_side() {
 
 #[test]
 fn five_hundred_lights() {
-    let mut scene = disk([24, 16], 0.2, 2000);
+    let mut scene = disk([12, 8], 0.2, 2000);
     scene.lights.clear();
     let mut random = Sequence(5);
     for i in 0..500 {

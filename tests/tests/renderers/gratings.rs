@@ -3,7 +3,7 @@
 use conformance::furnace;
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use glam::DVec3;
-use hairline_cpu::closed_form::{RenderOptions, render};
+use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_fixtures::{BALL, SceneFile};
 use hairline_image::Image;
 use hairline_optics::scratch::phase_step_energy;
@@ -11,12 +11,12 @@ use hairline_optics::spectrum;
 use hairline_scene::Scene;
 use std::ops::Range;
 
-fn one_sample(scene: &Scene) -> Image {
+fn one_sample(scene: &Prepared<'_>) -> Image {
     let options = RenderOptions {
         samples: 1,
         ..RenderOptions::default()
     };
-    render(scene, &options, &|_| {})
+    scene.render(&options, &|_| {})
 }
 
 /// Gratings send the light that the base loses: whatever the pitch, the view and the scratches on top.
@@ -50,7 +50,7 @@ fn a_white_furnace_stays_white() {
         let has_scratches = file.to_string().contains("[[scratches]]");
         let mut scene = file.part("[studio]\nhidden = true").scene();
         scene.environment = furnace();
-        let image = one_sample(&scene);
+        let image = one_sample(&Prepared::new(&scene));
         let mut covered = 0;
         for i in 0..image.depth_m.len() {
             let all: [f32; 3] = std::array::from_fn(|c| image.base[i][c] + image.scratches[i][c]);
@@ -76,7 +76,7 @@ fn a_fine_grating_in_a_furnace_absorbs_more_than_its_metal() {
             .part(grating);
         let mut scene = file.part("[studio]\nhidden = true").scene();
         scene.environment = furnace();
-        one_sample(&scene)
+        one_sample(&Prepared::new(&scene))
     };
     let bare = ball("");
     let fine = ball(
@@ -174,7 +174,7 @@ fn first_order_nm(grooved: &Grooved, pitch_um: f64, within: Range<f64>) -> f64 {
         )
         .with("two_sided = true")
         .scene();
-    let image = one_sample(&scene);
+    let image = one_sample(&Prepared::new(&scene));
     let half = f64::from(width_px) / 2.0;
     let slope = (15.0f64).to_radians().tan() / half;
     let q = |row: f64| {
@@ -223,6 +223,8 @@ fn seen_nm() -> f64 {
 /// A plate and a ball with gratings of all patterns side by side, scratches on top of some, under lights of all kinds and a studio.
 fn all_patterns() -> SceneFile {
     let fine = "pitch_um = 1.6\njitter_um = 0.05\ndepth_nm = { mean = 120.0, spread = 0.1 }\n";
+    // One table of the whole field is enough, which takes a second to make.
+    let scalar = "theory = \"scalar\"\n";
     let rough = "pitch_um = 8.0\njitter_um = 1.0\njitter_deg = 2.0\ncoverage = 0.7\n";
     let grating = |object: &str, pattern: &str, more: &str| {
         format!("[[grating]]\nobject = \"{object}\"\npattern = \"{pattern}\"\n{more}")
@@ -240,8 +242,8 @@ fn all_patterns() -> SceneFile {
         .part(&grating("plate", "parallel", &format!("direction = [1.0, 0.3, 0.0]\n{rough}")))
         .part(&grating("plate", "circular", &format!("radius_m = [0.01, 0.05]\n{fine}")))
         .part(&grating("plate", "swirl", &format!("spacing_m = 0.02\nradius_m = [0.05, 0.09]\n{rough}")))
-        .part(&grating("plate", "swirl", &format!("spacing_m = 0.001\nradius_m = [0.09, 0.15]\n{fine}")))
-        .part(&grating("ball", "radial", &format!("center_m = [0.02, 0.0, 0.02]\n{fine}")))
+        .part(&grating("plate", "swirl", &format!("spacing_m = 0.001\nradius_m = [0.09, 0.15]\n{fine}{scalar}")))
+        .part(&grating("ball", "radial", &format!("center_m = [0.02, 0.0, 0.02]\n{fine}{scalar}")))
         .part(&grating("ball", "spun", &format!("center_m = [0.02, 0.0, 0.02]\ncurvature_per_m = 30.0\n{rough}")))
         .random("ball", 60)
         .sphere([0.05, 0.2, 0.3], 0.01, 60.0)
@@ -367,14 +369,16 @@ fn zoom(disc: &Scene, pixel_um: f64, aside_px: f64) -> Scene {
 /// of a pixel.
 #[test]
 fn a_zoom_neither_steps_nor_flickers() {
-    let seen = |disc: &Scene, pixel_um: f64, aside_px: f64| {
-        let image = one_sample(&zoom(disc, pixel_um, aside_px));
+    let seen = |disc: &Prepared<'_>, pixel_um: f64, aside_px: f64| {
+        let scene = zoom(disc.scene(), pixel_um, aside_px);
+        let image = one_sample(&disc.with_scene(&scene));
         let count = image.scratches.len() as f64;
         let sum = image.scratches.iter().flatten().map(|v| f64::from(*v));
         sum.sum::<f64>() / count
     };
     for pitch_um in [1.6, 30.0] {
         let disc = disc(pitch_um, 12);
+        let disc = Prepared::new(&disc);
         let (mut pixel_um, mut last) = (300.0, Vec::new());
         let mut most: [f64; 2] = [0.0; 2];
         while pixel_um > 10.0 {
@@ -403,8 +407,9 @@ fn flicker(pitch_um: f64, first_um: f64, filter_std_px: f64) -> f64 {
     let mut disc = disc(pitch_um, side_px);
     disc.materials[0].coherence_um = 8.0;
     disc.render.filter_std_px = filter_std_px;
+    let prepared = Prepared::new(&disc);
     let frame = |pixel_um: f64| {
-        one_sample(&zoom(&disc, pixel_um, 0.0))
+        one_sample(&prepared.with_scene(&zoom(&disc, pixel_um, 0.0)))
             .scratches
             .iter()
             .map(|rgb| f64::from(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]))

@@ -137,7 +137,7 @@ fn mapped(pitch_um: f64, more: &str) -> Scene {
 
 #[test]
 fn gpu_and_cpu_show_the_same_maps() {
-    let scene = mapped(1.6, "");
+    let scene = mapped(1.6, "theory = \"scalar\"\n");
     let Some(gpu) = on_the_gpu(&scene, 1) else {
         return;
     };
@@ -182,7 +182,7 @@ fn plate(change: impl Fn(&mut Scene)) -> Image {
         .metal("aluminium", "aluminium")
         .with("roughness = 0.2")
         .object("plate", "aluminium", "plane = { size_m = [0.2, 0.2] }")
-        .part("[[grating]]\nobject = \"plate\"\npattern = \"parallel\"\npitch_um = 1.6\njitter_um = 0.02")
+        .part("[[grating]]\nobject = \"plate\"\npattern = \"parallel\"\npitch_um = 1.6\njitter_um = 0.02\ntheory = \"scalar\"")
         .sphere([0.05, 0.2, 0.3], 0.05, 60.0)
         .part(LAMPS)
         .part("[studio]\nhidden = true")

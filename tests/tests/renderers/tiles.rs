@@ -166,7 +166,7 @@ fn masks_for_comparison() {
     let Some(gpu) = headless::test_gpu() else {
         return;
     };
-    let scene = middle("plate.toml", 256, [64; 2]);
+    let scene = middle("plate.toml", 256, [24; 2]);
     let mut densities = Vec::new();
     for mask in [Mask::Energy, Mask::Linear, Mask::Density] {
         let method = Method {

@@ -10,7 +10,7 @@ use hairline_optics::scratch::oblique_depth_nm;
 use hairline_optics::table::{COLUMNS, ROWS, ScratchTable};
 use std::sync::LazyLock;
 
-const CONFIGURATIONS: usize = 1_000_000;
+const CONFIGURATIONS: usize = 250_000;
 
 /// A random number in a range of scene files, often at one of its ends.
 fn within(random: &mut Sequence, low: f64, high: f64) -> f64 {

@@ -8,6 +8,7 @@ use crate::section::Section;
 use crate::spectrum;
 use glam::DVec3;
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 use std::sync::OnceLock;
 
 /// A compact disc's plate.
@@ -84,8 +85,13 @@ fn bare_of(material: &ScratchedBsdf) -> ScratchedBsdf {
     }
 }
 
-/// Each part alone, and all together; then all in a coat and under a plate, and fine rows.
+/// Each part alone, and all together; then all in a coat and under a plate, and fine rows. Their tables take a second.
 fn materials() -> Vec<(&'static str, ScratchedBsdf)> {
+    static MATERIALS: LazyLock<Vec<(&str, ScratchedBsdf)>> = LazyLock::new(make_materials);
+    MATERIALS.clone()
+}
+
+fn make_materials() -> Vec<(&'static str, ScratchedBsdf)> {
     let of = |overlay| Conductor::new(Metal::StainlessSteel, overlay, 0.3);
     let coat = |weight| Overlay::Coat(CoatLobe::new(weight, 0.2));
     let steel = of(Overlay::Bare);
@@ -207,7 +213,7 @@ fn densities_are_those_of_the_draws() {
         for wo in &views()[1..] {
             let wo = *wo;
             for mode in [SpectralMode::Rgb, SpectralMode::Wavelength(550.0)] {
-                let draws = 100_000;
+                let draws = 10_000;
                 let mut found = 0.0;
                 for i in 0..draws {
                     let (pick, u) = cube(i);
@@ -225,7 +231,7 @@ fn densities_are_those_of_the_draws() {
                     }
                 }
                 let found = found / f64::from(draws);
-                let steps = 500;
+                let steps = 200;
                 let mut right = 0.0;
                 for i in 0..steps {
                     for j in 0..2 * steps {
@@ -269,7 +275,7 @@ fn scratches_keep_the_energy_of_the_metal() {
 
 /// Light that comes back of radiance 1 from all around.
 fn albedo(material: &ScratchedBsdf, wo: DVec3, mode: SpectralMode) -> DVec3 {
-    let draws = 60_000;
+    let draws = 10_000;
     let each = (0..draws).map(|i| {
         let (pick, u) = cube(i);
         let drawn = material.sample(wo, pick, u, mode);
@@ -341,7 +347,7 @@ fn colours_are_sums_over_wavelengths() {
     for (name, material) in materials() {
         let wo = views()[1];
         let (mut error, mut size) = (DVec3::ZERO, DVec3::ZERO);
-        for i in 0..2000 {
+        for i in 0..120 {
             let (pick, u) = cube(i);
             let Some((wi, ..)) = material.sample(wo, pick, u, SpectralMode::Rgb) else {
                 continue;

@@ -120,12 +120,7 @@ fn the_table_is_the_sum_over_random_rows() {
         width_um,
         ..cd()
     };
-    for (row, rows) in [
-        (row(0.74, 0.35), 160),
-        (row(1.6, 0.6), 240),
-        (row(10.0, 3.0), 800),
-        (row(30.0, 5.0), 1500),
-    ] {
+    for (row, rows) in [(row(0.74, 0.35), 160), (row(10.0, 3.0), 800)] {
         for (jitter, depth_spread) in [(0.0, 0.0), (0.0, 0.3), (0.05, 0.1), (0.2, 0.0)] {
             let row = Grating {
                 depth_spread,
