@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::common::{self, Glb, cube, temporary_dir};
+use hairline_optics::section::Section;
 use hairline_scene::description::*;
 use hairline_scene::{Loader, Scene, SceneBuilder, Stage};
 use rand::{RngExt, SeedableRng};
@@ -122,7 +123,7 @@ fn edit(it: &mut Description, random: &mut Pcg64, dir: &Path) -> String {
         })
     };
     let layer = &mut it.scratches[i];
-    let kind = random.random_range(0..16);
+    let kind = random.random_range(0..17);
     match kind {
         0 => layer.hidden ^= true,
         1 => layer.solo ^= true,
@@ -181,6 +182,12 @@ fn edit(it: &mut Description, random: &mut Pcg64, dir: &Path) -> String {
             let mut material = it.materials[0].clone();
             material.name = format!("material {}", it.materials.len());
             it.materials.insert(0, material);
+        }
+        15 => {
+            layer.profile = match layer.profile {
+                Section::V => Section::Round,
+                _ => Section::V,
+            };
         }
         _ => {
             let rows = "0,-0.04,0,0.01,0.04,0,3,150\n".repeat(random.random_range(1..9));
