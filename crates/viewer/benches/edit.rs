@@ -1,7 +1,7 @@
 //! Time from an edit to the picture: a layer of 100,000 scratches on the built-in pan whose width is changed again and again,
 //! as by a hand on a slider, then one of 1,000 beside it, and the time of the interface's own passes meanwhile.
 //!
-//! `cargo bench -p hairline-viewer --bench edit` prints a table. No statistics crate: what is measured spans three threads,
+//! `cargo bench -p hairline-viewer-lib --bench edit` prints a table. No statistics crate: what is measured spans three threads,
 //! and each stage says its own time.
 
 use std::time::{Duration, Instant};

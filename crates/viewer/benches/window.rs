@@ -2,7 +2,7 @@
 //! screen, while nothing but the window is busy, while the view turns, and while a layer of 100,000 scratches is laid again
 //! and again under a hand on a slider.
 //!
-//! `xvfb-run -s "-screen 0 1280x800x24" cargo bench -p hairline-viewer --bench window` prints a table. Without a display it
+//! `xvfb-run -s "-screen 0 1280x800x24" cargo bench -p hairline-viewer-lib --bench window` prints a table. Without a display it
 //! says so; with `-- gpu` the GPU renderer paints, be it on a software driver. No statistics crate: what is measured is the
 //! pace of an event loop.
 

@@ -9,7 +9,7 @@ use hairline_optics::gaussian::gaussian;
 use hairline_scene::Scene;
 
 const MIDDLE_M: DVec3 = DVec3::new(0.0, 0.10, 0.13);
-const SIZE_PX: [u32; 2] = [24, 2];
+const SIZE_PX: [u32; 2] = [24, 4];
 
 /// A lamp: its keys in a scene file, and whether a line that leaves a point meets it.
 struct Lamp {
@@ -106,17 +106,25 @@ fn scene_file(lamp: &Lamp) -> SceneFile {
 
 /// Pictures without the board and with it, by each renderer that is asked for and there is, with a bound on the error.
 fn pictures(open: &Scene, scene: &Scene, on_both: bool) -> Vec<(&'static str, f64, [Image; 2])> {
-    let by_cpu = [closed(open, 1, false), closed(scene, 512, true)];
-    let by_gpu = on_both.then(|| Some([on_gpu(open, 1, None)?, on_gpu(scene, 192, Some(0))?]));
-    let by_gpu = by_gpu.flatten().map(|images| ("GPU", 2.5e-2, images));
-    [("CPU", 1.4e-2, by_cpu)]
-        .into_iter()
-        .chain(by_gpu)
-        .collect()
+    let by_cpu = [closed(open, 1, false), closed(scene, 1024, true)];
+    let by_gpu = on_both.then(|| Some([on_gpu(open, 1, None)?, on_gpu(scene, 384, Some(0))?]));
+    let by_gpu = by_gpu.flatten().map(|images| ("GPU", 1.4e-2, images));
+    [("CPU", 5e-3, by_cpu)].into_iter().chain(by_gpu).collect()
 }
 
 #[test]
 fn penumbras_are_those_of_what_is_seen_of_a_lamp() {
+    check(1);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn so_they_are_on_the_gpu() {
+    check(LAMPS.len());
+}
+
+/// Checks each lamp, the first `on_gpu` of them on the GPU too.
+fn check(on_gpu: usize) {
     for (i, lamp) in LAMPS.into_iter().enumerate() {
         let file = scene_file(&lamp);
         let open = file.scene();
@@ -127,7 +135,7 @@ fn penumbras_are_those_of_what_is_seen_of_a_lamp() {
         let camera = scene.camera.frame(SIZE_PX);
         let std_px = scene.render.footprint_std_px(1);
         // Even steps of probability of the pixel's filter.
-        let places = [-1.5, -0.5, 0.5, 1.5].map(|i| gaussian().quantile(0.5 + i / 4.0));
+        let places = [-2.5, -1.5, -0.5, 0.5, 1.5, 2.5].map(|i| gaussian().quantile(0.5 + i / 6.0));
         let exact: Vec<f64> = (0..SIZE_PX[0])
             .map(|x| {
                 let (mut all, mut seen) = (0.0, 0.0);
@@ -148,7 +156,7 @@ fn penumbras_are_those_of_what_is_seen_of_a_lamp() {
         let is_penumbra = |share: &&f64| (0.05..0.95).contains(*share);
         let penumbra = exact.iter().filter(is_penumbra).count();
         assert!(penumbra > 8, "{penumbra}: {}", lamp.keys);
-        for (by, bound, [open, image]) in pictures(&open, &scene, i == 0) {
+        for (by, bound, [open, image]) in pictures(&open, &scene, i < on_gpu) {
             let column = |image: &Image, x: usize| -> f64 {
                 let rows = 0..SIZE_PX[1];
                 rows.map(|y| f64::from(image.base[image.index(x as u32, y)][1]))

@@ -111,7 +111,7 @@ fn a_wrong_scratch_is_seen() {
 #[test]
 fn shapes_of_grooves() {
     let scene = SceneFile::seen_from([0.0, -0.02, 0.03])
-        .size_px([96, 72])
+        .size_px([64, 48])
         .fov_y_deg(6.0)
         .mirror("m")
         .object("plate", "m", DISK)
