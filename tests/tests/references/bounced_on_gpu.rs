@@ -1,9 +1,10 @@
 //! Light from other objects on the GPU against the CPU's, which is tested against the path tracer (`bounced.rs`).
 
 use super::bounced::{a_wall_in_a_mirror, along_an_axis_in_a_mirror, scenes};
-use super::shadowed::{self, bounced};
-use super::shadowed_on_gpu::on_gpu;
+use super::shadowed::bounced;
+use super::shadowed_on_gpu::{a_wall, on_gpu};
 use hairline_image::{Image, Layer};
+use hairline_scene::Scene;
 
 const LAYERS: [Layer; 2] = [Layer::Base, Layer::Scratches];
 
@@ -83,13 +84,21 @@ fn the_gpus_bounces_are_the_cpus_in_the_mean() {
 /// A bounce changes no bit where light has no object to go by.
 #[test]
 fn without_objects_the_gpus_bounces_change_nothing() {
-    // The scene whose shaders other tests have compiled, which takes seconds.
-    let (_, mut scene) = shadowed::scenes().swap_remove(7);
+    check_without_objects(a_wall());
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn without_objects_the_gpus_bounces_change_nothing_in_any_scene() {
+    scenes().into_iter().for_each(check_without_objects);
+}
+
+fn check_without_objects((name, mut scene): (&str, Scene)) {
     scene.objects.truncate(1);
     let Some(direct) = on_gpu(&scene, 3, Some(0)) else {
         return;
     };
     let bounced = on_gpu(&scene, 3, Some(2)).unwrap();
     let layers = |image: Image| (image.base, image.scratches);
-    assert!(layers(bounced) == layers(direct));
+    assert!(layers(bounced) == layers(direct), "{name}");
 }

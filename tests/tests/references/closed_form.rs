@@ -396,21 +396,34 @@ fn crop(mut scene: Scene, place: [f64; 2], size_px: u32) -> Scene {
     scene
 }
 
-/// The crops are bright with scratches, away from silhouettes and from the dark tables: `docs/accuracy.md` has the whole pictures.
+/// Scenes, places in their pictures, and bounds of the error of scratches. The crops are bright with scratches, away from silhouettes and from the dark
+/// tables: `docs/accuracy.md` has the whole pictures.
+const CROPS: [(&str, [f64; 2], f64); 6] = [
+    ("brushed", [0.08, 0.08], SCRATCHES),
+    // Its scratches turn by as much as the band within the window, under lights of 0.06 rad: both models take a piece
+    // for straight, but cut it off by other curves. 6.5 % with a crop of 16 pixels, of which nothing that is more than
+    // noise is left with straight scratches, or with a light of 0.2 rad.
+    ("closeup", [0.33, 0.75], 0.08),
+    ("lights", [0.67, 0.58], SCRATCHES),
+    ("pan", [0.33, 0.47], SCRATCHES),
+    ("plate", [0.36, 0.53], SCRATCHES),
+    ("spoon", [0.33, 0.47], SCRATCHES),
+];
+
 #[test]
 fn crops_of_the_scenes() {
+    check_crops(&CROPS[..3]);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn crops_of_more_scenes() {
+    check_crops(&CROPS);
+}
+
+fn check_crops(crops: &[(&str, [f64; 2], f64)]) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
-    for (name, place, limit) in [
-        ("brushed", [0.08, 0.08], SCRATCHES),
-        // Its scratches turn by as much as the band within the window, under lights of 0.06 rad: both models take a piece
-        // for straight, but cut it off by other curves. 6.5 % with a crop of 16 pixels, of which nothing that is more than
-        // noise is left with straight scratches, or with a light of 0.2 rad.
-        ("closeup", [0.33, 0.75], 0.08),
-        ("lights", [0.67, 0.58], SCRATCHES),
-        ("pan", [0.33, 0.47], SCRATCHES),
-        ("plate", [0.36, 0.53], SCRATCHES),
-        ("spoon", [0.33, 0.47], SCRATCHES),
-    ] {
+    for &(name, place, limit) in crops {
         let scene = Scene::load(root.join(format!("scenes/{name}.toml"))).unwrap();
         let scene = crop(scene, place, 12);
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
@@ -443,36 +456,44 @@ fn a_ball() {
     assert!(base.rms().0 < BASE, "{base:?}");
 }
 
-/// Grooves of each profile, narrow ones and wider than the window, whose parts lie beside one another.
+/// Grooves of some profiles, narrow ones and wider than the window, whose parts lie beside one another. Each profile has tables of its own, which take
+/// half a second.
 #[test]
 fn plates_of_profiles_and_wide_grooves() {
+    let listed = Section::Listed([1.0, 0.8, 0.1, -0.3, 0.0].into());
+    check_profiles(&[(Section::V, 2.0), (listed, 3.0), (Section::Rectangle, 30.0)]);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn plates_of_more_profiles_and_wide_grooves() {
+    check_profiles(&[
+        (Section::Round, 2.0),
+        (Section::Shoulders, 3.0),
+        (Section::Rectangle, 100.0),
+        (Section::V, 30.0),
+    ]);
+}
+
+fn check_profiles(profiles: &[(Section, f32)]) {
     let view = View {
         angle_rad: 40f64.to_radians(),
         pixel_um: 120.0,
         size_px: 8,
     };
-    let listed = Section::Listed([1.0, 0.8, 0.1, -0.3, 0.0].into());
-    for (section, width_um) in [
-        (Section::V, 2.0),
-        (Section::Round, 2.0),
-        (Section::Shoulders, 3.0),
-        (listed, 3.0),
-        (Section::Rectangle, 30.0),
-        (Section::Rectangle, 100.0),
-        (Section::V, 30.0),
-    ] {
+    for (section, width_um) in profiles {
         let mut scene = plate(Base::Metal(Metal::Gold), view);
         light(&mut scene, view);
-        scratch_alike(&mut scene, view, 24, width_um, 250.0);
+        scratch_alike(&mut scene, view, 24, *width_um, 250.0);
         let as_rectangles = scene.clone();
         for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {
-            scratch.profile.section = SectionId::new(&section);
+            scratch.profile.section = SectionId::new(section);
         }
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
         let name = format!("{section:?}, {width_um} um");
         let found = compared(&name, &exact, &reference, Layer::Scratches);
         assert!(agrees(&found, 2.0 * SCRATCHES), "{name}: {found:?}");
-        if section != Section::Rectangle {
+        if *section != Section::Rectangle {
             let wrong = closed(&as_rectangles);
             let wrong = compared("as rectangles", &wrong, &reference, Layer::Scratches);
             assert!(wrong.rms().0 > 0.1, "{name}: {wrong:?}");

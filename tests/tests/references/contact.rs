@@ -19,15 +19,24 @@ use std::sync::Arc;
 /// single precision takes the ceiling's corners off the plane.
 #[test]
 fn a_lamp_in_the_plane_of_a_ceiling_lights_the_floor() {
+    check_ceiling(&[(0.0, 0.0), (0.0, 1e-6), (20.0, 0.0)]);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn a_lamp_a_little_below_a_ceiling_lights_the_floor() {
+    check_ceiling(&[(0.0, 3e-6)]);
+}
+
+/// Checks lamps of each kind at places: the ceiling's turn in degrees, and the lamp's distance from it in metres.
+fn check_ceiling(places: &[(f64, f64)]) {
     let lamps = [
         "kind = \"rectangle\"\nwidth_m = 0.5\nheight_m = 0.5",
         "kind = \"disk\"\nradius_m = 0.25",
         "kind = \"rectangle\"\nwidth_m = 0.5\nheight_m = 0.5\ntwo_sided = true",
     ];
-    for (keys, (turn_deg, below_m)) in lamps
-        .into_iter()
-        .flat_map(|keys| [(0.0, 0.0), (0.0, 1e-6), (20.0, 0.0)].map(|at| (keys, at)))
-    {
+    let each = |keys| places.iter().map(move |at| (keys, *at));
+    for (keys, (turn_deg, below_m)) in lamps.into_iter().flat_map(each) {
         let (sin, cos) = f64::to_radians(turn_deg).sin_cos();
         let below = DVec3::new(0.0, sin, -cos);
         let ceiling_m = -0.8 * below;
@@ -116,8 +125,20 @@ fn no_light_comes_through_a_sheet() {
 /// No light comes on the plate, away from the foot of the can, except by rounding.
 #[test]
 fn no_light_comes_through_a_sheet_on_the_gpu() {
+    check_sheet_on_the_gpu(2, [12, 8]);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn no_light_of_any_lamp_comes_through_a_sheet_on_the_gpu() {
+    check_sheet_on_the_gpu(4, [24, 16]);
+}
+
+/// Checks the can under some of its lamps: each kind has shaders of its own, which take a second to compile.
+fn check_sheet_on_the_gpu(lamps: usize, size_px: [u32; 2]) {
     let mut scene = under_a_can([0.0; 3], 15.0);
-    scene.render.size_px = [12, 8];
+    scene.lights.truncate(lamps);
+    scene.render.size_px = size_px;
     let open = on_gpu(&scene, 16, None);
     let image = on_gpu(&scene, 16, Some(0));
     let Some((open, image)) = open.zip(image) else {

@@ -123,23 +123,37 @@ fn many_scratches_are_alike_in_the_mean() {
     assert!((found.mean_ratio - 1.0).abs() < 0.05 && found.mean_ratio_error < 0.015);
 }
 
-/// One groove of each profile, and wide ones, whose light comes from their edges: the closed form against the whole field.
+/// Profiles, widths in micrometres, and bounds of the error.
+const ALONE: [(Section, f32, f64); 6] = [
+    (Section::V, 2.0, 0.05),
+    (Section::Shoulders, 4.0, 0.05),
+    (Section::Rectangle, 30.0, 0.02),
+    (Section::Round, 3.0, 0.05),
+    (Section::Rectangle, 100.0, 0.02),
+    // Two halves stand for slopes all along.
+    (Section::Shoulders, 30.0, 0.12),
+];
+
+/// One groove of a profile, and wide ones, whose light comes from their edges: the closed form against the whole field.
 #[test]
 fn profiles_and_wide_grooves_alone() {
+    check_alone(&ALONE[..3]);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn all_profiles_and_wide_grooves_alone() {
+    check_alone(&ALONE);
+}
+
+fn check_alone(grooves: &[(Section, f32, f64)]) {
     let view = View {
         angle_rad: 0.15,
         pixel_um: 80.0,
         size_px: 4,
     };
-    for (section, width_um, limit) in [
-        (Section::V, 2.0, 0.05),
-        (Section::Round, 3.0, 0.05),
-        (Section::Shoulders, 4.0, 0.05),
-        (Section::Rectangle, 30.0, 0.02),
-        (Section::Rectangle, 100.0, 0.02),
-        // Two halves stand for slopes all along.
-        (Section::Shoulders, 30.0, 0.12),
-    ] {
+    for (section, width_um, limit) in grooves {
+        let (width_um, limit) = (*width_um, *limit);
         let mut scene = mirror(view);
         scene.lights = vec![sphere(view, 0.0, 0.2, 0.06)];
         lay_along_x(&mut scene, 3.0, width_um, 200.0);
@@ -151,7 +165,7 @@ fn profiles_and_wide_grooves_alone() {
             scene
         };
         let profile = &mut Arc::make_mut(&mut scene.objects[0].scratches)[0].profile;
-        profile.section = SectionId::new(&section);
+        profile.section = SectionId::new(section);
         let (full, ours) = (sampled(&scene, FULL, 16), closed(&scene));
         let name = format!("{section:?}, {width_um} um, closed form and full");
         let found = compared(&name, &ours, &full, Layer::Scratches);

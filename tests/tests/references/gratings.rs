@@ -180,22 +180,36 @@ fn spots(
     scene
 }
 
+/// Angle and place of a light beside the mirror's direction, its radius, and the bound of the error under it.
+const LIGHTS_ON_SPOTS: [(f64, f64, f64, f64); 7] = [
+    (60.0, 0.3, 0.06, 0.06),
+    (100.0, 0.1, 0.1, 0.03),
+    // Lines that do not turn with the grooves miss some of a large light.
+    (200.0, 0.3, 0.2, 0.11),
+    (0.0, 0.3, 0.06, 0.06),
+    (130.0, 0.3, 0.06, 0.09),
+    (100.0, 0.6, 0.1, 0.04),
+    (100.0, 0.0, 0.2, 0.02),
+];
+
 /// Spots that are smaller than a pixel: each pixel shows the mean of all their directions, whichever spot its sample meets.
 #[test]
 fn small_spots_show_their_mean() {
+    check_small_spots(&LIGHTS_ON_SPOTS[..3], 4);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn small_spots_show_their_mean_under_all_lights() {
+    check_small_spots(&LIGHTS_ON_SPOTS, 12);
+}
+
+fn check_small_spots(lights: &[(f64, f64, f64, f64)], batches: u32) {
     // A filter's standard deviation is 20 um.
-    for (angle_deg, off_mirror, light_rad, most) in [
-        (0.0, 0.3, 0.06, 0.06),
-        (60.0, 0.3, 0.06, 0.06),
-        (130.0, 0.3, 0.06, 0.09),
-        (100.0, 0.6, 0.1, 0.04),
-        (100.0, 0.1, 0.1, 0.03),
-        (100.0, 0.0, 0.2, 0.02),
-        // Lines that do not turn with the grooves miss some of a large light.
-        (200.0, 0.3, 0.2, 0.11),
-    ] {
+    for &(angle_deg, off_mirror, light_rad, most) in lights {
         let of = |along_row| spots(along_row, 30.0, angle_deg, off_mirror, light_rad);
-        let (exact, reference) = (closed(&of(DVec3::X)), sampled(&of(DVec3::X), LINEAR, 4));
+        let scene = of(DVec3::X);
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, batches));
         let name = format!(
             "small spots, light of {light_rad} rad {off_mirror} off at {angle_deg} degrees"
         );
@@ -262,15 +276,30 @@ fn rows_of_grooves() {
 
 #[test]
 fn rows_of_grooves_with_all_phases() {
-    for (row, light_rad, limit) in [
+    check_all_phases(&[(row(10.0, 3.0, 0.2, 0.0), 0.05, 0.03)], 8, 0.04);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn rows_of_grooves_with_all_phases_of_many_pitches() {
+    let rows = [
+        (row(0.74, 0.35, 0.0, 0.0), 0.05, 0.03),
+        (row(1.6, 0.6, 0.0, 0.0), 0.02, 0.03),
         (row(1.6, 0.6, 0.0, 0.0), 0.002, 0.08),
         (row(10.0, 3.0, 0.2, 0.0), 0.05, 0.03),
-    ] {
+        (row(30.0, 5.0, 0.0, 0.0), 0.05, 0.03),
+    ];
+    check_all_phases(&rows, 12, 0.03);
+}
+
+/// Checks rows under lights of a size, each with the bound of its error; `noise` bounds the standard error.
+fn check_all_phases(rows: &[(Row, f64, f64)], batches: u32, noise: f64) {
+    for &(row, light_rad, limit) in rows {
         let scene = grated(row, 0.0, light_rad);
-        let (exact, reference) = (closed(&scene), sampled(&scene, FULL, 8));
+        let (exact, reference) = (closed(&scene), sampled(&scene, FULL, batches));
         let name = format!("{row:?} with all phases, light of {light_rad} rad");
         let (off, error) = compared(&name, &exact, &reference);
-        assert!(off < limit + 2.0 * error && error < 0.04, "{name}: {off}");
+        assert!(off < limit + 2.0 * error && error < noise, "{name}: {off}");
     }
     // The comparison rejects the light of single scratches.
     let scene = grated(row(1.6, 0.6, 0.0, 0.0), 0.0, 0.02);
@@ -306,21 +335,39 @@ fn a_fine_grating_under_a_cover() {
 /// Fine gratings in metals: both models have the rigorous orders of the closed form, and scalar ones are told apart.
 #[test]
 fn fine_gratings_in_metals() {
+    let rows = [
+        (row(0.74, 0.32, 0.0, 0.0), 0.05, LINEAR, 12, 0.03),
+        (row(1.6, 0.6, 0.0, 0.0), 0.05, FULL, 8, 0.05),
+    ];
+    check_in_metal(&rows, 0.04);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn fine_gratings_of_more_pitches_in_metals() {
+    let rows = [
+        (row(0.74, 0.32, 0.0, 0.0), 0.05, LINEAR, 20, 0.03),
+        (row(1.6, 0.6, 0.05, 0.1), 0.1, LINEAR, 20, 0.03),
+        (row(0.74, 0.32, 0.0, 0.0), 0.05, FULL, 12, 0.05),
+        (row(1.6, 0.6, 0.0, 0.0), 0.05, FULL, 12, 0.05),
+    ];
+    check_in_metal(&rows, 0.03);
+}
+
+/// Checks rows under lights of a size by a model and so many batches, each with the bound of its error; `noise` bounds the standard error.
+fn check_in_metal(rows: &[(Row, f64, Settings, u32, f64)], noise: f64) {
     let metal = |row, light_rad, is_rigorous| {
         let mut scene = grated(row, 0.0, light_rad);
         scene.materials[0].base = Base::Metal(Metal::Aluminium);
         scene.objects[0].gratings[0].is_rigorous = is_rigorous;
         scene
     };
-    for (row, light_rad, settings, batches, limit) in [
-        (row(0.74, 0.32, 0.0, 0.0), 0.05, LINEAR, 12, 0.03),
-        (row(1.6, 0.6, 0.0, 0.0), 0.05, FULL, 8, 0.05),
-    ] {
+    for &(row, light_rad, settings, batches, limit) in rows {
         let scene = metal(row, light_rad, true);
         let reference = sampled(&scene, settings, batches);
         let name = format!("{row:?} in aluminium, {:?}", settings.model);
         let (off, error) = compared(&name, &closed(&scene), &reference);
-        assert!(off < limit + 2.0 * error && error < 0.04, "{name}: {off}");
+        assert!(off < limit + 2.0 * error && error < noise, "{name}: {off}");
         if row.pitch_um == 0.74 {
             let scalar = metal(row, light_rad, false);
             let (off, _) = compared("scalar", &closed(&scalar), &reference);

@@ -81,6 +81,17 @@ fn row(kind: &str, found: [&Compared; 2]) {
 /// scratch sends.
 #[test]
 fn a_plate_under_each_kind_of_light() {
+    check(8);
+}
+
+/// The table of docs/accuracy/lights.md.
+#[test]
+#[ignore = "long: cargo long"]
+fn a_plate_under_each_kind_of_light_by_many_samples() {
+    check(16);
+}
+
+fn check(batches: u32) {
     let rectangle_with_picture = |x, y| Light {
         picture: Some(0),
         ..square(x, y)
@@ -112,7 +123,7 @@ fn a_plate_under_each_kind_of_light() {
         ("sun", scene(sun), [0.01, 0.02]),
     ];
     for (kind, scene, limits) in kinds {
-        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, batches));
         let of = |image, layer| compared(kind, image, &reference, layer);
         let found = [Layer::Base, Layer::Scratches].map(|layer| of(&exact, layer));
         row(kind, found.each_ref());

@@ -104,11 +104,23 @@ fn a_soft_box_on_a_coat() {
     assert!(failures.is_empty(), "{failures:?}");
 }
 
-/// Regular grooves and slightly displaced grooves, without scratches and under some.
+/// Slightly displaced grooves under scratches.
 #[test]
 fn a_soft_box_on_a_grating() {
+    check_on_gratings(&[(0.1, 0.03, 20)], false);
+}
+
+/// Regular grooves too, without scratches.
+#[test]
+#[ignore = "long: cargo long"]
+fn a_soft_box_on_gratings_with_rigorous_orders() {
+    check_on_gratings(&[(0.0, 0.0, 0), (0.0, 0.03, 0), (0.1, 0.03, 20)], true);
+}
+
+/// Checks gratings by the jitter of their grooves in micrometres and radians, with so many scratches on top.
+fn check_on_gratings(gratings: &[(f64, f64, u32)], is_rigorous: bool) {
     let mut failures = Vec::new();
-    for (jitter_um, angle_std_rad, scratches) in [(0.0, 0.0, 0), (0.1, 0.03, 20)] {
+    for &(jitter_um, angle_std_rad, scratches) in gratings {
         let [scene, even] = [Some(0), None].map(|picture| {
             let mut scene = lit(Base::Metal(Metal::Aluminium), VIEW, picture);
             if scratches == 0 {
@@ -132,7 +144,7 @@ fn a_soft_box_on_a_grating() {
                 radii_m: [0.0, f64::INFINITY],
                 mask: None,
                 seed: 1,
-                is_rigorous: false,
+                is_rigorous,
             }];
             scene
         });

@@ -1,7 +1,7 @@
 //! Shadow rays on the GPU against the CPU's.
 
 use super::pictures::LINEAR;
-use super::shadowed::{bounced, closed, in_a_studio, luminance, scenes};
+use super::shadowed::{all_scenes, bounced, closed, in_a_studio, luminance, scenes};
 use conformance::middle_of;
 use conformance::two_renderers::on_the_gpu_by;
 use hairline_gpu::Method;
@@ -26,7 +26,7 @@ fn rms(values: &[f64]) -> f64 {
 #[test]
 #[ignore = "long: cargo long"]
 fn rays_come_to_the_cpus_shadows() {
-    for (name, scene) in scenes().into_iter().chain([in_a_studio()]) {
+    for (name, scene) in all_scenes().chain([in_a_studio()]) {
         let Some(open) = on_gpu(&scene, 1, None) else {
             return;
         };
@@ -68,32 +68,66 @@ fn rays_come_to_the_cpus_shadows() {
     }
 }
 
+/// The scene of the short tests: they share its shaders, which take seconds to compile.
+pub(super) fn a_wall() -> (&'static str, Scene) {
+    scenes().swap_remove(6)
+}
+
 /// Rays change nothing where nothing is in the way. Without them the device adds up the layers, with them the host does: the last bits may differ.
 #[test]
 fn nothing_in_the_way_changes_nothing_on_the_gpu() {
-    // The scene whose shaders other tests have compiled, which takes seconds.
-    let (_, mut scene) = scenes().swap_remove(7);
-    scene.objects.truncate(1);
-    let Some(open) = on_gpu(&scene, 3, None) else {
-        return;
-    };
-    let seen = on_gpu(&scene, 3, Some(0)).unwrap();
-    for (seen, open) in [(seen.base, open.base), (seen.scratches, open.scratches)] {
-        let both = seen.iter().flatten().zip(open.iter().flatten());
-        let off = both.map(|(a, b)| (a - b).abs() / b.abs().max(1e-30));
-        let most = off.fold(0.0, f32::max);
-        assert!(most < 1e-6, "{most}");
+    check_nothing_in_the_way([a_wall()]);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn nothing_in_the_way_changes_nothing_in_any_scene_on_the_gpu() {
+    check_nothing_in_the_way(all_scenes());
+}
+
+fn check_nothing_in_the_way(scenes: impl IntoIterator<Item = (&'static str, Scene)>) {
+    for (name, mut scene) in scenes {
+        scene.objects.truncate(1);
+        let Some(open) = on_gpu(&scene, 3, None) else {
+            return;
+        };
+        let seen = on_gpu(&scene, 3, Some(0)).unwrap();
+        for (seen, open) in [(seen.base, open.base), (seen.scratches, open.scratches)] {
+            let both = seen.iter().flatten().zip(open.iter().flatten());
+            let off = both.map(|(a, b)| (a - b).abs() / b.abs().max(1e-30));
+            let most = off.fold(0.0, f32::max);
+            assert!(most < 1e-6, "{name}: {most}");
+        }
     }
 }
 
 /// Rays find the same light in each layer as the CPU's, in the mean over the picture.
 #[test]
 fn what_rays_find_is_what_the_cpus_find() {
-    for (name, scene) in &scenes()[7..] {
-        let Some(on_gpu) = on_gpu(scene, 32, Some(1)) else {
-            return;
-        };
-        let on_cpu = bounced(scene, 32, true, 1);
+    check_what_rays_find(scenes().swap_remove(8));
+}
+
+/// The same off gratings alone.
+#[test]
+fn what_rays_find_off_gratings_is_what_the_cpus_find() {
+    let (name, mut scene) = scenes().swap_remove(7);
+    let object = &mut scene.objects[0];
+    (object.scratches, object.segments) = Default::default();
+    for grating in &mut object.gratings {
+        grating.is_rigorous = false;
+    }
+    check_what_rays_find((name, scene));
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn what_rays_find_in_other_scenes_is_what_the_cpus_find() {
+    all_scenes().skip(7).for_each(check_what_rays_find);
+}
+
+fn check_what_rays_find((name, scene): (&str, Scene)) {
+    if let Some(on_gpu) = on_gpu(&scene, 32, Some(1)) {
+        let on_cpu = bounced(&scene, 32, true, 1);
         compare_found(name, &on_gpu, &on_cpu, &|_| true);
     }
 }
@@ -101,17 +135,32 @@ fn what_rays_find_is_what_the_cpus_find() {
 /// Rays give equal light on edges, whose samples share scratches and the rays off them.
 #[test]
 fn on_edges_rays_find_what_the_cpus_find() {
+    // In more pixels of the same size the foot of the wall is seen.
+    let (_, mut scene) = a_wall();
+    scene.render.size_px = [24, 16];
+    scene.camera.fov_y_rad *= 2.0;
+    check_edges(&scene, 4, 20);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn on_the_edges_of_a_lid_rays_find_what_the_cpus_find() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/lid.toml");
-    let scene = middle_of(Scene::load(&path).unwrap(), 1280, [36, 28]);
-    let Some(on_gpu) = on_gpu(&scene, 4, Some(1)) else {
+    let scene = middle_of(Scene::load(&path).unwrap(), 1280, [72, 56]);
+    check_edges(&scene, 8, 100);
+}
+
+/// Compares pixels on edges, of which there must be more than some.
+fn check_edges(scene: &Scene, samples: u32, least: usize) {
+    let Some(on_gpu) = on_gpu(scene, samples, Some(1)) else {
         return;
     };
-    let on_cpu = bounced(&scene, 4, true, 1);
-    let one = closed(&scene, 1, false);
+    let on_cpu = bounced(scene, samples, true, 1);
+    let one = closed(scene, 1, false);
     let is_edge = |i: usize| one.density[i] != on_cpu.density[i];
     let edges = (0..one.density.len()).filter(|i| is_edge(*i)).count();
-    assert!(edges > 25, "{edges}");
-    compare_found("edges of the lid", &on_gpu, &on_cpu, &is_edge);
+    assert!(edges > least, "{edges}");
+    compare_found("edges", &on_gpu, &on_cpu, &is_edge);
 }
 
 /// Bound: four standard deviations of the mean, which the differences of the pixels tell, and half a percent for single precision and for what the
@@ -154,9 +203,9 @@ fn compare_found(name: &str, on_gpu: &Image, on_cpu: &Image, counts: &dyn Fn(usi
 /// However few rays there are, no light is below zero.
 #[test]
 fn no_layer_is_negative() {
-    let (name, scene) = &scenes()[7];
+    let (name, scene) = a_wall();
     for samples in [1, 2, 4] {
-        let Some(image) = on_gpu(scene, samples, Some(1)) else {
+        let Some(image) = on_gpu(&scene, samples, Some(1)) else {
             return;
         };
         let layers = [&image.base, &image.scratches].into_iter().flatten();

@@ -82,6 +82,10 @@ impl Display {
         &self.name
     }
 
+    pub fn size_px(&self) -> [u16; 2] {
+        self.size_px
+    }
+
     /// The one window that is large.
     fn window(&self) -> Option<Window> {
         let children = self.connection.query_tree(self.root).ok()?.reply().ok()?;
@@ -222,8 +226,8 @@ impl Display {
         self.send(xproto::BUTTON_PRESS_EVENT, 1);
         self.rest();
         for pair in way.windows(2) {
-            for step in 1..=6 {
-                self.move_to(pair[0].lerp(pair[1], step as f32 / 6.0));
+            for step in 1..=3 {
+                self.move_to(pair[0].lerp(pair[1], step as f32 / 3.0));
             }
         }
         self.send(xproto::BUTTON_RELEASE_EVENT, 1);
@@ -249,7 +253,6 @@ impl Display {
     pub fn keys(&self, names: &[&str]) {
         for name in names {
             self.send(xproto::KEY_PRESS_EVENT, self.keycode(name));
-            self.rest();
         }
         for name in names.iter().rev() {
             self.send(xproto::KEY_RELEASE_EVENT, self.keycode(name));

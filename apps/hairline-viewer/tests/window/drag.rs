@@ -1,8 +1,8 @@
 //! Number of pictures that come while a hand drags, and the delay of the first: counted on the screen, with an event every 50 ms that waits
 //! for nothing.
 //!
-//! `HAIRLINE_SCREENSHOTS=FOLDER cargo test --release --workspace --test window drag -- --nocapture` prints the figures of both scenes; without
-//! the folder, those of the plate.
+//! `HAIRLINE_SCREENSHOTS=FOLDER cargo test --release --workspace --test window drag -- --ignored --nocapture` prints the figures of both
+//! scenes; without the folder, those of the plate.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -12,7 +12,7 @@ use hairline_gpu::headless::test_gpu;
 
 use crate::display::{Display, Picture};
 use crate::layout::Layout;
-use crate::{Window, keep};
+use crate::{LARGE_PX, Window, keep};
 
 const BUILT_IN: &str = hairline_console::BUILT_IN;
 const PLATE: &str = include_str!("../../../../scenes/plate.toml");
@@ -135,11 +135,12 @@ fn drag(watch: &mut Watch, from: Pos2, reach: egui::Vec2, least: f64) -> SeenPic
 }
 
 #[test]
-fn pictures_come_while_a_hand_drags() {
+#[ignore = "long: cargo long"]
+fn the_picture_follows_a_hand_that_drags() {
     if test_gpu().is_none() {
         return;
     }
-    let Some(display) = crate::display() else {
+    let Some(display) = crate::display(LARGE_PX) else {
         return;
     };
     // The heavier scene would take another half minute of every test run.
@@ -191,5 +192,8 @@ fn pictures_come_while_a_hand_drags() {
 fn open<'d>(display: &'d Display, folder: &Path, text: &str) -> (Layout, Window<'d>) {
     let scene = folder.join("plate.toml");
     std::fs::write(&scene, text).unwrap();
-    (Layout::of(&scene), Window::open(display, folder, &scene))
+    (
+        Layout::of(&scene, display),
+        Window::open(display, folder, &scene),
+    )
 }

@@ -11,6 +11,7 @@ use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 
 use crate::PATIENCE;
+use crate::display::Display;
 
 pub struct Layout {
     picture: Rect,
@@ -30,10 +31,10 @@ pub struct Lamp {
 
 impl Layout {
     /// Layout of the viewer on this scene, in a window as large as the display.
-    pub fn of(scene: &Path) -> Self {
+    pub fn of(scene: &Path, display: &Display) -> Self {
         let scene = scene.to_owned();
         let mut harness = Harness::builder()
-            .with_size([1280.0, 800.0])
+            .with_size(display.size_px().map(f32::from))
             .with_pixels_per_point(1.0)
             .build_eframe(|context| {
                 let options = Options {

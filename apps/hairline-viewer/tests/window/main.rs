@@ -18,6 +18,7 @@ use hairline_gpu::headless::{skip, test_gpu};
 use hairline_scene::Description;
 use hairline_scene::description::Layer;
 use layout::Layout;
+use tempfile::TempDir;
 
 /// A small scene, so that pictures come quickly on any machine. The view is oblique: a drag turns it.
 const SCENE: &str = r#"
@@ -58,6 +59,11 @@ two_sided = true
 
 /// Longest wait: machines that test may be tenfold slower than they were, for minutes.
 const PATIENCE: Duration = Duration::from_secs(600);
+
+/// A window as people have it.
+const LARGE_PX: [u16; 2] = [1280, 800];
+/// The panels, and a small picture between them: most of the time goes into the pixels of each frame, which a software driver draws.
+const SMALL_PX: [u16; 2] = [700, 480];
 
 /// The program with its window.
 struct Window<'d> {
@@ -188,8 +194,8 @@ fn width_um(description: &Description) -> f64 {
 }
 
 /// Starts a display; none where there can be none and need not be.
-fn display() -> Option<Display> {
-    let display = Display::start([1280, 800]);
+fn display(size_px: [u16; 2]) -> Option<Display> {
+    let display = Display::start(size_px);
     if display.is_none() {
         assert!(
             std::env::var_os("HAIRLINE_REQUIRE_GPU").is_none_or(|value| value != "1"),
@@ -200,18 +206,70 @@ fn display() -> Option<Display> {
     display
 }
 
-#[test]
-fn an_artist_opens_turns_changes_draws_undoes_saves_and_comes_back() {
+/// A display and a folder with the scene.
+fn prepare(size_px: [u16; 2]) -> Option<(Display, TempDir)> {
     // eframe draws by the same drivers.
-    if test_gpu().is_none() {
-        return;
-    }
-    let Some(display) = display() else { return };
+    test_gpu()?;
+    let display = display(size_px)?;
     let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("plate.toml"), SCENE).unwrap();
+    Some((display, folder))
+}
+
+#[test]
+fn an_artist_turns_the_view_drags_a_value_undoes_and_saves() {
+    let Some((display, folder)) = prepare(SMALL_PX) else {
+        return;
+    };
     let scene = folder.path().join("plate.toml");
-    std::fs::write(&scene, SCENE).unwrap();
     let before = Description::from_toml(SCENE, &scene).unwrap();
-    let layout = Layout::of(&scene);
+    let layout = Layout::of(&scene, &display);
+    let window = Window::open_with(&display, folder.path(), &scene, &["--shadows", "off"]);
+    let first = window.settled(&layout);
+    assert!(first.brightest() > 100, "the picture is dark");
+
+    // The picture turns while the hand moves on, which waits for none.
+    let middle = layout.picture().center();
+    display.press(middle);
+    let mut angle = 0.0_f32;
+    window.wait_for("a picture of the turned view", || {
+        for _ in 0..5 {
+            angle += 0.1;
+            display.hurry_to(middle + 60.0 * angle.sin() * egui::vec2(1.0, 0.2));
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        display.screenshot(layout.picture()).differing(&first) > first.pixels() / 10
+    });
+    display.release();
+    display.keys(&["k"]);
+    window.is_modified();
+    let turned = window.save();
+    assert_ne!(turned.camera.position_m, before.camera.position_m);
+    assert_eq!(turned.scratches, before.scratches);
+
+    // A layer is chosen in the outliner, and its width dragged.
+    display.click(layout.layer());
+    display.drag(&[layout.width(), layout.width() + egui::vec2(30.0, 0.0)]);
+    window.is_modified();
+    let widened = window.save();
+    assert!(width_um(&widened) > width_um(&before));
+    assert_eq!(widened.camera, turned.camera);
+
+    display.keys(&["Control_L", "z"]);
+    window.is_modified();
+    assert_eq!(window.save(), turned);
+    window.quit();
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn an_artist_opens_turns_changes_draws_undoes_saves_and_comes_back() {
+    let Some((display, folder)) = prepare(LARGE_PX) else {
+        return;
+    };
+    let scene = folder.path().join("plate.toml");
+    let before = Description::from_toml(SCENE, &scene).unwrap();
+    let layout = Layout::of(&scene, &display);
     // Samples that add up settle late.
     let open = || Window::open_with(&display, folder.path(), &scene, &["--shadows", "off"]);
     let window = open();

@@ -11,7 +11,7 @@ use hairline_gpu::headless::test_gpu;
 
 use crate::display::Display;
 use crate::layout::Layout;
-use crate::{Window, display, keep};
+use crate::{LARGE_PX, Window, display, keep};
 
 /// The built-in scene, with a name.
 const SCENE: &str = hairline_console::BUILT_IN;
@@ -34,7 +34,7 @@ impl<'d> Studio<'d> {
         std::fs::write(&scene, SCENE).unwrap();
         Self {
             display,
-            layout: Layout::of(&scene),
+            layout: Layout::of(&scene, display),
             window: Window::open(display, folder, &scene),
         }
     }
@@ -83,7 +83,9 @@ fn in_a_window(make: impl FnOnce(Studio, &Path)) {
     if test_gpu().is_none() {
         return;
     }
-    let Some(display) = display() else { return };
+    let Some(display) = display(LARGE_PX) else {
+        return;
+    };
     let folder = tempfile::tempdir().unwrap();
     make(Studio::open(&display, folder.path()), folder.path());
 }

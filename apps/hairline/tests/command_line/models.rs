@@ -1,9 +1,9 @@
-//! Models that are rendered without a scene: at a time, by a camera of the file, and with notes on the contents that the picture does not
-//! have.
+//! Models that are rendered: at a time, by a camera of the file, and with notes on the contents that the picture does not have.
 
 use std::path::Path;
 
 use crate::common::{hairline, stderr_of, stdout_of};
+use hairline_fixtures::SceneFile;
 use hairline_image::{Image, exr_file};
 
 /// A red and a blue square of 0.1 m that face +z at the places `x`, 0.3 m apart. An animation swaps them within a second. `more` is put among
@@ -67,6 +67,10 @@ fn write(folder: &Path, name: &str, x: [f32; 2], is_animated: bool, more: [&str;
         bytes.len(),
     );
     std::fs::write(folder.join(name), text).unwrap();
+    let scene = (SceneFile::seen_from([0.0, 0.0, 0.8]).up([0.0, 1.0, 0.0]))
+        .part(&format!("[[object]]\nname = \"it\"\nmesh = {name:?}"))
+        .sphere([0.0, 0.2, 0.5], 0.02, 40.0);
+    std::fs::write(folder.join(name).with_extension("toml"), scene.to_string()).unwrap();
 }
 
 const REST: [f32; 2] = [0.0, 0.3];
@@ -85,23 +89,44 @@ fn rendered(folder: &Path, arguments: &str) -> (Image, String) {
 
 #[test]
 fn a_model_is_shown_at_a_time_of_its_animation() {
+    is_shown_at_a_time("toml");
+}
+
+/// A model without a scene, whose surroundings take seconds to blur.
+#[test]
+#[ignore = "long: cargo long"]
+fn a_model_without_a_scene_is_shown_at_a_time_of_its_animation() {
+    is_shown_at_a_time("gltf");
+}
+
+fn is_shown_at_a_time(kind: &str) {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     write(folder, "moving.gltf", REST, true, PLAIN);
     write(folder, "posed.gltf", SWAPPED, false, PLAIN);
-    let base = |arguments: &str| rendered(folder, arguments).0.base;
+    let base = |arguments: &str| rendered(folder, &arguments.replace("KIND", kind)).0.base;
     let [moved, posed, rest] = [
-        base("moving.gltf --time 1"),
-        base("posed.gltf"),
-        base("moving.gltf"),
+        base("moving.KIND --time 1"),
+        base("posed.KIND"),
+        base("moving.KIND"),
     ];
     assert_eq!(moved, posed);
     assert_ne!(moved, rest);
 }
 
-/// The camera is chosen by its name, else by its number; each content of the file that the picture does not have is told of in a line.
 #[test]
 fn a_model_is_seen_by_a_camera_of_its_file_and_told_of() {
+    is_seen_by_a_camera_and_told_of("it.toml");
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn a_model_without_a_scene_is_seen_by_a_camera_of_its_file_and_told_of() {
+    is_seen_by_a_camera_and_told_of("it.gltf");
+}
+
+/// The camera is chosen by its name, else by its number; each content of the file that the picture does not have is told of in a line.
+fn is_seen_by_a_camera_and_told_of(file: &str) {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let more = [
@@ -110,7 +135,7 @@ fn a_model_is_seen_by_a_camera_of_its_file_and_told_of() {
     ];
     write(folder, "it.gltf", REST, false, more);
     for (camera, depth_m) in [("front", 0.6), ("1", 0.2)] {
-        let (image, told) = rendered(folder, &format!("it.gltf --camera {camera}"));
+        let (image, told) = rendered(folder, &format!("{file} --camera {camera}"));
         let seen_m = image.depth_m[image.index(16, 9)];
         assert!((seen_m - depth_m).abs() < 1e-3, "{camera}: {seen_m}");
         let notes = told.lines().filter(|line| line.starts_with("note: "));
@@ -120,11 +145,11 @@ fn a_model_is_seen_by_a_camera_of_its_file_and_told_of() {
         ];
         assert_eq!(notes.collect::<Vec<_>>(), expected);
     }
-    let wrong = hairline(folder, "render it.gltf --camera side -o it.exr").code(2);
+    let wrong = hairline(folder, &format!("render {file} --camera side -o it.exr")).code(2);
     let told = stderr_of(&wrong);
     assert!(told.contains("its cameras are front, 1"), "{told}");
     // Data that change no picture are listed with the rest.
-    let listed = stdout_of(&hairline(folder, "info it.gltf").success());
+    let listed = stdout_of(&hairline(folder, &format!("info {file}")).success());
     for line in [
         "  it.gltf: KHR_materials_sheen (2); cloth misses its sheen\n",
         "  it.gltf: VENDOR_glow (1); Hairline does not know it\n",

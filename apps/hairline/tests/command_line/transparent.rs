@@ -8,6 +8,7 @@ use crate::common::{folder_with, hairline};
 use hairline_image::{Display, Output, Picture, exr_file};
 use image::DynamicImage;
 use image::codecs::png::PngDecoder;
+use tempfile::TempDir;
 
 /// A disk across a nearer bar, in the light of a map of radiance 1 from everywhere.
 const SCENE: &str = r#"
@@ -47,17 +48,23 @@ pattern = "random"
 count = 200
 "#;
 
+/// A map of one colour takes no time to blur.
+fn folder_in_white(scene: &str) -> TempDir {
+    let folder = folder_with("scene.toml", scene);
+    let white = Picture {
+        size_px: [4, 2],
+        rgb: vec![[1.0; 3]; 8],
+    };
+    let map = Output::check(&folder.path().join("white.exr")).unwrap();
+    map.write_picture(&white, &Display::default()).unwrap();
+    folder
+}
+
 #[test]
 fn alpha_is_what_hides_the_background() {
     let has_gpu = hairline_gpu::headless::test_gpu().is_some();
     for lens in ["", "aperture_mm = 25.0\nfocus_distance_m = 0.42\n"] {
-        let folder = folder_with("scene.toml", &SCENE.replace("LENS", lens));
-        let white = Picture {
-            size_px: [32, 16],
-            rgb: vec![[1.0; 3]; 32 * 16],
-        };
-        let map = Output::check(&folder.path().join("white.exr")).unwrap();
-        map.write_picture(&white, &Display::default()).unwrap();
+        let folder = folder_in_white(&SCENE.replace("LENS", lens));
         for backend in ["cpu", "gpu"].into_iter().take(1 + usize::from(has_gpu)) {
             let render = |name: &str, flags: &str| {
                 let own = format!(
@@ -95,10 +102,7 @@ fn alpha_is_what_hides_the_background() {
 
 #[test]
 fn pictures_and_animations_have_alpha() {
-    let scene = SCENE
-        .replace("LENS", "")
-        .replace("file = \"white.exr\"", "builtin = \"studio\"");
-    let folder = folder_with("scene.toml", &scene);
+    let folder = folder_in_white(&SCENE.replace("LENS", ""));
     let render = "render scene.toml --transparent --backend cpu --samples 1";
     hairline(folder.path(), &format!("{render} -o a.png")).success();
     let arguments = format!("{render} -o a.apng --frames 2 --turntable 10");

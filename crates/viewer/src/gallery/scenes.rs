@@ -271,6 +271,42 @@ mod tests {
 
     #[test]
     fn each_has_a_picture_of_its_own() {
+        // The most expensive pictures are like others, and one body shows as much as three.
+        have_pictures_of_their_own(
+            all().filter(|thumb| match thumb {
+                Thumb::Wear(wear, form) => {
+                    *form == StandIn::Flat && !matches!(wear, Wear::Keys | Wear::Polished)
+                }
+                Thumb::Layer(layer, form) => {
+                    *form == StandIn::Flat
+                        && !matches!(layer, LayerPreset::TurnedPan | LayerPreset::SpunDisk)
+                }
+                Thumb::Grating(_, form) => *form == StandIn::Flat,
+                Thumb::Light(_) => true,
+                _ => false,
+            }),
+            8,
+        );
+    }
+
+    #[test]
+    fn so_has_each_material_and_shape() {
+        // One body
+        have_pictures_of_their_own(
+            all().filter(|thumb| {
+                matches!(thumb, Thumb::Shape(_) | Thumb::Material(_, StandIn::Flat))
+            }),
+            8,
+        );
+    }
+
+    #[test]
+    #[ignore = "long: cargo long"]
+    fn so_has_each_on_every_body() {
+        have_pictures_of_their_own(all(), 96);
+    }
+
+    fn all() -> impl Iterator<Item = Thumb> {
         let on = |form: StandIn| {
             let layers = LayerPreset::ALL.map(|p| Thumb::Layer(p, form)).into_iter();
             layers
@@ -279,32 +315,21 @@ mod tests {
                 .chain(GratingPreset::ALL.map(|p| Thumb::Grating(p, form)))
         };
         let lights = LightPreset::ALL.map(Thumb::Light).into_iter();
-        let mut all: Vec<Thumb> = lights
+        lights
             .chain(ShapePreset::ALL.map(Thumb::Shape))
             .chain(BuiltInMap::ALL.map(Thumb::Map))
             .chain(StandIn::ALL.into_iter().flat_map(on))
-            .collect();
+    }
+
+    /// With `HAIRLINE_GALLERY=FOLDER` it leaves the pictures in that folder.
+    fn have_pictures_of_their_own(thumbs: impl Iterator<Item = Thumb>, side_px: u32) {
         let mut studio = Studio::default();
-        let side_px = match std::env::var_os("HAIRLINE_GALLERY") {
-            Some(_) => 96,
-            None => {
-                // The most expensive pictures are like others, and one body shows as much as three.
-                let dense = &Wear::ALL[2..];
-                let is_other = |form: &StandIn| *form != StandIn::ALL[0];
-                all.retain(|thumb| match thumb {
-                    Thumb::Wear(wear, form) => !dense.contains(wear) && !is_other(form),
-                    Thumb::Layer(_, form) => !is_other(form),
-                    Thumb::Grating(_, form) => !is_other(form),
-                    _ => true,
-                });
-                16
-            }
-        };
-        let pictures: Vec<(Thumb, ColorImage)> = all
-            .iter()
+        let pictures: Vec<(Thumb, ColorImage)> = thumbs
             .map(|thumb| {
-                let picture = studio.picture(*thumb, side_px);
-                (*thumb, picture.expect("a picture"))
+                let t = std::time::Instant::now();
+                let picture = studio.picture(thumb, side_px);
+                eprintln!("{:.2} {thumb:?}", t.elapsed().as_secs_f64());
+                (thumb, picture.expect("a picture"))
             })
             .collect();
         if let Some(folder) = std::env::var_os("HAIRLINE_GALLERY") {

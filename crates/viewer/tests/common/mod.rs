@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use egui::accesskit::Role;
 use egui::{PointerButton, Pos2, Rect};
 use egui_kittest::{Harness, kittest::Queryable};
+use hairline_fixtures::SceneFile;
 use hairline_scene::Description;
 use hairline_scene::description::Light;
 use hairline_viewer::engine::Backend;
@@ -15,8 +16,27 @@ use hairline_viewer::{Options, Viewer};
 /// The scene of `hairline view` without a file.
 pub const BUILT_IN: &str = include_str!("../../../../crates/console/src/built_in_scene.toml");
 
+/// The built-in scene with fewer scratches in each layer: from afar each pixel sees thousands of them, which takes the closed form
+/// long.
+pub fn thinned(count: u32) -> &'static str {
+    let text = BUILT_IN.replace("count = 3400", &format!("count = {count}"));
+    assert_ne!(text, BUILT_IN);
+    text.leak()
+}
+
 /// A disk with a few scratches, a lamp and a square light, all in the picture; small enough to be built at once.
 pub const SMALL: &str = include_str!("small_scene.toml");
+
+/// The disk of the small scene under one lamp: a software driver compiles shaders for seconds, for less the less a scene has.
+pub fn bare_disk() -> SceneFile {
+    SceneFile::seen_from([0.0, -0.5, 0.3])
+        .toward([0.0, 0.0, 0.03])
+        .fov_y_deg(30.0)
+        .metal("steel", "steel")
+        .with("roughness = 0.1")
+        .object("disk", "steel", "disk = { radius_m = 0.1 }")
+        .sphere([-0.06, 0.03, 0.1], 0.01, 50.0)
+}
 
 /// Something of each kind that a panel changes; slow to render.
 pub const FULL: &str = include_str!("full_scene.toml");
@@ -24,8 +44,14 @@ pub const FULL: &str = include_str!("full_scene.toml");
 /// No test waits longer than this for another thread: machines that test may be tenfold slower than they were, for minutes.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// The window with the scene of that text, 1280 by 800 points, painted by the CPU, after its first pass. Nothing is read or
-/// written outside.
+/// Pixels of a picture that few tests look at: painting it in the background takes most of the time of many others.
+const FEW_PIXELS_PER_POINT: f32 = 0.25;
+
+/// Time between two passes while a test waits: a pass takes some milliseconds itself.
+const PAUSE: Duration = Duration::from_millis(10);
+
+/// The window with the scene of that text, 1280 by 800 points of few pixels, painted by the CPU, after its first pass. Nothing is
+/// read or written outside.
 pub fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
     viewer_with(Options {
         scene: None,
@@ -39,7 +65,7 @@ pub fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
 
 /// Viewer with other options.
 pub fn viewer_with(options: Options) -> Harness<'static, Viewer> {
-    viewer_of(options, [1280.0, 800.0])
+    viewer_in(options, [1280.0, 800.0], FEW_PIXELS_PER_POINT)
 }
 
 /// A scene's file, on the CPU, once it is built.
@@ -61,11 +87,23 @@ pub fn viewer_of_any_file(scene: &std::path::Path) -> Harness<'static, Viewer> {
     })
 }
 
-/// Viewer in another size.
+/// Viewer in another size, with a pixel for each point.
 pub fn viewer_of(options: Options, size: [f32; 2]) -> Harness<'static, Viewer> {
-    Harness::builder().with_size(size).build_eframe(|cc| {
-        Viewer::new(&cc.egui_ctx, None, options).expect("the test's scene is good")
-    })
+    viewer_in(options, size, 1.0)
+}
+
+/// Viewer in another size, with pixels of another size.
+pub fn viewer_in(
+    options: Options,
+    size: [f32; 2],
+    pixels_per_point: f32,
+) -> Harness<'static, Viewer> {
+    Harness::builder()
+        .with_size(size)
+        .with_pixels_per_point(pixels_per_point)
+        .build_eframe(|cc| {
+            Viewer::new(&cc.egui_ctx, None, options).expect("the test's scene is good")
+        })
 }
 
 /// Passes until `is_done`.
@@ -81,7 +119,7 @@ pub fn wait_until(
             return;
         }
         assert!(start.elapsed() < PATIENCE, "{what}: not in {PATIENCE:?}");
-        std::thread::sleep(Duration::from_millis(2));
+        std::thread::sleep(PAUSE);
     }
 }
 
@@ -125,7 +163,7 @@ pub fn click_on(harness: &mut Harness<'static, Viewer>, label: &str) {
         if before.is_some() && place(harness) == before || start.elapsed() > PATIENCE {
             break;
         }
-        std::thread::sleep(Duration::from_millis(2));
+        std::thread::sleep(PAUSE);
     }
     harness.get_by_label(label).click();
     harness.run_steps(3);

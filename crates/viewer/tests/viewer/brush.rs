@@ -249,11 +249,10 @@ fn a_drag_of_the_eraser_is_one_step() {
 }
 
 /// Bright enough to be seen where it runs, whatever its direction: pictures before and after differ there.
-#[test]
-fn the_first_stroke_is_seen_at_once() {
+fn the_first_stroke_is_seen(scene: &'static str) {
     let options = hairline_viewer::Options {
         scene: None,
-        built_in: common::BUILT_IN,
+        built_in: scene,
         backend: hairline_viewer::engine::Backend::Cpu,
         state_dir: None,
         native_dialogs: false,
@@ -288,6 +287,17 @@ fn the_first_stroke_is_seen_at_once() {
         .count();
     // Two strokes of 60 and 35 by 8 points, or so; a third of them.
     assert!(seen > 250, "{seen} pixels differ");
+}
+
+#[test]
+fn the_first_stroke_is_seen_at_once() {
+    the_first_stroke_is_seen(common::thinned(340));
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn the_first_stroke_is_seen_among_many_scratches() {
+    the_first_stroke_is_seen(common::BUILT_IN);
 }
 
 /// The first picture in its full size with every stroke that was drawn; samples of edges may come later.

@@ -13,12 +13,8 @@ use hairline_scene::Scene;
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Figures, LayerFigures, Options, Viewer};
 
-/// A window whose panels leave little room for the picture, so that samples come soon.
-fn viewer(scene: &'static str, width: f32) -> Harness<'static, Viewer> {
-    sized_viewer(scene, [width, 400.0])
-}
-
-fn sized_viewer(scene: &'static str, size: [f32; 2]) -> Harness<'static, Viewer> {
+/// A window whose panels leave little room for the picture, with few pixels, so that samples come soon.
+fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
     let options = Options {
         scene: None,
         built_in: scene,
@@ -27,9 +23,7 @@ fn sized_viewer(scene: &'static str, size: [f32; 2]) -> Harness<'static, Viewer>
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
     };
-    let mut harness = Harness::builder()
-        .with_size(size)
-        .build_eframe(|cc| Viewer::new(&cc.egui_ctx, None, options).unwrap());
+    let mut harness = common::viewer_in(options, [640.0, 400.0], 0.5);
     common::wait_built(&mut harness);
     common::wait_until(&mut harness, "a picture", |viewer| {
         viewer.engine().latest().is_some()
@@ -68,18 +62,19 @@ fn rendered(text: &str, size_px: [u32; 2]) -> Image {
     closed_form::render(&scene, &options, &|_| {})
 }
 
-/// The built-in scene with a tenth of its scratches: from afar each pixel sees thousands of them, which takes the closed form
-/// long.
-fn thinned() -> &'static str {
-    let text = common::BUILT_IN.replace("count = 3400", "count = 340");
-    assert_ne!(text, common::BUILT_IN);
-    text.leak()
+#[test]
+fn a_scene_agrees_with_its_reference_and_another_scene_does_not() {
+    agrees_and_another_does_not(common::SMALL);
 }
 
 #[test]
+#[ignore = "long: cargo long"]
 fn the_built_in_scene_agrees_with_its_reference_and_another_scene_does_not() {
-    let text = thinned();
-    let mut harness = viewer(text, 640.0);
+    agrees_and_another_does_not(common::thinned(340));
+}
+
+fn agrees_and_another_does_not(text: &'static str) {
+    let mut harness = viewer(text);
     common::key(&mut harness, Key::C);
     // Until noise is a small part of what is to be seen.
     common::wait_until(&mut harness, "little noise", |viewer| {
@@ -110,7 +105,7 @@ fn the_built_in_scene_agrees_with_its_reference_and_another_scene_does_not() {
 
 #[test]
 fn another_view_begins_anew() {
-    let mut harness = viewer(common::SMALL, 640.0);
+    let mut harness = viewer(common::SMALL);
     common::key(&mut harness, Key::C);
     let before = sampled(&mut harness);
     common::key(&mut harness, Key::Num5);
@@ -127,7 +122,7 @@ fn another_view_begins_anew() {
 
 #[test]
 fn closing_it_stops_the_thread() {
-    let mut harness = viewer(common::SMALL, 640.0);
+    let mut harness = viewer(common::SMALL);
     common::key(&mut harness, Key::C);
     common::wait_until(&mut harness, "samples", |viewer| {
         viewer.comparison().is_some()
@@ -148,7 +143,7 @@ fn closing_it_stops_the_thread() {
 
 #[test]
 fn buttons_stay_where_they_are_when_figures_come() {
-    let mut harness = viewer(common::SMALL, 640.0);
+    let mut harness = viewer(common::SMALL);
     common::key(&mut harness, Key::C);
     let names = ["Reference", "Error map", "Close the comparison"];
     let places = |harness: &Harness<'static, Viewer>| {
@@ -165,7 +160,7 @@ fn buttons_stay_where_they_are_when_figures_come() {
 #[test]
 fn the_divider_can_be_dragged_and_moved_by_keys() {
     const DIVIDER: &str = "Divider between picture and reference";
-    let mut harness = viewer(common::SMALL, 640.0);
+    let mut harness = viewer(common::SMALL);
     common::key(&mut harness, Key::C);
     let camera = common::description(&harness).camera.clone();
     let at = |harness: &Harness<'static, Viewer>| harness.get_by_label(DIVIDER).rect().center();
@@ -189,7 +184,7 @@ fn the_divider_can_be_dragged_and_moved_by_keys() {
 
 #[test]
 fn the_error_map_has_a_scale() {
-    let mut harness = viewer(common::SMALL, 640.0);
+    let mut harness = viewer(common::SMALL);
     common::key(&mut harness, Key::C);
     common::wait_until(&mut harness, "samples", |viewer| {
         viewer.comparison().is_some()

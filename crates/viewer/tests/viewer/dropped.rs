@@ -4,7 +4,7 @@ use crate::common::{
     self, SMALL, click_on, description, move_to, picture, press, release, undo, viewer, wait_built,
     wait_until,
 };
-use crate::picking::two_squares;
+use crate::picking::{LAMP, two_squares};
 use egui::accesskit::Role;
 use egui::{Pos2, vec2};
 use egui_kittest::Harness;
@@ -93,7 +93,7 @@ fn a_metal_is_dropped_onto_a_part_of_a_model() {
     let scene = dir.path().join("a.toml");
     let text = "[camera]\nposition_m = [0, 0, 0.4]\ntarget_m = [0, 0, 0]\nup = [0, 1, 0]\n\
         [[object]]\nname = \"it\"\nmesh = \"a.gltf\"\n";
-    std::fs::write(&scene, text).unwrap();
+    std::fs::write(&scene, format!("{text}{LAMP}")).unwrap();
     let mut harness = common::viewer_of_file(&scene);
     select(&mut harness, Selection::Object(0));
     click_on(&mut harness, "Make it of…");
@@ -125,7 +125,7 @@ fn a_material_of_a_file_is_made_a_metal_in_its_panel() {
     let scene = dir.path().join("a.toml");
     let text = "[camera]\nposition_m = [0, 0, 0.4]\ntarget_m = [0, 0, 0]\nup = [0, 1, 0]\n\
         [[object]]\nname = \"it\"\nmesh = \"a.gltf\"\n";
-    std::fs::write(&scene, text).unwrap();
+    std::fs::write(&scene, format!("{text}{LAMP}")).unwrap();
     let mut harness = common::viewer_of_file(&scene);
     select(&mut harness, Selection::Object(0));
     click_on(&mut harness, "steel");

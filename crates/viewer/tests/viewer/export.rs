@@ -141,20 +141,28 @@ fn a_picture_of_a_gpu_is_what_its_renderer_makes() {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
-    let mut harness = common::viewer_with(Options {
+    let text = (common::bare_disk().random("disk", 200))
+        .with("length_m = 0.05")
+        .size_px([48, 32])
+        .to_string();
+    let options = Options {
         scene: None,
-        built_in: TINY,
+        built_in: text.clone().leak(),
         backend: Backend::Gpu(gpu.clone()),
         state_dir: None,
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
+    };
+    let mut harness = common::viewer_in(options, [760.0, 600.0], 0.25);
+    // Else both would compile the same shaders, side by side.
+    common::wait_until(&mut harness, "a picture", |viewer| {
+        viewer.engine().latest().is_some()
     });
-    common::wait_built(&mut harness);
     let path = folder.path().join("a.exr");
     save_picture(&mut harness, &path);
     wait_exported(&mut harness);
     let found = exr_file::read_image(&path).unwrap();
-    let scene = Scene::from_toml(TINY, "test", "").unwrap();
+    let scene = Scene::from_toml(&text, "test", "").unwrap();
     let options = hairline_gpu::RenderOptions {
         samples: SAMPLES,
         ..Default::default()

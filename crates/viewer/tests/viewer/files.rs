@@ -7,6 +7,7 @@ use crate::common::{SMALL, click_on, description, viewer, viewer_with, wait_buil
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use hairline_image::{Display, Output, Picture};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 
@@ -171,6 +172,21 @@ fn what_a_crash_left_is_offered_and_recovered() {
 
 #[test]
 fn models_and_maps_are_added() {
+    let folder = tempfile::tempdir().unwrap();
+    // Of one colour: it takes no time to blur.
+    let map = Picture {
+        size_px: [4, 2],
+        rgb: vec![[1.0; 3]; 8],
+    };
+    let path = folder.path().join("sky.exr");
+    let output = Output::check(&path).unwrap();
+    output.write_picture(&map, &Display::default()).unwrap();
+    are_added(&triangle(folder.path(), 2.0), &path);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn models_and_maps_of_others_are_added() {
     let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets");
     let find = |ending: &str| {
         let entries = std::fs::read_dir(&model).ok()?;
@@ -181,9 +197,13 @@ fn models_and_maps_are_added() {
         hairline_gpu::headless::skip("no model and no map beside the project");
         return;
     };
+    are_added(&model, &map);
+}
+
+fn are_added(model: &Path, map: &Path) {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);
-    drop_file(&mut harness, &model);
+    drop_file(&mut harness, model);
     // Two metres, in a scene of centimetres.
     while harness.query_by_label_contains("Fit it to").is_none() {
         harness.step();
@@ -192,7 +212,7 @@ fn models_and_maps_are_added() {
     wait_until(&mut harness, "the model", |viewer| {
         viewer.document().description().objects.len() == 2
     });
-    drop_file(&mut harness, &map);
+    drop_file(&mut harness, map);
     wait_until(&mut harness, "the map", |viewer| {
         viewer.document().description().environment.is_some()
     });

@@ -1,6 +1,6 @@
 //! A device that is lost in the middle of the work: it is opened anew and the picture goes on, and the window says so.
 
-use crate::common::{SMALL, viewer_with, wait_built, wait_until};
+use crate::common::{bare_disk, viewer_in, wait_built, wait_until};
 use hairline_gpu::AdapterRequest;
 use hairline_gpu::headless::{self, test_gpu};
 use hairline_viewer::Options;
@@ -9,7 +9,7 @@ use hairline_viewer::engine::Backend;
 fn options(backend: Backend) -> Options {
     Options {
         scene: None,
-        built_in: SMALL,
+        built_in: bare_disk().to_string().leak(),
         backend,
         state_dir: None,
         native_dialogs: false,
@@ -19,7 +19,7 @@ fn options(backend: Backend) -> Options {
 
 /// Loses the device of a viewer that has painted with it, turns the view and waits for a new picture and for `message`.
 fn goes_on(backend: Backend, device: wgpu::Device, message: &str) {
-    let mut harness = viewer_with(options(backend));
+    let mut harness = viewer_in(options(backend), [760.0, 400.0], 0.25);
     wait_built(&mut harness);
     wait_until(&mut harness, "a picture", |viewer| {
         viewer.engine().latest().is_some()

@@ -76,7 +76,7 @@ fn a_model_is_found_and_what_was_beside_it_with_it() {
         [[object]]\nname = \"it\"\nmesh = \"parts/a.gltf\"\n\
         [[scratches]]\nobject = \"it\"\npattern = \"random\"\ncount = 50\nlength_m = 0.02\n\
         where = { mask = \"parts/leaf.png\", tile_m = 0.1 }\n";
-    std::fs::write(&scene, text).unwrap();
+    std::fs::write(&scene, format!("{text}{}", crate::picking::LAMP)).unwrap();
     let mut harness = opened(&scene);
     harness.get_by_label("The mask leaf.png is not there.");
     harness.get_by_label("The model a.gltf is not there.");

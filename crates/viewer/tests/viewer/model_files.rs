@@ -1,7 +1,7 @@
 //! Changes and choices in the panels for a model's file.
 
 use crate::common::{self, click_on, description, undo, wait_until};
-use crate::picking::two_squares;
+use crate::picking::{LAMP, two_squares};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -16,7 +16,7 @@ fn opened(selection: Selection) -> (Harness<'static, Viewer>, tempfile::TempDir)
     let scene = dir.path().join("a.toml");
     let text = "[camera]\nposition_m = [0, 0, 0.4]\ntarget_m = [0, 0, 0]\n\
         [[object]]\nname = \"it\"\nmesh = \"a.gltf\"\n";
-    std::fs::write(&scene, text).unwrap();
+    std::fs::write(&scene, format!("{text}{LAMP}")).unwrap();
     let mut harness = common::viewer_of_file(&scene);
     harness.state_mut().document_mut().select(selection);
     harness.run_steps(3);
@@ -77,11 +77,9 @@ fn the_scene_is_seen_by_a_camera_of_its_models_file() {
 /// Contents of a model that are not in the picture are reported when the model is opened, and once.
 #[test]
 fn what_of_a_model_is_left_out_is_told() {
-    let dir = tempfile::tempdir().unwrap();
-    two_squares(dir.path());
-    let path = dir.path().join("a.gltf");
-    let plain = common::viewer_of_file(&path);
+    let (plain, dir) = opened(Selection::None);
     assert!(plain.state().messages().is_empty());
+    let path = dir.path().join("a.gltf");
     let text = std::fs::read_to_string(&path).unwrap();
     let richer = text
         .replace(
@@ -93,7 +91,7 @@ fn what_of_a_model_is_left_out_is_told() {
             r#""extensionsUsed":["KHR_materials_sheen"],"scenes""#,
         );
     std::fs::write(&path, richer).unwrap();
-    let mut harness = common::viewer_of_file(&path);
+    let mut harness = common::viewer_of_file(&dir.path().join("a.toml"));
     let expected = "a.gltf: KHR_materials_sheen (1) left out; cloth misses its sheen";
     wait_until(&mut harness, "the note", |viewer| {
         viewer

@@ -44,6 +44,10 @@ fn a_double_click_where_the_disks_centre_is_seen_looks_at_its_centre() {
 }
 
 /// Two squares beside each other, 10 cm wide: the right one is a node "clasp" of a material "gold". A camera "front" stands before them.
+/// A lamp for a model: where there is none, a studio is made, whose surroundings take seconds to blur.
+pub(crate) const LAMP: &str =
+    "[[light]]\nkind = \"sphere\"\ncenter_m = [0, 0, 0.4]\nradius_m = 0.01\n";
+
 pub(crate) fn two_squares(dir: &std::path::Path) {
     let corners = [[-0.1, 0.0], [0.0, 0.0], [0.0, 0.1], [-0.1, 0.1]];
     let right = corners.map(|[x, y]| [x + 0.1, y]);
@@ -85,7 +89,7 @@ fn a_click_keeps_a_layer_to_the_part_that_is_there() {
     let text = "[camera]\nposition_m = [0, 0, 0.4]\ntarget_m = [0, 0, 0]\nup = [0, 1, 0]\n\
         [[object]]\nname = \"it\"\nmesh = \"a.gltf\"\n\
         [[scratches]]\nobject = \"it\"\npattern = \"random\"\ncount = 50\nlength_m = 0.02\n";
-    std::fs::write(&scene, text).unwrap();
+    std::fs::write(&scene, format!("{text}{LAMP}")).unwrap();
     let mut harness = common::viewer_of_file(&scene);
     let document = harness.state_mut().document_mut();
     document.select(Selection::Layer(0));

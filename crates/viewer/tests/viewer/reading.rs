@@ -1,6 +1,6 @@
 //! Reading the picture: the probe, the histogram, false colour, layers and the exposure of the window.
 
-use crate::common::{self, SMALL, click_at, viewer, wait_built, wait_until};
+use crate::common::{self, SMALL, click_at, viewer_in, wait_built, wait_until};
 use egui::{Key, Modifiers, Pos2, Rect, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -9,6 +9,24 @@ use hairline_viewer::engine::{Backend, Frame, Picture};
 use hairline_viewer::reading::{Reading, Shows};
 use hairline_viewer::{Options, Viewer};
 use std::sync::Arc;
+
+const LARGE: [f32; 2] = [1280.0, 800.0];
+/// Few pixels are soon finished.
+const PIXELS_PER_POINT: f32 = 0.5;
+
+fn viewer(scene: &'static str, backend: Backend, size: [f32; 2]) -> Harness<'static, Viewer> {
+    let options = Options {
+        scene: None,
+        built_in: scene,
+        backend,
+        state_dir: None,
+        native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
+    };
+    let mut harness = viewer_in(options, size, PIXELS_PER_POINT);
+    wait_built(&mut harness);
+    harness
+}
 
 fn key(harness: &mut Harness<'static, Viewer>, modifiers: Modifiers, key: Key) {
     harness.key_press_modifiers(modifiers, key);
@@ -35,7 +53,7 @@ fn pixels(frame: &Frame) -> &egui::ColorImage {
 fn read(harness: &mut Harness<'static, Viewer>, at: Pos2) -> Reading {
     harness.hover_at(at);
     let picture = common::picture(harness);
-    let within = at - picture.min;
+    let within = (at - picture.min) * PIXELS_PER_POINT;
     wait_until(harness, "the probe", |viewer| {
         // The picture's sides are no whole points.
         let is_there = |reading: Reading| {
@@ -49,8 +67,7 @@ fn read(harness: &mut Harness<'static, Viewer>, at: Pos2) -> Reading {
 
 #[test]
 fn the_probe_reads_the_pixel_that_the_picture_shows() {
-    let mut harness = viewer(SMALL);
-    wait_built(&mut harness);
+    let mut harness = viewer(SMALL, Backend::Cpu, LARGE);
     let frame = finished(&mut harness);
     key(&mut harness, Modifiers::NONE, Key::I);
     let middle = common::picture(&harness).center();
@@ -109,8 +126,7 @@ fn the_probe_reads_the_pixel_that_the_picture_shows() {
 
 #[test]
 fn the_histogram_counts_the_scenes_picture() {
-    let mut harness = viewer(SMALL);
-    wait_built(&mut harness);
+    let mut harness = viewer(SMALL, Backend::Cpu, LARGE);
     key(&mut harness, Modifiers::NONE, Key::G);
     let frame = finished(&mut harness);
     let histogram = frame.findings.histogram.as_ref().expect("a histogram");
@@ -133,13 +149,13 @@ fn the_histogram_counts_the_scenes_picture() {
 
 #[test]
 fn layers_and_exposure_are_shown_and_the_scene_stays() {
-    let mut harness = viewer(SMALL);
-    wait_built(&mut harness);
+    let mut harness = viewer(SMALL, Backend::Cpu, LARGE);
     let before = common::description(&harness);
     let beauty = finished(&mut harness);
     let at = {
-        let middle = common::picture(&harness).size() * 0.5;
-        (middle.x as usize, middle.y as usize + 60)
+        let middle = common::picture(&harness).size() * 0.5 + vec2(0.0, 60.0);
+        let [x, y] = <[f32; 2]>::from(middle * PIXELS_PER_POINT).map(|at| at as usize);
+        (x, y)
     };
     let mut seen = vec![pixels(&beauty)[at]];
     for shows in &Shows::ALL[1..] {
@@ -180,17 +196,9 @@ fn layers_and_exposure_are_shown_and_the_scene_stays() {
 #[test]
 fn layers_of_a_device_are_those_of_the_cpu() {
     let Some(gpu) = test_gpu() else { return };
-    let options = |backend| Options {
-        scene: None,
-        built_in: SMALL,
-        backend,
-        state_dir: None,
-        native_dialogs: false,
-        transport: hairline_scene::Transport::DIRECT,
-    };
+    let scene: &str = common::bare_disk().to_string().leak();
     let mut pictures = [Backend::Cpu, Backend::Gpu(gpu.clone())].map(|backend| {
-        let mut harness = common::viewer_of(options(backend), [760.0, 240.0]);
-        wait_built(&mut harness);
+        let mut harness = viewer(scene, backend, [760.0, 240.0]);
         key(&mut harness, Modifiers::NONE, Key::G);
         for _ in 0..6 {
             key(&mut harness, Modifiers::NONE, Key::N);

@@ -1,6 +1,6 @@
 //! Shadows in the window: switched, left out while something moves, added up when it stands.
 
-use crate::common::{self, click_on, viewer_of, wait_built, wait_until};
+use crate::common::{self, click_on, viewer_in, wait_built, wait_until};
 use crate::export::{save_picture, wait_exported};
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
@@ -31,7 +31,7 @@ fn viewer() -> Harness<'static, Viewer> {
         native_dialogs: false,
         transport: Transport::DIRECT,
     };
-    let mut harness = viewer_of(options, [900.0, 300.0]);
+    let mut harness = viewer_in(options, [900.0, 300.0], 0.5);
     wait_built(&mut harness);
     harness
 }

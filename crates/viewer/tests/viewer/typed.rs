@@ -1,6 +1,7 @@
 //! Texts typed into the panels: numbers that a scene file cannot hold are refused, and all others are saved and
 //! loaded.
 
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -51,6 +52,17 @@ fn type_into(harness: &mut Harness<'static, Viewer>, role: Role, place: usize, t
 
 #[test]
 fn what_is_typed_into_any_control_can_be_saved_and_loaded() {
+    what_is_typed_can_be_saved_and_loaded(|place, of| place % of..place % of + 1);
+}
+
+#[test]
+#[ignore = "long: cargo long"]
+fn all_that_is_typed_into_any_control_can_be_saved_and_loaded() {
+    what_is_typed_can_be_saved_and_loaded(|_, of| 0..of);
+}
+
+/// `chosen` tells which texts of so many are typed into the control with this index.
+fn what_is_typed_can_be_saved_and_loaded(chosen: fn(usize, usize) -> Range<usize>) {
     let mut harness = viewer(FULL);
     let d = description(&harness);
     let mut selections = vec![
@@ -73,7 +85,7 @@ fn what_is_typed_into_any_control_can_be_saved_and_loaded() {
         ] {
             let labels = labels(&harness, role);
             for (place, label) in labels.iter().enumerate() {
-                for text in typed {
+                for text in &typed[chosen(place, typed.len())] {
                     let before = description(&harness);
                     type_into(&mut harness, role, place, text);
                     let after = description(&harness);
@@ -94,7 +106,7 @@ fn what_is_typed_into_any_control_can_be_saved_and_loaded() {
             }
         }
     }
-    assert!(taken > 30, "most is refused: {taken} were taken");
+    assert!(taken > 20, "most is refused: {taken} were taken");
 }
 
 #[test]
