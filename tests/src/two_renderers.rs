@@ -76,12 +76,10 @@ fn on_one_triangle(scene: &Scene) -> Vec<bool> {
             let [u, v] = hit.barycentric;
             u.min(v).min(1.0 - u - v) > 2e-3
         });
-        // One sample of a silhouette may meet another object.
-        let steps = [(-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0)];
-        inside
-            && steps
-                .iter()
-                .all(|&(x, y)| object(pixel + DVec2::new(x, y)) == object(pixel))
+        // One sample of a silhouette may meet another object, as far off as the filter reaches.
+        let steps = [-1.0, 0.0, 1.0];
+        let mut around = steps.iter().flat_map(|&x| steps.map(|y| DVec2::new(x, y)));
+        inside && around.all(|step| object(pixel + step) == object(pixel))
     };
     pixels.map(clear).collect()
 }
@@ -123,7 +121,11 @@ pub fn compare_pixels(
             failures.push(format!("{name}, {}: NaN", layer.name()));
         }
         // Rounding may put a sample beyond a border of materials, where others share its scratches.
-        let most = if layer == Layer::Density { 1.0 } else { 0.5 };
+        let most = match layer {
+            Layer::Density => 1.0,
+            Layer::Scratches => 0.7,
+            _ => 0.5,
+        };
         if !(percent < most) {
             failures.push(format!(
                 "{name}, {}: relative rms {percent:.3} %",

@@ -47,8 +47,15 @@ pub enum Command {
     Export(Export),
     /// Print a shell's completions of this command line.
     Completions(Completions),
-    /// Print the manual page (roff): `hairline man | man -l -`.
-    Man,
+    /// Print the manual page (roff), of all commands or of one: `hairline man render | man -l -`.
+    Man(Man),
+}
+
+/// `hairline man`
+#[derive(Args, Debug)]
+pub struct Man {
+    /// Command that the page is to be about alone.
+    pub command: Option<String>,
 }
 
 /// `hairline info`
@@ -129,8 +136,8 @@ pub struct Render {
     /// The scene file (TOML), or a model (.glb, .gltf), which is shown in a lit scene; - reads a scene from stdin. Without it: the
     /// built-in scene.
     pub scene: Option<PathBuf>,
-    /// The picture: .png (tone-mapped, sRGB) or .exr (linear, 32-bit float, layers). Without it: the scene's name with .png,
-    /// or hairline.png, in the current folder.
+    /// The picture: .png (tone-mapped, sRGB) or .exr (linear, 32-bit float, layers); - writes a .png to stdout. Without it: the scene's
+    /// name with .png, or hairline.png, in the current folder.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Renderer.
@@ -271,7 +278,7 @@ pub struct Reference {
     #[arg(long, value_enum, default_value_t = Model::Separable)]
     pub model: Model,
     /// Samples for each pixel, rounded up to whole batches. Without it 1024, or with --time as many as fit.
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=16_777_216))]
+    #[arg(long, visible_alias = "samples", value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=16_777_216))]
     pub spp: Option<u32>,
     /// Stop sampling after this time: seconds, or with units as in 5m or 1h30m.
     #[arg(long, value_name = "DURATION", value_parser = parse_duration)]

@@ -39,7 +39,7 @@ fn main() -> ExitCode {
         Some(cli::Command::Scratches(arguments)) => scratches::run(arguments),
         Some(cli::Command::Export(arguments)) => export::run(arguments),
         Some(cli::Command::Completions(arguments)) => manual::completions(arguments.shell),
-        Some(cli::Command::Man) => manual::page(),
+        Some(cli::Command::Man(arguments)) => manual::page(arguments.command.as_deref()),
         Some(cli::Command::View(_)) => view::run(env::args_os().skip(2)),
         None => view::run(env::args_os().skip(1)),
     };

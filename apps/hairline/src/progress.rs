@@ -1,7 +1,8 @@
-//! Progress of long work: a bar on a terminal, nothing in a pipe.
+//! Progress of long work: a bar on a terminal, a line now and then in a log.
 
+use std::io::IsTerminal;
 use std::sync::Mutex;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use hairline_console::tell;
 use hairline_work::Listener;
@@ -10,7 +11,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 /// A bar on stderr, gone when dropped.
 pub struct Progress {
     bar: ProgressBar,
+    /// Time of the last line in a log; none on a terminal.
+    told: Option<Mutex<Instant>>,
 }
+
+/// Interval between two lines in a log.
+const LOGGED: Duration = Duration::from_secs(30);
 
 /// Enough for an hour's work to move in each second.
 const STEPS: u64 = 100_000;
@@ -31,7 +37,8 @@ impl Progress {
             .progress_chars("=> ");
         bar.set_style(style);
         bar.set_message(what);
-        let progress = Self { bar };
+        let told = (!std::io::stderr().is_terminal()).then(|| Mutex::new(Instant::now()));
+        let progress = Self { bar, told };
         progress.set(share);
         // The estimate takes the position in at a tick, and forgets the time that it took at the reset.
         progress.bar.tick();
@@ -65,6 +72,18 @@ impl Progress {
         let position = (share.clamp(0.0, 1.0) * STEPS as f64) as u64;
         if position > self.bar.position() {
             self.bar.set_position(position);
+            self.log(share);
+        }
+    }
+
+    fn log(&self, share: f64) {
+        let Some(Ok(mut told)) = self.told.as_ref().map(Mutex::try_lock) else {
+            return;
+        };
+        if told.elapsed() > LOGGED {
+            *told = Instant::now();
+            let what = self.bar.message();
+            tell(format_args!("{what}: {:.0} %", 100.0 * share));
         }
     }
 }

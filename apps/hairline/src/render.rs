@@ -5,6 +5,7 @@ mod motion;
 mod sequence;
 mod steadiness;
 
+use std::io::IsTerminal;
 use std::path::Path;
 
 use anyhow::anyhow;
@@ -100,13 +101,24 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
             if let Some(nothing) = nothing_seen(&image) {
                 tell(format_args!("note: {nothing}"));
             }
+            if image
+                .alpha
+                .as_ref()
+                .is_some_and(|alpha| alpha.iter().all(|share| *share == 1.0))
+            {
+                tell(
+                    "note: no pixel is transparent: objects fill the picture; `hidden = true` takes one of them out",
+                );
+            }
             if let Some(labels) = labels
                 && samples == wanted
             {
                 write_labels(scene, labels.path(), &is_stopped)?;
             }
             if samples == wanted {
-                return write(&output, &image, &notes);
+                write(&output, &image, &notes)?;
+                tell_on_terminal(&output);
+                return Ok(());
             }
             let so_far = format!("{samples} of {wanted}");
             let mut notes = notes;
@@ -128,6 +140,13 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
                 &write,
             )
         }
+    }
+}
+
+/// Names the picture to whoever sees no command but this one: scripts know it.
+fn tell_on_terminal(output: &Output) {
+    if std::io::stderr().is_terminal() && !output.is_stdout() {
+        tell(format_args!("wrote {}", output.path().display()));
     }
 }
 
@@ -227,6 +246,9 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
         .output
         .clone()
         .unwrap_or_else(|| scene_file::picture_path(arguments.scene.as_deref(), ".png"));
+    if path == Path::new("-") {
+        return Ok(Output::stdout());
+    }
     if Animation::is_asked_by(&path) {
         let path = path.display();
         return Err(Failure::Input(anyhow!(

@@ -5,7 +5,6 @@ use crate::silhouettes::is_smooth;
 use crate::visibility::{Visibility, center, coverage};
 use hairline_image::Batch;
 use hairline_index::TriangleIndex;
-use hairline_scene::camera::pixel_jitter;
 use hairline_scene::{CameraFrame, Scene};
 use rayon::prelude::*;
 
@@ -19,7 +18,7 @@ pub fn alpha(scene: &Scene, triangles: &TriangleIndex, done: u32, samples: u32) 
         count: done,
     };
     if !scene.camera.has_lens() {
-        return shares(triangles, &scene.camera.frame(size_px), all, samples);
+        return shares(scene, triangles, &scene.camera.frame(size_px), all, samples);
     }
     let batches: Vec<_> = Batch::of(samples)
         .filter(|batch| batch.first < done)
@@ -27,7 +26,7 @@ pub fn alpha(scene: &Scene, triangles: &TriangleIndex, done: u32, samples: u32) 
     let mut sums = vec![0.0; size_px[0] as usize * size_px[1] as usize];
     for batch in &batches {
         let camera = scene.camera.frame_of_batch(size_px, *batch);
-        let shares = shares(triangles, &camera, *batch, samples);
+        let shares = shares(scene, triangles, &camera, *batch, samples);
         let pixels = sums.iter_mut().zip(shares);
         pixels.for_each(|(sum, share)| *sum += share / batches.len() as f32);
     }
@@ -35,11 +34,16 @@ pub fn alpha(scene: &Scene, triangles: &TriangleIndex, done: u32, samples: u32) 
 }
 
 /// Shares of the samples of one batch, which all see the scene by one camera.
-fn shares(triangles: &TriangleIndex, camera: &CameraFrame, batch: Batch, samples: u32) -> Vec<f32> {
+fn shares(
+    scene: &Scene,
+    triangles: &TriangleIndex,
+    camera: &CameraFrame,
+    batch: Batch,
+    samples: u32,
+) -> Vec<f32> {
     let [width, height] = [camera.size_px.x as usize, camera.size_px.y as usize];
     let rows = 0..height as u32;
-    let size_px = [width as u32, height as u32];
-    let seen = Visibility::new(triangles, camera, size_px, &rows, samples);
+    let seen = Visibility::new(triangles, camera, &scene.render, &rows, samples);
     let mut shares = vec![0.0; width * height];
     let pixels = shares.par_iter_mut().enumerate();
     pixels.for_each_init(CameraBeam::default, |rays, (i, share)| {
@@ -49,7 +53,7 @@ fn shares(triangles: &TriangleIndex, camera: &CameraFrame, batch: Batch, samples
             return;
         }
         let covered = batch.range().filter(|&sample| {
-            let at_px = center(x, y) + pixel_jitter(sample, samples);
+            let at_px = center(x, y) + scene.render.jitter_px(sample, samples);
             let direction = camera.camera_ray(at_px).normalize();
             let coverage = coverage(x, y, sample);
             let hit = rays.intersect(triangles, camera, at_px, direction, coverage);

@@ -124,7 +124,13 @@ impl Prepared<'_> {
             options: options.clone(),
             rows: rows.start as usize..rows.end as usize,
             only_edges: false,
-            visibility: Visibility::new(&self.triangles, &camera, size_px, &rows, options.samples),
+            visibility: Visibility::new(
+                &self.triangles,
+                &camera,
+                &scene.render,
+                &rows,
+                options.samples,
+            ),
             shadows: (options.shadows && matches!(by, PictureMethod::Tiles(_)))
                 .then(|| Shadows::new(self, options)),
             by,

@@ -51,15 +51,6 @@ impl LayerLight {
         self.times(DVec3::splat(1.0 / samples))
     }
 
-    /// Share of the luminance that is seen; 1 without rays. As [`FoundLight::share`].
-    pub fn share(&self) -> f64 {
-        let all = luminance(self.weight);
-        match all > 0.0 {
-            true => (luminance(self.seen) / all).clamp(0.0, 1.0),
-            false => 1.0,
-        }
-    }
-
     /// Converts the light to the picture's form.
     pub fn in_picture(&self) -> FoundLight {
         let [open, around, weight, seen, bounced] =

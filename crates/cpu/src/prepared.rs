@@ -118,11 +118,6 @@ impl<'a> Prepared<'a> {
         self.scratches.depth_coherence[object as usize].into()
     }
 
-    /// Factor by which a display multiplies radiance.
-    pub(crate) fn display_gain(&self) -> f32 {
-        self.scene.camera.exposure_ev.exp2() as f32
-    }
-
     /// The tables of the scratches' profiles.
     pub fn tables(&self) -> &ScratchTables {
         &self.tables

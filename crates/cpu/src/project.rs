@@ -30,9 +30,6 @@ const AWAY_COS: f64 = -0.3;
 /// Coordinates in records are rounded to single precision; the picture's largest is 16384.
 pub(crate) const ROUNDING_PX: f64 = 0.01;
 
-/// Half a pixel: samples of a pixel lie within it.
-const JITTER_PX: f64 = 0.5;
-
 /// A segment in the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Projected {
@@ -135,7 +132,10 @@ impl Rows {
     pub fn new(prepared: &Prepared, camera: &CameraFrame, rows: &Range<u32>, samples: u32) -> Self {
         let std_px = prepared.scene.render.footprint_std_px(1);
         let filter_px = REACH_MARGIN * f64::from(REACH_STD) * std_px;
-        let jitter_px = if samples > 1 { JITTER_PX } else { 0.0 };
+        let jitter_px = match samples > 1 {
+            true => prepared.scene.render.jitter_max_px(),
+            false => 0.0,
+        };
         let px = 1.0 / camera.per_px_x.length();
         let room = DVec2::splat(filter_px + jitter_px + ROUNDING_PX);
         let low = DVec2::new(0.0, rows.start.into()) - camera.middle_px - room;

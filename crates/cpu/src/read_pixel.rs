@@ -51,7 +51,6 @@ impl Prepared<'_> {
                 alpha: None,
                 noise: None,
                 found: None,
-                tones: None,
             },
             hit: picture.visibility.hit(column, row).copied(),
             segments: pairs as f64 / f64::from(samples),

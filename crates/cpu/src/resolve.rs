@@ -1,12 +1,11 @@
 //! Stage 7, resolve: the mask, the layers of a sample's light, and the mean over a pixel's samples. Twin: resolve.wgsl.
 
 use crate::found::{BaseLight, LayerLight};
-use crate::sampling::luminance;
 use crate::shade_base::BaseRadiance;
 use crate::shade_gratings::ShadedGratings;
 use crate::surface::SurfacePoint;
 use glam::DVec3;
-use hairline_image::{FoundPixel, Tone};
+use hairline_image::FoundPixel;
 use hairline_optics::mask::{Masked, ScratchSums};
 
 /// Light and guides that one sample adds to the film, or the sum of several.
@@ -25,8 +24,6 @@ pub(crate) struct Sample {
     /// Number of the object, from 1; 0 for the background.
     pub object: u32,
     pub roughness: f64,
-    /// Tone of the pixel, once it is resolved.
-    pub tone: Tone,
 }
 
 /// The light of a point on a surface, before scratches and gratings take theirs.
@@ -86,7 +83,6 @@ impl Sample {
             depth_m,
             object: object + 1,
             roughness: point.roughness,
-            tone: Tone::default(),
         }
     }
 
@@ -104,35 +100,15 @@ impl Sample {
 }
 
 /// The samples of a pixel.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pixel {
     sum: Sample,
     samples: u32,
     /// Samples that see a surface.
     covered: u32,
-    /// Parts of each sample.
-    parts: Vec<Parts>,
-}
-
-/// Luminances of a sample, as if nothing were hidden.
-#[derive(Clone, Copy, Debug)]
-struct Parts {
-    rest: f64,
-    /// Luminances of diffuse, specular and scratches.
-    layers: [f64; 3],
 }
 
 impl Pixel {
-    /// Empty again; it keeps its room.
-    pub fn clear(&mut self) {
-        let parts = std::mem::take(&mut self.parts);
-        *self = Self {
-            parts,
-            ..Self::default()
-        };
-        self.parts.clear();
-    }
-
     pub fn add(&mut self, sample: &Sample) {
         let sum = &mut self.sum;
         sum.rest += sample.rest;
@@ -148,41 +124,12 @@ impl Pixel {
             (_, object) if object == sample.object => object,
             _ => FoundPixel::SEVERAL_OBJECTS,
         };
-        let layers = [&sample.diffuse, &sample.specular, &sample.scratches];
-        self.parts.push(Parts {
-            rest: luminance(sample.rest),
-            layers: layers.map(|layer| luminance(layer.open)),
-        });
         self.samples += 1;
         self.covered += u32::from(sample.depth_m > 0.0);
     }
 
-    /// Tone of the pixel for a display. Each sample has the share of its closed forms that the whole pixel sees: single rays, and what they bring of
-    /// other objects, are noise, which a curve would darken.
-    fn tone(&self, gain: f32) -> Tone {
-        let layers = [&self.sum.diffuse, &self.sum.specular, &self.sum.scratches];
-        let seen = layers.map(LayerLight::share);
-        let mut sum = Tone::default();
-        for parts in &self.parts {
-            let layers = parts
-                .layers
-                .iter()
-                .zip(seen)
-                .map(|(open, seen)| open * seen);
-            let tone = Tone::of_sample((parts.rest + layers.sum::<f64>()) as f32, gain);
-            sum.luminance += tone.luminance;
-            sum.compressed += tone.compressed;
-        }
-        let samples = self.samples as f32;
-        Tone {
-            luminance: sum.luminance / samples,
-            compressed: sum.compressed / samples,
-        }
-    }
-
-    /// The mean, with a unit normal; none without a sample. Depths are the mean of those samples that see a surface. `gain` is that of the picture's
-    /// [`hairline_image::Tones`].
-    pub fn resolve(&self, gain: f32) -> Option<Sample> {
+    /// The mean, with a unit normal; none without a sample. Depths are the mean of those samples that see a surface.
+    pub fn resolve(&self) -> Option<Sample> {
         if self.samples == 0 {
             return None;
         }
@@ -199,7 +146,6 @@ impl Pixel {
             depth_m: self.sum.depth_m / covered,
             object: self.sum.object,
             roughness: self.sum.roughness / covered,
-            tone: self.tone(gain),
         })
     }
 }

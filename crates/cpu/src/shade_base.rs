@@ -18,6 +18,7 @@ use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
 use hairline_optics::ltc::{
     LobeFresnel, LtcLobe, ltc_lobe, ltc_reflected, ltc_sphere_vector, ltc_vector,
 };
+use hairline_optics::metal_mix::MetalMix;
 use hairline_scene::Environment;
 use std::f64::consts::PI;
 use std::ops::Add;
@@ -62,6 +63,8 @@ pub(crate) struct Layer<'a> {
     of: LobeFresnel<'a>,
     /// Albedo of the lobe with F = 1.
     lobe_albedo: f64,
+    /// Multiple scattering, and what reaches a body under the layer.
+    mix: MetalMix,
     /// Albedo of the layer: light that it reflects of radiance 1 from all around.
     pub albedo: DVec3,
 }
@@ -75,16 +78,25 @@ enum Shape {
 }
 
 impl<'a> Layer<'a> {
-    fn new(point: &SurfacePoint, fresnel: FresnelRgb<'a>, roughness: f64, slope_std: f64) -> Self {
+    fn new(
+        point: &SurfacePoint,
+        metallic: f64,
+        fresnel: FresnelRgb<'a>,
+        roughness: f64,
+        slope_std: f64,
+    ) -> Self {
         let sharp = ltc_lobe(point.wo, roughness);
         let of = LobeFresnel::new(fresnel, point.wo, roughness);
+        let diffuse = point.diffuse.to_array();
+        let mix = MetalMix::new(metallic, &fresnel, diffuse, of.albedo, sharp.albedo);
         Self {
             wo: point.wo,
             shape: Shape::Round(sharp),
             slopes: point.pixel_slopes(slope_std),
             of,
             lobe_albedo: sharp.albedo,
-            albedo: ggx_area_reflectance(of.albedo, fresnel.f0, sharp.albedo).into(),
+            mix,
+            albedo: ggx_area_reflectance(of.albedo, mix.scattered_f0, sharp.albedo).into(),
         }
     }
 
@@ -96,13 +108,16 @@ impl<'a> Layer<'a> {
             fresnel,
             albedo: lobe.albedo(&fresnel),
         };
+        let diffuse = point.diffuse.to_array();
+        let mix = MetalMix::new(point.metallic, &fresnel, diffuse, of.albedo, lobe_albedo);
         Self {
             wo: point.wo,
             shape: Shape::Brushed(facets),
             slopes,
             of,
             lobe_albedo,
-            albedo: ggx_area_reflectance(of.albedo, fresnel.f0, lobe_albedo).into(),
+            mix,
+            albedo: ggx_area_reflectance(of.albedo, mix.scattered_f0, lobe_albedo).into(),
         }
     }
 
@@ -185,8 +200,7 @@ impl<'a> Layer<'a> {
 
     /// Adds multiple scattering to `single`, the light of single scattering.
     pub fn of_single(&self, single: DVec3) -> DVec3 {
-        let f0 = self.of.fresnel.f0;
-        ggx_area_reflectance(single.to_array(), f0, self.lobe_albedo).into()
+        ggx_area_reflectance(single.to_array(), self.mix.scattered_f0, self.lobe_albedo).into()
     }
 }
 
@@ -209,15 +223,22 @@ impl<'p, 'a> Base<'p, 'a> {
         let base = under_coat.as_ref().unwrap_or(point);
         let lobe = match base.facets {
             Some(facets) => Layer::brushed(base, base.fresnel, facets),
-            None => Layer::new(base, base.fresnel, base.roughness, base.slope_std),
+            None => Layer::new(
+                base,
+                base.metallic,
+                base.fresnel,
+                base.roughness,
+                base.slope_std,
+            ),
         };
         let coat = point.coat.filter(|coat| coat.weight > 0.0);
-        let layer = |it: PointCoat<'a>| Layer::new(point, it.fresnel, it.roughness, it.slope_std);
+        let layer =
+            |it: PointCoat<'a>| Layer::new(point, 0.0, it.fresnel, it.roughness, it.slope_std);
         Self {
             point,
             under_coat,
             // The body gets the light that the surface does not reflect.
-            body: point.diffuse * (DVec3::ONE - lobe.albedo).max(DVec3::ZERO),
+            body: point.diffuse * DVec3::from(lobe.mix.body_share),
             lobe,
             coat: coat.map(|it| {
                 let layer = layer(it);

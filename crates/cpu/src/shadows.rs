@@ -15,7 +15,7 @@ use crate::prepared::Prepared;
 use crate::sampling::environment::EnvironmentSampler;
 use crate::sampling::lights::AreaLights;
 use crate::shade_scratches::Picks;
-use crate::surface::{SurfacePoint, raised_m};
+use crate::surface::{RayStart, SurfacePoint};
 use glam::{DVec2, DVec3};
 use hairline_image::Batch;
 use hairline_index::{Hit, intersect_triangle};
@@ -180,7 +180,7 @@ impl<'a> Shadows<'a> {
             self.lights.reach_m(light as usize, from_m, direction)
         });
         let end = RayEnd { light, distance_m };
-        wi.z > 0.0 && self.sees(point, point.raised_m, direction, end)
+        wi.z > 0.0 && self.sees(point, &RayStart::of(point), direction, end)
     }
 
     /// Whether nothing hides, from a place on the surface, the point that a direction leads to. The ray goes to that very point: a parallel one
@@ -188,11 +188,12 @@ impl<'a> Shadows<'a> {
     fn sees(
         &self,
         point: &SurfacePoint,
-        on_surface_m: DVec3,
+        start: &RayStart,
         mut direction: DVec3,
         end: RayEnd,
     ) -> bool {
         let mut distance_m = self.clear_m(end, point.position_m, direction);
+        let on_surface_m = start.position_m(point, direction);
         let mut origin_m = self.off_the_surface(point, on_surface_m, direction);
         if distance_m.is_finite() {
             let end_m = point.position_m + direction * distance_m;
@@ -226,7 +227,7 @@ impl<'a> Shadows<'a> {
     /// The point of the surface so many standard deviations of the pixel's filter to the right and down.
     ///
     /// On the triangles themselves: a step along the plane of the normal would end below them where they are hollow.
-    fn under_the_pixel(&self, at: &ShadowPoint, stds: [f64; 2]) -> DVec3 {
+    fn under_the_pixel(&self, at: &ShadowPoint, stds: [f64; 2]) -> RayStart {
         let Some(PixelFilter {
             camera,
             at_px,
@@ -234,7 +235,7 @@ impl<'a> Shadows<'a> {
             is_smooth,
         }) = at.pixel
         else {
-            return at.point.raised_m;
+            return RayStart::of(at.point);
         };
         let beside_px = DVec2::from(stds) * std_px;
         let ray = camera.camera_ray(at_px + beside_px);
@@ -248,9 +249,9 @@ impl<'a> Shadows<'a> {
         match hit {
             Some(hit) => {
                 let position_m = from_m + direction * hit.distance_m;
-                raised_m(self.prepared.scene, position_m, -direction, &hit)
+                RayStart::of_hit(self.prepared.scene, position_m, -direction, &hit)
             }
-            None => at.point.raised_m,
+            None => RayStart::of(at.point),
         }
     }
 

@@ -13,6 +13,12 @@ const CREASE_PX: f64 = 0.2;
 
 /// Whether one sample is enough for a pixel.
 pub(crate) fn is_smooth(seen: &Visibility, camera: &CameraFrame, x: usize, y: usize) -> bool {
+    seen.seen_by_samples(x, y)
+        .is_some_and(|mut around| around.all(|(x, y)| is_even(seen, camera, x, y)))
+}
+
+/// Whether a pixel's centre and those around it lie on one smooth surface.
+fn is_even(seen: &Visibility, camera: &CameraFrame, x: usize, y: usize) -> bool {
     let at = |x: usize, y: usize| seen.object_and_per_depth(x, y);
     let (object, middle) = at(x, y);
     let (left, up) = (x.saturating_sub(1), y.saturating_sub(1));
@@ -23,14 +29,18 @@ pub(crate) fn is_smooth(seen: &Visibility, camera: &CameraFrame, x: usize, y: us
         [(left, y + 1), (x + 1, up)],
     ];
     let most = CREASE_PX * camera.per_px_x.length() * middle;
-    // At the picture's border a neighbour is the pixel itself and the difference a first one: two samples fewer there
-    // are not worth a case.
     neighbours.iter().all(|&[a, b]| {
+        // Beyond the picture's border there is nothing to tell a bend by.
+        let is_between = a.0 + b.0 == 2 * x
+            && a.1 + b.1 == 2 * y
+            && seen.is_inside(a.0, a.1)
+            && seen.is_inside(b.0, b.1);
         if [(x, y), a, b].iter().any(|&(x, y)| seen.is_partial(x, y)) {
             return false;
         }
         let (a, b) = (at(a.0, a.1), at(b.0, b.1));
-        a.0 == object && b.0 == object && (a.1 + b.1 - 2.0 * middle).abs() <= most
+        let is_bent = is_between && (a.1 + b.1 - 2.0 * middle).abs() > most;
+        a.0 == object && b.0 == object && !is_bent
     })
 }
 
@@ -53,7 +63,7 @@ mod tests {
         let seen = Visibility::new(
             &TriangleIndex::build(&scene),
             &camera,
-            size_px,
+            &scene.render,
             &(0..200),
             2,
         );

@@ -40,8 +40,10 @@ pub struct SurfacePoint<'a> {
     pub normal_turns: [DVec3; 2],
     /// Specular reflectance.
     pub fresnel: FresnelRgb<'a>,
-    /// Albedo of the diffuse body.
+    /// Albedo of the diffuse body, times the share that is no metal.
     pub diffuse: DVec3,
+    /// Share of the surface that is a metal.
+    pub metallic: f64,
     /// Roughness of the surface between the scratches, or of the surface under the coat.
     pub roughness: f64,
     /// Axes of the facets' spread, where they lean further one way than across it; in the frame of the surface under the coat.
@@ -375,6 +377,7 @@ pub(crate) fn surface_with_bumps<'a>(
             curve: &tables.curves[optics.curve as usize],
         },
         diffuse: base_color * (1.0 - metallic),
+        metallic,
         roughness,
         facets: anisotropy.map(|(way, strength)| {
             let alpha = ggx_alpha(roughness);
@@ -399,18 +402,47 @@ pub(crate) fn surface_with_bumps<'a>(
     }
 }
 
-/// [`SurfacePoint::raised_m`] of a hit on the side that `to_viewer` points to.
-pub(crate) fn raised_m(scene: &Scene, position_m: DVec3, to_viewer: DVec3, hit: &Hit) -> DVec3 {
-    let mesh = &scene.objects[hit.object as usize].mesh;
-    let corners =
-        mesh.triangles[hit.triangle as usize].map(|i| mesh.positions_m[i as usize].as_dvec3());
-    let geometric = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    let side = if geometric.dot(to_viewer) < 0.0 {
-        -1.0
-    } else {
-        1.0
-    };
-    raised(position_m, hit, mesh, side)
+/// A place on a surface from which rays start.
+pub(crate) struct RayStart {
+    /// As [`SurfacePoint::raised_m`].
+    raised_m: DVec3,
+    /// Normal of the triangle there, on the viewer's side, of any length.
+    facet: DVec3,
+}
+
+impl RayStart {
+    pub fn of(point: &SurfacePoint) -> Self {
+        Self {
+            raised_m: point.raised_m,
+            facet: point.facet,
+        }
+    }
+
+    /// The place of a hit, on the side that `to_viewer` points to.
+    pub fn of_hit(scene: &Scene, position_m: DVec3, to_viewer: DVec3, hit: &Hit) -> Self {
+        let mesh = &scene.objects[hit.object as usize].mesh;
+        let corners =
+            mesh.triangles[hit.triangle as usize].map(|i| mesh.positions_m[i as usize].as_dvec3());
+        let geometric = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        let side = if geometric.dot(to_viewer) < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        Self {
+            raised_m: raised(position_m, hit, mesh, side),
+            facet: side * geometric,
+        }
+    }
+
+    /// Where a ray of a point starts: in the place, unless the surface there has turned away from its direction. Then it is the point itself, which sends
+    /// light that way: a convex body does not stand before itself.
+    pub fn position_m(&self, point: &SurfacePoint, direction: DVec3) -> DVec3 {
+        match self.facet.dot(direction) > 0.0 {
+            true => self.raised_m,
+            false => point.raised_m,
+        }
+    }
 }
 
 fn raised(position_m: DVec3, hit: &Hit, mesh: &Mesh, side: f64) -> DVec3 {

@@ -19,11 +19,10 @@ use crate::silhouettes::is_smooth;
 use crate::surface::surface_point;
 use crate::visibility::{Visibility, center, coverage};
 use glam::{DVec2, DVec3};
-use hairline_image::{Found, FoundPixel, Image, Tone, Tones};
+use hairline_image::{Found, FoundPixel, Image};
 use hairline_index::Hit;
 use hairline_optics::mask::{Masked, ScratchSums};
 use hairline_scene::CameraFrame;
-use hairline_scene::camera::pixel_jitter;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Mutex;
@@ -110,7 +109,7 @@ impl<'a> Tile<'a> {
     /// cancelled: then it renders nothing more.
     pub fn render(&mut self, column: usize, row: usize) -> Option<[Option<Sample>; SIDE * SIDE]> {
         let picture = self.picture;
-        self.pixels.iter_mut().for_each(Pixel::clear);
+        self.pixels.fill(Pixel::default());
         let (x0, y0) = (column * SIDE, row * SIDE);
         let width = picture.camera.size_px.x as usize;
         // Blocks of four by two pixels: a segment then misses more of the groups of points than it would of rows.
@@ -126,19 +125,17 @@ impl<'a> Tile<'a> {
         }
         self.shade(column, row);
         let is_whole = !self.is_cancelled;
-        let gain = picture.prepared.display_gain();
-        is_whole.then(|| std::array::from_fn(|i| self.pixels[i].resolve(gain)))
+        is_whole.then(|| std::array::from_fn(|i| self.pixels[i].resolve()))
     }
 
     /// Renders one pixel of the picture's rows.
     pub fn render_pixel(&mut self, x: usize, y: usize) -> Sample {
-        self.pixels.iter_mut().for_each(Pixel::clear);
+        self.pixels.fill(Pixel::default());
         let pixel = y % SIDE * SIDE + x % SIDE;
         let (column, row) = (x / SIDE, y / SIDE);
         self.add_pixel(column, row, pixel, [x, y]);
         self.shade(column, row);
-        let gain = self.picture.prepared.display_gain();
-        self.pixels[pixel].resolve(gain).unwrap_or_default()
+        self.pixels[pixel].resolve().unwrap_or_default()
     }
 
     /// Adds all samples of a pixel: one through its centre, or several where it has an edge.
@@ -161,7 +158,7 @@ impl<'a> Tile<'a> {
             }
             let in_batch = self.batch.len();
             for sample in chunk {
-                let at_px = center(x, y) + pixel_jitter(sample, samples);
+                let at_px = center(x, y) + picture.prepared.scene.render.jitter_px(sample, samples);
                 let camera = &picture.camera;
                 let direction = camera.camera_ray(at_px).normalize();
                 let triangles = &picture.prepared.triangles;
@@ -386,12 +383,6 @@ impl<'a> Picture<'a> {
                 pixels: vec![FoundPixel::default(); image.pixel_count()],
             });
         }
-        if image.tones.is_none() {
-            image.tones = Some(Tones {
-                gain: self.prepared.display_gain(),
-                pixels: vec![Tone::default(); image.pixel_count()],
-            });
-        }
         let mut layers = Layers::of(image);
         let parts: Vec<(usize, Layers)> = tile_rows
             .into_iter()
@@ -482,17 +473,15 @@ struct Layers<'i> {
     density: &'i mut [[f32; 3]],
     depth_m: &'i mut [f32],
     normal: &'i mut [[f32; 3]],
-    tones: &'i mut [Tone],
     /// Empty without shadows.
     found: &'i mut [FoundPixel],
 }
 
 impl<'i> Layers<'i> {
     fn of(image: &'i mut Image) -> Self {
-        let (found, tones) = (image.found.as_mut(), image.tones.as_mut());
+        let found = image.found.as_mut();
         Self {
             found: found.map_or(&mut [], |found| &mut found.pixels),
-            tones: tones.map_or(&mut [], |tones| &mut tones.pixels),
             base: &mut image.base,
             scratches: &mut image.scratches,
             density: &mut image.density,
@@ -514,7 +503,6 @@ impl<'i> Layers<'i> {
             density: split(&mut self.density, pixels),
             depth_m: split(&mut self.depth_m, pixels),
             normal: split(&mut self.normal, pixels),
-            tones: split(&mut self.tones, pixels),
             found: match self.found.len() {
                 0 => &mut [],
                 _ => split(&mut self.found, pixels),
@@ -531,6 +519,5 @@ impl<'i> Layers<'i> {
         self.density[pixel] = sample.density.as_vec3().to_array();
         self.depth_m[pixel] = sample.depth_m as f32;
         self.normal[pixel] = sample.normal.as_vec3().to_array();
-        self.tones[pixel] = sample.tone;
     }
 }

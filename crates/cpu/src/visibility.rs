@@ -3,11 +3,11 @@
 use crate::camera_beam::CameraBeam;
 use glam::DVec2;
 use hairline_index::{Coverage, Hit, TriangleIndex};
-use hairline_scene::CameraFrame;
+use hairline_scene::{CameraFrame, RenderSettings};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Hits of the rays through the pixels of some rows, and through one more row at either end, by which edges are found.
+/// Hits of the rays through the pixels of some rows, and through some more at either end, by which edges are found.
 pub(crate) struct Visibility {
     /// Row by row; [`NOTHING`] for the background.
     hits: Vec<Hit>,
@@ -18,6 +18,8 @@ pub(crate) struct Visibility {
     /// The row that `hits` begins with, and the row behind the last one.
     rows: Range<usize>,
     width: usize,
+    /// Number of pixels to either side of one that its samples see surfaces in; none where they see all.
+    reach: Option<usize>,
 }
 
 /// Stands for a ray that meets nothing: as large as a hit, where an `Option` would be larger by a quarter.
@@ -44,13 +46,15 @@ impl Visibility {
     pub fn new(
         triangles: &TriangleIndex,
         camera: &CameraFrame,
-        size_px: [u32; 2],
+        render: &RenderSettings,
         rows: &Range<u32>,
         samples: u32,
     ) -> Self {
-        let [width, height] = size_px.map(|n| n as usize);
-        let first = (rows.start as usize).saturating_sub(1);
-        let end = (rows.end as usize + 1).min(height);
+        let [width, height] = render.size_px.map(|n| n as usize);
+        let reach = render.outline_reach_px().map(|reach| reach as usize);
+        let around = reach.unwrap_or(1);
+        let first = (rows.start as usize).saturating_sub(around);
+        let end = (rows.end as usize + around).min(height);
         let mut hits = vec![NOTHING; (end - first) * width];
         let mut per_depths_m = vec![0.0; hits.len()];
         let mut partial = vec![false; hits.len()];
@@ -81,13 +85,31 @@ impl Visibility {
             partial,
             rows: first..end,
             width,
+            reach,
         }
+    }
+
+    /// Pixels whose surroundings the samples of one may see: itself, and more where the filter is wide. None where these are all.
+    pub fn seen_by_samples(
+        &self,
+        x: usize,
+        y: usize,
+    ) -> Option<impl Iterator<Item = (usize, usize)>> {
+        let more = self.reach? - 1;
+        let columns = x.saturating_sub(more)..(x + more + 1).min(self.width);
+        let rows = y.saturating_sub(more)..y + more + 1;
+        Some(rows.flat_map(move |y| columns.clone().map(move |x| (x, y))))
     }
 
     /// Index of a pixel; beyond the picture's border, that of the nearest pixel.
     fn index(&self, x: usize, y: usize) -> usize {
         let y = y.clamp(self.rows.start, self.rows.end - 1) - self.rows.start;
         y * self.width + x.min(self.width - 1)
+    }
+
+    /// Whether a pixel's centre was looked at.
+    pub fn is_inside(&self, x: usize, y: usize) -> bool {
+        x < self.width && self.rows.contains(&y)
     }
 
     /// Hit of a pixel's centre.

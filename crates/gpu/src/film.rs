@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use hairline_image::{Found, FoundPixel, Image, Tone, Tones};
+use hairline_image::{Found, FoundPixel, Image};
 use wgpu::BufferUsages;
 
 use crate::device::Gpu;
@@ -121,18 +121,9 @@ impl Film {
             Some(found) => found.read(gpu, count).await?,
             None => Vec::new(),
         };
-        let count_of_all = image.pixel_count();
         for (k, pixel) in pixels.enumerate() {
             let i = first + k;
             let samples = pixel.samples.max(1) as f32;
-            let tones = image.tones.get_or_insert_with(|| Tones {
-                gain: pixel.display_gain,
-                pixels: vec![Tone::default(); count_of_all],
-            });
-            tones.pixels[i] = Tone {
-                luminance: pixel.luminance / samples,
-                compressed: pixel.compressed / samples,
-            };
             image.base[i] = pixel.base.map(|sum| sum / samples);
             image.scratches[i] = pixel.scratches.map(|sum| sum / samples);
             image.density[i] = pixel.density.map(|sum| sum / samples);

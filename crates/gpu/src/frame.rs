@@ -1,11 +1,11 @@
 //! The frame uniform: camera, jitter and environment of one step of a strip.
 
+use std::f64::consts::SQRT_2;
 use std::ops::Range;
 
 use glam::DVec3;
 use hairline_image::Batch;
-use hairline_scene::camera::pixel_jitter;
-use hairline_scene::{Environment, Scene};
+use hairline_scene::{Environment, RenderSettings, Scene};
 
 use crate::bounces::Bounces;
 use crate::layout::{ENVIRONMENT_PRESENT, ENVIRONMENT_VISIBLE, Frame};
@@ -123,7 +123,7 @@ pub(crate) fn frame(
     // Jittered samples share the pixel's filter; the one through the centre has all of it.
     let (jitter, of) = match step {
         0 => (glam::DVec2::ZERO, 1),
-        _ => (pixel_jitter(sample, samples), samples),
+        _ => (scene.render.jitter_px(sample, samples), samples),
     };
     let data = &uploaded.data;
     Frame {
@@ -147,7 +147,13 @@ pub(crate) fn frame(
         film_row,
         segment_count: data.buffers.segment_count(),
         list_std_px: scene.render.footprint_std_px(1) as f32,
-        list_jitter_px: if samples > 1 { JITTER_MAX_PX } else { 0.0 },
+        list_jitter_px: match samples > 1 {
+            // Along a diagonal.
+            true => (SQRT_2 * scene.render.jitter_max_px()) as f32,
+            false => 0.0,
+        },
+        halo_rows: halo_rows(scene),
+        is_edge_everywhere: scene.render.outline_reach_px().is_none().into(),
         entry_count: counted.entries,
         object_count: scene.objects.len() as u32,
         group_count: counted.groups,
@@ -158,16 +164,14 @@ pub(crate) fn frame(
             (0, 2..) => u32::MAX,
             _ => sample,
         },
-        display_gain: scene.camera.exposure_ev.exp2() as f32,
-        sample_order: sample_order(view.step_samples(), samples),
-        has_rays: view.found_rounds().is_some().into(),
+        sample_order: sample_order(&scene.render, view.step_samples(), samples),
         ..Frame::default()
     }
 }
 
 /// The samples of a step from the one nearest to the pixel's middle, 4 bits each.
-fn sample_order(step: Range<u32>, samples: u32) -> [u32; 2] {
-    let off = |i: &u32| pixel_jitter(step.start + i, samples).length_squared();
+fn sample_order(render: &RenderSettings, step: Range<u32>, samples: u32) -> [u32; 2] {
+    let off = |i: &u32| render.jitter_px(step.start + i, samples).length_squared();
     let mut order: Vec<u32> = (0..step.len() as u32).collect();
     order.sort_by(|a, b| off(a).total_cmp(&off(b)));
     let mut packed = [0; 2];
@@ -177,8 +181,10 @@ fn sample_order(step: Range<u32>, samples: u32) -> [u32; 2] {
     packed
 }
 
-/// Largest distance of a jittered sample from the pixel's centre, in pixels: half of the diagonal.
-const JITTER_MAX_PX: f32 = 0.71;
+/// Rows above and below a strip in which outlines are looked for.
+pub(crate) fn halo_rows(scene: &Scene) -> u32 {
+    scene.render.outline_reach_px().unwrap_or(1)
+}
 
 fn vec3(v: DVec3) -> [f32; 3] {
     v.as_vec3().to_array()

@@ -81,6 +81,8 @@ modules! {
     FRESNEL = "physics/fresnel" needs [];
     /// The GGX lobe.
     GGX = "physics/ggx" needs [];
+    /// Surfaces that are metals in part.
+    METAL_MIX = "physics/metal_mix" needs [GGX];
     /// Irradiance from polygons and elliptic cones.
     IRRADIANCE = "physics/irradiance" needs [];
     /// Fitted tables over roughness and angle.
@@ -118,7 +120,7 @@ modules! {
     /// Search for scratches under a footprint, for other engines.
     SCRATCH_TREE = "engine/scratch_tree" needs [SCRATCH];
     /// The base of a point under lights, for other engines.
-    LIT_BASE = "engine/lit_base" needs [FILTERED_LOBE, PIXEL_SLOPES, BAND, OUTLINE_LIGHT, ENVIRONMENT_LOBE];
+    LIT_BASE = "engine/lit_base" needs [FILTERED_LOBE, PIXEL_SLOPES, BAND, OUTLINE_LIGHT, ENVIRONMENT_LOBE, METAL_MIX];
     /// The base of brushed metal, for other engines.
     BRUSHED_BASE = "engine/brushed_base" needs [BRUSHED_OUTLINE, LIT_BASE];
     /// All scratches of a point under lights, for other engines.
@@ -175,7 +177,7 @@ modules! {
     COAT = "scene/coat" needs [BINDINGS, FRESNEL, CONTENTS, SURFACE_POINT];
     /// The base under lights and environment.
     BASE = "scene/base" needs [
-        SCENE, LIGHTS, PICTURE_LIGHT, FILTERED_LOBE, ENVIRONMENT_LOBE, BRUSHED_OUTLINE, COAT
+        SCENE, LIGHTS, PICTURE_LIGHT, FILTERED_LOBE, ENVIRONMENT_LOBE, BRUSHED_OUTLINE, COAT, METAL_MIX
     ];
     /// Pass: triangle and object of each pixel.
     VISIBILITY = "passes/visibility" needs [BINDINGS];

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use hairline_scene::camera::OUTLINE_REACH_MAX_PX;
 use wgpu::{BufferUsages, TextureFormat, TextureUsages};
 
 use crate::device::Gpu;
@@ -38,7 +39,7 @@ const SORT_BLOCK: u32 = 256 * 8;
 pub(crate) struct StripRoom {
     pub width_px: u32,
     pub rows: u32,
-    /// Object and triangle of each pixel, with a row more above and below, so that edges are found at the strip's border.
+    /// Object and triangle of each pixel, with rows more above and below, so that edges are found at the strip's border.
     pub visibility: wgpu::TextureView,
     pub depth: wgpu::TextureView,
     /// Start of each tile's list among the entries; one more than tiles.
@@ -137,7 +138,7 @@ pub(crate) fn sort_blocks(entries: u32) -> u32 {
 
 /// The points of a strip, with the rows beside it.
 pub(crate) fn strip_points(width_px: u32, rows: u32) -> u64 {
-    u64::from(width_px) * u64::from(rows + 2)
+    u64::from(width_px) * u64::from(rows + 2 * OUTLINE_REACH_MAX_PX)
 }
 
 impl StripRoom {
@@ -148,7 +149,7 @@ impl StripRoom {
         width_px: u32,
         rows: u32,
     ) -> Result<Self, Error> {
-        let size = [width_px, rows + 2];
+        let size = [width_px, rows + 2 * OUTLINE_REACH_MAX_PX];
         let starts = tile_count(width_px, rows) + 1;
         let bytes = 4 * u64::from(starts);
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;

@@ -9,7 +9,7 @@ use crate::compute_pass::{Recording, in_a_row};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
-use crate::frame::{Counted, Rounds, View, frame};
+use crate::frame::{Counted, Rounds, View, frame, halo_rows};
 use crate::layout::{Frame, PixelPoint};
 use crate::passes::{ScratchPasses, Shade};
 use crate::pipelines::compiled;
@@ -150,11 +150,10 @@ impl StripShader {
         for sample in view.step_samples() {
             self.write_frame(view, strip, film_row, sample, counted);
             self.submit(view, |recording| {
+                let rows = rows + 2 * halo_rows(view.scene);
                 self.visibility.record(recording, room, rows);
                 let resources = room.resources().and(film.resources());
-                passes
-                    .surface
-                    .run(recording, &resources, room.tiles(rows + 2));
+                passes.surface.run(recording, &resources, room.tiles(rows));
             });
         }
         if let Some(ScratchPasses { share, .. }) = passes.scratches().filter(|_| view.step > 0) {

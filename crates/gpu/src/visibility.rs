@@ -84,6 +84,7 @@ impl VisibilityPass {
         }
     }
 
+    /// Records the pass over so many rows of a strip, with those above and below it.
     pub(crate) fn record(&self, recording: &mut Recording, room: &StripRoom, rows: u32) {
         let Recording {
             encoder,
@@ -114,15 +115,7 @@ impl VisibilityPass {
             timestamp_writes: timing.render("visibility"),
             ..Default::default()
         });
-        pass.set_viewport(
-            0.0,
-            0.0,
-            room.width_px as f32,
-            // A row more above and below.
-            (rows + 2) as f32,
-            0.0,
-            1.0,
-        );
+        pass.set_viewport(0.0, 0.0, room.width_px as f32, rows as f32, 0.0, 1.0);
         pass.set_bind_group(0, *frame, &[]);
         pass.set_bind_group(1, &scene.buffers.group, &[]);
         pass.set_bind_group(2, &scene.textures.group, &[]);

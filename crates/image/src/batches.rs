@@ -10,8 +10,8 @@ pub const BATCH_SAMPLES: u32 = 4;
 /// Largest number of rounds of rays in a batch: the closed forms are computed once for each batch.
 pub const BATCH_ROUNDS: u32 = 16;
 
-/// Rounds of the first batch while somebody looks: as few as tell how they vary.
-const FIRST_ROUNDS: u32 = 2;
+/// Rounds of the first batch while somebody looks: of fewer, filtered, a picture is worse than one without.
+const FIRST_ROUNDS: u32 = 8;
 
 /// Some of the samples of each pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -195,8 +195,6 @@ impl Batches {
         assert_eq!(image.size_px, batch.size_px, "a batch of another size");
         if let (Some(found), Some(more)) = (&mut image.found, &batch.found) {
             found.add(more);
-            let share = more.rounds as f32 / found.rounds.max(1) as f32;
-            add_tones(image, &batch, share);
             add_surfaces(image, &batch, before);
             image.show_found();
             return;
@@ -220,7 +218,6 @@ impl Batches {
             }
             noise.samples[i] += self.size;
         }
-        add_tones(image, &batch, 1.0 / (before + 1) as f32);
         add_surfaces(image, &batch, before);
     }
 
@@ -233,12 +230,6 @@ impl Batches {
             image.noise = Some(noise);
         }
         image
-    }
-}
-
-fn add_tones(image: &mut Image, batch: &Image, share: f32) {
-    if let (Some(tones), Some(more)) = (&mut image.tones, &batch.tones) {
-        tones.add(more, share);
     }
 }
 
@@ -313,8 +304,8 @@ mod tests {
     #[test]
     fn batches_grow_to_all_samples() {
         let counts = |samples| -> Vec<u32> { Batch::growing(samples).map(|b| b.count).collect() };
-        assert_eq!(counts(64), [2, 6, 16, 16, 16, 8]);
-        assert_eq!(counts(3), [2, 1]);
+        assert_eq!(counts(64), [8, 16, 16, 16, 8]);
+        assert_eq!(counts(3), [3]);
         assert_eq!(Batch::growing(64).last().unwrap().range().end, 64);
     }
 

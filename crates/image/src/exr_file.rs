@@ -170,7 +170,6 @@ pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes),
         alpha: alpha.map(|it| plane(&it)),
         noise: None,
         found: None,
-        tones: None,
     };
     image.noise = file.noise(path)?;
     check_lengths(&image, path)?;

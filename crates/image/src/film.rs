@@ -1,7 +1,6 @@
 //! Images in memory: the layers of a render, and plain pictures.
 
 use crate::found::Found;
-use crate::tones::Tones;
 
 /// Picture of a renderer: one value a pixel in each layer, row by row from the top. All layers are equally long.
 ///
@@ -29,8 +28,6 @@ pub struct Image {
     pub noise: Option<Noise>,
     /// Light that rays found, where there were any: for pictures of further rays, and for the filter. No file holds it.
     pub found: Option<Found>,
-    /// Means of each pixel's samples for a display, where renderers have them. No file holds them.
-    pub tones: Option<Tones>,
 }
 
 /// Variances of a Monte Carlo estimate. All vectors are as long as the image's layers.
@@ -127,7 +124,6 @@ impl Image {
             alpha: None,
             noise: None,
             found: None,
-            tones: None,
         }
     }
 
@@ -154,40 +150,6 @@ impl Image {
             size_px: self.size_px,
             rgb,
         }
-    }
-
-    /// Returns the picture of the closed forms alone, if rays added found light.
-    pub fn open(&self) -> Option<Self> {
-        let found = self.found.as_ref()?;
-        let (base, scratches) = found
-            .pixels
-            .iter()
-            .map(|pixel| <(_, _)>::from(pixel.open()))
-            .unzip();
-        Some(Self {
-            size_px: self.size_px,
-            base,
-            scratches,
-            density: self.density.clone(),
-            depth_m: self.depth_m.clone(),
-            normal: self.normal.clone(),
-            alpha: self.alpha.clone(),
-            noise: None,
-            found: None,
-            tones: self.tones.clone(),
-        })
-    }
-
-    /// Returns the picture for a display: edges of parts far brighter than white are averaged as they look ([`Tones`]).
-    pub fn shown(&self) -> Picture {
-        let mut picture = self.beauty();
-        if let Some(tones) = &self.tones {
-            for (rgb, tone) in picture.rgb.iter_mut().zip(&tones.pixels) {
-                let share = tone.share(tones.gain);
-                *rgb = rgb.map(|c| c * share);
-            }
-        }
-        picture
     }
 
     /// A copy of one layer, three components a pixel.

@@ -124,13 +124,6 @@ impl FoundPixel {
         [base, self.scratches.light()]
     }
 
-    /// Light of the base and of the scratches where nothing is hidden and nothing reflected.
-    pub fn open(&self) -> [[f32; 3]; 2] {
-        let (diffuse, specular) = (&self.diffuse.open, &self.specular.open);
-        let base = std::array::from_fn(|c| self.rest[c] + (diffuse[c] + specular[c]));
-        [base, self.scratches.open]
-    }
-
     /// Divides the sum over the samples of a pixel by their number; `covered` of them see a surface. Each sample has rays of its own, so the sums
     /// for the noise add up.
     #[must_use]

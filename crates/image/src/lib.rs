@@ -31,7 +31,6 @@ pub mod png;
 mod primaries;
 mod temporary;
 pub mod tone_map;
-mod tones;
 
 pub use animation::{Animation, FPS_MAX};
 pub use bands::BandImage;
@@ -45,4 +44,3 @@ pub use layers::{HeldLayer, Layers, Referred};
 pub use output::{Format, Output};
 pub use primaries::{Primaries, ToRec709, in_gamut};
 pub use tone_map::{Display, ToneMap};
-pub use tones::{Tone, Tones};

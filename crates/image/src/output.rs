@@ -56,6 +56,19 @@ impl Output {
         })
     }
 
+    /// The standard output, for a PNG. Its path is `-`.
+    pub fn stdout() -> Self {
+        Self {
+            path: PathBuf::from("-"),
+            format: Format::Png,
+        }
+    }
+
+    /// Whether it is the standard output.
+    pub fn is_stdout(&self) -> bool {
+        self.path == Path::new("-")
+    }
+
     /// The path as given.
     pub fn path(&self) -> &Path {
         &self.path
@@ -109,6 +122,11 @@ impl Output {
             path: self.path.clone(),
             reason,
         })?;
+        if self.is_stdout() {
+            let mut stdout = std::io::stdout().lock();
+            let written = stdout.write_all(&bytes).and_then(|()| stdout.flush());
+            return written.map_err(|e| Error::cannot_write(&self.path, &e));
+        }
         write_atomically(&self.path, &bytes)
     }
 }

@@ -46,7 +46,7 @@ fn encoded(codes: &[u8], size_px: [u32; 2], color: ExtendedColorType) -> Result<
 /// # Errors
 /// In words: another number of shares than of pixels.
 pub fn quantize_image(image: &Image, display: &Display) -> Result<Vec<u8>, String> {
-    let mut picture = image.shown();
+    let mut picture = image.beauty();
     let Some(alpha) = &image.alpha else {
         return Ok(quantize(&picture, display));
     };

@@ -44,6 +44,7 @@ pub mod lobe_table;
 pub mod ltc;
 pub mod mask;
 pub mod metal;
+pub mod metal_mix;
 pub mod picture;
 pub mod rigorous;
 pub mod scratch;

@@ -18,11 +18,11 @@ fn published_base(point: SurfacePoint) -> BaseRadiance {
     let under_coat = surface_under_coat(point);
     let layer = base_layer(under_coat);
     var base = published_layer(under_coat, layer);
-    base = BaseRadiance(layer_of_single(layer, base.specular), base.diffuse * base_body(point, layer));
+    base = BaseRadiance(layer_of_single(under_coat, layer, base.specular), base.diffuse * base_body(under_coat, layer));
     let share = surface_coat(point.coat).x;
     if HAS_COATS && share > 0.0 {
         let coat = coat_layer(point);
-        base = base_coated(share, coat.albedo, base, layer_of_single(coat, published_layer(point, coat).specular));
+        base = base_coated(share, coat.albedo, base, layer_of_single(surface_of_coat(point), coat, published_layer(point, coat).specular));
     }
     return base;
 }

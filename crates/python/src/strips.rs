@@ -1,6 +1,6 @@
 //! Pictures in parts: strips put together, and their transfer between processes.
 
-use hairline_image::{Display, Image, Noise, Notes, Tones};
+use hairline_image::{Display, Image, Noise, Notes};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -68,7 +68,6 @@ type State<'py> = (
     [u32; 2],
     Bound<'py, PyBytes>,
     Option<(u32, Bound<'py, PyBytes>)>,
-    Option<(f32, Bound<'py, PyBytes>)>,
     (f64, &'static str),
     Notes,
     bool,
@@ -95,16 +94,11 @@ pub(crate) fn picture_state<'py>(picture: &Bound<'py, Picture>) -> State<'py> {
         bytes.extend_from_slice(bytemuck::cast_slice(&noise.samples));
         (noise.batch, PyBytes::new(py, &bytes))
     });
-    let tones = image.tones.as_ref().map(|tones| {
-        let bytes = bytemuck::cast_slice(&tones.pixels);
-        (tones.gain, PyBytes::new(py, bytes))
-    });
     let shown = picture.shown();
     (
         image.size_px,
         PyBytes::new(py, &layers),
         noise,
-        tones,
         (shown.exposure_ev, shown.tone_map.name()),
         picture.notes().clone(),
         picture.is_whole(),
@@ -130,7 +124,6 @@ pub(crate) fn picture_from_state(
     size_px: [u32; 2],
     layers: &[u8],
     noise: Option<(u32, Vec<u8>)>,
-    tones: Option<(f32, Vec<u8>)>,
     display: (f64, String),
     notes: Notes,
     is_complete: bool,
@@ -148,10 +141,6 @@ pub(crate) fn picture_from_state(
             batch,
         })
     });
-    let tones = tones.map(|(gain, bytes)| {
-        let pixels = take(&mut &bytes[..], count)?;
-        Ok::<_, PyErr>(Tones { gain, pixels })
-    });
     let image = Image {
         size_px,
         base: take(&mut bytes, count)?,
@@ -166,7 +155,6 @@ pub(crate) fn picture_from_state(
         },
         noise: noise.transpose()?,
         found: None,
-        tones: tones.transpose()?,
     };
     let (exposure_ev, curve) = display;
     let display = Display {

@@ -10,7 +10,7 @@ use hairline_optics::coat::CoatPart;
 use hairline_optics::facets::Facets;
 use hairline_optics::ggx::ggx_alpha;
 
-use crate::reflectance::{Albedo, Reflectance, ReflectanceEnds};
+use crate::reflectance::{Albedo, MixedEnds, Reflectance, ReflectanceEnds};
 use hairline_cpu::surface::SurfacePoint;
 
 /// The base at a point for its viewer. Directions are unit vectors in the point's local frame.
@@ -22,7 +22,7 @@ pub(crate) struct BaseLobes<'a> {
     under_coat: Option<DMat3>,
     facets: Facets,
     reflectance: &'a Reflectance,
-    ends: ReflectanceEnds,
+    ends: MixedEnds,
     /// Relative light that multiple scattering adds to a white surface: the bracket of (27) less one, over F0.
     gain: f64,
     /// Share of the light that reaches the body, times the body's albedo.
@@ -52,7 +52,7 @@ impl<'a> BaseLobes<'a> {
         reflectance: &'a Reflectance,
         coat: Option<&'a Reflectance>,
     ) -> Self {
-        let ends = ReflectanceEnds::of(point);
+        let ends = MixedEnds::of(point);
         let under_coat = point.under_coat();
         let wo = under_coat.map_or(point.wo, |it| it.wo);
         let bare = match point.facets.map(Facets::new) {
@@ -93,7 +93,7 @@ impl<'a> BaseLobes<'a> {
     fn from_parts(
         wo: DVec3,
         reflectance: &'a Reflectance,
-        ends: ReflectanceEnds,
+        ends: MixedEnds,
         diffuse: DVec3,
         roughness: f64,
     ) -> Self {
@@ -105,13 +105,14 @@ impl<'a> BaseLobes<'a> {
     fn from_lobe(
         wo: DVec3,
         reflectance: &'a Reflectance,
-        ends: ReflectanceEnds,
+        ends: MixedEnds,
         diffuse: DVec3,
         facets: Facets,
         of_lobe: Albedo,
     ) -> Self {
-        let albedo = of_lobe.reflected(ends);
-        let body = diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
+        let albedo = ends.mix(|ends| of_lobe.reflected(ends));
+        // A body lies under the dielectric alone.
+        let body = diffuse * (DVec3::ONE - of_lobe.reflected(ends.dielectric)).max(DVec3::ZERO);
         let (specular, below) = (albedo.element_sum().max(0.0), body.element_sum());
         // A faint lobe still needs samples: a narrow one is found by nothing else.
         let specular_share = if below > 0.0 {
@@ -150,15 +151,9 @@ impl<'a> BaseLobes<'a> {
                 (facet.once + facet.twice * gain) * facets.eval(wi, wo)
             };
         let under_coat = self.under_coat(wi);
-        let (ends, facets) = (self.ends, &self.facets);
-        let specular = reflected(
-            self.reflectance,
-            ends,
-            self.gain,
-            facets,
-            under_coat,
-            self.wo,
-        );
+        let (facets, wo) = (&self.facets, self.wo);
+        let specular = (self.ends)
+            .mix(|ends| reflected(self.reflectance, ends, self.gain, facets, under_coat, wo));
         let diffuse = self.body * (under_coat.z.max(0.0) / PI);
         let Some(coat) = &self.coat else {
             return (specular, diffuse);

@@ -47,6 +47,14 @@ pub(crate) struct ReflectanceEnds {
     pub f90: f64,
 }
 
+/// A metal in part, of a share, and a dielectric.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MixedEnds {
+    pub metallic: f64,
+    pub metal: ReflectanceEnds,
+    pub dielectric: ReflectanceEnds,
+}
+
 /// A facet's reflectance in linear Rec.709, and that times the reflectance at normal incidence, wavelength by wavelength: light that is
 /// scattered once more takes the surface's colour once more.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,10 +79,53 @@ impl ReflectanceEnds {
         f90: 1.0,
     };
 
+    /// Reflectances of a point, mixed where two materials are.
     pub(crate) fn of(point: &SurfacePoint) -> Self {
         Self {
             f0: point.fresnel.f0.into(),
             f90: point.fresnel.f90,
+        }
+    }
+}
+
+impl MixedEnds {
+    /// A material that is not mixed.
+    pub(crate) fn pure(ends: ReflectanceEnds) -> Self {
+        Self {
+            metallic: 0.0,
+            metal: ends,
+            dielectric: ends,
+        }
+    }
+
+    /// The materials whose mixed reflectances a point has.
+    pub(crate) fn of(point: &SurfacePoint) -> Self {
+        let mixed = ReflectanceEnds::of(point);
+        let (metallic, plastic) = (point.metallic, 1.0 - point.metallic);
+        if metallic <= 0.0 || plastic <= 0.0 {
+            return Self::pure(mixed);
+        }
+        let metal = ReflectanceEnds {
+            f0: point.diffuse / plastic,
+            f90: 1.0,
+        };
+        let dielectric = ReflectanceEnds {
+            f0: (mixed.f0 - metallic * metal.f0) / plastic,
+            f90: (mixed.f90 - metallic) / plastic,
+        };
+        Self {
+            metallic,
+            metal,
+            dielectric,
+        }
+    }
+
+    /// The mix of what both reflect.
+    pub(crate) fn mix(&self, reflected: impl Fn(ReflectanceEnds) -> DVec3) -> DVec3 {
+        let by_dielectric = reflected(self.dielectric);
+        match self.metallic > 0.0 {
+            true => by_dielectric.lerp(reflected(self.metal), self.metallic),
+            false => by_dielectric,
         }
     }
 }

@@ -4,6 +4,7 @@ use crate::scene::{Camera, Lens, RenderSettings};
 use crate::schema::SMALLEST_M;
 use glam::{DVec2, DVec3};
 use hairline_image::Batch;
+use hairline_optics::gaussian::gaussian;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 /// A camera made ready for one picture size. Rays start at `position_m`; pixel coordinates run from the upper left
@@ -128,7 +129,7 @@ pub fn framing(points_m: &[DVec3], [right, up, forward]: [DVec3; 3], tan: DVec2)
     }
 }
 
-/// Point `i` of a disk of radius 1, which the points cover evenly: those of [`pixel_jitter`], by the map of P. Shirley and K. Chiu, *A Low
+/// Point `i` of a disk of radius 1, which the points cover evenly: those of the R2 sequence, by the map of P. Shirley and K. Chiu, *A Low
 /// Distortion Map Between Disk and Square* (1997).
 fn lens_point(i: u32) -> DVec2 {
     let on_square = (R2_STEP * f64::from(i) + 0.5).fract();
@@ -197,26 +198,46 @@ pub const MIN_FOOTPRINT_COS: f64 = 0.035;
 /// Reciprocals of the plastic number and of its square.
 const R2_STEP: DVec2 = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
 
-/// Offset of sample `i` of `count` from the pixel's centre, within half a pixel: R. Roberts' R2 sequence, whose points
-/// cover the square evenly for any count, each with its mirror image about the centre. So no count shifts the picture: a
-/// pixel on an edge, averaged over its samples, fits its neighbour that needs only one.
-pub fn pixel_jitter(i: u32, count: u32) -> DVec2 {
-    if !count.is_multiple_of(2) && i + 1 == count {
-        return DVec2::ZERO;
-    }
-    let point = (R2_STEP * f64::from(i / 2 + 1) + 0.5).fract() - 0.5;
-    if i.is_multiple_of(2) { point } else { -point }
-}
+/// Where the sequence of a pixel's samples starts. Few of its samples then have the variance of many.
+const FIRST_JITTER: DVec2 = DVec2::new(0.6513, 0.4837);
+/// Distance in standard deviations of the filter, right and down, beyond which no sample lies.
+const MOST_JITTER_STDS: f64 = 2.0;
+/// Pixels of one outline that a renderer looks for it in are so many to either side, at most.
+pub const OUTLINE_REACH_MAX_PX: u32 = 4;
 
 impl RenderSettings {
-    /// Standard deviation of the footprint of one of `samples` jittered samples, so that the footprint and the jitter's box
-    /// (variance 1/12) together make the pixel's filter.
+    /// Offset of sample `i` of `count` from the pixel's centre, by the pixel's filter: R. Roberts' R2 sequence, whose points cover a square evenly for any
+    /// count, by the Gaussian's quantiles, each with its mirror image about the centre. So no count shifts the picture: a pixel on an edge, averaged
+    /// over its samples, fits its neighbour that needs only one.
+    pub fn jitter_px(&self, i: u32, count: u32) -> DVec2 {
+        if !count.is_multiple_of(2) && i + 1 == count {
+            return DVec2::ZERO;
+        }
+        let even = (R2_STEP * f64::from(i / 2 + 1) + FIRST_JITTER).fract();
+        let stds = even.to_array().map(|share| gaussian().quantile(share));
+        let limit = DVec2::splat(MOST_JITTER_STDS);
+        let point = self.filter_std_px * DVec2::from(stds).clamp(-limit, limit);
+        if i.is_multiple_of(2) { point } else { -point }
+    }
+
+    /// Largest offset of a sample, right or down.
+    pub fn jitter_max_px(&self) -> f64 {
+        MOST_JITTER_STDS * self.filter_std_px
+    }
+
+    /// Number of pixels to either side of one that its samples may see surfaces in, at most [`OUTLINE_REACH_MAX_PX`]. None where they see farther: then all
+    /// pixels have all samples.
+    pub fn outline_reach_px(&self) -> Option<u32> {
+        let reach = (self.jitter_max_px().ceil() as u32).max(1);
+        (reach <= OUTLINE_REACH_MAX_PX).then_some(reach)
+    }
+
+    /// Standard deviation of the footprint of one of `samples` jittered samples. They lie as the filter does, so each needs a part of it alone: as much as
+    /// leaves no gaps between few of them, which small highlights would fall into.
     pub fn footprint_std_px(&self, samples: u32) -> f64 {
-        let variance = self.filter_std_px * self.filter_std_px;
-        if samples <= 1 {
-            self.filter_std_px
-        } else {
-            (variance - 1.0 / 12.0).max(0.25 * variance).sqrt()
+        match samples {
+            0 | 1 => self.filter_std_px,
+            _ => 0.5 * self.filter_std_px,
         }
     }
 }
@@ -345,33 +366,42 @@ mod tests {
     }
 
     #[test]
-    fn jitter_covers_the_pixel_and_completes_the_filter() {
-        assert_eq!(pixel_jitter(0, 1), DVec2::ZERO);
-        for count in [2, 3, 4, 5, 16, 63, 64] {
-            let points: Vec<DVec2> = (0..count).map(|i| pixel_jitter(i, count)).collect();
-            let mean: DVec2 = points.iter().sum::<DVec2>() / f64::from(count);
-            assert!(mean.abs().max_element() < 1e-15, "{count}: {mean}");
-            assert!(points.iter().all(|p| p.abs().max_element() <= 0.5));
-            // Evenly: every row and column of a grid has its share, within two.
-            let cells = f64::from(count).sqrt().floor();
-            for axis in [DVec2::X, DVec2::Y] {
-                let mut counts = vec![0; cells as usize];
-                for point in &points {
-                    counts[((point.dot(axis) + 0.5) * cells).min(cells - 1.0) as usize] += 1;
-                }
-                let share = f64::from(count) / cells;
-                assert!(
-                    counts.iter().all(|n| (f64::from(*n) - share).abs() <= 2.0),
-                    "{count}: {counts:?}"
-                );
-            }
-        }
+    fn samples_lie_as_the_filter_does() {
         let settings = RenderSettings {
             size_px: [1, 1],
             filter_std_px: 0.5,
             tone_map: Default::default(),
         };
+        assert_eq!(settings.jitter_px(0, 1), DVec2::ZERO);
         assert_eq!(settings.footprint_std_px(1), 0.5);
-        assert!((settings.footprint_std_px(16).powi(2) + 1.0 / 12.0 - 0.25).abs() < 1e-12);
+        assert_eq!(settings.outline_reach_px(), Some(1));
+        for (count, far, off) in [
+            (8, 0.14, 0.2),
+            (16, 0.08, 0.2),
+            (63, 0.05, 0.1),
+            // The Gaussian has 2.3 % beyond the last of them, to either side.
+            (256, 0.025, 0.1),
+        ] {
+            let points: Vec<DVec2> = (0..count).map(|i| settings.jitter_px(i, count)).collect();
+            let mean: DVec2 = points.iter().sum::<DVec2>() / f64::from(count);
+            assert!(mean.abs().max_element() < 1e-15, "{count}: {mean}");
+            for axis in [DVec2::X, DVec2::Y] {
+                let mut along: Vec<f64> =
+                    points.iter().map(|point| 2.0 * point.dot(axis)).collect();
+                along.sort_by(f64::total_cmp);
+                // An outline anywhere hides the share of them that it hides of the filter.
+                let share = |i: usize| (i as f64 + 0.5) / along.len() as f64;
+                let errors = along
+                    .iter()
+                    .enumerate()
+                    .map(|(i, at)| (gaussian().between(-9.0, *at) - share(i)).abs());
+                let worst = errors.fold(0.0, f64::max);
+                let variance = along.iter().map(|at| at * at).sum::<f64>() / along.len() as f64;
+                assert!(
+                    worst < far && (variance - 1.0).abs() < off + 0.03,
+                    "{count}: {worst} {variance}"
+                );
+            }
+        }
     }
 }

@@ -25,6 +25,7 @@ mod irradiance;
 pub mod lookup;
 mod mip;
 mod prefilter;
+mod radiance_header;
 mod resample;
 mod suns;
 mod windows;

@@ -16,8 +16,8 @@ use std::sync::{Arc, Mutex};
 /// Gratings of a smaller pitch have rigorous efficiencies. Grooves of 2 um and more send what the scalar ones say, within 3 %.
 pub const FINE_PITCH_UM: f64 = 4.0;
 
-/// Part of the files' names: a change of the numbers that a file would hold takes the next one.
-const VERSION: u32 = 1;
+/// Part of the key of files: a change of the numbers that a file would hold takes the next one.
+const VERSION: u32 = 2;
 /// Files are deleted, the oldest first, where there are more.
 const MOST_FILES: usize = 200;
 /// Efficiencies that a process keeps.
@@ -74,14 +74,14 @@ pub fn efficiencies(
     if let Some((_, known)) = kept().iter().find(|(of, _)| of == grooves) {
         return Some(Arc::clone(known));
     }
-    let file = cache_dir().map(|folder| file(&folder, grooves));
-    let read = file.as_deref().and_then(|file| read(file, grooves));
+    let file = cache_dir().map(|folder| CacheFile::new(&folder, grooves));
+    let read = file.as_ref().and_then(|file| file.read(grooves));
     let found = match read {
         Some(found) => found,
         None => {
             let found = Efficiencies::new(grooves, cancelled)?;
             // Without the file they are computed anew: no reason to fail.
-            let _ = file.map(|file| write(&file, &found));
+            let _ = file.map(|file| file.write(&found));
             found
         }
     };
@@ -94,45 +94,64 @@ pub fn efficiencies(
     Some(found)
 }
 
-fn file(folder: &Path, grooves: &FineGrooves) -> PathBuf {
-    let FineGrooves {
-        pitch_um,
-        width_um,
-        depth_nm,
-        above,
-        medium,
-    } = grooves;
-    let medium = match medium {
-        Medium::Metal(metal) => format!("{metal:?}"),
-        Medium::Dielectric(ior) => ior.to_string(),
-    };
-    let name = format!("{VERSION}-{pitch_um}-{width_um}-{depth_nm}-{above}-{medium}.f32");
-    folder.join("gratings").join(name)
+/// The file that keeps the efficiencies of grooves: a checksum of the key and of the values, and the values.
+struct CacheFile {
+    path: PathBuf,
+    key: String,
 }
 
-fn read(file: &Path, grooves: &FineGrooves) -> Option<Efficiencies> {
-    let bytes = fs::read(file).ok()?;
-    let (values, []) = bytes.as_chunks() else {
-        return None;
-    };
-    Efficiencies::from_values(
-        grooves,
-        values.iter().map(|bytes| f32::from_le_bytes(*bytes)),
-    )
-}
-
-fn write(file: &Path, efficiencies: &Efficiencies) -> Result<(), hairline_image::Error> {
-    let folder = file.parent().unwrap_or(file);
-    let _ = fs::create_dir_all(folder);
-    let aged = |entry: fs::DirEntry| Some((entry.metadata().ok()?.modified().ok()?, entry.path()));
-    let files = fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut files: Vec<_> = files.filter_map(aged).collect();
-    files.sort();
-    for (_, old) in files.iter().rev().skip(MOST_FILES - 1) {
-        let _ = fs::remove_file(old);
+impl CacheFile {
+    fn new(folder: &Path, grooves: &FineGrooves) -> Self {
+        let FineGrooves {
+            pitch_um,
+            width_um,
+            depth_nm,
+            above,
+            medium,
+        } = grooves;
+        // A metal by measured rows tells them all: too many for a file's name.
+        let key = format!("{VERSION} {pitch_um} {width_um} {depth_nm} {above} {medium:?}");
+        let name = format!("{}.efficiencies", blake3::hash(key.as_bytes()).to_hex());
+        Self {
+            path: folder.join("gratings").join(name),
+            key,
+        }
     }
-    let bytes: Vec<u8> = efficiencies.values().flat_map(f32::to_le_bytes).collect();
-    write_atomically(file, &bytes)
+
+    fn checksum(&self, values: &[u8]) -> blake3::Hash {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(self.key.as_bytes()).update(values);
+        hasher.finalize()
+    }
+
+    /// The values, unless they are not those that were written.
+    fn read(&self, grooves: &FineGrooves) -> Option<Efficiencies> {
+        let bytes = fs::read(&self.path).ok()?;
+        let (checksum, values) = bytes.split_first_chunk::<{ blake3::OUT_LEN }>()?;
+        if self.checksum(values) != *checksum {
+            return None;
+        }
+        let (values, _) = values.as_chunks();
+        let values = values.iter().map(|bytes| f32::from_le_bytes(*bytes));
+        Efficiencies::from_values(grooves, values)
+    }
+
+    fn write(&self, efficiencies: &Efficiencies) -> Result<(), hairline_image::Error> {
+        let folder = self.path.parent().unwrap_or(&self.path);
+        let _ = fs::create_dir_all(folder);
+        let aged =
+            |entry: fs::DirEntry| Some((entry.metadata().ok()?.modified().ok()?, entry.path()));
+        let files = fs::read_dir(folder).into_iter().flatten().flatten();
+        let mut files: Vec<_> = files.filter_map(aged).collect();
+        files.sort();
+        for (_, old) in files.iter().rev().skip(MOST_FILES - 1) {
+            let _ = fs::remove_file(old);
+        }
+        let values: Vec<u8> = efficiencies.values().flat_map(f32::to_le_bytes).collect();
+        let mut bytes = self.checksum(&values).as_bytes().to_vec();
+        bytes.extend(values);
+        write_atomically(&self.path, &bytes)
+    }
 }
 
 #[cfg(test)]
@@ -149,11 +168,11 @@ mod tests {
             medium: Medium::Metal(Metal::Gold),
         };
         let folder = tempfile::tempdir().unwrap();
-        let file = file(folder.path(), &grooves);
-        assert!(read(&file, &grooves).is_none());
+        let file = CacheFile::new(folder.path(), &grooves);
+        assert!(file.read(&grooves).is_none());
         let found = Efficiencies::new(&grooves, &|| false).unwrap();
-        write(&file, &found).unwrap();
-        let again = read(&file, &grooves).unwrap();
+        file.write(&found).unwrap();
+        let again = file.read(&grooves).unwrap();
         assert!(
             again
                 .values()
@@ -164,7 +183,32 @@ mod tests {
             pitch_um: 0.6,
             ..grooves
         };
-        assert!(read(&file, &wider).is_none());
+        assert!(CacheFile::new(folder.path(), &wider).read(&wider).is_none());
+        let mut bytes = fs::read(&file.path).unwrap();
+        *bytes.last_mut().unwrap() ^= 1;
+        fs::write(&file.path, bytes).unwrap();
+        assert!(file.read(&grooves).is_none(), "one bit is wrong");
         assert!(Efficiencies::new(&grooves, &|| true).is_none());
+    }
+
+    /// Of a metal by many measured rows, whose key is longer than any name of a file.
+    #[test]
+    fn long_tables_of_metals_are_kept_too() {
+        let rows: Vec<[f64; 3]> = (0..400)
+            .map(|i| [380.0 + f64::from(i), 0.9 + 1e-3 * f64::from(i), 4.5])
+            .collect();
+        let of = |rows: &[[f64; 3]]| FineGrooves {
+            pitch_um: 0.3,
+            width_um: 0.1,
+            depth_nm: 50.0,
+            above: 1.0,
+            medium: Medium::Metal(Metal::own(rows)),
+        };
+        let folder = Path::new("folder");
+        let path = CacheFile::new(folder, &of(&rows)).path;
+        assert!(path.file_name().unwrap().len() < 100);
+        let mut others = rows.clone();
+        others[399][2] = 4.6;
+        assert!(CacheFile::new(folder, &of(&others)).path != path);
     }
 }

@@ -25,7 +25,6 @@ mod pace;
 mod painter;
 mod partial;
 mod pool;
-mod remembered;
 mod request;
 mod sketch;
 mod step_painter;
@@ -149,6 +148,11 @@ impl Engine {
     #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn wait_for_picture(&self, revision: u64, patience: Duration) {
         self.shared.wait_for_frame(revision, patience);
+    }
+
+    /// Forgets the scene and its pictures, for another one is opened: nothing of it is shown any more.
+    pub(crate) fn forget_scene(&self) {
+        self.shared.forget_scene();
     }
 
     /// The newest picture.

@@ -1,5 +1,6 @@
 //! Labels of a picture: which scratches each pixel shows, and how much of it they cover.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::{DVec2, DVec3, Vec3};
@@ -13,6 +14,10 @@ use rayon::prelude::*;
 
 /// Number of scratches that each pixel names: three layers of the convention.
 pub const RANKS: usize = 6;
+/// Number of objects that each pixel names: two layers.
+pub const OBJECT_RANKS: usize = 4;
+/// Rays along each axis of the filter of a pixel that sees an outline.
+const OUTLINE_RAYS: u32 = 8;
 /// Distance in standard deviations of a pixel's filter beyond which a scratch covers nothing of it.
 const REACH: f64 = 3.5;
 /// Least cosine between the normals of a scratch and of the surface that shows it.
@@ -25,6 +30,10 @@ pub struct Labels {
     pub size_px: [u32; 2],
     /// Object that the middle of each pixel sees; [`NOTHING`] for none.
     pub object: Vec<u32>,
+    /// The [`OBJECT_RANKS`] objects that cover most of each pixel, the largest first; [`NOTHING`] for none.
+    pub objects: Vec<u32>,
+    /// Share of the pixel, through its filter, that each of these covers.
+    pub object_coverage: Vec<f32>,
     /// The [`RANKS`] scratches that cover most of each pixel, the strongest first, counted over all objects; [`NOTHING`] for none.
     pub scratch: Vec<u32>,
     /// Share of the pixel, through its filter, that each of these covers.
@@ -126,7 +135,75 @@ pub fn labels(scene: &Scene, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<La
                 .push(shown.map_or(0.0, |it| it.direction_rad as f32));
         }
     }
+    let covers = Outlines {
+        scene,
+        frame: &frame,
+        triangles: &triangles,
+        object: &labels.object,
+    };
+    let covers = (0..labels.object.len())
+        .into_par_iter()
+        .map(|i| covers.of_pixel(i));
+    for (object, share) in covers.collect::<Vec<_>>().into_iter().flatten() {
+        labels.objects.push(object);
+        labels.object_coverage.push(share);
+    }
     Some(labels)
+}
+
+/// The outlines of objects in a picture.
+struct Outlines<'a> {
+    scene: &'a Scene,
+    frame: &'a CameraFrame,
+    triangles: &'a TriangleIndex,
+    /// Object that the middle of each pixel sees.
+    object: &'a [u32],
+}
+
+impl Outlines<'_> {
+    /// The objects of a pixel, the largest first, each with the share of the filter that sees it.
+    fn of_pixel(&self, i: usize) -> [(u32, f32); OBJECT_RANKS] {
+        let mut ranks = [(NOTHING, 0.0); OBJECT_RANKS];
+        let [width, height] = self.scene.render.size_px.map(|n| n as usize);
+        let (x, y) = (i % width, i / width);
+        let reach = (2.5 * self.scene.render.filter_std_px).ceil() as usize;
+        let around = |at: usize, end: usize| at.saturating_sub(reach)..(at + reach + 1).min(end);
+        let mut around =
+            around(y, height).flat_map(|y| around(x, width).map(move |x| y * width + x));
+        if around.all(|j| self.object[j] == self.object[i]) {
+            ranks[0] = (
+                self.object[i],
+                f32::from(u8::from(self.object[i] != NOTHING)),
+            );
+            return ranks;
+        }
+        let std_px = self.scene.render.filter_std_px;
+        let middle_px = DVec2::new(x as f64, y as f64) + 0.5;
+        // Even steps of probability of the filter.
+        let off_px =
+            |k: u32| std_px * gaussian().quantile((f64::from(k) + 0.5) / f64::from(OUTLINE_RAYS));
+        let mut seen: BTreeMap<u32, u32> = BTreeMap::new();
+        for (right, down) in (0..OUTLINE_RAYS).flat_map(|k| (0..OUTLINE_RAYS).map(move |l| (k, l)))
+        {
+            let ray = self
+                .frame
+                .camera_ray(middle_px + DVec2::new(off_px(right), off_px(down)));
+            let hit = self
+                .triangles
+                .intersect(self.frame.position_m, ray.normalize());
+            if let Some(hit) = hit.filter(|hit| !self.scene.objects[hit.object as usize].is_lamp) {
+                *seen.entry(hit.object).or_default() += 1;
+            }
+        }
+        let mut seen: Vec<_> = seen.into_iter().collect();
+        // Stable: of two that are as large the first object comes first.
+        seen.sort_by_key(|(_, rays)| std::cmp::Reverse(*rays));
+        let of_all = (OUTLINE_RAYS * OUTLINE_RAYS) as f32;
+        for (rank, (object, rays)) in ranks.iter_mut().zip(seen) {
+            *rank = (object, rays as f32 / of_all);
+        }
+        ranks
+    }
 }
 
 /// Half of the width of an object's widest scratch.
@@ -373,11 +450,6 @@ impl Labels {
             format!("{}/{i}", scene.objects[object].name)
         };
         let object_named = |object: u32| scene.objects[object as usize].name.clone();
-        let whole: Vec<f32> = self
-            .object
-            .iter()
-            .map(|o| f32::from(u8::from(*o != NOTHING)))
-            .collect();
         let mattes = [
             Matte {
                 name: "CryptoScratch",
@@ -388,9 +460,9 @@ impl Labels {
             },
             Matte {
                 name: "CryptoObject",
-                ranks: 1,
-                things: &self.object,
-                coverage: &whole,
+                ranks: OBJECT_RANKS,
+                things: &self.objects,
+                coverage: &self.object_coverage,
                 name_of: &object_named,
             },
         ];
@@ -470,6 +542,28 @@ mod tests {
         }
         let found: f64 = labels.coverage.iter().map(|c| f64::from(*c)).sum();
         assert!((found / area_px - 1.0).abs() < 0.02, "{found} {area_px}");
+    }
+
+    /// Shares of a plane that ends within pixels add up to its area, and no pixel has less than its middle shows.
+    #[test]
+    fn objects_cover_what_the_filter_sees_of_them() {
+        let mut scene = plate();
+        scene.objects[0].scratches = Vec::new().into();
+        let labels = labels(&scene, &|| false).unwrap();
+        let first = |i: usize| {
+            (
+                labels.objects[OBJECT_RANKS * i],
+                labels.object_coverage[OBJECT_RANKS * i],
+            )
+        };
+        let all: f32 = (0..64 * 48).map(|i| first(i).1).sum();
+        let middles = labels.object.iter().filter(|object| **object == 0).count() as f32;
+        assert!((all / middles - 1.0).abs() < 0.01, "{all} {middles}");
+        let in_part = (0..64 * 48)
+            .filter(|i| (0.05..0.95).contains(&first(*i).1))
+            .count();
+        assert!(in_part > 50, "{in_part}");
+        assert!((0..64 * 48).all(|i| (first(i).1 > 0.0) == (first(i).0 == 0)));
     }
 
     /// A scratch many pixels wide covers pixels beside its middle line wholly, and none by more than one.

@@ -26,7 +26,7 @@
 #import hairline::{
     BaseLit, BrushedBase, ENVIRONMENT_CELLS, FresnelRgb, GratedPoint, GrooveField, Grooves, LitBase, PixelFrame, QuadLight, ROW_CELLS, SCRATCH_TREE_END,
     SCRATCHED_FILTER_STD, ScratchedCell, ScratchedPoint, brushed_base, brushed_base_quad, brushed_base_sphere, fresnel_eval, grated_cell, grated_point,
-    grated_quad, grated_sphere, grated_taken, grooves_seen, lit_base, lit_base_body, lit_base_quad, lit_base_reflected, lit_base_sphere, mask_resolve,
+    grated_quad, grated_sphere, grated_taken, grooves_seen, lit_base, lit_base_body, lit_base_mixed, lit_base_quad, lit_base_reflected, lit_base_sphere, mask_resolve,
     pixel_frame, pixel_slopes, quad_light, scratch_tree_depth_coherence, scratch_walk_next, scratched_cell, scratched_point, scratched_quad,
     scratched_seen, scratched_sphere, scratched_sums, scratched_walk, scratched_with,
 }
@@ -332,8 +332,10 @@ fn scratched_color(in: PbrInput, place: Place, view_z: f32) -> vec3f {
     let length_sq = dot(across, across);
     let along = select(vec2f(1.0, 0.0), across * inverseSqrt(max(length_sq, 1e-30)), length_sq > 1e-12);
     lit.base.brushed = brushed_base(wo, material.perceptual_roughness, along, place.brushing.w, fresnel, slopes, shapes, albedo, curves);
+    lit.base.brushed.lit = lit_base_mixed(lit.base.brushed.lit, material.metallic, diffuse_color);
 #else
-    lit.base.round = lit_base(wo, material.perceptual_roughness, fresnel, slopes, shapes, albedo, curves);
+    let unmixed = lit_base(wo, material.perceptual_roughness, fresnel, slopes, shapes, albedo, curves);
+    lit.base.round = lit_base_mixed(unmixed, material.metallic, diffuse_color);
 #endif
 #ifdef STANDARD_MATERIAL_CLEARCOAT
     let coat_fresnel = FresnelRgb(vec3f(COAT_F0), 1.0, settings.coat_curve);

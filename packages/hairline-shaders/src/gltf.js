@@ -47,6 +47,7 @@ class HairlineScratches {
       this.warn(`found version ${extension.version}; must be ${VERSION}: the model is shown plain`);
       return;
     }
+    await this.refuseWhatIsCutOff();
     for (const scene of gltf.scenes) {
       scene.updateMatrixWorld(true);
       const nodes = [];
@@ -68,6 +69,16 @@ class HairlineScratches {
             this.warn(`${message}: "${extension.object?.[object]?.name}" is shown plain`);
           });
         }
+      }
+    }
+  }
+
+  /** A file that ends early has no part of its scratches, or wrong ones. */
+  async refuseWhatIsCutOff() {
+    for (const [i, { byteLength }] of (this.parser.json.buffers ?? []).entries()) {
+      const buffer = await this.parser.getDependency('buffer', i);
+      if (buffer.byteLength < byteLength) {
+        throw new Error(`${NAME}: found ${buffer.byteLength} bytes in buffer ${i}; must be ${byteLength}: the file is cut off`);
       }
     }
   }

@@ -1,6 +1,7 @@
 // Scratches of a mesh as lists of straight pieces. Hairline's own code lays them, and makes the texture that shaders find them by.
 import { Files, Laid, Tree } from '../engine/engine.js';
 import { COHERENCE_UM, SIZES, TREE_WIDTH } from './data.js';
+import { needsTables } from './tables.js';
 
 const RECTANGLE = 'rectangle';
 
@@ -125,6 +126,7 @@ export function layScratches({ positions, index = null, normals = null, uvs = nu
   const rows = [layers].flat().map((layer) => ({ object: 'mesh', ...layer }));
   const numbers = (array) => (array === null ? undefined : Float64Array.from(array));
   const corners = index === null ? Uint32Array.from({ length: positions.length / 3 }, (_, i) => i) : Uint32Array.from(index);
+  needsTables('scratches');
   return using(new Files(), (held) => {
     for (const [name, { width, rgba, endsM, widthsUm, depthsNm }] of Object.entries(files)) {
       if (rgba) held.picture(name, width, rgba);
@@ -155,6 +157,7 @@ export function scratchTree({ starts, ends, normals, widthsUm, depthsNm, scratch
   const floats = (array) => (array === null ? undefined : Float32Array.from(array));
   const lists = [floats(starts), floats(ends), floats(normals), floats(widthsUm), floats(depthsNm), Uint32Array.from(scratch), profileOf];
   const names = [...known.keys()].map((key) => JSON.parse(key));
+  needsTables('scratches');
   return using(new Tree(...lists, JSON.stringify(names), coherenceUm, metresPerUnit), (tree) => {
     const [texels, pairs] = [tree.texels(), tree.shapes()];
     const shapes = Array.from({ length: pairs.length / 2 }, (_, i) => ({ profile: names[pairs[2 * i]], widthClass: pairs[2 * i + 1] }));

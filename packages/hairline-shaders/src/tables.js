@@ -13,10 +13,18 @@ export class Tables {
   }
 }
 
+let isLoaded = false;
+
+/** For what needs Hairline's own code: throws before it is there. */
+export function needsTables(name) {
+  if (!isLoaded) throw new Error(`${name}: found no tables; must come after \`await loadTables()\``);
+}
+
 /** Loads Hairline's own code, engine_bg.wasm, from beside the package's folder `src` or from an address, and makes the tables. The rest of the package needs it first. */
 export async function loadTables(url = new URL('../engine/engine_bg.wasm', import.meta.url)) {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
   await init({ module_or_path: response });
+  isLoaded = true;
   return new Tables();
 }

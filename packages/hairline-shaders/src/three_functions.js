@@ -7,8 +7,9 @@ const PLACE = `position: vec3f, view_from_object: mat3x3f, position_view: vec3f,
   move_x: vec3f, move_y: vec3f, turn_x: vec3f, turn_y: vec3f`;
 const HERE = `pixel_frame(position, view_from_object, position_view, normal_view, pixel, ray_view, move_x, move_y, turn_x, turn_y)`;
 const SCRATCHES = `${PLACE}, tree: texture_2d<u32>, tables: texture_2d_array<u32>`;
-// The base: reflectance at normal incidence and roughness; curve, reflectance at grazing incidence, variance of a normal map's slopes.
-const BASE = `${PLACE}, surface: vec4f, more: vec3f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>`;
+// The base: reflectance at normal incidence and roughness; curve, reflectance at grazing incidence, variance of a normal map's slopes; colour of the
+// body and share of metal.
+const BASE = `${PLACE}, surface: vec4f, more: vec3f, mixed: vec4f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>`;
 // A grating: its numbers, and how its direction changes from pixel to pixel.
 const FIELD = `field: mat4x4f, bend_x: vec3f, bend_y: vec3f`;
 const GRATED = `${PLACE}, rows: texture_2d_array<u32>, ${FIELD}, covered: f32`;
@@ -22,17 +23,24 @@ const library = wgsl(`${hairlineWgsl}
 fn hairline_fresnel_rgb(surface: vec4f, more: vec3f) -> FresnelRgb {
   return FresnelRgb(surface.xyz, more.y, u32(more.x));
 }
-fn hairline_base(here: PixelFrame, surface: vec4f, more: vec3f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>) -> LitBase {
-  return lit_base(normalize(here.view.to_viewer_m), surface.w, hairline_fresnel_rgb(surface, more), pixel_slopes(here, more.z), shapes, albedo, curves);
+fn hairline_base(
+  here: PixelFrame, surface: vec4f, more: vec3f, mixed: vec4f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>,
+) -> LitBase {
+  let fresnel = hairline_fresnel_rgb(surface, more);
+  let base = lit_base(normalize(here.view.to_viewer_m), surface.w, fresnel, pixel_slopes(here, more.z), shapes, albedo, curves);
+  return lit_base_mixed(base, mixed.w, mixed.xyz);
 }
 fn hairline_brushed(
-  here: PixelFrame, surface: vec4f, more: vec3f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>, facets: vec4f,
+  here: PixelFrame, surface: vec4f, more: vec3f, mixed: vec4f, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>, facets: vec4f,
 ) -> BrushedBase {
   let along = (here.surface_from_view * facets.xyz).xy;
   let length_sq = dot(along, along);
   let unit = select(vec2f(1.0, 0.0), along * inverseSqrt(max(length_sq, 1e-30)), length_sq > 1e-12);
   let fresnel = hairline_fresnel_rgb(surface, more);
-  return brushed_base(normalize(here.view.to_viewer_m), surface.w, unit, facets.w, fresnel, pixel_slopes(here, more.z), shapes, albedo, curves);
+  let wo = normalize(here.view.to_viewer_m);
+  var base = brushed_base(wo, surface.w, unit, facets.w, fresnel, pixel_slopes(here, more.z), shapes, albedo, curves);
+  base.lit = lit_base_mixed(base.lit, mixed.w, mixed.xyz);
+  return base;
 }
 fn hairline_grooves(${FIELD}) -> Grooves {
   let rows = GrooveField(field[0].xyz, u32(field[0].w), field[2].xy, field[1].w, field[2].z, field[2].w);
@@ -176,11 +184,11 @@ function baseFunctions(name, parameters, made, module, [lit, lookups]) {
 }
 
 export const roundBase = {
-  ...baseFunctions('base', BASE, 'hairline_base(here, surface, more, shapes, albedo, curves)', 'lit_base', ['base', 'shapes']),
+  ...baseFunctions('base', BASE, 'hairline_base(here, surface, more, mixed, shapes, albedo, curves)', 'lit_base', ['base', 'shapes']),
   byQuad: wgslFn(`fn hairline_base_quad(${BASE}, middle: vec3f, half_width: vec3f, half_height: vec3f) -> vec4f {
   let here = ${HERE};
   let turn = here.surface_from_view;
-  let base = hairline_base(here, surface, more, shapes, albedo, curves);
+  let base = hairline_base(here, surface, more, mixed, shapes, albedo, curves);
   let lit = lit_base_quad(base, curves, quad_light(turn * (middle - here.position_view), turn * half_width, turn * half_height, false));
   return vec4f(lit.specular, lit.form_factor);
 }`, [library]),
@@ -188,7 +196,7 @@ export const roundBase = {
 
 // `facets`: the direction of the view's frame across the brushing; the anisotropy.
 export const brushedBase = baseFunctions(
-  'brushed', `${BASE}, facets: vec4f`, 'hairline_brushed(here, surface, more, shapes, albedo, curves, facets)', 'brushed_base', ['base.lit', 'curves'],
+  'brushed', `${BASE}, facets: vec4f`, 'hairline_brushed(here, surface, more, mixed, shapes, albedo, curves, facets)', 'brushed_base', ['base.lit', 'curves'],
 );
 
 /** What falls on the body of an environment. */

@@ -3,7 +3,7 @@ import { InstancedInterleavedBuffer, InterleavedBufferAttribute, PhysicalLightin
 import {
   Break, If, Loop, anisotropy, anisotropyT, buffer, cameraProjectionMatrix, cameraWorldMatrix, clearcoat, clearcoatNormalView, dFdx, dFdy,
   diffuseContribution, float, instanceIndex, instancedBufferAttribute, lightTargetDirection, lightViewPosition, mat3, mat4,
-  materialClearcoatRoughness, materialEnvIntensity, materialRoughness, mix, modelViewMatrix, normalView, normalViewGeometry, pmremTexture,
+  materialClearcoatRoughness, materialEnvIntensity, materialRoughness, metalness, mix, modelViewMatrix, normalView, normalViewGeometry, pmremTexture,
   positionGeometry, positionView, specularColorBlended, specularF90, uint, uniform, varying, vec2, vec3, vec4, viewportSize, viewportUV,
 } from 'three/tsl';
 import {
@@ -96,12 +96,13 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       turn_y: dFdy(normalViewGeometry).mul(side).toVar(),
     };
     const { shapes, albedo, curves } = nodes;
-    const baseOf = (own, { roughness, f0, f90, curve, hasMap }) => ({
-      ...own, surface: vec4(f0, roughness).toVar(), more: vec3(curve, f90, hasMap ? slopeVariance(own.normal_view) : 0).toVar(), shapes, albedo, curves,
+    const baseOf = (own, { roughness, f0, f90, mixed, curve, hasMap }) => ({
+      ...own, surface: vec4(f0, roughness).toVar(), more: vec3(curve, f90, hasMap ? slopeVariance(own.normal_view) : 0).toVar(), mixed,
+      shapes, albedo, curves,
     });
     this.base = baseOf(place, {
       roughness: material.roughnessNode ? float(material.roughnessNode) : materialRoughness, f0: specularColorBlended, f90: specularF90,
-      curve: nodes.curve, hasMap: material.normalMap !== null || material.normalNode !== null,
+      mixed: vec4(diffuseContribution, metalness).toVar(), curve: nodes.curve, hasMap: material.normalMap !== null || material.normalNode !== null,
     });
     this.functions = roundBase;
     if (this.anisotropy) {
@@ -114,7 +115,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       top = { ...place, normal_view: clearcoatNormalView };
       this.coat = baseOf(top, {
         roughness: material.clearcoatRoughnessNode ? float(material.clearcoatRoughnessNode) : materialClearcoatRoughness, f0: vec3(COAT_F0), f90: 1,
-        curve: dielectricCurve, hasMap: material.clearcoatNormalMap !== null || material.clearcoatNormalNode !== null,
+        mixed: vec4(0), curve: dielectricCurve, hasMap: material.clearcoatNormalMap !== null || material.clearcoatNormalNode !== null,
       });
       this.coatSpecular = vec3(0).toVar();
     }
@@ -188,7 +189,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
   indirectDiffuse(builder) {
     super.indirectDiffuse(builder);
     if (!this.around) return;
-    const { surface, more, shapes, albedo, curves, facets, ...place } = this.base;
+    const { surface, more, mixed, shapes, albedo, curves, facets, ...place } = this.base;
     const mean = environmentOnBody({ ...place, ...this.around.whole }).mul(this.around.factor);
     builder.context.reflectedLight.indirectDiffuse.addAssign(mean.mul(diffuseContribution).mul(this.functions.body(this.base)));
   }

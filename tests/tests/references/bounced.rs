@@ -4,10 +4,11 @@ use super::environment::over;
 use super::pictures::{LINEAR, compared, sampled};
 use super::scenes::{add_quad, plate, scratch, sphere};
 use super::shadowed::{
-    VIEW, WHITE, alone, bounced, fewer_rays_error, luminance, prepared, with_rows,
+    VIEW, WHITE, alone, bounced, closed, fewer_rays_error, luminance, prepared, with_rows,
 };
 use glam::{DVec3, Vec3};
 use hairline_cpu::closed_form::Prepared;
+use hairline_fixtures::SceneFile;
 use hairline_image::{Image, Layer};
 use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
@@ -100,6 +101,36 @@ fn settings(bounces: u32) -> Settings {
         shadows: true,
         bounces,
         ..LINEAR
+    }
+}
+
+/// No ray from a convex body meets it: at its rims and folds nothing is darker than without rays, and nothing brighter with bounces.
+#[test]
+fn a_convex_body_neither_hides_nor_lights_itself() {
+    for shape in [
+        "cylinder = { radius_m = 0.15, height_m = 0.3 }",
+        "sphere = { radius_m = 0.2 }",
+        "box = { size_m = [0.2, 0.3, 0.25] }",
+    ] {
+        let scene = SceneFile::seen_from([0.8, 0.9, 1.0])
+            .fov_y_deg(22.0)
+            .size_px([80, 60])
+            .part("[[material]]\nname = \"m\"\nkind = \"metal\"\nbase_color = [1, 1, 1]\nroughness = 0.2")
+            .object("body", "m", shape)
+            .part("[[light]]\nkind = \"sun\"\ndirection = [-0.5, -1, -0.3]\nirradiance = 3.14159265")
+            .part("[studio]\nhidden = true")
+            .scene();
+        let open = closed(&scene, 8, false);
+        let lit = bounced(&scene, 8, true, 1);
+        let mut bright = 0;
+        for (open, lit) in open.base.iter().flatten().zip(lit.base.iter().flatten()) {
+            bright += usize::from(*open > 1e-3);
+            assert!(
+                (open - lit).abs() < 1e-4 * open.max(0.1),
+                "{shape}: {lit}, not {open}"
+            );
+        }
+        assert!(bright > 100, "{shape}: {bright}");
     }
 }
 

@@ -120,7 +120,6 @@ pub fn picked(image: &Image, size_px: [u32; 2], from: impl Fn(u32, u32) -> [u32;
     }
     Image {
         found: None,
-        tones: None,
         size_px,
         base: of(&image.base, &places),
         scratches: of(&image.scratches, &places),

@@ -51,11 +51,10 @@ pub(super) fn prepared(scene: &Prepared<'_>, samples: u32, shadows: bool, bounce
     scene.render(&options, &|_| {})
 }
 
-/// A picture's layers alone: without rays there is no light that rays found, and the tones add up in another order.
+/// A picture's layers alone: without rays there is no light that rays found.
 pub(super) fn alone(image: Image) -> Image {
     Image {
         found: None,
-        tones: None,
         ..image
     }
 }

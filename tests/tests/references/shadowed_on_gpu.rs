@@ -139,7 +139,7 @@ fn on_edges_rays_find_what_the_cpus_find() {
     let (_, mut scene) = a_wall();
     scene.render.size_px = [24, 16];
     scene.camera.fov_y_rad *= 2.0;
-    check_edges(&scene, 4, 20);
+    check_edges(&scene, 4, 10);
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn on_edges_rays_find_what_the_cpus_find() {
 fn on_the_edges_of_a_lid_rays_find_what_the_cpus_find() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/lid.toml");
     let scene = middle_of(Scene::load(&path).unwrap(), 1280, [72, 56]);
-    check_edges(&scene, 8, 100);
+    check_edges(&scene, 8, 60);
 }
 
 /// Compares pixels on edges, of which there must be more than some.

@@ -1,12 +1,15 @@
 //! Light of radiance one from everywhere on surfaces whose normals differ under a pixel: no more comes back than the albedo that the surface has
 //! under each of its normals.
 
+use conformance::two_renderers::{on_the_cpu, on_the_gpu};
 use conformance::{Sequence, furnace, square};
 use glam::Vec3;
 use hairline_cpu::closed_form::{RenderOptions, render};
 use hairline_fixtures::SceneFile;
 use hairline_optics::metal::Metal;
+use hairline_reference::{Integrator, Settings};
 use hairline_scene::{Anisotropy, Base, Coat, Sampling, Scene, Texture};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 const WHITE: [f64; 3] = [1.0; 3];
@@ -28,7 +31,7 @@ fn bases() -> [(Base, bool); 6] {
             true,
         ),
         (gltf(0.0), true),
-        (gltf(0.5), false),
+        (gltf(0.5), true),
         (Base::Metal(Metal::Silver), false),
     ]
 }
@@ -86,6 +89,40 @@ fn check(name: &str, mut scene: Scene) {
         "{name}: {:.4} off where all comes back, {:.4} elsewhere",
         worst[1], worst[0]
     );
+}
+
+/// A white surface that is a metal in part returns all, as both materials that it is a mix of do: by both renderers, and on average by Monte Carlo.
+#[test]
+fn white_metals_in_part_return_all_by_all_renderers() {
+    let mut scene = square(
+        Base::MetallicRoughness {
+            base_color: WHITE,
+            metallic: 0.4,
+        },
+        0.5,
+        8,
+    );
+    scene.camera.fov_y_rad = 0.2;
+    scene.environment = furnace();
+    let sampled = |scene: &Scene| {
+        let integrator = Integrator::new(scene, Settings::default());
+        let mut image = integrator.start();
+        let _ = integrator.run(&mut image, 256, &|_| ControlFlow::Continue(()));
+        image
+    };
+    for roughness in [0.1, 0.5, 1.0] {
+        scene.materials[0].roughness = roughness;
+        for (by, image) in [
+            ("CPU", Some(on_the_cpu(&scene, 1))),
+            ("GPU", on_the_gpu(&scene, 1)),
+            ("Monte Carlo", Some(sampled(&scene))),
+        ] {
+            let Some(image) = image else { continue };
+            let sum: f32 = image.base.iter().map(|rgb| rgb[1]).sum();
+            let mean = sum / image.base.len() as f32;
+            assert!((mean - 1.0).abs() < 0.01, "{by}, {roughness}: {mean}");
+        }
+    }
 }
 
 /// Light that a coat does not send back goes through it, and comes back from a white base.

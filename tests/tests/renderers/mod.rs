@@ -11,6 +11,7 @@ mod groove_maps;
 mod lamps;
 mod models;
 mod negative;
+mod outlines;
 mod physics;
 mod published_scenes;
 mod scenes;

@@ -138,7 +138,9 @@ fn is_seen_by_a_camera_and_told_of(file: &str) {
         let (image, told) = rendered(folder, &format!("{file} --camera {camera}"));
         let seen_m = image.depth_m[image.index(16, 9)];
         assert!((seen_m - depth_m).abs() < 1e-3, "{camera}: {seen_m}");
-        let notes = told.lines().filter(|line| line.starts_with("note: "));
+        let notes = told
+            .lines()
+            .filter(|line| line.starts_with("note: it.gltf"));
         let expected = [
             "note: it.gltf: KHR_materials_sheen (2) left out; cloth misses its sheen",
             "note: it.gltf: VENDOR_glow (1) left out; Hairline does not know it",

@@ -169,13 +169,17 @@ impl<'a> Shadows<'a> {
     ) {
         let point = at.point;
         let [u, v, ..] = at.random(Purpose::Origin, round);
-        let on_surface_m = self.under_the_pixel(at, normals(u, v));
+        let start = self.under_the_pixel(at, normals(u, v));
         let [u, v, pick, _] = at.random(Purpose::Lobe, round);
         let mut drawn = lobes.sample(pick, DVec2::new(u, v)).map(|wi| {
             let direction = point.world_from_surface(wi);
             LobeRay {
                 direction,
-                origin_m: self.off_the_surface(point, on_surface_m, direction),
+                origin_m: self.off_the_surface(
+                    point,
+                    start.position_m(point, direction),
+                    direction,
+                ),
                 pdf: lobes.pdf(wi),
                 sent: lobes.eval(wi),
                 followed: None,
@@ -211,7 +215,7 @@ impl<'a> Shadows<'a> {
                 light: source.light,
                 distance_m: it.distance_m,
             };
-            let sees = |it: &Candidate| self.sees(point, on_surface_m, it.direction, end(it));
+            let sees = |it: &Candidate| self.sees(point, &start, it.direction, end(it));
             let has_closed_form = at.depth == 0 || source.light.is_some();
             let mut add = |it: &Candidate, factor: f64, is_seen: bool| {
                 let weight = it.weight.times(DVec3::splat(factor * per_chance));

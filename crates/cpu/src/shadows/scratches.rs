@@ -5,7 +5,7 @@ use crate::found::{LayerLight, LayerRays};
 use crate::sampling::luminance;
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{DrawnLight, Frame, Pick, Picks, ScratchLight};
-use crate::surface::SurfacePoint;
+use crate::surface::{RayStart, SurfacePoint};
 use glam::DVec3;
 use hairline_optics::gaussian::gaussian;
 
@@ -84,7 +84,7 @@ impl<'a> Shadows<'a> {
         let Some(DrawnLight { direction, color }) = drawn else {
             return;
         };
-        let on_surface_m = self.on_scratch(at, Purpose::ScratchOrigin, round, pick);
+        let start = self.on_scratch(at, Purpose::ScratchOrigin, round, pick);
         let direction = point.world_from_surface(direction);
         let distance_m = light.map_or(f64::INFINITY, |light| {
             self.lights.reach_m(light, point.position_m, direction)
@@ -93,7 +93,7 @@ impl<'a> Shadows<'a> {
             light: light.map(|light| light as u32),
             distance_m,
         };
-        let is_seen = self.sees(point, on_surface_m, direction, end);
+        let is_seen = self.sees(point, &start, direction, end);
         rays.add(pick.radiance * color * weight_of_one, is_seen);
     }
 
@@ -113,8 +113,8 @@ impl<'a> Shadows<'a> {
             return DVec3::ZERO;
         };
         let direction = point.world_from_surface(drawn.direction);
-        let on_surface_m = self.on_scratch(at, Purpose::AroundOrigin, round, pick);
-        let origin_m = self.off_the_surface(point, on_surface_m, direction);
+        let start = self.on_scratch(at, Purpose::AroundOrigin, round, pick);
+        let origin_m = self.off_the_surface(point, start.position_m(point, direction), direction);
         let hit = self.prepared.triangles.intersect_solid(origin_m, direction);
         let light = hit.map_or(DVec3::ZERO, |hit| {
             let met = MetObject {
@@ -144,7 +144,7 @@ impl<'a> Shadows<'a> {
     }
 
     /// Draws a point on a picked scratch, in proportion to the pixel's share of it.
-    fn on_scratch(&self, at: &ShadowPoint, purpose: Purpose, round: u32, pick: &Pick) -> DVec3 {
+    fn on_scratch(&self, at: &ShadowPoint, purpose: Purpose, round: u32, pick: &Pick) -> RayStart {
         let [u, v, w, x] = at.random(purpose, round);
         let [right, down] = normals(u, v);
         let normals = [right, down, gaussian().quantile(w)];

@@ -26,7 +26,7 @@ fn brushed_base(
     var lit = lit_base(wo, roughness, fresnel, slopes, shapes, albedo, curves);
     lit.sharp.albedo = around.w;
     lit.reflecting.albedo = around.xyz;
-    return BrushedBase(lit, wo, axes);
+    return BrushedBase(lit_base_mixed(lit, 0.0, vec3f(0.0)), wo, axes);
 }
 
 // The lobe for a light at 1 / `per_m` metres.

@@ -13,6 +13,7 @@ struct LitBase {
     sharp: LtcLobe,
     slopes: PixelSlopes,
     reflecting: LobeFresnel,
+    mix: MetalMix,
 }
 
 // Light that a base gets of a light of radiance 1.
@@ -31,7 +32,16 @@ fn lit_base(
     curves: texture_2d<f32>,
 ) -> LitBase {
     let sharp = ltc_lobe(wo, roughness, shapes, albedo);
-    return LitBase(sharp, slopes, lobe_fresnel(fresnel, wo, roughness, curves));
+    let reflecting = lobe_fresnel(fresnel, wo, roughness, curves);
+    return LitBase(sharp, slopes, reflecting, metal_mix(0.0, fresnel.at_normal, fresnel.at_grazing, vec3f(0.0), reflecting.albedo, sharp.albedo));
+}
+
+// The base as a metal in part, whose `fresnel` is that of the mix; `diffuse` is the body's albedo times the share that is no metal.
+fn lit_base_mixed(base: LitBase, metallic: f32, diffuse: vec3f) -> LitBase {
+    var mixed = base;
+    let fresnel = base.reflecting.fresnel;
+    mixed.mix = metal_mix(metallic, fresnel.at_normal, fresnel.at_grazing, diffuse, base.reflecting.albedo, base.sharp.albedo);
+    return mixed;
 }
 
 // The lobe for a light at 1 / `per_m` metres.
@@ -42,12 +52,12 @@ fn lit_base_filtered(base: LitBase, per_m: f32) -> FilteredLobe {
 // Multiple scattering added.
 fn lit_base_reflected(base: LitBase, specular: vec3f) -> vec3f {
     // The fit of a widened lobe may make its second part a little larger than the first.
-    return ggx_area_reflectance(max(specular, vec3f(0.0)), base.reflecting.fresnel.at_normal, base.sharp.albedo);
+    return ggx_area_reflectance(max(specular, vec3f(0.0)), base.mix.scattered_at_normal, base.sharp.albedo);
 }
 
 // The part that is not reflected, which reaches the body.
 fn lit_base_body(base: LitBase) -> vec3f {
-    return max(1.0 - lit_base_reflected(base, base.reflecting.albedo), vec3f(0.0));
+    return base.mix.body_share;
 }
 
 fn lit_base_sphere(base: LitBase, curves: texture_2d<f32>, center_m: vec3f, radius_m: f32) -> BaseLit {

@@ -21,7 +21,7 @@ fn bounce_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     let direction = rays[at].direction;
     // Another sample of the pixel may have its scratches.
     let leaves = select(at, pixel_scratched(points[at], at), shadow_round.way == SHADOW_BY_SCRATCHES);
-    let start = sample_start(triangle_tree, points[leaves], paints[leaves].triangle, rays[at].place);
+    let start = sample_start(triangle_tree, points[leaves], paints[leaves].triangle, rays[at].place, direction);
     let from_there = ray_from(start, direction, points[leaves].normal, shadow_round.extent_m);
     let hit = cutout_hit(triangle_tree, from_there, distance_m, start.triangle, false, 0u);
     rays[at].distance_m = select(0.0, hit.distance_m, hit.triangle != 0u);

@@ -27,8 +27,7 @@ fn display_fragment(in: DisplayVertex) -> @location(0) vec4f {
     let value = display_film.pixels[(pixel.y - in.first_row) * display.size_px.x + pixel.x];
     // Exposed alike after any number of samples.
     let per_sample = 1.0 / f32(max(value.samples, 1u));
-    let share = tone_share(value.luminance * per_sample, value.compressed * per_sample, value.display_gain);
-    let radiance = (value.base + value.scratches) * (per_sample * share);
+    let radiance = (value.base + value.scratches) * per_sample;
     let encoded = tone_display(display.tone_map, display.gain, radiance);
     let dither = dither_offset(pixel.x, pixel.y);
     let code = vec3f(display_code(encoded.x, dither), display_code(encoded.y, dither), display_code(encoded.z, dither));

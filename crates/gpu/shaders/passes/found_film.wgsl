@@ -21,11 +21,6 @@ fn added(sum: FoundLight, ray: FoundRays) -> FoundLight {
     );
 }
 
-// The share of a layer's luminance that is seen.
-fn seen_of(light: FoundLight) -> f32 {
-    return found_ratio(rgb_luminance(found_rgb(light.seen)), rgb_luminance(found_rgb(light.weight)), 1.0);
-}
-
 // Adds a layer of the samples of a pixel.
 fn over_samples(before: FoundLight, first: u32, count: u32, layer: u32) -> FoundLight {
     var sum = before;
@@ -88,20 +83,4 @@ fn found_film(@builtin(global_invocation_id) id: vec3u) {
     }
     film_found[at].scratches = scratches;
     film.pixels[at].scratches = found_light(scratches);
-    // Light that a display averages. Each sample has the share of its closed forms that the whole pixel sees: single rays, and the light of other
-    // objects that they bring, are noise, which a curve would darken.
-    let seen = vec3f(seen_of(specular), seen_of(diffuse), seen_of(scratches));
-    for (var i = first; i < first + count; i += 1u) {
-        var light = 0.0;
-        if points[i].object == 0u {
-            light = rgb_luminance(scene_background(points[i].normal));
-        } else {
-            light = rgb_luminance(pixel_emission(paints[i]));
-            for (var layer = 0u; layer < found_layers(); layer += 1u) {
-                light += rgb_luminance(found[found_at(i, layer)].open) * seen[min(layer, FOUND_SCRATCHES)];
-            }
-        }
-        film.pixels[at].luminance += light;
-        film.pixels[at].compressed += tone_compressed(light, frame.display_gain);
-    }
 }

@@ -25,8 +25,23 @@ fn neighbour(pixel: vec2u, step: vec2i) -> Neighbour {
     return Neighbour(object, select(0.0, 1.0 / points[point].depth_m, object != 0u), object != 0u && (points[point].table_and_place & PIXEL_PARTIAL) != 0u);
 }
 
-// Whether one sample through the centre is not enough.
+// Whether one sample through the centre is not enough. Samples of a wide filter see more than the pixels beside theirs.
 fn pixel_is_edge(pixel: vec2u) -> bool {
+    var is_edge = frame.is_edge_everywhere != 0u;
+    let more = i32(frame.halo_rows) - 1;
+    for (var y = -more; y <= more && !is_edge; y += 1) {
+        for (var x = -more; x <= more; x += 1) {
+            let at = vec2i(pixel) + vec2i(x, y);
+            if all(at >= vec2i(0)) && all(at < vec2i(frame.size_px)) {
+                is_edge = is_edge || pixel_is_uneven(vec2u(at));
+            }
+        }
+    }
+    return is_edge;
+}
+
+// Whether a pixel's centre and those around it do not lie on one smooth surface.
+fn pixel_is_uneven(pixel: vec2u) -> bool {
     let middle = neighbour(pixel, vec2i(0));
     let bend_max = CREASE_PX * middle.per_depth / frame.px_per_slope;
     var is_edge = middle.is_partial;
@@ -35,20 +50,13 @@ fn pixel_is_edge(pixel: vec2u) -> bool {
         let step = vec2i(i32(i != 1), i32(i != 0) * select(1, -1, i == 3));
         let before = neighbour(pixel, -step);
         let after = neighbour(pixel, step);
-        let bend = abs(before.per_depth + after.per_depth - 2.0 * middle.per_depth);
+        // Beyond the picture's border there is nothing to tell a bend by.
+        let ends = array(vec2i(pixel) - step, vec2i(pixel) + step);
+        let is_between = all(min(ends[0], ends[1]) >= vec2i(0)) && all(max(ends[0], ends[1]) < vec2i(frame.size_px));
+        let bend = select(0.0, abs(before.per_depth + after.per_depth - 2.0 * middle.per_depth), is_between);
         is_edge = is_edge || before.is_partial || after.is_partial || before.object != middle.object || after.object != middle.object || bend > bend_max;
     }
     return is_edge;
-}
-
-// A sample with what a display averages of it. With rays found_film.wgsl knows.
-fn with_tone(sample: FilmPixel) -> FilmPixel {
-    var value = sample;
-    if frame.has_rays == 0u {
-        value.luminance = tone_luminance(value.base + value.scratches);
-        value.compressed = tone_compressed(value.luminance, frame.display_gain);
-    }
-    return value;
 }
 
 // Light and guides that lane `lane` of a group adds to its pixel.
@@ -57,7 +65,7 @@ fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
     var value: FilmPixel;
     if point.object == 0u {
         value.base = scene_background(point.normal);
-        return with_tone(value);
+        return value;
     }
     var by = at;
     var scratches = Masked(vec3f(0.0), vec3f(0.0));
@@ -79,7 +87,7 @@ fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
     value.normal = point.normal;
     value.depth_m = point.depth_m;
     value.coverage = 1.0;
-    return with_tone(value);
+    return value;
 }
 
 fn film_sum(a: FilmPixel, b: FilmPixel) -> FilmPixel {
@@ -91,8 +99,6 @@ fn film_sum(a: FilmPixel, b: FilmPixel) -> FilmPixel {
     sum.depth_m += b.depth_m;
     sum.coverage += b.coverage;
     sum.samples += b.samples;
-    sum.luminance += b.luminance;
-    sum.compressed += b.compressed;
     return sum;
 }
 
@@ -107,7 +113,6 @@ fn resolve(@builtin(global_invocation_id) id: vec3u) {
     if frame.step == 0u {
         var value = sample_value(tile.x, tile.y, strip_index(pixel));
         value.samples = 1u;
-        value.display_gain = frame.display_gain;
         value.edge = u32(pixel_is_edge(pixel));
         film.pixels[at] = value;
         return;
@@ -128,6 +133,5 @@ fn resolve(@builtin(global_invocation_id) id: vec3u) {
     }
     sum.samples += frame.samples;
     sum.edge = edge;
-    sum.display_gain = frame.display_gain;
     film.pixels[at] = sum;
 }

@@ -41,7 +41,7 @@ fn shadow_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     if ray.distance_m > 0.0 {
         // Another sample of the pixel may have its scratches.
         let leaves = select(at, pixel_scratched(points[at], at), shadow_round.way == SHADOW_BY_SCRATCHES);
-        let start = sample_start(triangle_tree, points[leaves], paints[leaves].triangle, vec2f(ray.offset_x, ray.offset_y));
+        let start = sample_start(triangle_tree, points[leaves], paints[leaves].triangle, vec2f(ray.offset_x, ray.offset_y), ray.direction);
         // To the very place that was drawn: a parallel ray would blur the shadow of what is near a lamp by more than the pixel's filter does.
         let end_m = points[leaves].position_m + ray.distance_m * ray.direction;
         let off = ray_from(start, surface_normalize_or(end_m - start.position_m, vec3f(0.0)), points[leaves].normal, shadow_round.extent_m);

@@ -9,14 +9,14 @@
 
 @compute @workgroup_size(8, 8)
 fn surface(@builtin(global_invocation_id) id: vec3u) {
-    if id.x >= frame.size_px.x || id.y >= frame.rows.y - frame.rows.x + 2u {
+    if id.x >= frame.size_px.x || id.y >= frame.rows.y - frame.rows.x + 2u * frame.halo_rows {
         return;
     }
-    // The first row is the one above the strip, which may lie outside the picture.
-    let row = i32(id.y + frame.rows.x) - 1;
+    // The first rows are those above the strip, which may lie outside the picture.
+    let row = i32(id.y + frame.rows.x) - i32(frame.halo_rows);
     var at = id.y * frame.size_px.x + id.x;
     var place = 0u;
-    let in_strip = id.y >= 1u && u32(max(row, 0)) < frame.rows.y;
+    let in_strip = id.y >= frame.halo_rows && u32(max(row, 0)) < frame.rows.y;
     if in_strip {
         place = pixel_tile(vec2u(id.x, u32(row))).y;
     }

@@ -14,8 +14,8 @@ fn visibility_clip(position_m: vec3f) -> vec4f {
     let off_px = frame.middle_px - 0.5 * vec2f(frame.size_px) - frame.jitter_px;
     let x = scale * dot(frame.per_px_x, relative) + off_px.x * depth;
     let y = scale * dot(frame.per_px_y, relative) + off_px.y * depth;
-    // The viewport is the strip, and a row above and below it.
-    let half_size = 0.5 * vec2f(f32(frame.size_px.x), f32(frame.rows.y - frame.rows.x + 2u));
+    // The viewport is the strip, and rows above and below it.
+    let half_size = 0.5 * vec2f(f32(frame.size_px.x), f32(frame.rows.y - frame.rows.x + 2u * frame.halo_rows));
     let middle = 0.5 * f32(frame.rows.x + frame.rows.y) - 0.5 * f32(frame.size_px.y);
     // Reversed depth without a far plane: near_m / depth keeps all its digits at any distance.
     return vec4f(x / half_size.x, (middle * depth - y) / half_size.y, frame.near_m, depth);

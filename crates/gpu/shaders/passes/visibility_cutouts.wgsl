@@ -27,8 +27,8 @@ fn cutout_fragment(in: CutoutVertex) -> @location(0) vec2u {
         if material.threshold == ALPHA_IS_SHARE && frame.coverage_round == COVERAGE_ANY {
             is_there = alpha > 0.0;
         } else if material.threshold == ALPHA_IS_SHARE {
-            // The target begins with the row above the strip.
-            let pixel = vec2u(in.clip.xy) + vec2u(0u, frame.rows.x) - vec2u(0u, 1u);
+            // The target begins with rows above the strip.
+            let pixel = vec2u(in.clip.xy) + vec2u(0u, frame.rows.x) - vec2u(0u, frame.halo_rows);
             is_there = coverage_meets(alpha, in.ids.x - 1u, coverage_key_of_pixel(pixel), frame.coverage_round);
         }
         if !is_there {

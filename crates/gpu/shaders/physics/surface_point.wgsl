@@ -19,7 +19,8 @@ struct SurfacePoint {
     f0: vec3f,
     f90: f32,                   // of Schlick's curve: reflectance at grazing incidence
     curve: u32,                 // of the reflectance over the angle
-    diffuse: vec3f,
+    diffuse: vec3f,             // albedo of the body, times the share that is no metal
+    metallic: f32,              // share of the surface that is a metal
     roughness: f32,             // perceptual, of the surface between the scratches
     slope_std: f32,             // how far a normal map's slopes spread about the one that is looked up, in each direction
     emission: vec3f,

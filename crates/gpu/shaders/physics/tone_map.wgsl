@@ -33,21 +33,6 @@ fn tone_sanitize(c: f32) -> f32 {
     return clamp(c, -TONE_RADIANCE_MAX, TONE_RADIANCE_MAX);
 }
 
-// Curve from 0 to 1 that stands for a display's where samples are averaged. Twin: crates/image/src/tones.rs.
-fn tone_compressed(luminance: f32, gain: f32) -> f32 {
-    let exposed = gain * max(luminance, 0.0);
-    return exposed / (1.0 + exposed);
-}
-
-// The share of a pixel's linear mean that a display is to show, from the mean luminance of its samples and the mean of what they are compressed to.
-fn tone_share(luminance: f32, compressed: f32, gain: f32) -> f32 {
-    let exposed = gain * luminance;
-    if exposed <= 0.0 || compressed >= 0.9999 {
-        return 1.0;
-    }
-    return min(compressed / (1.0 - compressed) / exposed, 1.0);
-}
-
 fn tone_luminance(rgb: vec3<f32>) -> f32 {
     return dot(vec3<f32>(0.2126, 0.7152, 0.0722), rgb);
 }

@@ -139,7 +139,9 @@ struct Layer {
 fn layer_of(point: SurfacePoint, fresnel: FresnelRgb, roughness: f32) -> Layer {
     let sharp = ltc_lobe(point.wo, roughness, lobe_shapes, lobe_albedo);
     let reflecting = lobe_fresnel(fresnel, point.wo, roughness, fresnel_curves);
-    return Layer(false, sharp, reflecting, ggx_area_reflectance(reflecting.albedo, fresnel.at_normal, sharp.albedo));
+    var layer = Layer(false, sharp, reflecting, vec3f(0.0));
+    layer.albedo = layer_of_single(point, layer, reflecting.albedo);
+    return layer;
 }
 
 fn base_layer(point: SurfacePoint) -> Layer {
@@ -170,7 +172,7 @@ fn layer_brushed(point: SurfacePoint, round: Layer) -> Layer {
         layer.is_brushed = true;
         layer.sharp.albedo = albedo.w;
         layer.reflecting.albedo = albedo.xyz;
-        layer.albedo = ggx_area_reflectance(albedo.xyz, fresnel.at_normal, albedo.w);
+        layer.albedo = layer_of_single(point, layer, albedo.xyz);
     }
     return layer;
 }
@@ -179,15 +181,20 @@ fn coat_layer(point: SurfacePoint) -> Layer {
     return layer_of(surface_of_coat(point), coat_fresnel(), surface_coat(point.coat).y);
 }
 
+fn layer_mix(point: SurfacePoint, layer: Layer) -> MetalMix {
+    let fresnel = layer.reflecting.fresnel;
+    return metal_mix(point.metallic, fresnel.at_normal, fresnel.at_grazing, point.diffuse, layer.reflecting.albedo, layer.sharp.albedo);
+}
+
 // Adds multiple scattering to the light of single scattering.
-fn layer_of_single(layer: Layer, single: vec3f) -> vec3f {
+fn layer_of_single(point: SurfacePoint, layer: Layer, single: vec3f) -> vec3f {
     // The fit may make the second part a little larger than the first.
-    return ggx_area_reflectance(max(single, vec3f(0.0)), layer.reflecting.fresnel.at_normal, layer.sharp.albedo);
+    return ggx_area_reflectance(max(single, vec3f(0.0)), layer_mix(point, layer).scattered_at_normal, layer.sharp.albedo);
 }
 
 // Light that the body sends, over the light that falls on the base: it gets what the lobe over it does not reflect.
 fn base_body(point: SurfacePoint, layer: Layer) -> vec3f {
-    return point.diffuse * max(1.0 - layer.albedo, vec3f(0.0));
+    return point.diffuse * layer_mix(point, layer).body_share;
 }
 
 // The base under a layer that covers a share of it, has an albedo, and reflects so much by itself.
@@ -207,7 +214,7 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
     if !HAS_COATS {
         let layer = base_layer(point);
         let lit = layer_lit(point, layer, of_lights, surrounded);
-        return BaseRadiance(layer_of_single(layer, lit.specular), lit.diffuse * base_body(point, layer));
+        return BaseRadiance(layer_of_single(point, layer, lit.specular), lit.diffuse * base_body(point, layer));
     }
     let coat = surface_coat(point.coat);
     var base: BaseRadiance;
@@ -226,7 +233,7 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
             layer = layer_brushed(seen, layer);
         }
         let lit = layer_lit(seen, layer, of_lights, surrounded);
-        let single = layer_of_single(layer, lit.specular);
+        let single = layer_of_single(seen, layer, lit.specular);
         if i > 0u {
             base = base_coated(coat.x, layer.albedo, base, single);
         } else {

@@ -6,6 +6,7 @@ struct BaseLobes {
     alpha: f32,
     facets: Facets,             // in its place, with anisotropy
     fresnel: FresnelRgb,
+    scattered_at_normal: vec3f, // by which multiple scattering adds to the specular one
     body: vec3f,
     share: f32,                 // how often the specular one is drawn from
     body_share: f32,            // and that of the body; the coat's is drawn from else
@@ -58,7 +59,9 @@ fn base_lobes(on_top: SurfacePoint) -> BaseLobes {
         lobes.facets = facets_of(facet_axes_spread_by(axes, 2.0 * turns));
     }
     lobes.fresnel = layer.reflecting.fresnel;
-    lobes.body = base_body(point, layer);
+    let mix = layer_mix(point, layer);
+    lobes.scattered_at_normal = mix.scattered_at_normal;
+    lobes.body = point.diffuse * mix.body_share;
     lobes.albedo = layer.sharp.albedo;
     lobes.around = layer.albedo;
     let below = rgb_luminance(lobes.body);
@@ -152,7 +155,7 @@ fn base_lobes_eval(lobes: BaseLobes, on_top: vec3f) -> BaseRadiance {
         by_facets = ggx_eval(wi, lobes.wo, lobes.alpha);
     }
     let single = facet * by_facets;
-    var base = BaseRadiance(ggx_area_reflectance(single, lobes.fresnel.at_normal, lobes.albedo), lobes.body * (max(wi.z, 0.0) / GGX_PI));
+    var base = BaseRadiance(ggx_area_reflectance(single, lobes.scattered_at_normal, lobes.albedo), lobes.body * (max(wi.z, 0.0) / GGX_PI));
     if HAS_COATS && lobes.coat_share > 0.0 {
         let facet_of_coat = fresnel_eval(fresnel_curves, coat_fresnel(), half_vector_cos(on_top, lobes.coat_wo));
         let by_coat = facet_of_coat * ggx_eval(on_top, lobes.coat_wo, lobes.coat_alpha);

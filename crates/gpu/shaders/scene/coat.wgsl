@@ -58,9 +58,10 @@ fn surface_under_coat(point: SurfacePoint) -> SurfacePoint {
     return under;
 }
 
-// The coat alone: its spread of slopes in the place of that of what is under it.
+// The coat alone, which is no metal: its spread of slopes in the place of that of what is under it.
 fn surface_of_coat(point: SurfacePoint) -> SurfacePoint {
     var coat = point;
+    coat.metallic = 0.0;
     if HAS_COAT_NORMALS {
         coat.slope_std = point.coat_slope_std;
     }

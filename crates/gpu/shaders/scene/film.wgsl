@@ -3,9 +3,9 @@
 // Tiles are squares of so many pixels. Twin: src/strip.rs.
 const TILE_PX: u32 = 8u;
 
-// Arrays of a strip have a row more above and below: edges are found by looking at neighbours.
+// Arrays of a strip have rows more above and below: edges are found by looking at neighbours.
 fn strip_index(pixel: vec2u) -> u32 {
-    return (pixel.y + 1u - frame.rows.x) * frame.size_px.x + pixel.x;
+    return (pixel.y + frame.halo_rows - frame.rows.x) * frame.size_px.x + pixel.x;
 }
 
 // Index in the film of a pixel of the strip.

@@ -95,6 +95,7 @@ fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
     (*point).f0 = mix(dielectric_f0, material.base_color, material.metallic);
     (*point).curve = material.curve;
     (*point).diffuse = material.base_color * (1.0 - material.metallic);
+    (*point).metallic = material.metallic;
     (*point).coherence_um = material.coherence_um;
     (*point).table = material.table;
     (*point).coat = coat_pack(material.coat);

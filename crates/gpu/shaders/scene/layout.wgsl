@@ -24,15 +24,15 @@ struct Frame {
     segment_count: u32,
     list_std_px: f32,           // the largest footprint_std_px of all steps: tile lists serve them all
     list_jitter_px: f32,        // how far samples lie from the pixel's centre
+    halo_rows: u32,             // of the strip's arrays, above it and below
+    is_edge_everywhere: u32,    // 1: samples see so far that each pixel has all of them
     entry_count: u32,           // of all tile lists of the strip; known once they are counted
     object_count: u32,
     group_count: u32,           // of 64 samples that are shaded together; known once edges are counted
     base_light_count: u32,      // of the lights, those that do not shine on scratches alone: they come first
     middle_px: vec2f,           // where in the picture the ray along `forward` is
     coverage_round: u32,        // of all samples of a pixel, which one is looked at; COVERAGE_ANY: it stands for all
-    display_gain: f32,          // 2^exposure_ev of the scene
     sample_order: vec2u,        // the samples of the step from the one that is nearest to the pixel's middle, 4 bits each
-    has_rays: u32,              // 1: rays tell which share of the light is seen
 }
 
 // The sample sees any surface that covers something.
@@ -190,7 +190,7 @@ const PIXEL_PARTIAL: u32 = 0x80000000u;
 
 // Material of a sample's surface, as the base needs it.
 struct PixelPaint {
-    f0: vec3f,
+    f0_bits: vec3u,             // F0 and the metal's share: see pixel_f0_pack()
     lobe: u32,                  // roughness and spread of slopes, in 16 bits each; with anisotropy see pixel_lobe_pack()
     diffuse: vec2u,             // 16 bits each; the last are spare
     coat: u32,                  // see coat_pack(); with normals of coats the lower bits of its spread of slopes beside it
@@ -316,9 +316,6 @@ struct FilmPixel {
     samples: u32,               // samples that are complete
     normal: vec3f,
     edge: u32,                  // 0; of a pixel with an edge or a crease its number among those of its tile, from 1
-    luminance: f32,             // as rays found it: no filter changes it
-    compressed: f32,            // tone_compressed() of it
-    display_gain: f32,          // by which it was compressed
 }
 
 struct Film {

@@ -36,9 +36,9 @@ fn pixel_open(paint: PixelPaint) -> f32 {
 
 fn pixel_fresnel(paint: PixelPaint) -> FresnelRgb {
     if !HAS_SPECULAR {
-        return FresnelRgb(paint.f0, 1.0, paint.curve_bits & 0xffffu);
+        return FresnelRgb(pixel_f0(paint), 1.0, paint.curve_bits & 0xffffu);
     }
-    return FresnelRgb(paint.f0, f32(paint.curve_bits >> 21u) / 2047.0, paint.curve_bits & 0x7ffu);
+    return FresnelRgb(pixel_f0(paint), f32(paint.curve_bits >> 21u) / 2047.0, paint.curve_bits & 0x7ffu);
 }
 
 // Roughness, spread of slopes, the longer alpha and the turn of its axis over half a turn: 16 bits each of the former two, and no more; with
@@ -97,6 +97,21 @@ fn pixel_coat_slope_std(paint: PixelPaint) -> f32 {
     return f32((paint.coat >> 24u) | ((paint.emission.y >> 28u) << 8u)) / 4095.0;
 }
 
+// The last 4 bits of the digits of each make room for 12 bits of the metal's share.
+fn pixel_f0_pack(point: SurfacePoint) -> vec3u {
+    let metallic = u32(round(4095.0 * clamp(point.metallic, 0.0, 1.0)));
+    return (bitcast<vec3u>(point.f0) & vec3u(~15u)) | ((vec3u(metallic) >> vec3u(0u, 4u, 8u)) & vec3u(15u));
+}
+
+fn pixel_f0(paint: PixelPaint) -> vec3f {
+    return bitcast<vec3f>(paint.f0_bits & vec3u(~15u));
+}
+
+fn pixel_metallic(paint: PixelPaint) -> f32 {
+    let bits = paint.f0_bits & vec3u(15u);
+    return f32(bits.x | (bits.y << 4u) | (bits.z << 8u)) / 4095.0;
+}
+
 fn pixel_paint_pack(point: SurfacePoint, triangle: u32) -> PixelPaint {
     let lobe = pixel_lobe_pack(point);
     let diffuse = vec2u(pack2x16unorm(point.diffuse.xy), pack2x16unorm(vec2f(point.diffuse.z, 0.0)) | (lobe.y << 16u));
@@ -104,7 +119,7 @@ fn pixel_paint_pack(point: SurfacePoint, triangle: u32) -> PixelPaint {
     if HAS_COAT_NORMALS {
         coat |= pixel_coat_slope_bits(point) << 24u;
     }
-    return PixelPaint(point.f0, lobe.x, diffuse, coat, triangle, pixel_emission_pack(point), pixel_curve_pack(point));
+    return PixelPaint(pixel_f0_pack(point), lobe.x, diffuse, coat, triangle, pixel_emission_pack(point), pixel_curve_pack(point));
 }
 
 fn pixel_table(pixel: PixelPoint) -> u32 {
@@ -178,6 +193,7 @@ fn surface_point_from(pixel: PixelPoint, paint: PixelPaint) -> SurfacePoint {
         fresnel.at_grazing,
         fresnel.curve,
         vec3f(unpack2x16unorm(paint.diffuse.x), unpack2x16unorm(paint.diffuse.y).x),
+        pixel_metallic(paint),
         lobe.x,
         lobe.y,
         pixel_emission(paint),

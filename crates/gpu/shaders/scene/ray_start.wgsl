@@ -4,6 +4,7 @@
 struct RayStart {
     position_m: vec3f,
     triangle: u32,              // + 1
+    facet: vec3f,               // normal of the triangle on the viewer's side, of any length
 }
 
 // The point of a triangle; on the surface that the normals of its vertices describe, where that lies above the triangle.
@@ -16,18 +17,19 @@ fn ray_start(triangle: u32, barycentric: vec2f, to_viewer: vec3f) -> RayStart {
     let e1 = b.position_m - a.position_m;
     let e2 = c.position_m - a.position_m;
     var position_m = a.position_m + e1 * barycentric.x + e2 * barycentric.y;
+    let across = cross(e1, e2);
+    // On the viewer's side.
+    let side = select(1.0, -1.0, dot(across, to_viewer) < 0.0);
     if any(a.normal != b.normal) || any(a.normal != c.normal) {
         let below_m = vec3f(
             dot(position_m - a.position_m, a.normal),
             dot(position_m - b.position_m, b.normal),
             dot(position_m - c.position_m, c.normal),
         );
-        // On the viewer's side.
-        let side = select(1.0, -1.0, dot(cross(e1, e2), to_viewer) < 0.0);
         let rises = -weights * min(side * below_m, vec3f(0.0));
         position_m += side * (a.normal * rises.x + b.normal * rises.y + c.normal * rises.z);
     }
-    return RayStart(position_m, triangle + 1u);
+    return RayStart(position_m, triangle + 1u, side * across);
 }
 
 // Place on its own triangle where the camera's ray through a place meets the surface, if it does.
@@ -38,19 +40,23 @@ fn own_barycentric(triangle: u32, ray: vec3f) -> vec2f {
 
 // Place that a pixel shows so many standard deviations of its filter to the right and down: the hit of the camera's ray there, if it is
 // the pixel's own object. On the triangles themselves, since a step along the plane of the normal would end below them where they are
-// hollow. Not on the plane of the pixel's own triangle either: it goes on behind what stands on it.
-fn under_the_pixel(tree: texture_2d<u32>, pixel: PixelPoint, own: u32, stds: vec2f) -> RayStart {
+// hollow. Not on the plane of the pixel's own triangle either: it goes on behind what stands on it. Where the surface has turned away from the ray's
+// direction it is the middle of the pixel, which sends light that way: a convex body does not stand before itself.
+fn under_the_pixel(tree: texture_2d<u32>, pixel: PixelPoint, own: u32, stds: vec2f, direction: vec3f) -> RayStart {
     let middle = (pixel.position_m - frame.camera_m) / pixel.depth_m;
     let ray = middle + frame.footprint_std_px * (frame.per_px_x * stds.x + frame.per_px_y * stds.y);
     let hit = cutout_hit(tree, tree_ray(frame.camera_m, normalize(ray)), 1e30, 0u, false, pixel.object);
     if hit.triangle != 0u && hit.object == pixel.object - 1u {
-        return ray_start(hit.triangle - 1u, hit.barycentric, -ray);
+        let start = ray_start(hit.triangle - 1u, hit.barycentric, -ray);
+        if dot(start.facet, direction) > 0.0 {
+            return start;
+        }
     }
     return ray_start(own, own_barycentric(own, middle), -middle);
 }
 
-// Origin of the rays of a sample: under its pixel, or, for a hit of another ray, at the hit.
-fn sample_start(tree: texture_2d<u32>, pixel: PixelPoint, own: u32, stds: vec2f) -> RayStart {
+// Origin of a ray of a sample: under its pixel, or, for a hit of another ray, at the hit.
+fn sample_start(tree: texture_2d<u32>, pixel: PixelPoint, own: u32, stds: vec2f, direction: vec3f) -> RayStart {
     if AT_HITS {
         let a = vertices[3u * own].position_m;
         let b = vertices[3u * own + 1u].position_m;
@@ -59,7 +65,7 @@ fn sample_start(tree: texture_2d<u32>, pixel: PixelPoint, own: u32, stds: vec2f)
         let wo = pixel_wo(pixel.cos_o);
         return ray_start(own, surface_barycentric(pixel.position_m, across, a, b, c), pixel.axis_x * wo.x + pixel.normal * wo.z);
     }
-    return under_the_pixel(tree, pixel, own, stds);
+    return under_the_pixel(tree, pixel, own, stds, direction);
 }
 
 // A little off the surface.

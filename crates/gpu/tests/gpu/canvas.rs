@@ -279,7 +279,7 @@ fn a_4k_canvas_is_there_or_refused_by_its_memory() {
     let stage = Stage::new(&gpu, plates().scene());
     match gpu.block_on(stage.renderer.canvas([3840, 2160], u32::MAX)) {
         Ok(canvas) => {
-            assert_eq!(canvas.bytes(), 3840 * 2160 * 80);
+            assert_eq!(canvas.bytes(), 3840 * 2160 * 64);
             // 128 MiB hold what rays find of 140 rows, and tiles have eight.
             assert_eq!((canvas.bands(), canvas.rows(0)), (16, 0..136));
             assert_eq!(canvas.rows(15), 2040..2160);

@@ -13,7 +13,7 @@ use super::instances;
 use super::left_out::{self, LeftOut, UsedContents};
 use super::leniency::drop_order_mark;
 use super::root::{self, OptionalElements};
-use super::source::percent_decoded;
+use super::source::{is_data, percent_decoded};
 use crate::packed;
 use crate::reading::check_regular;
 
@@ -98,7 +98,7 @@ pub fn names(path: &Path) -> Vec<(String, PathBuf)> {
     let file = packed::file_of(path);
     let base_dir = file.parent().unwrap_or(Path::new(""));
     let named = |what: &'static str, i: usize, uri: &Option<String>| {
-        let uri = uri.as_deref().filter(|uri| !uri.starts_with("data:"))?;
+        let uri = uri.as_deref().filter(|uri| !is_data(uri))?;
         Some((format!("{what} {i}"), base_dir.join(percent_decoded(uri))))
     };
     let buffers = (0..)

@@ -98,6 +98,11 @@ impl Buffers {
     }
 }
 
+/// Whether a URI is its own contents. Schemes have no case (RFC 3986, section 3.1).
+pub(crate) fn is_data(uri: &str) -> bool {
+    (uri.get(..5)).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
+}
+
 /// Reads a URI of a glTF file: a data URI or a file beside it, which is added to `files`.
 pub(crate) fn resource(
     uri: &str,
@@ -105,9 +110,11 @@ pub(crate) fn resource(
     what: &str,
     files: &mut Vec<PathBuf>,
 ) -> Result<Vec<u8>, Flaw> {
-    if uri.starts_with("data:") {
-        // The gltf crate decodes what follows `;base64,`.
-        return gltf::buffer::Data::from_source(gltf::buffer::Source::Uri(uri), None)
+    if is_data(uri) {
+        // The gltf crate decodes what follows `;base64,`, in small letters.
+        let (head, data) = uri.split_once(',').unwrap_or((uri, ""));
+        let uri = format!("{},{data}", head.to_ascii_lowercase());
+        return gltf::buffer::Data::from_source(gltf::buffer::Source::Uri(&uri), None)
             .map(|data| data.0)
             .map_err(|error| {
                 Flaw::new(

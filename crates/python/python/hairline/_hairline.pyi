@@ -358,7 +358,6 @@ def picture_from_state(
     size_px: tuple[int, int],
     layers: bytes,
     noise: tuple[int, bytes] | None,
-    tones: tuple[float, bytes] | None,
     display: tuple[float, str],
     notes: dict[str, str],
     is_complete: bool,

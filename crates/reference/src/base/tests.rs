@@ -7,7 +7,7 @@ use hairline_optics::spectrum::Observer;
 use hairline_scene::Reflector;
 
 use super::BaseLobes;
-use crate::reflectance::{Reflectance, ReflectanceEnds};
+use crate::reflectance::{MixedEnds, Reflectance, ReflectanceEnds};
 use hairline_fixtures::statistics::{Draw, chi_square, jittered};
 
 const ALPHAS: [f64; 6] = [0.002, 0.01, 0.05, 0.2, 0.5, 1.0];
@@ -40,10 +40,10 @@ fn reflectance(reflector: Reflector, alpha: f64) -> &'static Reflectance {
 
 fn gold(cos: f64, alpha: f64) -> BaseLobes<'static> {
     let reflectance = reflectance(Reflector::Metal(Metal::Gold), alpha);
-    let ends = ReflectanceEnds {
+    let ends = MixedEnds::pure(ReflectanceEnds {
         f0: Metal::Gold.reflectance_rgb(1.0).into(),
         f90: 1.0,
-    };
+    });
     BaseLobes::from_parts(viewer(cos), reflectance, ends, DVec3::ZERO, alpha.sqrt())
 }
 
@@ -51,7 +51,7 @@ fn plastic(cos: f64, alpha: f64) -> BaseLobes<'static> {
     BaseLobes::from_parts(
         viewer(cos),
         reflectance(Reflector::Dielectric(1.5), alpha),
-        ReflectanceEnds::COAT,
+        MixedEnds::pure(ReflectanceEnds::COAT),
         DVec3::new(0.8, 0.5, 0.1),
         alpha.sqrt(),
     )
@@ -171,7 +171,7 @@ fn the_albedo_of_the_model_is_that_of_its_lobes() {
             let albedo = lobes
                 .reflectance
                 .albedo(alpha.sqrt(), cos)
-                .reflected(lobes.ends);
+                .reflected(lobes.ends.dielectric);
             let error = (albedo / specular - DVec3::ONE).abs().max_element();
             assert!(error < 0.01, "alpha {alpha}, cosine {cos}: {error}");
         }

@@ -1,12 +1,13 @@
 //! Environment maps from files.
 
-use std::io::{self, BufRead, Read};
+use std::io;
 use std::path::{Path, PathBuf};
 
-use hairline_image::{Picture, Primaries, ToRec709, exr_file, held, in_gamut};
+use hairline_image::{Picture, exr_file, held, in_gamut};
 use image::codecs::hdr::HdrDecoder;
 use image::{ImageDecoder, ImageError};
 
+use super::radiance_header::{self, Header};
 use hairline_model::reading::check_regular;
 use hairline_model::text::shown;
 
@@ -69,11 +70,9 @@ pub(crate) fn size_px(path: &Path) -> Result<[u32; 2], Error> {
     let size_px = match ending(path).as_deref() {
         Some("hdr") => {
             let file = held::open(path).map_err(|e| cannot_read(path, &e))?;
-            let decoder = HdrDecoder::new(file);
-            decoder
-                .map_err(|e| from_radiance(path, e))?
-                .dimensions()
-                .into()
+            let (_, file) = radiance_header::take(file).map_err(|e| cannot_read(path, &e))?;
+            let decoder = HdrDecoder::new(file).map_err(|e| from_radiance(path, e))?;
+            decoder.dimensions().into()
         }
         _ => exr_file::size_px(path).map_err(|e| from_exr(path, e))?,
     };
@@ -166,26 +165,23 @@ pub(crate) fn notes(path: &Path) -> Vec<String> {
     part.map(note).into_iter().collect()
 }
 
-/// Reads a Radiance picture. Its EXPOSURE, if it has one, is undone: it says by what the radiances were multiplied. Colours of other PRIMARIES
-/// become those of Rec.709.
+/// Reads a Radiance picture. What its header says that radiances were multiplied by is undone. Colours of other primaries become those of Rec.709; a
+/// picture that does not state its primaries is taken to be in Rec.709 already, as all write it.
 fn read_radiance(path: &Path, check_size: CheckSize) -> Result<Picture, Error> {
     let file = held::open(path).map_err(|e| cannot_read(path, &e))?;
-    let reader = as_radiance(file).map_err(|e| cannot_read(path, &e))?;
-    let decoder = HdrDecoder::new(reader).map_err(|e| from_radiance(path, e))?;
+    let (header, file) = radiance_header::take(file).map_err(|e| cannot_read(path, &e))?;
+    let decoder = HdrDecoder::new(file).map_err(|e| from_radiance(path, e))?;
     let size_px: [u32; 2] = decoder.dimensions().into();
     check_size(path, size_px)?;
-    let exposure = decoder.metadata().exposure.unwrap_or(1.0);
-    if !(exposure.is_finite() && exposure > 0.0) {
-        return Err(Error::Corrupt {
-            path: path.to_owned(),
-            reason: format!("EXPOSURE={exposure} in the header: a positive number is needed"),
-        });
-    }
-    let to_rec_709 = primaries(&decoder.metadata().custom_attributes);
-    let to_rec_709 = to_rec_709.map_err(|reason| Error::Corrupt {
+    let corrupt = |reason| Error::Corrupt {
         path: path.to_owned(),
         reason,
-    })?;
+    };
+    let Header { factor, primaries } = header.map_err(corrupt)?;
+    let to_rec_709 = match primaries {
+        Some(primaries) => primaries.to_rec_709().map_err(corrupt)?,
+        None => None,
+    };
     let mut bytes = vec![0; decoder.total_bytes() as usize];
     decoder
         .read_image(&mut bytes)
@@ -195,37 +191,12 @@ fn read_radiance(path: &Path, check_size: CheckSize) -> Result<Picture, Error> {
         .map(|texel| {
             let rgb = std::array::from_fn(|c| {
                 let component = [0, 1, 2, 3].map(|i| texel[4 * c + i]);
-                f32::from_ne_bytes(component) / exposure
+                f32::from_ne_bytes(component) / factor[c]
             });
             to_rec_709.map_or(rgb, |to| in_gamut(to.color(rgb)))
         })
         .collect();
     Ok(Picture { size_px, rgb })
-}
-
-/// Returns the conversion of a Radiance picture's colours to Rec.709. A picture that does not state its primaries is taken to be in Rec.709
-/// already, as all write it.
-fn primaries(attributes: &[(String, String)]) -> Result<Option<ToRec709>, String> {
-    let mut lines = attributes.iter();
-    let Some((_, text)) = lines.rfind(|(name, _)| name == "PRIMARIES") else {
-        return Ok(None);
-    };
-    let numbers: Option<Vec<f64>> = text.split_whitespace().map(|it| it.parse().ok()).collect();
-    let eight = numbers.and_then(|numbers| <[f64; 8]>::try_from(numbers).ok());
-    let right = "eight numbers are needed: x and y of red, green, blue and white";
-    let eight = eight.ok_or_else(|| format!("PRIMARIES={text} in the header: {right}"))?;
-    Primaries::of_numbers(eight).to_rec_709()
-}
-
-/// Replaces the first bytes `#?RGBE`, which other programs write, by `#?RADIANCE`, the only ones that the decoder accepts.
-fn as_radiance(mut file: impl BufRead) -> io::Result<impl BufRead> {
-    const OTHER: &[u8] = b"#?RGBE";
-    let is_other = file.fill_buf()?.starts_with(OTHER);
-    let begin: &[u8] = if is_other { b"#?RADIANCE" } else { b"" };
-    if is_other {
-        file.consume(OTHER.len());
-    }
-    Ok(begin.chain(file))
 }
 
 fn from_radiance(path: &Path, error: ImageError) -> Error {

@@ -696,7 +696,7 @@ fn files_that_are_no_maps_are_refused() {
         (
             file(
                 "exposure.hdr",
-                &radiance_file(4, 2, "EXPOSURE=-1\n", [0; 4]),
+                &radiance_file(4, 2, "EXPOSURE=bright\n", [0; 4]),
             ),
             |e| matches!(e, Error::Corrupt { .. }),
             "EXPOSURE",

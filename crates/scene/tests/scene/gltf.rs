@@ -498,7 +498,7 @@ fn buffers_may_lie_beside_or_in_a_data_uri() {
     let dir = temporary_dir();
     let path = dir.path().join("it.gltf");
     std::fs::write(dir.path().join("it data.bin"), &glb.bin).unwrap();
-    let data_uri = format!("data:application/octet-stream;base64,{}", base64(&glb.bin));
+    let data_uri = format!("DATA:application/octet-stream;BASE64,{}", base64(&glb.bin));
     for uri in ["it%20data.bin", "it data.bin", &data_uri] {
         std::fs::write(&path, glb.json(&mesh, r#"{"mesh":0}"#, Some(uri))).unwrap();
         let scene = load(&path, "").unwrap();

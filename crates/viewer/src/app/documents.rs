@@ -185,6 +185,7 @@ impl Viewer {
         (self.asked, self.typed, self.sought) = (None, None, None);
         let work = &mut self.work;
         work.document = document;
+        work.engine.forget_scene();
         work.free_view.end();
         work.toolbox.tool = Tool::Select;
         work.snapshots = Snapshots::default();

@@ -39,11 +39,13 @@ impl Viewer {
             Command::FlipSnapshot => self.work.snapshots.flip(),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Command::Undo => {
+                self.work.snapshots.show_current();
                 if let Some(label) = self.work.document.undo() {
                     self.work.notices.note("undo", format!("Undone: {label}"));
                 }
             }
             Command::Redo => {
+                self.work.snapshots.show_current();
                 if let Some(label) = self.work.document.redo() {
                     let text = format!("Done again: {label}");
                     self.work.notices.note("undo", text);

@@ -93,7 +93,7 @@ fn picture(document: &Document, stop: &Stop) -> Option<ColorImage> {
         exposure_ev: description.camera.exposure_ev,
         tone_map: description.render.tone_map,
     };
-    let pixels = png::quantize(&image.shown(), &display);
+    let pixels = png::quantize(&image.beauty(), &display);
     let size = scene.render.size_px.map(|side| side as usize);
     Some(ColorImage::from_rgb(size, &pixels))
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use hairline_cpu::closed_form::{Prepared, RenderOptions, TILE_PX};
-use hairline_image::{Batch, Batches, Found, FoundPixel, Image, Tone, Tones};
+use hairline_image::{Batch, Batches, Found, FoundPixel, Image};
 use hairline_scene::{Scene, Transport};
 use web_time::Instant;
 
@@ -192,10 +192,6 @@ pub(crate) fn rows_of(image: &Image, pixels: Range<usize>) -> Image {
     part.density.copy_from_slice(&image.density[pixels.clone()]);
     part.depth_m.copy_from_slice(&image.depth_m[pixels.clone()]);
     part.normal.copy_from_slice(&image.normal[pixels.clone()]);
-    part.tones = image.tones.as_ref().map(|tones| Tones {
-        gain: tones.gain,
-        pixels: tones.pixels[pixels].to_vec(),
-    });
     part
 }
 
@@ -212,14 +208,6 @@ pub(crate) fn put_rows(image: &mut Image, pixels: Range<usize>, part: &Image) {
             rounds: of_part.rounds,
             pixels: vec![FoundPixel::default(); count],
         });
-        found.pixels[pixels.clone()].copy_from_slice(&of_part.pixels);
-    }
-    if let Some(of_part) = &part.tones {
-        let count = image.pixel_count();
-        let tones = image.tones.get_or_insert_with(|| Tones {
-            gain: of_part.gain,
-            pixels: vec![Tone::default(); count],
-        });
-        tones.pixels[pixels].copy_from_slice(&of_part.pixels);
+        found.pixels[pixels].copy_from_slice(&of_part.pixels);
     }
 }

@@ -1,11 +1,18 @@
 //! Building of scenes, in a thread of its own if there are threads.
 
+use std::time::Duration;
+
+use web_time::Instant;
+
 use super::build::ViewBuilder;
 #[cfg(not(target_arch = "wasm32"))]
 use super::caught::caught;
 use super::painter::STILL;
 use super::request::{Shared, WantedScene};
 use super::{Backend, Event, pool};
+
+/// Time after which the building of an outdated scene is given up: shorter ones are finished, so that each step of a drag shows something.
+const LONG: Duration = Duration::from_millis(700);
 
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) fn run(shared: &Shared) {
@@ -26,8 +33,10 @@ pub(super) fn run(shared: &Shared) {
 pub(super) fn build(shared: &Shared, view_builder: &mut ViewBuilder, wanted: WantedScene) {
     let has_sketch = matches!(shared.backend(), Backend::Cpu)
         && pool::Crew::Drafter.install(|| sketch(shared, view_builder, &wanted));
-    // With a sketch on the screen, the whole of an outdated scene need not be built.
-    let cancelled = || shared.is_stopped() || has_sketch && shared.wants_scene();
+    // With a sketch on the screen, the whole of an outdated scene need not be built; nor where it takes so long that nobody waits for it.
+    let start = Instant::now();
+    let is_dispensable = || has_sketch || start.elapsed() > LONG;
+    let cancelled = || shared.is_stopped() || shared.wants_scene() && is_dispensable();
     if has_sketch && view_builder.has_built() {
         // A moment to see whether the hand goes on.
         shared.wait_for_scene(STILL);

@@ -16,7 +16,6 @@ use super::frame::Picture;
 use super::pace::{self, Coarseness};
 use super::partial::Backdrop;
 use super::pool::Crew;
-use super::remembered::Remembered;
 use super::request::Order;
 use super::step_renderer::{RenderedStep, StepRenderer};
 use super::steps::Step;
@@ -31,7 +30,6 @@ pub(super) struct CpuStepRenderer {
     last: Option<Last>,
     begun: Option<Begun>,
     adding: Adding,
-    remembered: Option<Remembered>,
     drafts: Drafts,
     band_size: BandSize,
     /// Whether unfinished pictures are shown, which takes time of its own.
@@ -41,8 +39,6 @@ pub(super) struct CpuStepRenderer {
 /// The last picture that was done.
 struct Last {
     image: Image,
-    /// The picture completed from the remembered one.
-    completed: Option<Image>,
     step: Step,
     order: Order,
     /// Samples of the picture.
@@ -76,7 +72,6 @@ impl CpuStepRenderer {
             last: None,
             begun: None,
             adding: Adding::default(),
-            remembered: None,
             drafts: Drafts::default(),
             band_size,
             shows_parts: band_size.breaks_off,
@@ -191,11 +186,9 @@ impl StepRenderer for CpuStepRenderer {
             None => (bands.image, step.samples),
             Some(batch) => crew.install(|| self.adding.add(order, batch, bands.image)),
         };
-        let completed = crew.install(|| self.complete(order, step, &image));
         image.found = None;
         let last = Last {
             image,
-            completed,
             step: *step,
             order: order.clone(),
             samples,
@@ -227,33 +220,6 @@ impl StepRenderer for CpuStepRenderer {
     }
 }
 
-impl CpuStepRenderer {
-    /// Completes a picture from the remembered one, if that suits it, and remembers a picture at full resolution.
-    fn complete(&mut self, order: &Order, step: &Step, image: &Image) -> Option<Image> {
-        let before = self.remembered.as_ref().filter(|it| it.is_of(order));
-        if order.built.is_sketch() || !step.is_whole(&order.view) {
-            let sharp = before.and_then(|it| it.sharpen(image, order));
-            // Better than nothing, until there is more.
-            let is_kept = before.is_none() && 4 * step.size_px[0] >= order.view.size_px[0];
-            if is_kept && !order.built.is_sketch() {
-                self.remembered = Some(Remembered::new(order, image, None));
-            }
-            return sharp;
-        }
-        let (completed, remembered) = match image.open() {
-            // The picture has rays of its own.
-            Some(open) => (None, Remembered::new(order, &open, Some(image))),
-            None => {
-                let completed = before.and_then(|it| it.shade(image, order));
-                let remembered = Remembered::new(order, image, completed.as_ref());
-                (completed, remembered)
-            }
-        };
-        self.remembered = Some(remembered);
-        completed
-    }
-}
-
 impl Last {
     fn shown(&self, order: &Order) -> RenderedStep {
         let (view, step) = (&order.view, &self.step);
@@ -261,11 +227,8 @@ impl Last {
         let (_, picture, findings) = match shown.take() {
             Some(shown) if shown.0.is_shown_as(view) => shown,
             _ => {
-                // Other readings show the picture without additions.
-                let completed = self.completed.as_ref();
-                let completed = completed.filter(|_| view.reading.shows == Shows::Beauty);
-                let image = completed.unwrap_or(&self.image);
-                let (pixels, findings) = develop(image, view.size_px, &view.display, &view.reading);
+                let (pixels, findings) =
+                    develop(&self.image, view.size_px, &view.display, &view.reading);
                 (*view, Picture::Pixels(Arc::new(pixels)), findings)
             }
         };

@@ -53,6 +53,8 @@ pub struct Painted {
     pub is_final: bool,
     /// Time from the order to the picture.
     pub time: Duration,
+    /// Time until all samples have come, as far as it is known.
+    pub left: Option<Duration>,
     /// Time of each pass, where the device has a clock.
     pub passes: Vec<PassTime>,
     /// Time from the edit to the picture, for the first picture of a scene.

@@ -177,10 +177,15 @@ impl StepRenderer for GpuStepRenderer {
             _ => self.renderer.canvas(step.size_px, band_px).await?,
         };
         let scene = step.scene(order);
-        self.step = Some(*step);
-        if step.batch.is_none_or(|batch| batch.first == 0) {
-            self.mean = None;
-        }
+        let before = self.step.replace(*step);
+        self.mean = match step.batch {
+            Some(batch) if batch.first > 0 => self.mean.take(),
+            // While the first rays come, the picture before them is shown by any exposure.
+            Some(_) if before.is_some_and(|it| it.size_px == step.size_px && !it.is_added()) => {
+                Some((canvas.image().await?, 1))
+            }
+            _ => None,
+        };
         let mut last_shown = Instant::now();
         let options = RenderOptions {
             samples: step.samples,

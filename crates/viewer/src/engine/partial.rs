@@ -18,7 +18,7 @@ pub(super) struct Backdrop {
 impl Backdrop {
     /// Enlarges `coarse` as a texture would be.
     pub fn new(coarse: &Image, size_px: [u32; 2], display: &Display) -> Self {
-        let rgb = png::quantize(&coarse.shown(), display);
+        let rgb = png::quantize(&coarse.beauty(), display);
         let [from_x, from_y] = coarse.size_px.map(|side| side as usize);
         let texel = |x: usize, y: usize, c: usize| f32::from(rgb[3 * (y * from_x + x) + c]);
         let columns: Vec<_> = (0..size_px[0])
@@ -48,7 +48,7 @@ impl Backdrop {
         let width = self.size_px[0];
         let done = (width * rows) as usize;
         let part = rows_of(fine, 0..done);
-        let rgb = png::quantize(&part.shown(), &self.display);
+        let rgb = png::quantize(&part.beauty(), &self.display);
         let mut pixels = self.pixels.clone();
         for (pixel, rgb) in pixels.iter_mut().zip(rgb.chunks_exact(3)) {
             *pixel = Color32::from_rgb(rgb[0], rgb[1], rgb[2]);

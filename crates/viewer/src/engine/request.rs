@@ -30,6 +30,8 @@ struct State {
     events: Vec<Event>,
     /// Revision of the newest scene that the interface ordered.
     asked: u64,
+    /// Revision of the newest scene that was forgotten, and with it all before.
+    forgotten: u64,
     /// The revision of the last one that could not be built.
     failed: Option<u64>,
     /// The interface waits for a frame.
@@ -128,6 +130,14 @@ impl Shared {
         self.news.notify_all();
     }
 
+    pub fn forget_scene(&self) {
+        let mut state = self.lock();
+        state.forgotten = state.asked;
+        (state.built, state.sketch, state.frame) = (None, None, None);
+        drop(state);
+        self.news.notify_all();
+    }
+
     pub fn want_view(&self, view: View) {
         let mut state = self.lock();
         if state.view != Some(view) {
@@ -141,15 +151,12 @@ impl Shared {
         self.lock().view
     }
 
-    /// Whether a finer picture of `order` is outdated. One that is painted `on_cores` also gives way to the building of a newer scene, which would
+    /// Whether a finer picture of `order` is outdated, or to be shown by another exposure first. One that is painted `on_cores` also gives way to the building of a newer scene, which would
     /// wait for the same cores; it goes on if the building fails.
     pub fn is_outdated(&self, order: &Order, on_cores: bool) -> bool {
         let state = self.lock();
         let is_building = state.is_building || state.wanted_scene.is_some();
-        on_cores && is_building
-            || state
-                .order()
-                .is_none_or(|newest| !newest.has_same_pixels(order))
+        on_cores && is_building || state.order().is_none_or(|newest| !newest.is_same(order))
     }
 
     /// Takes the scene that is to be built next, if there is one.
@@ -187,7 +194,12 @@ impl Shared {
 
     /// Something to paint until all of the scene is there; nobody else is shown it.
     pub fn put_sketch(&self, sketch: Built) {
-        self.lock().sketch = Some(Arc::new(sketch));
+        let mut state = self.lock();
+        if sketch.revision <= state.forgotten {
+            return;
+        }
+        state.sketch = Some(Arc::new(sketch));
+        drop(state);
         self.news.notify_all();
     }
 
@@ -198,6 +210,9 @@ impl Shared {
 
     pub fn put_built(&self, built: Built) {
         let mut state = self.lock();
+        if built.revision <= state.forgotten {
+            return;
+        }
         state.sketch = None;
         state.built = Some(Arc::new(built));
         drop(state);
@@ -223,6 +238,9 @@ impl Shared {
 
     pub fn put_frame(&self, frame: Frame) {
         let mut state = self.lock();
+        if frame.built.revision <= state.forgotten {
+            return;
+        }
         state.frame = Some(Arc::new(frame));
         let is_awaited = state.is_awaited;
         drop(state);

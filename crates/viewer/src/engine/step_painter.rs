@@ -29,6 +29,10 @@ pub(super) struct StepPainter {
     spent: Duration,
     /// Revision whose latency was reported last.
     latency_told: Option<u64>,
+    /// Seconds that a sample of the last batch took.
+    seconds_per_sample: Option<f64>,
+    /// Time until all samples of the order have come.
+    left: Option<Duration>,
 }
 
 impl StepPainter {
@@ -38,6 +42,8 @@ impl StepPainter {
             number: shared.frame().map_or(0, |frame| frame.number),
             spent: Duration::ZERO,
             latency_told: None,
+            seconds_per_sample: None,
+            left: None,
         }
     }
 
@@ -53,6 +59,7 @@ impl StepPainter {
         let full_px = order.view.size_px;
         let segments = order.built.segments;
         self.spent = Duration::ZERO;
+        (self.seconds_per_sample, self.left) = (None, None);
         let wanted = order.view.transport;
         loop {
             let (size_px, thin) = self.pace.moving(full_px, segments, begins);
@@ -113,8 +120,10 @@ impl StepPainter {
             shared.is_stopped() || until.is_some_and(|until| Instant::now() >= until) || gives_way()
         };
         let mut last: Option<RenderedStep> = None;
+        let before = self.spent;
         let mut show = |shown: RenderedStep| {
             if shown.done < 1.0 {
+                self.expect(step, shown.done, before + start.elapsed());
                 self.put(shared, order, shown, false, start.elapsed(), None);
             } else if let Some(earlier) = last.replace(shown) {
                 self.put(shared, order, earlier, false, start.elapsed(), None);
@@ -123,6 +132,9 @@ impl StepPainter {
         let finished = renderer.paint(order, step, &interrupted, &mut show).await?;
         let time = self.spent + (start.elapsed() - uploaded);
         self.spent = if finished { Duration::ZERO } else { time };
+        if finished {
+            self.expect(step, 1.0, time);
+        }
         if let Some(shown) = last {
             // The time of a picture that gave way to the interface says little about that of a coarse one.
             let gave_way =
@@ -146,6 +158,21 @@ impl StepPainter {
             self.put(shared, order, shown, is_final, time, latency);
         }
         Ok(finished)
+    }
+
+    /// Expects the rest of the samples to take as long as those of a batch, of which a share is done.
+    fn expect(&mut self, step: &Step, done: f64, spent: Duration) {
+        let Some(batch) = step.batch else {
+            self.left = None;
+            return;
+        };
+        let there = f64::from(batch.count) * done;
+        // Of the first rows little can be told.
+        if done > 0.05 {
+            self.seconds_per_sample = Some(spent.as_secs_f64() / there);
+        }
+        let missing = f64::from(step.samples - batch.first) - there;
+        self.left = (self.seconds_per_sample).map(|each| Duration::from_secs_f64(each * missing));
     }
 
     pub fn put(
@@ -177,6 +204,7 @@ impl StepPainter {
                 done: shown.done,
                 is_final,
                 time,
+                left: self.left.filter(|_| !is_final),
                 passes: shown.passes,
                 latency,
             },

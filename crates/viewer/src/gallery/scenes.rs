@@ -152,7 +152,7 @@ impl Studio {
             tone_map: description.render.tone_map,
         };
         // The ground of menus, where there is nothing.
-        let mut beauty = image.shown();
+        let mut beauty = image.beauty();
         if !matches!(thumb, Thumb::Map(_)) {
             let nothing = image.depth_m.iter().map(|depth_m| *depth_m == 0.0);
             for (rgb, is_nothing) in beauty.rgb.iter_mut().zip(nothing) {

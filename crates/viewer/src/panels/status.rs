@@ -17,7 +17,9 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, viewport: &Viewport) {
             ui.spacing_mut().item_spacing.x = 14.0;
             let engine = &work.engine;
             match engine.latest() {
-                Some(frame) => picture(ui, &frame, viewport.canvas.is_stale()),
+                Some(frame) => {
+                    picture(ui, &frame, viewport.canvas.is_stale(), engine.is_resting());
+                }
                 None => drop(ui.label(before_the_first(engine))),
             }
             if let Some(built) = engine.built() {
@@ -51,7 +53,7 @@ pub(crate) fn before_the_first(engine: &Engine) -> &'static str {
     }
 }
 
-fn picture(ui: &mut Ui, frame: &Frame, is_stale: bool) {
+fn picture(ui: &mut Ui, frame: &Frame, is_stale: bool, is_resting: bool) {
     let painted = &frame.painted;
     let [width, height] = painted.size_px;
     let text = format!("{width} × {height}, {}", milliseconds(painted.time));
@@ -64,6 +66,13 @@ fn picture(ui: &mut Ui, frame: &Frame, is_stale: bool) {
     }
     ui.label(text).on_hover_text(details);
     ui.label(activity(frame, is_stale));
+    if let Some(left) = painted.left.filter(|_| !is_stale) {
+        ui.label(match is_resting {
+            true => "paused while an export runs".to_owned(),
+            false => format!("{} left", rough(left)),
+        })
+        .on_hover_text("Until the picture is as clean as it gets");
+    }
     if !painted.passes.is_empty() {
         let device: Duration = painted.passes.iter().map(|pass| pass.time).sum();
         ui.label(format!("device {}", milliseconds(device)));
@@ -163,6 +172,15 @@ fn latency_text(latency: &Latency) -> String {
     ];
     let lines = stages.map(|(name, time)| format!("\n  {name}: {}", milliseconds(time)));
     format!("\nThe last edit:{}", lines.concat())
+}
+
+/// A time that is expected: seconds, or minutes.
+fn rough(time: Duration) -> String {
+    let seconds = time.as_secs_f64().ceil();
+    match seconds < 100.0 {
+        true => format!("{seconds:.0} s"),
+        false => format!("{:.0} min", (seconds / 60.0).ceil()),
+    }
 }
 
 fn milliseconds(time: Duration) -> String {

@@ -45,7 +45,7 @@ pub(crate) fn develop(
     wanted: &ReadingRequest,
 ) -> (ColorImage, Findings) {
     let size = image.size_px.map(|side| side as usize);
-    let beauty = png::quantize(&image.shown(), display);
+    let beauty = png::quantize(&image.beauty(), display);
     let histogram = wanted.histogram_px.map(|frame_px| {
         // A coarse picture shows the same part.
         let scale = |i: usize| {

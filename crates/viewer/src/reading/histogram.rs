@@ -82,7 +82,7 @@ mod tests {
             .to_vec();
         image.base[7] = [0.36, 0.18, 0.0];
         let display = Display::default();
-        let codes = png::quantize(&image.shown(), &display);
+        let codes = png::quantize(&image.beauty(), &display);
         let of = |frame_px, display: &Display| Histogram::of(&image, &codes, display, frame_px);
         let all = of([4, 2], &display);
         assert_eq!(all.pixels, 8);

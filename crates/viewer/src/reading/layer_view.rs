@@ -50,7 +50,7 @@ pub(super) fn pixels(
     };
     let code = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
     let pixels = match shows {
-        Shows::Beauty => png::quantize(&image.shown(), display),
+        Shows::Beauty => png::quantize(&image.beauty(), display),
         Shows::FalseColor => false_color::pixels(&image.beauty(), display),
         Shows::Base => png::quantize(&picture(&image.base), display),
         Shows::Scratches => png::quantize(&picture(&image.scratches), display),

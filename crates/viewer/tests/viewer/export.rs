@@ -89,10 +89,7 @@ fn rendered(text: &str, turned_deg: f64) -> (Image, Display) {
 
 /// Image as a file of radiance holds it.
 fn in_a_file(image: Image) -> Image {
-    Image {
-        tones: None,
-        ..image
-    }
+    Image { ..image }
 }
 
 fn codes_of(path: &Path) -> Vec<u8> {
@@ -122,7 +119,7 @@ fn a_picture_is_what_the_renderer_makes() {
     let path = folder.path().join("a.png");
     save_picture(&mut harness, &path);
     wait_exported(&mut harness);
-    let right = png::quantize(&image.shown(), &display);
+    let right = png::quantize(&image.beauty(), &display);
     assert_eq!(codes_of(&path), right);
     let said = harness.state().messages().concat();
     assert!(said.contains("a.png"), "{said}");

@@ -24,7 +24,7 @@ impl egui::DroppedFile for Dropped {
     }
 }
 
-fn drop_file(harness: &mut Harness<'static, Viewer>, path: &Path) {
+pub fn drop_file(harness: &mut Harness<'static, Viewer>, path: &Path) {
     let file = Arc::new(Dropped(path.to_owned()));
     harness.input_mut().dropped_files.push(file);
     harness.run_steps(3);

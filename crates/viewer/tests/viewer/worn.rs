@@ -9,7 +9,7 @@ use hairline_viewer::Viewer;
 const FAINT: &str = "[camera]\nposition_m = [0, -1, 0.5]\ntarget_m = [0, 0, 0]\nup = [0, 0, 1]\nfov_y_deg = 15\n\
     [environment]\nbuiltin = \"overcast\"\nintensity = 0.01\n[[material]]\nname = \"steel\"\nkind = \"metal\"\nmetal = \"steel\"\n\
     [[object]]\nname = \"ball\"\nshape = { sphere = { radius_m = 0.1 } }\nmaterial = \"steel\"\n\
-    [[scratches]]\nobject = \"ball\"\npattern = \"random\"\ncount = 4000\nlength_m = 0.02\nwidth_um = 3.0\ndepth_nm = 150.0\nname = \"wear: hairlines\"\n";
+    [[scratches]]\nobject = \"ball\"\npattern = \"random\"\ncount = 12000\nlength_m = 0.02\nwidth_um = 3.0\ndepth_nm = 150.0\nname = \"wear: hairlines\"\n";
 
 const LIGHT: &str = "Light for the scratches";
 

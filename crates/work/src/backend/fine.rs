@@ -26,7 +26,10 @@ pub(super) fn render<E>(
     let [width, height] = scene.render.size_px;
     let mut large = scene.clone();
     large.render.size_px = [SIDE * width, SIDE * height];
-    large.render.filter_std_px = f64::from(SIDE) * scene.render.footprint_std_px(FINE_SAMPLES);
+    // The square of all samples of a pixel has a part of the variance.
+    let variance = scene.render.filter_std_px.powi(2);
+    let own = (variance - 1.0 / 12.0).max(0.25 * variance).sqrt();
+    large.render.filter_std_px = f64::from(SIDE) * own;
     let mut image = Image::new([width, height]);
     for first in (0..height).step_by(BAND_ROWS as usize) {
         let rows = first..(first + BAND_ROWS).min(height);
