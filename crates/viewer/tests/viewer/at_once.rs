@@ -1,6 +1,6 @@
 //! What is shown at once: exposure while a picture refines, and nothing of a scene that was left.
 
-use crate::common::{SMALL, description, viewer, viewer_with, wait_built, wait_until};
+use crate::common::{SMALL, description, viewer, viewer_in, wait_built, wait_until};
 use crate::files::drop_file;
 use hairline_scene::Transport;
 use hairline_viewer::Options;
@@ -9,17 +9,21 @@ use hairline_viewer::engine::Backend;
 /// Sixty-four rays in each pixel take a while: the exposure does not wait for them.
 #[test]
 fn exposure_is_applied_while_a_picture_refines() {
-    let mut harness = viewer_with(Options {
-        scene: None,
-        built_in: SMALL,
-        backend: Backend::Cpu,
-        state_dir: None,
-        native_dialogs: false,
-        transport: Transport {
-            shadows: true,
-            bounces: 1,
+    let mut harness = viewer_in(
+        Options {
+            scene: None,
+            built_in: SMALL,
+            backend: Backend::Cpu,
+            state_dir: None,
+            native_dialogs: false,
+            transport: Transport {
+                shadows: true,
+                bounces: 1,
+            },
         },
-    });
+        [1280.0, 800.0],
+        0.5,
+    );
     wait_built(&mut harness);
     wait_until(&mut harness, "all pixels", |viewer| {
         let frame = viewer.engine().latest();
