@@ -2,7 +2,9 @@
 
 use crate::draft::Draft;
 use crate::sampling::environment::EnvironmentSampler;
-use hairline_index::{Hit, IndexedProfile, IndexedSegment, ScratchIndex, TriangleIndex, Watch};
+use hairline_index::{
+    Hit, IndexedProfile, IndexedSegment, Pieces, ScratchIndex, TriangleIndex, Watch,
+};
 use hairline_optics::table::ScratchTable;
 use hairline_scene::{Scene, ScratchTables};
 use std::sync::{Arc, OnceLock};
@@ -12,6 +14,8 @@ pub struct Prepared<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) triangles: Arc<TriangleIndex>,
     pub(crate) scratches: Arc<ScratchIndex>,
+    /// The pieces as they were laid, for methods of others.
+    laid: OnceLock<Arc<ScratchIndex>>,
     pub(crate) tables: Arc<ScratchTables>,
     /// Stands for the scratches in a picture that need not be exact.
     pub(crate) draft: Option<Arc<Draft>>,
@@ -22,17 +26,18 @@ pub struct Prepared<'a> {
 impl<'a> Prepared<'a> {
     /// Builds the trees and the tables.
     pub fn new(scene: &'a Scene) -> Self {
-        Self::watched(scene, &Watch::default()).unwrap_or_else(|| unreachable!("nobody cancels it"))
+        Self::watched(scene, Pieces::Seen, &Watch::default())
+            .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
     /// Prepares the scene; a watch follows the building of the tree over the scratches, which takes the most time. `None` if it was
     /// cancelled.
-    pub fn watched(scene: &'a Scene, watch: &Watch) -> Option<Self> {
+    pub fn watched(scene: &'a Scene, pieces: Pieces, watch: &Watch) -> Option<Self> {
         let (triangles, (scratches, tables)) = rayon::join(
             || TriangleIndex::build(scene),
             || {
                 rayon::join(
-                    || ScratchIndex::rebuild(scene, None, watch),
+                    || ScratchIndex::rebuild(scene, pieces, None, watch),
                     || ScratchTables::new(scene),
                 )
             },
@@ -52,22 +57,34 @@ impl<'a> Prepared<'a> {
             scene,
             triangles,
             scratches,
+            laid: OnceLock::new(),
             tables,
             draft: None,
             sampler: OnceLock::new(),
         }
     }
 
-    /// Shares the structures with a scene that differs only in camera, lights, environment or settings.
+    /// Makes the pieces of scratches ready for a scene that differs in its camera or the size of its picture.
+    pub fn look_from(&mut self, scene: &Scene) {
+        if !self.scratches.serves(scene) {
+            self.scratches = Arc::new(ScratchIndex::build(scene));
+        }
+    }
+
+    /// Shares the structures with a scene that differs only in camera, lights, environment or settings. A camera that comes much nearer
+    /// or goes far away needs other pieces of scratches.
     pub fn with_scene<'b>(&self, scene: &'b Scene) -> Prepared<'b> {
-        Prepared {
+        let mut shared = Prepared {
             scene,
             triangles: self.triangles.clone(),
             scratches: self.scratches.clone(),
+            laid: self.laid.clone(),
             tables: self.tables.clone(),
             draft: self.draft.clone(),
             sampler: OnceLock::new(),
-        }
+        };
+        shared.look_from(scene);
+        shared
     }
 
     /// Replaces the scratches by a few of them, each of which stands for many. For Hairline's own method; others take all. There is no
@@ -90,6 +107,14 @@ impl<'a> Prepared<'a> {
     /// The tree over the scratches.
     pub fn scratches(&self) -> &Arc<ScratchIndex> {
         &self.scratches
+    }
+
+    /// The tree over the scratches as they were laid: methods of others know no arcs. It is built at the first call.
+    pub fn laid(&self) -> &Arc<ScratchIndex> {
+        match self.scratches.is_laid() {
+            true => &self.scratches,
+            false => (self.laid).get_or_init(|| Arc::new(ScratchIndex::laid(self.scene))),
+        }
     }
 
     /// Sampler of directions to the environment, if there is one. It is built at the first call, and not for each part of a picture.

@@ -3,7 +3,7 @@
 
 use crate::light_view::LightViews;
 use crate::prepared::Prepared;
-use crate::shade_scratches::{Frame, Pick, Picks, ROW_PROFILE, RowSpread, ScratchLight};
+use crate::shade_scratches::{Course, Frame, Pick, Picks, ROW_PROFILE, RowSpread, ScratchLight};
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{Along, BandPlace, OutlineRoots};
@@ -141,7 +141,7 @@ impl RowAt {
     /// Pick of these grooves, whose rays start anywhere under the pixel.
     fn pick(&self, scale: f64) -> Pick {
         Pick {
-            tangent: self.tangent,
+            course: Course::straight(self.tangent),
             place: BandPlace::everywhere(),
             along: Along {
                 steps_um: [0.0; 2],

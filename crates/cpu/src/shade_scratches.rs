@@ -5,6 +5,7 @@
 //! which can reach the segment from any point of the tile.
 
 mod chord_depths;
+mod course;
 mod drawn_light;
 mod lanes;
 mod light_bounds;
@@ -27,6 +28,7 @@ use lanes::{GROUPS, Group, LANES, Line, SegmentView};
 use light_bounds::LightBounds;
 use scratch_light::scratch_energy;
 
+pub(crate) use course::Course;
 pub(crate) use drawn_light::{Choice, DrawnLight};
 pub(crate) use one_pair::pick_one_pair;
 pub(crate) use picks::{Pick, Picks};
@@ -176,11 +178,11 @@ impl Shading<'_, '_> {
             let energy = scratch_energy(segment.profile, table, point.point.wo.z);
             let mut picks = self.picks.as_mut().map(|picks| &mut picks[point.index]);
             if picks.is_some() || !self.shader.lit.is_empty() || environment.is_some() {
-                let tangent = seen.tangent(lane);
+                let course = seen.course(lane, frame, segment.turn_rad);
                 let place = seen.place(lane, frame);
-                let light = ScratchLight::new(point.point.wo, tangent, table, segment.profile)
+                let light = ScratchLight::new(point.point.wo, course, table, segment.profile)
                     .by_one_line(node);
-                let pick = || seen.pick(lane, frame, segment, share.segment);
+                let pick = || seen.pick(lane, frame, segment, course, share.segment);
                 let mut add = |source: usize, sent: DVec3| {
                     radiance += sent;
                     if let Some(picks) = &mut picks {

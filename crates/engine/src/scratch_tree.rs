@@ -35,7 +35,7 @@ impl ScratchTexels {
         let deepest_nm = depths.fold(0.0, |deepest, it| it.profile.depth_nm.max(deepest));
         let rows = rows_down_to(deepest_nm.into()) + 1;
         Self {
-            tree: texels(&ScratchIndex::build(scene), object, unit_m),
+            tree: texels(&ScratchIndex::laid(scene), object, unit_m),
             shapes: GrooveShapes::new(scene).shapes().collect(),
             table_rows: rows.next_multiple_of(TABLE_ROWS).min(ROWS),
         }

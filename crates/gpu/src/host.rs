@@ -1,6 +1,7 @@
 //! Conversion of a scene's own units to the structs that host and shader share.
 
-use glam::{DMat4, DVec3, Mat4, Vec4};
+use glam::{DMat4, DVec3, Mat4, Vec3, Vec4};
+use hairline_index::TURN_MAX_RAD;
 use hairline_index::packed_profile::profile_words;
 use hairline_index::{IndexedSegment, ScratchIndex};
 use hairline_scene::{
@@ -295,10 +296,16 @@ fn scratch_node(node: &hairline_index::ScratchNode, origin_m: DVec3) -> ScratchN
 
 fn scratch_segment(segment: &IndexedSegment, origin_m: DVec3) -> ScratchSegment {
     let [width_depth, more] = profile_words(segment);
+    let turn = (segment.turn_rad / TURN_MAX_RAD * 2047.0).round() as i32 as u32;
+    let with_turn = |at_m: Vec3, first_bit: u32| {
+        let at = relative(at_m.as_dvec3(), origin_m);
+        let bits = |i: usize| (turn >> (first_bit + 2 * i as u32)) & 3;
+        std::array::from_fn(|i| f32::from_bits((at[i].to_bits() & !3) | bits(i)))
+    };
     ScratchSegment {
-        start_m: relative(segment.start_m.as_dvec3(), origin_m),
+        start_m: with_turn(segment.start_m, 0),
         width_depth,
-        end_m: relative(segment.end_m.as_dvec3(), origin_m),
+        end_m: with_turn(segment.end_m, 6),
         more,
     }
 }

@@ -1,9 +1,9 @@
-//! A straight piece of a scratch with the properties that the closed form needs.
+//! A piece of a scratch with the properties that the closed form needs.
 
 use crate::segment_tree::Straight;
 use glam::Vec3;
 
-/// A straight piece of a scratch, its free ends moved inwards, or of a part of a wide one.
+/// A piece of a scratch, straight or an arc by its chord, its free ends moved inwards; or of a part of a wide scratch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IndexedSegment {
     /// World space, metres.
@@ -12,6 +12,8 @@ pub struct IndexedSegment {
     pub end_m: Vec3,
     /// The surface's unit normal.
     pub normal: Vec3,
+    /// Angle by which the scratch turns to the left from the start to the end, about the normal; 0 where it is straight.
+    pub turn_rad: f32,
     /// Profile of the scratch's groove.
     pub profile: IndexedProfile,
     /// Standard deviation that smooths the ends; one for the whole scratch, so that joined ends cancel.

@@ -6,6 +6,7 @@ use hairline_optics::section::{Parts, width_class};
 use hairline_scene::{GrooveShapes, Object, Scene, Scratch, Segment};
 use rayon::prelude::*;
 
+use crate::arcs::join;
 use crate::indexed_segment::{IndexedProfile, IndexedSegment};
 
 /// Largest turn between pieces that count as one: a tenth of the width of the narrowest bands, and a micrometre off in the middle of
@@ -40,6 +41,8 @@ pub(crate) struct LayerRun<'a> {
     shapes: &'a GrooveShapes,
     object: &'a Object,
     scratches: &'a [Scratch],
+    /// By which arcs may lie beside what was laid, metres.
+    deviation_m: f32,
 }
 
 /// Scratches of one task.
@@ -56,11 +59,12 @@ pub(crate) fn groups<'a>(
     scene: &'a Scene,
     shapes: &'a GrooveShapes,
     object: &'a Object,
+    deviation_m: f32,
 ) -> Vec<Vec<LayerRun<'a>>> {
     let mut groups: Vec<Vec<LayerRun>> = Vec::new();
     // Pieces in the last group.
     let mut pieces = 0;
-    for run in LayerRun::of(scene, shapes, object) {
+    for run in LayerRun::of(scene, shapes, object, deviation_m) {
         let own = run.piece_count();
         match groups.last_mut() {
             Some(group) if pieces + own <= SHARED_PIECES => {
@@ -82,9 +86,10 @@ impl<'a> LayerRun<'a> {
         scene: &'a Scene,
         shapes: &'a GrooveShapes,
         object: &'a Object,
+        deviation_m: f32,
     ) -> impl Iterator<Item = Self> {
         let runs = object.scratches.chunk_by(|a, b| a.layer == b.layer);
-        runs.map(move |scratches| Self::new(scene, shapes, object, scratches))
+        runs.map(move |scratches| Self::new(scene, shapes, object, scratches, deviation_m))
     }
 
     /// Some scratches of an object.
@@ -93,12 +98,14 @@ impl<'a> LayerRun<'a> {
         shapes: &'a GrooveShapes,
         object: &'a Object,
         scratches: &'a [Scratch],
+        deviation_m: f32,
     ) -> Self {
         Self {
             scene,
             shapes,
             object,
             scratches,
+            deviation_m,
         }
     }
 
@@ -131,6 +138,7 @@ impl<'a> LayerRun<'a> {
                 && self.coherence_um(a) == other.coherence_um(b)
         };
         self.scratches.len() == other.scratches.len()
+            && self.deviation_m == other.deviation_m
             && (self.scratches.par_iter().with_min_len(TASK))
                 .zip(other.scratches)
                 .all(alike)
@@ -183,6 +191,7 @@ impl<'a> LayerRun<'a> {
                     start_m: piece.start_m.lerp(piece.end_m, start as f32),
                     end_m: piece.start_m.lerp(piece.end_m, end as f32),
                     normal: piece.normal,
+                    turn_rad: 0.0,
                     profile,
                     blur_um: ends.blur_um as f32,
                 };
@@ -192,6 +201,11 @@ impl<'a> LayerRun<'a> {
                 }
             }
         }
+        join(
+            effective,
+            first,
+            self.deviation_m.min(coherence_um as f32 * 1e-6),
+        );
         if self.is_wide(scratch) {
             let section = scratch.profile.section.section();
             let parts = section.parts(width_um.into(), coherence_um);

@@ -1,6 +1,8 @@
 //! Scratches as the closed form needs them under a footprint: free ends are moved inwards here, once, by the lengths of
-//! docs/model.md, section 6, for the whole scratch; joined ends do not move, and pieces shorter than an end's shift are left out.
+//! docs/model.md, section 6, for the whole scratch; joined ends do not move, and pieces shorter than an end's shift are left out. For a
+//! view pieces are put together to arcs.
 
+use crate::arcs::Deviations;
 use crate::depth_spread::object_coherence;
 use crate::indexed_segment::IndexedSegment;
 use crate::layer_runs::{LayerRun, groups};
@@ -21,6 +23,17 @@ pub struct ScratchIndex {
     shapes: GrooveShapes,
     /// Largest coherence length of the materials of each object.
     coherence_max_um: Vec<f32>,
+    /// How far arcs may lie beside what was laid.
+    deviations: Deviations,
+}
+
+/// What the trees of an index are over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pieces {
+    /// The straight pieces that were laid: whatever the view, and for methods that know no arcs.
+    Laid,
+    /// Arcs, as long as the camera of the scene does not tell them from what was laid, at the size of its picture.
+    Seen,
 }
 
 /// Number of standard deviations at which a footprint is cut off: 5e-4 of its Gaussian lies beyond.
@@ -31,12 +44,21 @@ pub const REACH_STD: f32 = 3.5;
 pub const FACING_MIN_COS: f32 = 0.2;
 
 impl ScratchIndex {
-    /// Builds the trees, all cores at work; the same for any number of them.
+    /// Builds the trees over the pieces as the scene's camera sees them, all cores at work; the same for any number of them.
     ///
     /// # Panics
     /// Beyond 268 million pieces; no loaded scene has as many on one object.
     pub fn build(scene: &Scene) -> Self {
-        Self::rebuild(scene, None, &Watch::default())
+        Self::rebuild(scene, Pieces::Seen, None, &Watch::default())
+            .unwrap_or_else(|| unreachable!("nobody cancels it"))
+    }
+
+    /// Builds the trees over the pieces as they were laid.
+    ///
+    /// # Panics
+    /// As [`Self::build`].
+    pub fn laid(scene: &Scene) -> Self {
+        Self::rebuild(scene, Pieces::Laid, None, &Watch::default())
             .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
@@ -45,10 +67,16 @@ impl ScratchIndex {
     ///
     /// # Panics
     /// As [`Self::build`].
-    pub fn rebuild(scene: &Scene, last: Option<(&Scene, &Self)>, watch: &Watch) -> Option<Self> {
+    pub fn rebuild(
+        scene: &Scene,
+        pieces: Pieces,
+        last: Option<(&Scene, &Self)>,
+        watch: &Watch,
+    ) -> Option<Self> {
         let shapes = GrooveShapes::new(scene);
+        let deviations = Deviations::of(scene, pieces);
         let kept = last.filter(|(_, index)| index.shapes == shapes);
-        let plots = plots(scene, &shapes, kept);
+        let plots = plots(scene, &shapes, &deviations, kept);
         let (tree, depth_coherence) = rayon::join(
             || plant(plots, last.map(|(_, index)| &index.tree), watch),
             || Self::depth_coherence(scene),
@@ -58,7 +86,18 @@ impl ScratchIndex {
             depth_coherence,
             coherence_max_um: coherences_max_um(scene),
             shapes,
+            deviations,
         })
+    }
+
+    /// Whether the pieces are those that were laid.
+    pub fn is_laid(&self) -> bool {
+        self.deviations.is_none()
+    }
+
+    /// Whether the pieces serve for a scene that differs in its camera or the size of its picture alone.
+    pub fn serves(&self, scene: &Scene) -> bool {
+        self.is_laid() || self.deviations.serve(&Deviations::of(scene, Pieces::Seen))
     }
 
     /// Makes the index without trees, for pictures of a draft, which looks nothing up there.
@@ -74,6 +113,7 @@ impl ScratchIndex {
             depth_coherence: Self::depth_coherence(scene),
             coherence_max_um: coherences_max_um(scene),
             shapes: GrooveShapes::default(),
+            deviations: Deviations::of(scene, Pieces::Laid),
         }
     }
 
@@ -92,15 +132,15 @@ impl ScratchIndex {
         scene.objects.iter().map(object_coherence).collect()
     }
 
-    /// Returns the pieces of some scratches of an object, their free ends moved inwards, one scratch after the other, as a tree is
-    /// grown over them. For pictures that show a few of all scratches.
+    /// Returns the laid pieces of some scratches of an object, their free ends moved inwards, one scratch after the other, as a tree
+    /// is grown over them. For pictures that show a few of all scratches.
     pub fn pieces(
         scene: &Scene,
         shapes: &GrooveShapes,
         object: &Object,
         scratches: &[Scratch],
     ) -> Vec<IndexedSegment> {
-        let run = LayerRun::new(scene, shapes, object, scratches);
+        let run = LayerRun::new(scene, shapes, object, scratches, 0.0);
         let mut pieces = Vec::with_capacity(run.piece_count());
         run.append_effective(&mut pieces);
         pieces
@@ -109,9 +149,10 @@ impl ScratchIndex {
     /// The layers of the scene that this was built of, with their trees.
     fn groups<'s>(&'s self, scene: &'s Scene) -> Vec<(Vec<LayerRun<'s>>, &'s Tree)> {
         let objects = scene.objects.iter().zip(&self.tree.trees);
+        let objects = objects.zip(self.deviations.iter());
         objects
-            .flat_map(|(object, trees)| {
-                let groups = groups(scene, &self.shapes, object);
+            .flat_map(|((object, trees), deviation_m)| {
+                let groups = groups(scene, &self.shapes, object, deviation_m);
                 groups.into_iter().zip(trees)
             })
             .collect()
@@ -122,6 +163,7 @@ impl ScratchIndex {
 fn plots<'a>(
     scene: &'a Scene,
     shapes: &'a GrooveShapes,
+    deviations: &Deviations,
     last: Option<(&'a Scene, &'a ScratchIndex)>,
 ) -> Vec<Vec<Plot<'a, IndexedSegment>>> {
     let kept = last.map_or_else(Vec::new, |(scene, index)| index.groups(scene));
@@ -140,10 +182,10 @@ fn plots<'a>(
             },
         }
     };
-    let objects = scene.objects.iter();
+    let objects = scene.objects.iter().zip(deviations.iter());
     objects
-        .map(|object| {
-            let groups = groups(scene, shapes, object).into_iter();
+        .map(|(object, deviation_m)| {
+            let groups = groups(scene, shapes, object, deviation_m).into_iter();
             groups.map(plot).collect()
         })
         .collect()
@@ -175,7 +217,7 @@ fn coherence_max_um(scene: &Scene, object: &Object) -> f32 {
 #[cfg(test)]
 fn effective_segments(scene: &Scene, object: &Object) -> Vec<IndexedSegment> {
     let shapes = GrooveShapes::new(scene);
-    let runs: Vec<_> = LayerRun::of(scene, &shapes, object).collect();
+    let runs: Vec<_> = LayerRun::of(scene, &shapes, object, 0.0).collect();
     let mut effective = Vec::with_capacity(runs.iter().map(LayerRun::piece_count).sum());
     for run in runs {
         run.append_effective(&mut effective);

@@ -5,7 +5,7 @@
 
 use crate::gaussian::gaussian;
 use spec_math::cephes64::erf;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Covariance of a footprint in a scratch's own axes, um^2.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +65,42 @@ pub struct ScratchShare {
     pub line: f64,
     /// Factor on both where scratches cover one another: 1 but for parts of wide grooves, [`cover_of_part`](crate::section::cover_of_part).
     pub cover: f64,
+}
+
+/// Where the part of a segment lies that a footprint sees: mean and standard deviation of the place along the segment, in standard
+/// deviations of the footprint along it. A normal variable between two ends; docs/model.md, (23a).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeenPart {
+    /// Mean place.
+    pub mean: f64,
+    /// Standard deviation of the place.
+    pub std: f64,
+}
+
+impl SeenPart {
+    /// The part between two ends, given in standard deviations of the footprint.
+    pub fn new([low, high]: [f64; 2]) -> Self {
+        // Nothing is seen farther away.
+        let (low, high) = (low.clamp(-8.0, 8.0), high.clamp(-8.0, 8.0));
+        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let even = half * half / 3.0;
+        if half < 0.5 {
+            // The footprint's density is nearly a line there, and a difference of its integrals would cancel.
+            return Self {
+                mean: middle * (1.0 - even),
+                std: even.sqrt(),
+            };
+        }
+        let density = |z: f64| (-0.5 * z * z).exp() * (0.5 * FRAC_1_PI).sqrt();
+        let per_within = 1.0 / gaussian().between(low, high).max(1e-9);
+        let mean = ((density(low) - density(high)) * per_within).clamp(low, high);
+        let second = 1.0 + (low * density(low) - high * density(high)) * per_within;
+        let variance = (second - mean * mean).clamp(0.0, even.min(1.0));
+        Self {
+            mean,
+            std: variance.sqrt(),
+        }
+    }
 }
 
 /// The share of the footprint-averaged coherence window that a scratch segment covers: rho of docs/model.md, which is
@@ -211,6 +247,36 @@ mod tests {
             (ends(1e4, sigma).blur_um / sigma - 0.825).abs() < 1e-3,
             "the long limit that docs/model.md states"
         );
+    }
+
+    /// The part that is seen is a normal variable between two ends, however near or far they are.
+    #[test]
+    fn a_seen_part_has_its_mean_and_its_deviation() {
+        for ends in [
+            [-9.0, 9.0],
+            [-0.2, 3.0],
+            [1.0, 1.5],
+            [-3.0, -2.2],
+            [0.3, 0.31],
+            [2.0, 40.0],
+        ] {
+            let steps = 20_000;
+            let step = (ends[1].min(9.0) - ends[0]) / f64::from(steps);
+            let places = (0..steps).map(|i| ends[0] + step * (f64::from(i) + 0.5));
+            let mut moments = [0.0; 3];
+            for z in places {
+                let density = (-0.5 * z * z).exp();
+                moments[0] += density;
+                moments[1] += density * z;
+                moments[2] += density * z * z;
+            }
+            let mean = moments[1] / moments[0];
+            let std = (moments[2] / moments[0] - mean * mean).sqrt();
+            let part = SeenPart::new(ends);
+            let off = (part.mean - mean).abs().max((part.std - std).abs());
+            // A hundredth of a footprint.
+            assert!(off < 0.01, "{ends:?}: {part:?}, not {mean} {std}");
+        }
     }
 
     /// Joined ends are not shrunk: pieces sum to the whole, however many they are.

@@ -14,7 +14,7 @@ fn build(c: &mut Criterion) {
             .with("seed = 1\nlength_m = { mean = 0.01, spread = 0.5 }\nwidth_um = 2.0\ndepth_nm = 200.0")
             .with("curvature_per_m = { mean = 0.0, spread = 4.0 }")
             .scene();
-        let index = ScratchIndex::build(&scene);
+        let index = ScratchIndex::laid(&scene);
         let mut group = c.benchmark_group(format!("{count} scratches"));
         group.sample_size(10);
         group.throughput(Throughput::Elements(count.into()));

@@ -38,7 +38,7 @@ impl OnCpu {
 
     fn lists(&self, prepared: &Prepared) -> Arc<TriangleLists> {
         let kept = || self.lists.lock().unwrap_or_else(PoisonError::into_inner);
-        let index = prepared.scratches();
+        let index = prepared.laid();
         if let Some((of, lists)) = &*kept()
             && Arc::ptr_eq(of, index)
         {
@@ -122,7 +122,7 @@ impl PointShader for Published<'_> {
             );
             density += view.density;
         };
-        let index = self.prepared.scratches();
+        let index = self.prepared.laid();
         let segments = &index.tree.segments;
         match &self.lists {
             None => gather(self.prepared, hit.object, point, |i| visit(&segments[i])),

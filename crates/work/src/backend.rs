@@ -11,7 +11,7 @@ use anyhow::anyhow;
 use hairline_cpu::closed_form::{self, Prepared};
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
 use hairline_image::{Batch, Image, Notes, filter_found};
-use hairline_index::{ScratchIndex, TriangleIndex, Watch};
+use hairline_index::{Pieces, ScratchIndex, TriangleIndex, Watch};
 use hairline_optics::mask::Mask;
 use hairline_scene::{DEFAULT_TRANSPORT, Scene, ScratchTables, Transport};
 
@@ -107,6 +107,14 @@ impl Task {
         }
     }
 
+    /// Methods of others know no arcs.
+    fn pieces(&self) -> Pieces {
+        match self.method {
+            None => Pieces::Seen,
+            Some(_) => Pieces::Laid,
+        }
+    }
+
     fn method_on_gpu(&self) -> hairline_gpu::Method {
         hairline_gpu::Method {
             mask: self.mask,
@@ -151,7 +159,7 @@ impl<'a> Painter<'a> {
     /// [`Failure::Work`] where the GPU that was asked for fails.
     pub fn open(scene: &'a Scene, task: Task, listener: &'a dyn Listener) -> Result<Self, Failure> {
         let on = match task.backend {
-            Backend::Cpu => OpenRenderer::on_cpu(scene, "as asked", listener),
+            Backend::Cpu => OpenRenderer::on_cpu(scene, "as asked", &task, listener),
             Backend::Gpu => {
                 let gpu = open().map_err(advise)?;
                 announce_gpu(&gpu, "as asked", listener);
@@ -201,6 +209,7 @@ impl<'a> Painter<'a> {
         is_stopped: &(dyn Fn() -> bool + Sync),
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Rendered, Failure> {
+        self.look_from(scene)?;
         if !self.task.is_transparent {
             return self.render_visible(scene, is_stopped, progress);
         }
@@ -212,6 +221,20 @@ impl<'a> Painter<'a> {
         let alpha = hairline_cpu::alpha(scene, self.triangles(), samples, wanted);
         rendered.image.alpha = Some(alpha);
         Ok(rendered)
+    }
+
+    /// Makes the pieces of scratches ready for a camera that comes much nearer, or goes far away.
+    fn look_from(&mut self, scene: &Scene) -> Result<(), Failure> {
+        match &mut self.on {
+            OpenRenderer::Cpu(prepared) => prepared.look_from(scene),
+            OpenRenderer::Gpu(on) if !on.serves(scene) => {
+                let gpu = on.gpu().clone();
+                self.on =
+                    OpenRenderer::on_gpu(&gpu, scene, &self.task, self.listener).map_err(advise)?;
+            }
+            OpenRenderer::Gpu(_) => {}
+        }
+        Ok(())
     }
 
     fn triangles(&self) -> &TriangleIndex {
@@ -347,7 +370,8 @@ impl<'a> Painter<'a> {
                 Err(error) if self.task.backend == Backend::Gpu => return Err(advise(error)),
                 Err(error) => {
                     warn_of(ready.gpu(), &error, self.listener);
-                    self.on = OpenRenderer::Cpu(prepared(self.scene, self.listener));
+                    let pieces = self.task.pieces();
+                    self.on = OpenRenderer::Cpu(prepared(self.scene, pieces, self.listener));
                 }
             }
         }
@@ -359,9 +383,9 @@ impl<'a> Painter<'a> {
 }
 
 impl<'a> OpenRenderer<'a> {
-    fn on_cpu(scene: &'a Scene, why: &str, listener: &dyn Listener) -> Self {
+    fn on_cpu(scene: &'a Scene, why: &str, task: &Task, listener: &dyn Listener) -> Self {
         announce_cpu(why, listener);
-        Self::Cpu(prepared(scene, listener))
+        Self::Cpu(prepared(scene, task.pieces(), listener))
     }
 
     fn on_gpu(
@@ -370,7 +394,8 @@ impl<'a> OpenRenderer<'a> {
         task: &Task,
         listener: &dyn Listener,
     ) -> Result<Self, hairline_gpu::Error> {
-        let rebuild = |watch: &Watch| ScratchIndex::rebuild(scene, None, watch);
+        let pieces = task.pieces();
+        let rebuild = |watch: &Watch| ScratchIndex::rebuild(scene, pieces, None, watch);
         let sort = || Arc::new(sorted(listener, rebuild));
         let (scratches, tables) = rayon::join(sort, || ScratchTables::new(scene));
         let on = OnGpu::new(
@@ -387,16 +412,16 @@ impl<'a> OpenRenderer<'a> {
     /// A GPU if there is one, else the CPU renderer.
     fn best(scene: &'a Scene, task: &Task, listener: &dyn Listener) -> Self {
         match open() {
-            Err(error) => Self::on_cpu(scene, &error.to_string(), listener),
+            Err(error) => Self::on_cpu(scene, &error.to_string(), task, listener),
             Ok(gpu) if gpu.adapter.kind == AdapterKind::Software => {
                 let why = format!("no GPU; {} is a software driver", gpu.adapter.name);
-                Self::on_cpu(scene, &why, listener)
+                Self::on_cpu(scene, &why, task, listener)
             }
             Ok(gpu) => {
                 announce_gpu(&gpu, "a GPU is there", listener);
                 Self::on_gpu(&gpu, scene, task, listener).unwrap_or_else(|error| {
                     warn_of(&gpu, &error, listener);
-                    Self::Cpu(prepared(scene, listener))
+                    Self::Cpu(prepared(scene, task.pieces(), listener))
                 })
             }
         }
@@ -404,8 +429,10 @@ impl<'a> OpenRenderer<'a> {
 }
 
 /// Builds trees and tables.
-fn prepared<'a>(scene: &'a Scene, listener: &dyn Listener) -> Box<Prepared<'a>> {
-    Box::new(sorted(listener, |watch| Prepared::watched(scene, watch)))
+fn prepared<'a>(scene: &'a Scene, pieces: Pieces, listener: &dyn Listener) -> Box<Prepared<'a>> {
+    Box::new(sorted(listener, |watch| {
+        Prepared::watched(scene, pieces, watch)
+    }))
 }
 
 /// Runs `sort` and returns its result. Nobody cancels it except by ending the process.

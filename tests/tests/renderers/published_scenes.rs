@@ -56,7 +56,7 @@ impl<'a> Both<'a> {
         };
         let gpu = renderer.gpu().clone();
         let picture = gpu.block_on(async {
-            let (index, tables) = (prepared.scratches(), prepared.tables());
+            let (index, tables) = (prepared.laid(), prepared.tables());
             let method = method.on_gpu();
             let uploaded = renderer.upload(scene, index, tables, &method).await?;
             let options = Default::default();

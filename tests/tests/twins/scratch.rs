@@ -3,7 +3,7 @@
 use super::twin::{Sequence, Tolerance, Twin};
 use hairline_gpu::call::{Table, Texels};
 use hairline_gpu::shaders;
-use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
+use hairline_optics::footprint::{Footprint, ScratchShare, SeenPart, scratch_share};
 use hairline_optics::mask::ScratchSums;
 use hairline_optics::metal::Metal;
 use hairline_optics::scratch::{band_std, oblique_depth_nm};
@@ -66,6 +66,41 @@ fn footprint_shares() {
         tolerance: Tolerance {
             absolute: 1e-6,
             relative: 1e-3,
+        },
+    }
+    .check(&rows, 0);
+}
+
+/// Parts of scratches under a footprint: those beyond its reach, those shorter than it, those that cover it.
+#[test]
+fn seen_parts() {
+    let mut random = Sequence(3);
+    let mut rows = vec![
+        [-40.0, 40.0],
+        [-0.1, 0.1],
+        [3.0, 3.4],
+        [-3.4, 40.0],
+        [0.0, 0.0],
+    ];
+    for _ in 0..2000 {
+        let low = random.between(-3.4, 3.4);
+        rows.push([low, low + 10f32.powf(random.between(-3.0, 1.0))]);
+    }
+    // What is not seen has no part.
+    rows.retain(|[low, high]| *high >= -3.4 && *low <= 3.4);
+    Twin {
+        name: "seen_part",
+        modules: &[&shaders::SCRATCH],
+        snippet: "let within = 0.5 * gaussian_erf_difference(x[0] / 1.41421356, x[1] / 1.41421356);
+            let part = seen_part(x[0], x[1], within); y[0] = part.x; y[1] = part.y;",
+        tables: &[],
+        expected: &|ends: [f64; 2]| {
+            let part = SeenPart::new(ends);
+            [part.mean, part.std]
+        },
+        tolerance: Tolerance {
+            absolute: 0.02,
+            relative: 0.0,
         },
     }
     .check(&rows, 0);

@@ -99,7 +99,11 @@ impl Worker {
     ) -> Result<Ready, Error> {
         let uploaded = match self {
             Self::Gpu(worker) => {
-                let (index, tables) = (prepared.scratches(), prepared.tables());
+                let index = match method.published {
+                    None => prepared.scratches(),
+                    Some(_) => prepared.laid(),
+                };
+                let tables = prepared.tables();
                 let method = method.on_gpu();
                 let upload = worker.renderer.upload(scene, index, tables, &method);
                 Some(worker.gpu.block_on(upload)?)

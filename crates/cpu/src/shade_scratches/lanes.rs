@@ -1,6 +1,7 @@
 //! Eight points at once: whether they see a segment, and where it lies under their footprints. Loops over lanes have no branches and
 //! no calls, so that compilers turn them into vector instructions.
 
+use super::course::{Arc, Course};
 use super::picks::Pick;
 use super::point::{Frame, ScratchPoint, share};
 use crate::project::Projected;
@@ -8,7 +9,7 @@ use glam::{DVec2, DVec3};
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_index::{IndexedProfile, IndexedSegment};
 use hairline_optics::band::{Along, BandPlace};
-use hairline_optics::footprint::ScratchShare;
+use hairline_optics::footprint::{ScratchShare, SeenPart};
 use hairline_optics::section::cover_of_part;
 
 /// Points of a group.
@@ -194,6 +195,8 @@ impl Group {
             seen.far2[i] = far2;
             seen.low[i] = low;
             seen.high[i] = high;
+            seen.std_um[i] = left.sqrt();
+            seen.shift_um[i] = shift;
         }
         (count > 0).then_some(seen)
     }
@@ -214,6 +217,9 @@ pub(super) struct SegmentView {
     /// Ends of the segment, in standard deviations along it.
     low: Lanes,
     high: Lanes,
+    /// The standard deviation along it, and the distance by which a slanted footprint's part on the segment is displaced.
+    std_um: Lanes,
+    shift_um: Lanes,
 }
 
 impl SegmentView {
@@ -236,14 +242,42 @@ impl SegmentView {
         )
     }
 
+    /// Course of the segment under the footprint of a point that has a share of it.
+    #[inline(always)]
+    pub fn course(&self, lane: usize, frame: &Frame, turn_rad: f32) -> Course {
+        let chord = self.tangent(lane);
+        if turn_rad == 0.0 {
+            return Course::straight(chord);
+        }
+        let [low, high] = self.ends(lane);
+        let std_um = self.std_um[lane];
+        Course::of_arc(&Arc {
+            chord,
+            turn_rad: turn_rad.into(),
+            length_um: (high - low) * std_um,
+            std_um,
+            shift_um: self.shift_um[lane],
+            seen: SeenPart::new([low, high]),
+            middle: 0.5 * (low + high),
+            steps_um: frame.steps_um.map(|step| chord.dot(step)),
+        })
+    }
+
     /// Pick of the segment with its share, for rays that start from it.
-    pub fn pick(&self, lane: usize, frame: &Frame, segment: &IndexedSegment, share: f64) -> Pick {
-        let tangent = self.tangent(lane);
+    pub fn pick(
+        &self,
+        lane: usize,
+        frame: &Frame,
+        segment: &IndexedSegment,
+        course: Course,
+        share: f64,
+    ) -> Pick {
+        let chord = self.tangent(lane);
         Pick {
-            tangent,
+            course,
             place: self.place(lane, frame),
             along: Along {
-                steps_um: frame.steps_um.map(|step| tangent.dot(step)),
+                steps_um: frame.steps_um.map(|step| chord.dot(step)),
                 blur_um: segment.blur_um.into(),
                 ends: self.ends(lane),
             },

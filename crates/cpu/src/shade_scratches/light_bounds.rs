@@ -3,7 +3,8 @@
 //!
 //! A light reaches a scratch where xi_t = t . (wo + wi) lies within the band. With d, a segment's unit direction, and h = wo + wi
 //! without its part along the normal, t . h is (d . h) / |d_t|, and d_t, the part of d in the plane of shading, is no longer than d:
-//! so what lies outside of the band with d in the place of t lies outside with t too.
+//! so what lies outside of the band with d in the place of t lies outside with t too. The tangent of an arc turns from its chord by half of
+//! its turn at most.
 
 use super::point::{Frame, ScratchPoint};
 use glam::DVec3;
@@ -27,6 +28,8 @@ struct Bound {
     high: DVec3,
     /// Largest distance of d . h from zero.
     reach: f64,
+    /// The greatest length of h.
+    length: f64,
 }
 
 impl LightBounds {
@@ -39,6 +42,7 @@ impl LightBounds {
                 low: DVec3::INFINITY,
                 high: DVec3::NEG_INFINITY,
                 reach: f64::NEG_INFINITY,
+                length: 0.0,
             };
             for (p, frame) in points.iter().zip(frames) {
                 let Some(view) = p.views.view_of(light) else {
@@ -48,6 +52,7 @@ impl LightBounds {
                 let moves = p.views.moves[view];
                 let moved = (moves[0].length_squared() + moves[1].length_squared()).sqrt();
                 let h = (p.point.wo + cap.cos_radius * cap.axis).with_z(0.0);
+                bound.length = bound.length.max(h.length());
                 let h = p.point.world_from_surface(h);
                 (bound.low, bound.high) = (bound.low.min(h), bound.high.max(h));
                 // A cap around the direction of a scratch reaches further than its middle tells.
@@ -72,11 +77,13 @@ impl LightBounds {
     pub fn find(&self, segment: &IndexedSegment, lit: &mut Vec<u32>) {
         lit.clear();
         let d = (segment.end_m.as_dvec3() - segment.start_m.as_dvec3()).normalize_or_zero();
+        let turn = 0.5 * f64::from(segment.turn_rad).abs();
         let (positive, negative) = (d.max(DVec3::ZERO), d.min(DVec3::ZERO));
         for bound in &self.bounds {
             let low = positive.dot(bound.low) + negative.dot(bound.high);
             let high = positive.dot(bound.high) + negative.dot(bound.low);
-            if low <= bound.reach && high >= -bound.reach {
+            let reach = bound.reach + turn * bound.length;
+            if low <= reach && high >= -reach {
                 lit.push(bound.light);
             }
         }

@@ -42,9 +42,10 @@ pub(crate) fn pick_one_pair(
         let table = prepared.scratch_table(point.table, segment.profile);
         let energy = DVec3::from(scratch_energy(segment.profile, table, point.wo.z));
         sums.add(share, energy.to_array(), [0.0; 3]);
-        let pick = || seen.pick(0, &frame, segment, share.segment);
+        let course = seen.course(0, &frame, segment.turn_rad);
+        let pick = || seen.pick(0, &frame, segment, course, share.segment);
         picks.add_energy(share.segment * energy, pick);
-        let light = ScratchLight::new(point.wo, seen.tangent(0), table, segment.profile);
+        let light = ScratchLight::new(point.wo, course, table, segment.profile);
         let sent = share.segment * luminance(energy);
         for view in 0..views.views.len() {
             let bound = light.likely(&frame.stds, seen.place(0, &frame), views, view);
@@ -58,7 +59,7 @@ pub(crate) fn pick_one_pair(
     });
     picks.light_one(|pick| {
         let table = prepared.scratch_table(point.table, pick.profile);
-        let light = ScratchLight::new(point.wo, pick.tangent, table, pick.profile);
+        let light = ScratchLight::new(point.wo, pick.course, table, pick.profile);
         let sent = match environment {
             Some(environment) if pick.source == views.views.len() => {
                 light.environment(point, environment)

@@ -1,9 +1,10 @@
 //! Scratches that stand for all: a few pairs of a scratch and a light, each drawn with the probability of its part of the light that the scratches
 //! of a point send, and a few scratches by the energy that they take of the base. Rays start from them.
 
+use super::course::Course;
 use super::row_spread::RowSpread;
 use crate::sampling::luminance;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use hairline_index::IndexedProfile;
 use hairline_optics::band::{Along, BandPlace};
 use rand::{RngExt, SeedableRng};
@@ -12,8 +13,7 @@ use rand_pcg::Pcg32;
 /// A scratch under a point, or a grating.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pick {
-    /// Tangent in the surface's frame.
-    pub tangent: DVec2,
+    pub course: Course,
     pub place: BandPlace,
     pub along: Along,
     pub profile: IndexedProfile,
@@ -151,6 +151,7 @@ impl Picks {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec2;
 
     /// Each of five scratches is picked as often as its luminance says.
     #[test]
@@ -162,7 +163,7 @@ mod tests {
             picks.clear(each, seed);
             for (i, part) in parts.into_iter().enumerate() {
                 picks.add_light(i, DVec3::splat(part), || Pick {
-                    tangent: DVec2::X,
+                    course: Course::straight(DVec2::X),
                     place: BandPlace::new([0.0; 2], 0.0, 1.0),
                     along: Along {
                         steps_um: [0.0; 2],

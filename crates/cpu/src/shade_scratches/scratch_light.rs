@@ -2,6 +2,7 @@
 //! scratch_light.wgsl.
 
 use super::chord_depths::PartedChord;
+use super::course::Course;
 use super::row_spread::{ROW_PROFILE, RowSpread};
 use crate::light_view::{LightView, LightViews};
 use crate::picture::PictureView;
@@ -57,25 +58,30 @@ pub(crate) struct ScratchLight<'a> {
     pub(super) wo: DVec3,
     table: &'a ScratchTable,
     profile: IndexedProfile,
+    /// Of a scratch: [`Course::turns_rad`].
+    turns_rad: [f64; 2],
     pub(super) row: Option<RowSpread>,
     /// Place of the one line that stands for the band, if it is one of very many scratches ([`BandLines::by_one_line`]).
     one_line: Option<f64>,
 }
 
 impl<'a> ScratchLight<'a> {
-    /// `wo` and `tangent` in the surface's frame.
+    /// `wo` and the course in the surface's frame.
     pub fn new(
         wo: DVec3,
-        tangent: DVec2,
+        course: Course,
         table: &'a ScratchTable,
         profile: IndexedProfile,
     ) -> Self {
-        let frame = BandFrame { tangent };
+        let frame = BandFrame {
+            tangent: course.tangent,
+        };
         Self {
             frame,
             wo: frame.band_from_surface(wo),
             table,
             profile,
+            turns_rad: course.turns_rad,
             row: None,
             one_line: None,
         }
@@ -93,7 +99,7 @@ impl<'a> ScratchLight<'a> {
     pub fn of_row(wo: DVec3, tangent: DVec2, table: &'a ScratchTable, row: RowSpread) -> Self {
         Self {
             row: Some(row),
-            ..Self::new(wo, tangent, table, ROW_PROFILE)
+            ..Self::new(wo, Course::straight(tangent), table, ROW_PROFILE)
         }
     }
 
@@ -117,12 +123,11 @@ impl<'a> ScratchLight<'a> {
     pub(super) fn motion(&self, place: BandPlace, views: &LightViews, view: usize) -> BandMotion {
         let tangent = self.frame.tangent;
         let moves = views.moves[view].map(|m| m.dot(tangent));
+        let axis = views.views[view].bound().axis.truncate();
+        let xi_n = self.wo.y + tangent.perp_dot(axis);
         match &self.row {
-            None => place.moved(moves),
-            Some(row) => {
-                let axis = views.views[view].bound().axis.truncate();
-                row.motion(moves, self.wo.y + tangent.perp_dot(axis))
-            }
+            None => place.moved([0, 1].map(|j| moves[j] + self.turns_rad[j] * xi_n)),
+            Some(row) => row.motion(moves, xi_n),
         }
     }
 

@@ -168,6 +168,7 @@ fn lanes_see_the_closed_forms_share() {
             end_m: (point.position_m + b).as_vec3(),
             normal: point.normal.as_vec3(),
             profile: IndexedProfile::rectangle(3.0, 200.0),
+            turn_rad: 0.0,
             blur_um: 16.0,
         };
         // Single precision, as the index has it.
@@ -261,7 +262,7 @@ fn what_is_drawn_of_an_environment_comes_from_there() {
     for (turn_rad, width_um) in [(0.3f64, 1.0), (1.2, 3.0)] {
         let profile = IndexedProfile::rectangle(width_um, 300.0);
         let tangent = DVec2::from_angle(turn_rad);
-        let scratch = ScratchLight::new(point.wo, tangent, table, profile);
+        let scratch = ScratchLight::new(point.wo, Course::straight(tangent), table, profile);
         let line = BandLine::new(scratch.wo, 0.0);
         let bin = |q: f64| {
             let share = (q - line.q_end()) / (line.q_start() - line.q_end());
@@ -371,7 +372,8 @@ fn windows_and_the_rest_are_the_map() {
             for turn in 0..45 {
                 let tangent = DVec2::from_angle(std::f64::consts::PI * f64::from(turn) / 45.0);
                 let profile = IndexedProfile::rectangle(width_um, 300.0);
-                let scratch = ScratchLight::new(point.wo, tangent, table, profile);
+                let scratch =
+                    ScratchLight::new(point.wo, Course::straight(tangent), table, profile);
                 let (mut exact, mut cells) = (DVec3::ZERO, DVec3::ZERO);
                 let world = |in_band: DVec3| {
                     point.world_from_surface(scratch.frame.surface_from_band(in_band))

@@ -134,11 +134,11 @@ impl<'a> Shadows<'a> {
         match pick.row {
             None => {
                 let table = self.prepared.scratch_table(point.table, pick.profile);
-                ScratchLight::new(point.wo, pick.tangent, table, pick.profile)
+                ScratchLight::new(point.wo, pick.course, table, pick.profile)
             }
             Some(row) => {
                 let table = &self.prepared.tables.tables[row.table];
-                ScratchLight::of_row(point.wo, pick.tangent, table, row)
+                ScratchLight::of_row(point.wo, pick.course.tangent, table, row)
             }
         }
     }

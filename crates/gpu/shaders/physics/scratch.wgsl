@@ -74,6 +74,23 @@ struct ScratchShare {
     cover: f32,                 // factor on both where scratches cover one another
 }
 
+// Where the part of a segment lies that a footprint sees: mean and standard deviation of the place along it, in standard deviations of the
+// footprint there; `within` is the footprint's share between the ends. Twin: SeenPart in optics/src/footprint.rs.
+fn seen_part(low_end: f32, high_end: f32, within: f32) -> vec2f {
+    let low = clamp(low_end, -8.0, 8.0);
+    let high = clamp(high_end, -8.0, 8.0);
+    let half = 0.5 * (high - low);
+    let even = half * half / 3.0;
+    if half < 0.5 {
+        return vec2f(0.5 * (low + high) * (1.0 - even), sqrt(even));
+    }
+    let densities = 0.39894228 * exp(-0.5 * vec2f(low * low, high * high));
+    let per_within = 1.0 / max(within, 1e-6);
+    let mean = clamp((densities.x - densities.y) * per_within, low, high);
+    let second = 1.0 + (low * densities.x - high * densities.y) * per_within;
+    return vec2f(mean, sqrt(clamp(second - mean * mean, 0.0, min(even, 1.0))));
+}
+
 // `offset_um` is the distance from the footprint's centre to its line along n; `start_um` and `end_um` are its ends along t.
 fn scratch_share(
     width_um: f32,

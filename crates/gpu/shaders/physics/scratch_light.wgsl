@@ -28,7 +28,7 @@ struct SeenScratch {
     profile: Profile,
     is_row: bool,               // whether it stands for grooves of a grating, whose light lies about its orders, wherever they are
     by_incidence: bool,         // and whether these are fine: their table is one by the direction to the viewer
-    turns_rad: vec2f,           // by which angle grooves of a grating turn over footprint_x_um and footprint_y_um, to the left; 0 for a scratch
+    turns_rad: vec2f,           // by which angle it turns over footprint_x_um and footprint_y_um, to the left; 0 for a straight scratch
     angle_std_rad: f32,         // and standard deviation of their angles at any place
     node: f32,                  // where the one line of the band lies that stands for a scratch, see by_one_line(); negative for all lines
 }
@@ -51,6 +51,29 @@ fn scratch_seen(point: LitPoint, start_um: vec2f, end_um: vec2f, profile: Profil
         share.cover = profile_cover(profile);
     }
     return SeenScratch(share, t, offset, across, variance, profile, false, false, vec2f(0.0), 0.0, -1.0);
+}
+
+// The scratch where it is an arc over the segment, which turns to the left by `turn_rad` from the start to the end: its tangent is right at the
+// mean place of the part that the footprint sees, and turns from there as far as that part goes. Twin: cpu/src/shade_scratches/course.rs.
+fn scratch_turned(point: LitPoint, straight: SeenScratch, start_um: vec2f, end_um: vec2f, blur_um: f32, turn_rad: f32) -> SeenScratch {
+    var seen = straight;
+    if turn_rad == 0.0 || seen.share.segment <= 0.0 {
+        return seen;
+    }
+    let t = seen.tangent;
+    let along = vec2f(dot(point.footprint_x_um, t), dot(point.footprint_y_um, t));
+    let slant = dot(along, seen.across_um) / seen.variance_sq_um;
+    let shift_um = seen.offset_um * slant;
+    let std_um = sqrt(max(dot(along, along) - dot(along, seen.across_um) * slant + blur_um * blur_um, 1e-6));
+    let ends = (vec2f(dot(t, start_um), dot(t, end_um)) - shift_um) / std_um;
+    let part = seen_part(ends.x, ends.y, seen.share.segment * profile_lines(seen.profile) / seen.share.line);
+    let per_um = turn_rad / max((ends.y - ends.x) * std_um, 1e-6);
+    let spread = per_um * part.y;
+    // What moves the band over the footprint counts from the pixel's middle.
+    let angle = per_um * std_um * (part.x - 0.5 * (ends.x + ends.y)) - spread * shift_um;
+    seen.tangent = t * cos(angle) + vec2f(-t.y, t.x) * sin(angle);
+    seen.turns_rad = spread * along;
+    return seen;
 }
 
 // Width of the scratch for chord_cos().

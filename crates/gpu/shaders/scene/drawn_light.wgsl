@@ -353,13 +353,16 @@ fn place_drawn(point: LitPoint, seen: SeenScratch, start_um: vec2f, end_um: vec2
     let slopes = across / seen.variance_sq_um;
     let window = sqrt(max(seen.variance_sq_um - dot(across, across), 0.0));
     let place = normals.xy + slopes * (seen.offset_um - dot(across, normals.xy) - normals.z * window);
-    let along = vec2f(dot(point.footprint_x_um, seen.tangent), dot(point.footprint_y_um, seen.tangent));
+    // Along the chord: the tangent is that of an arc.
+    let chord = end_um - start_um;
+    let t = chord * inverseSqrt(max(dot(chord, chord), 1e-30));
+    let along = vec2f(dot(point.footprint_x_um, t), dot(point.footprint_y_um, t));
     let cross_um2 = dot(along, across);
     let mean_um = seen.offset_um * dot(along, slopes);
     let variance = max(dot(along, along) - cross_um2 * dot(along, slopes) + blur_um * blur_um, 1e-12);
     let std_um = sqrt(variance);
-    let low = gaussian_cdf((dot(start_um, seen.tangent) - mean_um) / std_um);
-    let high = gaussian_cdf((dot(end_um, seen.tangent) - mean_um) / std_um);
+    let low = gaussian_cdf((dot(start_um, t) - mean_um) / std_um);
+    let high = gaussian_cdf((dot(end_um, t) - mean_um) / std_um);
     let wanted = mean_um + std_um * gaussian_quantile(clamp(mix(low, high, u), 1e-6, 1.0 - 1e-6));
     return place + (along - slopes * cross_um2) * ((wanted - dot(along, place)) / variance);
 }

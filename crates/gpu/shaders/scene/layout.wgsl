@@ -162,7 +162,7 @@ struct ScratchNode {
 
 // Packed; segment_from() unpacks.
 struct ScratchSegment {
-    start_m: vec3f,
+    start_m: vec3f,             // with end_m: the last two bits of each coordinate are of the turn
     width_depth: u32,           // half floats: um, nm
     end_m: vec3f,
     more: u32,                  // normal, table and blur: profile_unpacked()

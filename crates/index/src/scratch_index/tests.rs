@@ -44,7 +44,7 @@ fn with_width(mut description: Description, layer: usize, width_um: f64) -> Desc
 /// Number of trees that are grown anew.
 fn grown(scene: &Scene, last: (&Scene, &ScratchIndex)) -> usize {
     let shapes = GrooveShapes::new(scene);
-    let plots = plots(scene, &shapes, Some(last));
+    let plots = plots(scene, &shapes, &last.1.deviations, Some(last));
     let plots = plots.iter().flatten();
     plots
         .filter(|plot| matches!(plot, Plot::New { .. }))
@@ -62,7 +62,7 @@ fn assert_same(a: &ScratchIndex, b: &ScratchIndex) {
 fn only_the_layer_that_changed_is_grown_and_all_is_as_if_built_anew() {
     let mut builder = SceneBuilder::new();
     let mut scene = built(&mut builder, &description());
-    let mut index = ScratchIndex::build(&scene);
+    let mut index = ScratchIndex::laid(&scene);
     assert_eq!(grown(&scene, (&scene, &index)), 0);
 
     let mut hidden = description();
@@ -90,9 +90,14 @@ fn only_the_layer_that_changed_is_grown_and_all_is_as_if_built_anew() {
     ] {
         let next = built(&mut builder, &description);
         assert_eq!(grown(&next, (&scene, &index)), expected);
-        let rebuilt = ScratchIndex::rebuild(&next, Some((&scene, &index)), &Watch::default());
+        let rebuilt = ScratchIndex::rebuild(
+            &next,
+            Pieces::Laid,
+            Some((&scene, &index)),
+            &Watch::default(),
+        );
         index = rebuilt.unwrap();
-        assert_same(&index, &ScratchIndex::build(&next));
+        assert_same(&index, &ScratchIndex::laid(&next));
         scene = next;
     }
 }
@@ -100,7 +105,7 @@ fn only_the_layer_that_changed_is_grown_and_all_is_as_if_built_anew() {
 #[test]
 fn what_pieces_depend_on_is_seen_to_change() {
     let scene = built(&mut SceneBuilder::new(), &description());
-    let index = ScratchIndex::build(&scene);
+    let index = ScratchIndex::laid(&scene);
     type Change = fn(&mut Scene);
     let changes: [(Change, usize); 5] = [
         // The ends of all move with it.
@@ -135,7 +140,7 @@ fn what_pieces_depend_on_is_seen_to_change() {
 #[test]
 fn a_walk_goes_through_all_trees_of_its_object_and_no_other() {
     let scene = built(&mut SceneBuilder::new(), &description());
-    let index = ScratchIndex::build(&scene);
+    let index = ScratchIndex::laid(&scene);
     for object in 0..2 {
         let all: Vec<IndexedSegment> = effective_segments(&scene, &scene.objects[object]).to_vec();
         for i in 0..50 {
@@ -170,7 +175,7 @@ fn the_work_is_told_and_can_be_given_up() {
             progress: &|share| told.lock().unwrap().push(share),
             cancelled: &|| asked.fetch_add(1, Ordering::Relaxed) >= patience,
         };
-        ScratchIndex::rebuild(&scene, None, &watch)
+        ScratchIndex::rebuild(&scene, Pieces::Laid, None, &watch)
     };
     assert!(run(usize::MAX).is_some());
     let told = told.lock().unwrap().clone();
@@ -188,7 +193,7 @@ fn the_work_is_told_and_can_be_given_up() {
 #[test]
 fn the_range_of_an_object_holds_its_segments() {
     let scene = built(&mut SceneBuilder::new(), &description());
-    let index = ScratchIndex::build(&scene);
+    let index = ScratchIndex::laid(&scene);
     let mut end = 0;
     for object in 0..2 {
         let range = index.segment_range(object);

@@ -151,7 +151,7 @@ const TAIL: f64 = 2.4e-4;
 #[test]
 fn no_point_misses_a_segment() {
     let scene = scene(&SHAPES);
-    let index = ScratchIndex::build(&scene);
+    let index = ScratchIndex::laid(&scene);
     let lists = TriangleLists::build(&scene, &index);
     let (greatest, count) = missed(&scene, &index, &lists);
     println!("greatest share out of a list: {greatest:.1e}");
@@ -178,7 +178,7 @@ fn lists_hold_what_is_near() {
         ("sphere = { radius_m = 0.02 }", 5, 0.002),
         ("disk = { radius_m = 0.05 }", 0, 0.01),
     ]);
-    let index = ScratchIndex::build(&scene);
+    let index = ScratchIndex::laid(&scene);
     let lists = TriangleLists::build(&scene, &index);
     let mut empty = 0;
     let sphere = &scene.objects[0].mesh;
@@ -212,7 +212,7 @@ fn lists_hold_what_is_near() {
 #[test]
 fn lists_are_the_same_again() {
     let scene = scene(&SHAPES[..3]);
-    let index = ScratchIndex::build(&scene);
+    let index = ScratchIndex::laid(&scene);
     let one = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()

@@ -7,7 +7,7 @@ use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_editor::Document;
 use hairline_editor::autosave::Pending;
 use hairline_image::{Display, png};
-use hairline_index::Watch;
+use hairline_index::{Pieces, Watch};
 use hairline_scene::{Loader, SceneBuilder};
 
 use crate::jobs::{Job, Stop};
@@ -88,7 +88,8 @@ fn picture(document: &Document, stop: &Stop) -> Option<ColorImage> {
         cancelled: &cancelled,
         ..Watch::default()
     };
-    let image = Prepared::watched(&scene, &watch)?.render(&RenderOptions::default(), &|_| {});
+    let image =
+        Prepared::watched(&scene, Pieces::Seen, &watch)?.render(&RenderOptions::default(), &|_| {});
     let display = Display {
         exposure_ev: description.camera.exposure_ev,
         tone_map: description.render.tone_map,

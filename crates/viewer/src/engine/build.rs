@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use hairline_index::{ScratchIndex, TriangleIndex, Watch};
+use hairline_index::{Pieces, ScratchIndex, TriangleIndex, Watch};
 use hairline_scene::description::Description;
 use hairline_scene::{Loader, Scene, SceneBuilder, ScratchTables};
 use web_time::Instant;
@@ -182,7 +182,7 @@ impl ViewBuilder {
                     cancelled,
                     ..Watch::default()
                 };
-                match ScratchIndex::rebuild(&scene, before, &watch) {
+                match ScratchIndex::rebuild(&scene, Pieces::Laid, before, &watch) {
                     Some(scratches) => Arc::new(scratches),
                     None => return Ok(None),
                 }

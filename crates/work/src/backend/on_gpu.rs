@@ -12,6 +12,7 @@ use hairline_scene::{Scene, ScratchTables, Transport};
 pub(super) struct OnGpu {
     renderer: Renderer,
     uploaded: GpuScene,
+    scratches: Arc<ScratchIndex>,
 }
 
 impl OnGpu {
@@ -30,8 +31,17 @@ impl OnGpu {
             if shadows {
                 renderer.add_shadows(&mut uploaded, scene, bounces).await?;
             }
-            Ok(Self { renderer, uploaded })
+            Ok(Self {
+                renderer,
+                uploaded,
+                scratches: Arc::clone(scratches),
+            })
         })
+    }
+
+    /// Whether the pieces of scratches serve for the camera of a scene.
+    pub(super) fn serves(&self, scene: &Scene) -> bool {
+        self.scratches.serves(scene)
     }
 
     /// The device.
@@ -54,7 +64,9 @@ impl OnGpu {
             batch,
             ..Default::default()
         };
-        let Self { renderer, uploaded } = self;
+        let Self {
+            renderer, uploaded, ..
+        } = self;
         gpu.block_on(renderer.render_rows(scene, uploaded, &options, rows, progress))
     }
 }
