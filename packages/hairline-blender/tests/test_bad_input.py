@@ -74,12 +74,10 @@ def test_nothing_is_raised_after_a_picture_that_failed(monkeypatch):
     raised = []
     monkeypatch.setattr(sys, "unraisablehook", raised.append)
     monkeypatch.setattr(addon.rendering, "pixels", mistake)
-    assert "a mistake of its own: ValueError: made up" in refused()
-    monkeypatch.undo()
-    monkeypatch.setattr(sys, "unraisablehook", raised.append)
-    # The engine that failed goes at the latest now.
-    bpy.ops.render.render()
-    gc.collect()
+    # Python keeps the last mistake with its engine: the second one lets the first go.
+    for _ in range(2):
+        assert "a mistake of its own: ValueError: made up" in refused()
+        gc.collect()
     assert not raised, raised
 
 
