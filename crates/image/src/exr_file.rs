@@ -176,14 +176,15 @@ pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes),
     Ok((image, file.notes))
 }
 
-/// Reads any EXR file with channels R, G and B (or X, Y and Z, or Y alone: grey) in one of its parts; the largest level of a mip map. Colours
-/// of other primaries become those of Rec.709, as near as light can be, and what of the display window has no pixels is black.
+/// Reads any EXR file with channels R, G and B (or X, Y and Z, or Y alone: grey) in one of its parts, else those of the first layer that has
+/// them, such as `ViewLayer.Combined.R`; the largest level of a mip map. Colours of other primaries become those of Rec.709, as near as light can be, and what of the display window has no pixels is black.
 ///
 /// # Errors
 /// [`Error::CannotRead`], and [`Error::Unusable`] for files without such channels and for deep images.
 pub fn read_picture(path: &Path) -> std::result::Result<Picture, Error> {
     let file = Contents::read(path)?;
-    let mut picture = file.beauty().ok_or_else(|| Error::Unusable {
+    let picture = file.beauty().or_else(|| file.layer());
+    let mut picture = picture.ok_or_else(|| Error::Unusable {
         path: path.to_owned(),
         reason: "no channels R, G and B".to_owned(),
     })?;
@@ -327,6 +328,14 @@ impl Window {
         self.at_px == [0; 2] && self.size_px == self.of_px
     }
 
+    /// Whether it has all pixels of the picture, and perhaps others around it.
+    pub fn covers(&self) -> bool {
+        (0..2).all(|i| {
+            let end_px = self.at_px[i] + i64::from(self.size_px[i]);
+            self.at_px[i] <= 0 && end_px >= i64::from(self.of_px[i])
+        })
+    }
+
     /// A value for each pixel of the picture: those of the file, and none elsewhere.
     fn placed<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
         let [width, height] = self.of_px.map(i64::from);
@@ -349,9 +358,13 @@ impl fmt::Display for Window {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([x, y], [width, height], [of_width, of_height]) =
             (self.at_px, self.size_px, self.of_px);
+        let rest = match self.covers() {
+            true => "what is outside of that is not seen",
+            false => "the rest of that is black",
+        };
         write!(
             f,
-            "its pixels are {width} x {height} from column {x} and row {y} on, of a picture of {of_width} x {of_height}; the rest of that is black"
+            "its pixels are {width} x {height} from column {x} and row {y} on, of a picture of {of_width} x {of_height}; {rest}"
         )
     }
 }
@@ -380,6 +393,10 @@ impl Part {
         self.channels
             .iter()
             .find(|c| c.name.eq(name) && c.sampling == Vec2(1, 1))
+    }
+
+    fn has(&self, names: &[String; 3]) -> bool {
+        names.iter().all(|name| self.channel(name).is_some())
     }
 
     /// Three channels side by side, if the part has them all.
@@ -511,19 +528,52 @@ impl Contents {
         self.parts.iter().find_map(|part| part.interleaved(names))
     }
 
+    /// Names of the channels of a layer with colours: of the one that is the whole picture by its name, else of the first. Their last letters may be
+    /// small ones.
+    fn layer_of_colors(&self) -> Option<[String; 3]> {
+        let channels = self.parts.iter().flat_map(|part| &part.channels);
+        let names = channels.map(|channel| channel.name.to_string());
+        let layers = names.filter_map(|name| {
+            let start = name.strip_suffix(['R', 'r'])?;
+            let layer = start.strip_suffix('.').unwrap_or(start);
+            let layer = layer.rsplit('.').next()?.to_ascii_lowercase();
+            let is_layer = start.is_empty() || start.ends_with('.');
+            let letters = match name.ends_with('R') {
+                true => ["R", "G", "B"],
+                false => ["r", "g", "b"],
+            };
+            let names = letters.map(|letter| format!("{start}{letter}"));
+            let is_there = self.parts.iter().any(|part| part.has(&names));
+            // Numbers of objects are no colours.
+            (is_layer && is_there && !layer.starts_with("crypto")).then_some((layer, names))
+        });
+        let mut layers: Vec<_> = layers.collect();
+        // Those of Blender, of Arnold, of V-Ray and others; the sort is stable.
+        layers.sort_by_key(|(layer, _)| {
+            !["", "combined", "beauty", "rgba", "rgb"].contains(&layer.as_str())
+        });
+        layers.into_iter().next().map(|(_, names)| names)
+    }
+
     /// Colours of the file in Rec.709: from R, G, B, else from X, Y, Z, else from Y alone.
     pub(crate) fn beauty(&self) -> Option<Picture> {
-        let converted = |names, to: Option<ToRec709>| {
-            let mut picture = self.find(names)?;
-            if let Some(to) = to {
-                picture.rgb.iter_mut().for_each(|rgb| *rgb = to.color(*rgb));
-            }
-            Some(picture)
-        };
         let xyz = Primaries::XYZ.to_rec_709().ok().flatten();
-        converted(["R", "G", "B"], self.to_rec_709)
-            .or_else(|| converted(["X", "Y", "Z"], xyz))
-            .or_else(|| converted(["Y"; 3], None))
+        self.converted(["R", "G", "B"], self.to_rec_709)
+            .or_else(|| self.converted(["X", "Y", "Z"], xyz))
+            .or_else(|| self.converted(["Y"; 3], None))
+    }
+
+    /// Colours of the layer that stands for the picture where the file has none of its own, in Rec.709.
+    fn layer(&self) -> Option<Picture> {
+        self.converted(self.layer_of_colors()?, self.to_rec_709)
+    }
+
+    fn converted(&self, names: [impl AsRef<str>; 3], to: Option<ToRec709>) -> Option<Picture> {
+        let mut picture = self.find(names)?;
+        if let Some(to) = to {
+            picture.rgb.iter_mut().for_each(|rgb| *rgb = to.color(*rgb));
+        }
+        Some(picture)
     }
 
     /// Whether its colours were of other primaries.

@@ -283,7 +283,9 @@ pub(crate) fn chunks(bytes: &[u8]) -> Result<GltfChunks<'_>, Flaw> {
         let found = format!("it is no valid binary glTF ({error})");
         Flaw::new(found, RIGHT)
     })?;
-    Ok((glb.json, glb.bin.map(Cow::into_owned)))
+    let mut json = glb.json.into_owned();
+    leniency::drop_padding(&mut json);
+    Ok((Cow::Owned(json), glb.bin.map(Cow::into_owned)))
 }
 
 pub(crate) fn no_model(name: &str) -> Flaw {
@@ -323,12 +325,9 @@ fn parse(path: &Path, kept: OptionalElements) -> Result<Gltf, Flaw> {
         let found = "an attribute refers to an accessor that is not there";
         return Err(Flaw::new(found, right));
     }
-    let has_source = |image: &gltf::json::Image| match image.buffer_view {
-        Some(_) => image.mime_type.is_some(),
-        None => image.uri.is_some(),
-    };
+    let has_source = |image: &gltf::json::Image| image.buffer_view.is_some() || image.uri.is_some();
     if !json.images.iter().all(has_source) {
-        let found = "an image has neither a `uri` nor a `bufferView` with its `mimeType`";
+        let found = "an image has neither a `uri` nor a `bufferView`";
         return Err(Flaw::new(found, right));
     }
     let document = gltf::Document::from_json(json)

@@ -250,6 +250,20 @@ def test_scenes_are_equal_that_say_the_same(scene, tmp_path):
     assert elsewhere != scene and scene != scene.to_dict()
 
 
+def test_files_are_found_after_the_program_has_gone_to_another_folder(tmp_path, monkeypatch):
+    table = plate_table()
+    table["scratches"] = [{"object": "plate", "pattern": "file", "file": "s.csv"}]
+    (tmp_path / "a").mkdir()
+    (tmp_path / "a" / "s.csv").write_text("x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm\n-0.01,0,0,0.01,0,0,2,150\n")
+    monkeypatch.chdir(tmp_path)
+    hairline.Scene.from_dict(table, "a").save("a/scene.toml")
+    scenes = [hairline.load("a/scene.toml"), hairline.Scene.from_dict(table, "a")]
+    monkeypatch.chdir("/")
+    for scene in scenes:
+        assert scene.build().scratch_counts() == [1]
+        assert copy.deepcopy(scene).build().scratch_counts() == [1]
+
+
 def test_work_after_a_fork_is_refused_and_does_not_wait_for_ever():
     """In a process of its own: the one of the tests goes on."""
     code = """

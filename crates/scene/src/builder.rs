@@ -248,9 +248,10 @@ impl<'a> Work<'a> {
         scene: &mut Scene,
     ) -> Result<(), Error> {
         let described = self.description;
-        let shown = scene.objects.iter().zip(&described.objects);
-        let shown = shown.filter(|(_, described)| !described.hidden);
-        let bounds = shown.map(|(object, _)| object.mesh.bounds_m());
+        // Hidden ones have no triangles.
+        let meshes = scene.objects.iter().map(|object| &object.mesh);
+        let shown = meshes.filter(|mesh| !mesh.triangles.is_empty());
+        let bounds = shown.map(|mesh| mesh.bounds_m());
         let bounds = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
         let Some((least, most)) = bounds else {
             return Ok(());

@@ -5,6 +5,7 @@ import tempfile
 from types import SimpleNamespace
 
 import bpy
+import numpy as np
 
 from . import camera, notes, rendering, viewport
 from .folder import Folder
@@ -49,21 +50,22 @@ class HairlineEngine(bpy.types.RenderEngine):
 
     def _render(self, depsgraph, found):
         scene = depsgraph.scene
-        view, corner = _wanted(camera.of_scene(scene, depsgraph, found), scene.render)
+        view = _wanted(camera.of_scene(scene, depsgraph, found), scene.render)
         with tempfile.TemporaryDirectory(prefix="hairline-") as path:
             folder = Folder(path, is_kept=False)
             self.update_stats("Hairline", "reading the scene")
             exported = export(scene, depsgraph, folder, view, found)
             self._told_of(exported)
-            self._paint(scene, exported, folder, view.size_px, corner)
+            self._paint(scene, exported, folder, view.size_px)
 
     def _told_of(self, exported):
         self.report({"INFO"}, f"Hairline: {exported.triangle_count:,} triangles")
 
-    def _paint(self, scene, exported, folder, size_px, corner):
+    def _paint(self, scene, exported, folder, size_px):
         made = rendering.scene_of(exported, folder)
         settings = scene.hairline
-        result = self.begin_result(*corner, *size_px)
+        # With a border the result is the border alone; Blender puts it into the whole picture.
+        result = self.begin_result(0, 0, *size_px)
 
         def show(picture, is_last):
             for one in result.layers[0].passes:
@@ -90,7 +92,7 @@ class HairlineEngine(bpy.types.RenderEngine):
         finally:
             self.end_result(result, cancel=not is_whole, do_merge_results=is_whole)
 
-    # The viewport. Blender keeps one engine for each, with its attributes.
+    # The viewport. Blender keeps one engine for each.
 
     def view_update(self, context, depsgraph):
         self._viewport().update(context, depsgraph)
@@ -99,32 +101,35 @@ class HairlineEngine(bpy.types.RenderEngine):
         self._viewport().draw(context, depsgraph)
 
     def _viewport(self):
-        shown = getattr(self, "shown", None)
+        shown = _viewports.get(id(self))
         if shown is None:
-            shown = self.shown = viewport.Viewport(self)
-            _viewports.add(shown)
+            shown = _viewports[id(self)] = viewport.Viewport(self)
         return shown
 
     def __del__(self):
-        shown = getattr(self, "shown", None)
+        # Blender's part of the engine may be gone, and all attributes with it.
+        shown = _viewports.pop(id(self), None)
         if shown is not None:
             shown.close()
-            _viewports.discard(shown)
 
 
-# Open viewports. Their threads end when the add-on is switched off.
-_viewports = set()
+# Open viewports by their engine. Their threads end with it, or when the add-on is switched off.
+_viewports = {}
 
 
 def _wanted(view, render):
-    """The view of the render border, and its corner in the result."""
+    """The view of the render border: all of it without one."""
     if not render.use_border:
-        return view, (0, 0)
+        return view
     width, height = view.size_px
-    left, right = round(render.border_min_x * width), round(render.border_max_x * width)
-    low, high = round(render.border_min_y * height), round(render.border_max_y * height)
-    part = view.part(left, low, max(right - left, 1), max(high - low, 1))
-    return part, (0, 0) if render.use_crop_to_border else (left, low)
+    left, right = (_border_px(share, width) for share in (render.border_min_x, render.border_max_x))
+    low, high = (_border_px(share, height) for share in (render.border_min_y, render.border_max_y))
+    return view.part(left, low, right - left, high - low)
+
+
+def _border_px(share, size_px):
+    """Cut off in single precision, as Blender does: another size would not be its result's."""
+    return int(np.float32(share) * np.float32(size_px))
 
 
 # Panels of other engines whose settings Hairline reads.
@@ -165,7 +170,7 @@ def register():
 def unregister():
     for engines in _panels():
         engines.discard(HairlineEngine.bl_idname)
-    for shown in list(_viewports):
+    for shown in _viewports.values():
         shown.close()
     _viewports.clear()
     bpy.utils.unregister_class(HairlineEngine)

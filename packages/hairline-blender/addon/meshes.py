@@ -34,24 +34,25 @@ def _got(collection, attribute, width, kind=np.float32):
     return values.reshape(-1, width) if width > 1 else values
 
 
-def triangles(evaluated):
+def triangles(evaluated, notes):
     """Triangles of an evaluated object; None if it has no surface."""
     mesh = evaluated.to_mesh()
     try:
         if mesh is None or not len(mesh.polygons):
             return None
-        return _of_mesh(mesh, evaluated.name)
+        return _of_mesh(mesh, f'object "{evaluated.name}"', notes)
     finally:
         evaluated.to_mesh_clear()
 
 
-def _of_mesh(mesh, name):
+def _of_mesh(mesh, subject, notes):
     mesh.calc_loop_triangles()
     positions_m = _got(mesh.vertices, "co", 3)
-    _refuse_unusable(positions_m, name)
+    _refuse_unusable(positions_m, subject)
     # Attributes are copied in one piece; `mesh.loops` and `mesh.polygons` item by item.
     vertex_of = _got(mesh.attributes[".corner_vert"].data, "value", 1, np.int32)
     normals = _got(mesh.corner_normals, "vector", 3)
+    _tell_bent(mesh, normals, vertex_of, subject, notes)
     uvs = {layer.name: _got(layer.uv, "vector", 2) for layer in mesh.uv_layers}
     corners = _got(mesh.loop_triangles, "loops", 3, np.int32)
     material = mesh.attributes.get("material_index")
@@ -95,10 +96,32 @@ def _whole(normals):
     return normals
 
 
-def _refuse_unusable(positions_m, name):
+# Cosine of the turn of a normal that is seen.
+_BENT = np.cos(np.radians(2))
+
+
+def _tell_bent(mesh, normals, vertex_of, subject, notes):
+    """Notes smooth faces that Cycles shades otherwise. Without sharp edges and custom normals it ignores that flat faces end a smooth surface:
+    it takes the normals of vertices, which are the means over all faces."""
+    flat, sharp = (mesh.attributes.get(name) for name in ("sharp_face", "sharp_edge"))
+    if flat is None or mesh.has_custom_normals or sharp is not None and _got(sharp.data, "value", 1, bool).any():
+        return
+    is_smooth = ~np.repeat(_got(flat.data, "value", 1, bool), _got(mesh.polygons, "loop_total", 1, np.int32))
+    if not is_smooth.any() or is_smooth.all():
+        return
+    of_vertices = _got(mesh.vertex_normals, "vector", 3)[vertex_of[is_smooth]]
+    if ((normals[is_smooth] * of_vertices).sum(axis=1) < _BENT).any():
+        notes.add(
+            subject,
+            "Cycles bends the shading of its smooth faces towards the flat ones beside them, where no sharp edge is between",
+            "they are shaded as in the viewport: curved up to the edge",
+        )
+
+
+def _refuse_unusable(positions_m, subject):
     unusable = int((~np.isfinite(positions_m).all(axis=1)).sum())
     if unusable:
         raise Refused(
-            f'object "{name}": found {unusable} of {len(positions_m)} vertices without a finite position; '
+            f'{subject}: found {unusable} of {len(positions_m)} vertices without a finite position; '
             "remove them, or what makes them: a modifier, shape key or driver"
         )

@@ -55,10 +55,14 @@ def export(scene, depsgraph, folder, view, notes):
     for item, what in others.items():
         if item not in stroke_sources:
             notes.add(f'object "{item.name}"', f"{what} is not carried over", "it is not seen")
+    table = {"camera": view.table(), "render": {"size_px": list(view.size_px)}}
     made_objects = objects.write(depsgraph)
     if not made_objects:
-        raise Refused(f'scene "{scene.name}": found no object with a surface; add a mesh, or show one to renders')
-    table = {"camera": view.table(), "render": {"size_px": list(view.size_px)}, "object": made_objects}
+        notes.add(f'scene "{scene.name}"', "no object with a surface is shown to renders", "the world is seen alone")
+        # A scene file has one object at least.
+        made_objects = [{"name": "nothing", "shape": {"sphere": {"radius_m": 1.0}}, "material": "nothing", "hidden": True}]
+        table["material"] = [{"name": "nothing", "kind": "mirror"}]
+    table["object"] = made_objects
     for key, values in (("light", made_lights), ("scratches", objects.scratches), ("grating", objects.gratings)):
         if values:
             table[key] = values
@@ -112,7 +116,7 @@ class _Objects:
         surface = self._surfaces.get(key)
         if surface is None:
             self._tell(item)
-            made = triangles(item)
+            made = triangles(item, self._notes)
             slots = [slot.material for slot in item.material_slots] or [None]
             surface = self._surfaces[key] = (item.original, made, slots, [])
         if surface[1] is not None:

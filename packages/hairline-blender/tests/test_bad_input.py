@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is wrong is told by its name, and Blender lives on."""
 
+import gc
 import os
+import sys
 import time
 
 import addon_under_test as addon
@@ -36,7 +38,8 @@ def simple():
 def test_no_mesh():
     stage.empty()
     stage.camera()
-    assert 'scene "Scene": found no object with a surface' in refused()
+    assert 'scene "Scene": no object with a surface is shown to renders' in told()
+    assert (stage.picture("HAIRLINE")[..., :3] == 0).all()
 
 
 def test_no_camera():
@@ -60,6 +63,22 @@ def test_vertices_that_are_no_numbers():
     # Blender lives on.
     bpy.data.objects["floor"].data.vertices[2].co.x = 3
     bpy.ops.render.render()
+
+
+def test_nothing_is_raised_after_a_picture_that_failed(monkeypatch):
+    simple()
+
+    def mistake(*_):
+        raise ValueError("made up")
+
+    raised = []
+    monkeypatch.setattr(sys, "unraisablehook", raised.append)
+    monkeypatch.setattr(addon.rendering, "pixels", mistake)
+    # Python keeps the last mistake with its engine: the second one lets the first go.
+    for _ in range(2):
+        assert "a mistake of its own: ValueError: made up" in refused()
+        gc.collect()
+    assert not raised, raised
 
 
 def test_a_missing_image():

@@ -130,6 +130,32 @@ def test_a_border_is_a_part_of_the_picture():
     assert abs(mean) < 0.001 and rms < 0.03
 
 
+# Shares of the picture from the left, right, low and high side; of 97 x 61 pixels few are whole.
+BORDERS = [(0.25, 0.75, 0.5, 1.0), (0.1, 0.77, 0.23, 0.71), (0.7, 0.9, 0.3, 0.6), (1 / 3, 0.345, 0.0, 1.0)]
+
+
+@pytest.mark.parametrize("border", BORDERS)
+def test_a_border_has_the_pixels_that_blender_asks_for(border):
+    scene, _ = setting(shift_x=0.1, size_px=(97, 61))
+    whole = stage.picture("HAIRLINE")
+    render = scene.render
+    render.use_border = True
+    render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y = border
+    render.use_crop_to_border = True
+    cropped, theirs = stage.picture("HAIRLINE"), stage.picture("CYCLES", 1)
+    assert cropped.shape == theirs.shape
+    # The border lies where the cut-off numbers say; what is outside of it is black.
+    height, width = cropped.shape[:2]
+    left, low = int(np.float32(border[0]) * np.float32(97)), int(np.float32(border[2]) * np.float32(61))
+    inside = slice(61 - low - height, 61 - low), slice(left, left + width)
+    assert stage.apart(cropped[..., :3], whole[inside][..., :3])[1] < 0.05
+    render.use_crop_to_border = False
+    placed = stage.picture("HAIRLINE")
+    assert placed.shape == whole.shape and (placed[inside] == cropped).all()
+    placed[inside] = 0
+    assert (placed == 0).all()
+
+
 def test_transparent_films_have_alpha():
     scene, _ = setting()
     scene.render.film_transparent = True

@@ -50,6 +50,15 @@ def scene(surface):
     stage.camera()
 
 
+def test_a_world_alone_is_seen():
+    stage.empty()
+    stage.camera(frm=(0, -4, 0), at=(0, 0, 0))
+    stage.world(stage.bpy.context.scene, (0, 0, 0), 0.8, stage.image_of(sky(), "sky"), math.radians(40))
+    ours, theirs = (stage.picture(engine, 32) for engine in ("HAIRLINE", "CYCLES"))
+    mean, rms = stage.apart(ours, theirs)
+    assert abs(mean) < 0.005 and rms < 0.03
+
+
 @pytest.mark.parametrize("surface", ["metal", "plastic"])
 @pytest.mark.parametrize("kind", LIGHTS)
 def test_means_are_those_of_cycles(kind, surface):

@@ -87,6 +87,52 @@ fn pixels_lie_in_the_picture_where_the_file_says() {
     assert!(exr_file::window(&path).unwrap().is_whole());
 }
 
+/// Files of programs that name every layer. Of several the one that is the whole picture is taken, else the first.
+#[test]
+fn colours_of_layers_are_read_where_there_are_no_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("layers.exr");
+    for (layers, expected) in [
+        (&[("", "rgb", 1.0)][..], Some(1.0)),
+        (&[("diffuse.", "RGB", 1.0)], Some(1.0)),
+        (
+            &[
+                ("View Layer.AO.", "RGB", 1.0),
+                ("View Layer.Combined.", "RGB", 2.0),
+            ],
+            Some(2.0),
+        ),
+        (
+            &[("Crypto00.", "rgb", 1.0), ("rgba.", "RGB", 2.0)],
+            Some(2.0),
+        ),
+        (&[("a.", "RGB", 1.0), ("", "RGB", 2.0)], Some(2.0)),
+        (&[("CryptoObject00.", "RGB", 1.0)], None),
+        (&[("a.", "RG", 1.0), ("b.", "B", 1.0)], None),
+        (&[("BA", "RGB", 1.0)], None),
+    ] {
+        let channel = |(layer, letters, value): &(&str, &str, f32)| {
+            let names = letters.chars().map(|letter| format!("{layer}{letter}"));
+            names.map(|name| (name, *value)).collect::<Vec<_>>()
+        };
+        let channels: Vec<_> = layers.iter().flat_map(channel).collect();
+        let channels: Vec<_> = channels
+            .iter()
+            .map(|(name, value)| (name.as_str(), *value))
+            .collect();
+        let file = File {
+            size: (2, 1),
+            at: (0, 0),
+            picture: ((0, 0), (2, 1)),
+            channels: &channels,
+            primaries: None,
+        };
+        file.write(&path);
+        let rgb = exr_file::read_picture(&path).ok().map(|it| it.rgb);
+        assert_eq!(rgb, expected.map(|it| vec![[it; 3]; 2]), "{layers:?}");
+    }
+}
+
 /// Equal pixels in two places of a picture are not equal pictures.
 #[test]
 fn a_comparison_sees_where_pixels_lie() {
@@ -107,6 +153,15 @@ fn a_comparison_sees_where_pixels_lie() {
     assert_eq!(
         a.window.unwrap().to_string(),
         "its pixels are 16 x 16 from column 0 and row 0 on, of a picture of 32 x 32; the rest of that is black"
+    );
+    let wide = exr_file::Window {
+        at_px: [-2, 0],
+        size_px: [40, 32],
+        of_px: [32, 32],
+    };
+    assert_eq!(
+        wide.to_string(),
+        "its pixels are 40 x 32 from column -2 and row 0 on, of a picture of 32 x 32; what is outside of that is not seen"
     );
     let comparison = compare(&a, &b, &Display::default(), None);
     // Half of all pixels have the colour in one of both.

@@ -11,9 +11,9 @@ use hairline_image::held;
 
 use super::instances;
 use super::left_out::{self, LeftOut, UsedContents};
-use super::leniency::drop_order_mark;
+use super::leniency::{drop_order_mark, drop_padding};
 use super::root::{self, OptionalElements};
-use super::source::{is_data, percent_decoded};
+use super::source::{beside, is_data};
 use crate::packed;
 use crate::reading::check_regular;
 
@@ -99,7 +99,7 @@ pub fn names(path: &Path) -> Vec<(String, PathBuf)> {
     let base_dir = file.parent().unwrap_or(Path::new(""));
     let named = |what: &'static str, i: usize, uri: &Option<String>| {
         let uri = uri.as_deref().filter(|uri| !is_data(uri))?;
-        Some((format!("{what} {i}"), base_dir.join(percent_decoded(uri))))
+        Some((format!("{what} {i}"), beside(uri, base_dir)))
     };
     let buffers = (0..)
         .zip(&root.buffers)
@@ -166,6 +166,7 @@ pub(crate) fn whole_text(path: &Path) -> Option<Vec<u8>> {
         file.take(u64::from(length).min(LONGEST_TEXT))
             .read_to_end(&mut text)
             .ok()?;
+        drop_padding(&mut text);
     } else {
         text.extend(start);
         file.take(LONGEST_TEXT).read_to_end(&mut text).ok()?;

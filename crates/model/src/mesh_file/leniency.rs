@@ -4,9 +4,12 @@
 use std::num::FpCategory;
 
 use gltf::json::deserialize::from_value;
+use gltf::json::image::MimeType;
 use gltf::json::validation::Checked::Valid;
 use gltf::json::{Index, Root, Value, mesh::Semantic};
 
+/// The extension by which texture coordinates may be whole numbers.
+const QUANTIZATION: &str = "KHR_mesh_quantization";
 /// Whole numbers beyond this have no place for their last digit in double precision.
 const WHOLE_BELOW: f64 = 9_007_199_254_740_992.0;
 
@@ -16,6 +19,12 @@ pub(crate) fn drop_order_mark(text: &mut Vec<u8>) {
     if text.starts_with(MARK) {
         text.drain(..MARK.len());
     }
+}
+
+/// Exporters that pad the text of a binary file by zeros, as its bytes are padded, and not by spaces (glTF 2.0, section 4.4.3.2).
+pub(super) fn drop_padding(text: &mut Vec<u8>) {
+    let zeros = text.iter().rev().take_while(|byte| **byte == 0).count();
+    text.truncate(text.len() - zeros);
 }
 
 /// Repairs the text: versions that are numbers, scenes without nodes, and whole numbers written with a point (glTF 2.0, section
@@ -58,8 +67,13 @@ fn make_whole(value: &mut Value) {
     }
 }
 
-/// Repairs the parsed file: accessors without bytes, which are zero (section 3.6.2), and positions whose bounds nobody wrote.
+/// Repairs the parsed file: accessors without bytes, which are zero (section 3.6.2), positions whose bounds nobody wrote, and images whose
+/// kind nobody wrote, which their first bytes tell.
 pub(super) fn loosen(root: &mut Root) {
+    for image in root.images.iter_mut().filter(|it| it.buffer_view.is_some()) {
+        let unsaid = || MimeType("application/octet-stream".to_owned());
+        image.mime_type.get_or_insert_with(unsaid);
+    }
     let without_bytes = |accessor: &gltf::json::Accessor| {
         accessor.buffer_view.is_none() && accessor.sparse.is_none()
     };
@@ -70,6 +84,7 @@ pub(super) fn loosen(root: &mut Root) {
             accessor.sparse = Some(nothing.clone());
         }
     }
+    normalize(root);
     let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let positions = primitives.filter_map(|it| it.attributes.get(&Valid(Semantic::Positions)));
     let positions: Vec<usize> = positions.map(Index::value).collect();
@@ -84,6 +99,25 @@ pub(super) fn loosen(root: &mut Root) {
             if !is_right {
                 *bound = Some(Value::from(vec![0; 3]));
             }
+        }
+    }
+}
+
+/// Marks attributes whose integers can be nothing but shares (section 3.7.2.1), where the exporter did not.
+fn normalize(root: &mut Root) {
+    let may_be_whole = root.extensions_used.iter().any(|it| it == QUANTIZATION);
+    let is_share = |semantic: &Semantic| match semantic {
+        Semantic::Colors(_) | Semantic::Weights(_) => true,
+        Semantic::TexCoords(_) => !may_be_whole,
+        _ => false,
+    };
+    let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let attributes = primitives.flat_map(|primitive| &primitive.attributes);
+    let shares = attributes.filter(|it| matches!(it.0, Valid(semantic) if is_share(semantic)));
+    let shares: Vec<usize> = shares.map(|it| it.1.value()).collect();
+    for at in shares {
+        if let Some(accessor) = root.accessors.get_mut(at) {
+            accessor.normalized = true;
         }
     }
 }

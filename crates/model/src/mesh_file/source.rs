@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use gltf::Gltf;
 use gltf::buffer::View;
+use hairline_image::held;
 
 use super::meshopt;
 use super::stock::FILE_SHARE;
@@ -111,9 +112,17 @@ pub(crate) fn resource(
     files: &mut Vec<PathBuf>,
 ) -> Result<Vec<u8>, Flaw> {
     if is_data(uri) {
-        // The gltf crate decodes what follows `;base64,`, in small letters.
         let (head, data) = uri.split_once(',').unwrap_or((uri, ""));
-        let uri = format!("{},{data}", head.to_ascii_lowercase());
+        let head = head.to_ascii_lowercase();
+        let bytes = unescaped(data);
+        if !head.ends_with(";base64") {
+            return Ok(bytes);
+        }
+        // Texts that were broken into lines keep their ends; base64 has no white space.
+        let mut data = String::from_utf8_lossy(&bytes).into_owned();
+        data.retain(|c| !c.is_ascii_whitespace());
+        // The gltf crate decodes what follows `;base64,`, in small letters.
+        let uri = format!("{head},{data}");
         return gltf::buffer::Data::from_source(gltf::buffer::Source::Uri(&uri), None)
             .map(|data| data.0)
             .map_err(|error| {
@@ -134,7 +143,7 @@ pub(crate) fn resource(
             right,
         ));
     }
-    let path = base_dir.join(name);
+    let path = beside(uri, base_dir);
     files.push(path.clone());
     reading::read(&path, FileKind::File, FILE_SHARE).map_err(|error| {
         let found = format!(
@@ -145,8 +154,25 @@ pub(crate) fn resource(
     })
 }
 
+/// The file that a URI names. Where there is none: names that exporters left unescaped, and backslashes of Windows between folders.
+pub(super) fn beside(uri: &str, base_dir: &Path) -> PathBuf {
+    let name = percent_decoded(uri);
+    let others = [uri, &name.replace('\\', "/")].map(|name| base_dir.join(name));
+    let path = base_dir.join(name);
+    let is_there = |path: &PathBuf| held::open(path).is_ok();
+    let other = others.into_iter().find(|it| *it != path && is_there(it));
+    match is_there(&path) {
+        true => path,
+        false => other.unwrap_or(path),
+    }
+}
+
 /// `%20` and the like, RFC 3986, section 2.1. What is no escape stays.
-pub(super) fn percent_decoded(uri: &str) -> String {
+fn percent_decoded(uri: &str) -> String {
+    String::from_utf8(unescaped(uri)).unwrap_or_else(|_| uri.to_owned())
+}
+
+fn unescaped(uri: &str) -> Vec<u8> {
     let bytes = uri.as_bytes();
     let mut decoded = Vec::with_capacity(bytes.len());
     let mut i = 0;
@@ -158,7 +184,7 @@ pub(super) fn percent_decoded(uri: &str) -> String {
         decoded.push(escaped.unwrap_or(bytes[i]));
         i += if escaped.is_some() { 3 } else { 1 };
     }
-    String::from_utf8(decoded).unwrap_or_else(|_| uri.to_owned())
+    decoded
 }
 
 #[cfg(test)]

@@ -155,7 +155,8 @@ class Scene:
         self.scratches = Tables(Scratches, scratches)
         self.gratings = Tables(Grating, gratings)
         self.lights = Tables(Light, lights)
-        self.folder = FilePath(folder)
+        # Programs may go on in another folder.
+        self.folder = FilePath(folder).absolute()
         self.notes = []
         self._source = None
         self._builder = core.Builder()

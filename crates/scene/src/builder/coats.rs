@@ -110,7 +110,8 @@ impl<'a> Work<'a> {
             let key = format!("scratches[{i}].object");
             let object = find(&table.object, names, &key, "object")?;
             let number = standing.number;
-            let is_shown = standing.is_shown && !self.description.objects[object].hidden;
+            let is_hidden = self.description.objects[object].hidden || surfaces[object].is_gone();
+            let is_shown = standing.is_shown && !is_hidden;
             let ground = surfaces[object].ground_if_made(&OnPart::of(table));
             // Before they are read.
             let files = self.stamps(table);

@@ -33,6 +33,9 @@ impl Work<'_> {
             let key = format!("grating[{i}]");
             let names = described.objects.iter().map(|o| o.name.as_str());
             let object = find(&grating.object, names, &format!("{key}.object"), "object")?;
+            if surfaces[object].is_gone() {
+                continue;
+            }
             check_uvs(grating, &surfaces[object], &key)?;
             if described.objects[object].hidden {
                 continue;

@@ -167,7 +167,13 @@ impl KeptSurface {
             }
             (Surface::Mesh(_), None) => unreachable!("a file has a stamp"),
         };
-        if mesh.triangles.is_empty() {
+        if let (true, Surface::Mesh(file), Some(time_s)) =
+            (mesh.triangles.is_empty(), &object.surface, object.time_s)
+        {
+            // Animations hide what they move by a scale of 0.
+            let why = format!("it has no surface at {time_s} s, so it is not seen then");
+            notes.push(model_notes::note(file, &why));
+        } else if mesh.triangles.is_empty() {
             let found = format!(
                 "found no surface: every triangle of \"{}\" has zero area",
                 shown(&object.name)
@@ -186,6 +192,11 @@ impl KeptSurface {
             parts: Arc::new(parts),
             grounds: Arc::default(),
         })
+    }
+
+    /// Whether there is nothing to be seen at the time that is shown.
+    pub(super) fn is_gone(&self) -> bool {
+        self.mesh.triangles.is_empty()
     }
 
     /// The surface with its materials numbered from `first` on.

@@ -127,7 +127,8 @@ fn parse<'a>(text: &'a str, name: &Path) -> Result<DeTable<'a>, Error> {
     let root = DeTable::parse(text).map_err(|error| {
         let line = error.span().map(|span| line_of(text, span.start));
         let found = error.message().replace('\n', " ");
-        let right = match found.contains("escape") {
+        // `\u` and `\U` of a path begin a number to TOML: "C:\Users".
+        let right = match found.contains("escape") || found.contains("unicode") {
             true => {
                 "a backslash in double quotes begins an escape of TOML: write paths with slashes, \"models/pan.glb\", or in single quotes"
             }

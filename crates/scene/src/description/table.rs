@@ -377,7 +377,11 @@ impl Read for PathBuf {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         let name = String::read(value, key)?;
         let Some(escaped) = name.chars().find(|c| c.is_control()) else {
-            return Ok(name.into());
+            // Scenes of Windows are read elsewhere too. What begins with two is a share of a network.
+            return Ok(match name.starts_with(r"\\") {
+                true => name.into(),
+                false => name.replace('\\', "/").into(),
+            });
         };
         // Most likely what was typed: `models\new.glb` has a line end for TOML.
         let escape = typed(escaped);

@@ -159,7 +159,7 @@ fn from_exr(path: &Path, error: hairline_image::Error) -> Error {
 pub(crate) fn notes(path: &Path) -> Vec<String> {
     let is_exr = ending(path).as_deref() == Some("exr");
     let window = is_exr.then(|| exr_file::window(path).ok()).flatten();
-    let part = window.filter(|window| !window.is_whole());
+    let part = window.filter(|window| !window.covers());
     let name = path.file_name().unwrap_or(path.as_os_str());
     let note = |window| format!("{}: {window}", shown(&name.to_string_lossy()));
     part.map(note).into_iter().collect()

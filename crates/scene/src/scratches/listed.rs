@@ -79,7 +79,7 @@ fn parse(text: &str, path: &Path) -> Result<Vec<ListedRow>, Error> {
     let Some((first, header)) = lines.next() else {
         return Err(Error::new("", "found an empty file", header_is()).at(path, Some(1)));
     };
-    let header: Vec<_> = header.split(',').map(str::trim).collect();
+    let header: Vec<_> = header.split(',').map(bare).collect();
     if header != columns() {
         let found = format!("found `{}`", shown(&header.join(",")));
         return Err(Error::new("", found, header_is()).at(path, Some(first)));
@@ -93,8 +93,15 @@ fn parse(text: &str, path: &Path) -> Result<Vec<ListedRow>, Error> {
     rows.into_iter().collect()
 }
 
+/// A cell without spaces around it, and without quotes, which some programs write around all.
+fn bare(cell: &str) -> &str {
+    let cell = cell.trim();
+    let quoted = cell.strip_prefix('"').and_then(|it| it.strip_suffix('"'));
+    quoted.map_or(cell, str::trim)
+}
+
 fn parse_row(line: usize, row: &str) -> Result<ListedRow, Error> {
-    let cells: Vec<_> = row.split(',').map(str::trim).collect();
+    let cells: Vec<_> = row.split(',').map(bare).collect();
     if cells.len() != COUNT {
         let found = format!("found {} cells", cells.len());
         let right = format!("must be {COUNT}, as in the header");

@@ -74,9 +74,11 @@ fn paths_with_backslashes() {
              \"C:/textures/bright.hdr\", or 'C:\\textures\\bright.hdr' in single quotes, which TOML leaves as it is",
         ),
     ]);
-    let unknown = message("[[object]]\nname = \"it\"\nmesh = \"models\\pan.glb\"");
-    assert!(unknown.starts_with("plate.toml:13: "), "{unknown}");
-    assert!(unknown.contains("write paths with slashes"), "{unknown}");
+    for path in [r"models\pan.glb", r"C:\Users\me\pan.glb", r"..\usb\pan.glb"] {
+        let unknown = message(&format!("[[object]]\nname = \"it\"\nmesh = \"{path}\""));
+        assert!(unknown.starts_with("plate.toml:13: "), "{unknown}");
+        assert!(unknown.contains("write paths with slashes"), "{unknown}");
+    }
 }
 
 #[test]

@@ -46,6 +46,22 @@ fn the_example_of_the_documentation_works() {
     );
 }
 
+/// A scene that was written on Windows is read elsewhere.
+#[test]
+fn backslashes_part_folders() {
+    for (written, path) in [
+        (r"maps\new\sky.hdr", "maps/new/sky.hdr"),
+        (r"..\sky.hdr", "../sky.hdr"),
+        (r"C:\maps\sky.hdr", "C:/maps/sky.hdr"),
+        (r"\\server\maps\sky.hdr", r"\\server\maps\sky.hdr"),
+    ] {
+        let text = EXAMPLE.replace("\"studio.hdr\"", &format!("'{written}'"));
+        let read = parsed(&text);
+        let map = read.environment.unwrap().map;
+        assert_eq!(map, Map::File(path.into()));
+    }
+}
+
 #[test]
 fn the_example_loads_again_after_it_was_saved() {
     let description = parsed(EXAMPLE);

@@ -497,9 +497,35 @@ fn buffers_may_lie_beside_or_in_a_data_uri() {
     );
     let dir = temporary_dir();
     let path = dir.path().join("it.gltf");
-    std::fs::write(dir.path().join("it data.bin"), &glb.bin).unwrap();
-    let data_uri = format!("DATA:application/octet-stream;BASE64,{}", base64(&glb.bin));
-    for uri in ["it%20data.bin", "it data.bin", &data_uri] {
+    std::fs::create_dir(dir.path().join("data")).unwrap();
+    for name in ["it data.bin", "half%20.bin", "data/it.bin"] {
+        std::fs::write(dir.path().join(name), &glb.bin).unwrap();
+    }
+    let text = base64(&glb.bin);
+    let data_uri = format!("DATA:application/octet-stream;BASE64,{text}");
+    // RFC 2397: escapes are for any character; without `;base64` they are all there is.
+    let slashes = text.replace('/', "%2F").replace('+', "%2b");
+    let escaped = format!("data:;base64,{}", slashes.replace('=', "%3D"));
+    let lines: Vec<_> = text
+        .as_bytes()
+        .chunks(76)
+        .map(String::from_utf8_lossy)
+        .collect();
+    let lines = format!("data:;base64,{}", lines.join(r"\r\n"));
+    let plain: String = glb.bin.iter().map(|byte| format!("%{byte:02x}")).collect();
+    let plain = format!("data:application/octet-stream,{plain}");
+    for uri in [
+        "it%20data.bin",
+        "it data.bin",
+        &data_uri,
+        &escaped,
+        &lines,
+        &plain,
+        // Left unescaped by its exporter; written on Windows, in two ways.
+        "half%20.bin",
+        r"data\\it.bin",
+        "data%5Cit.bin",
+    ] {
         std::fs::write(&path, glb.json(&mesh, r#"{"mesh":0}"#, Some(uri))).unwrap();
         let scene = load(&path, "").unwrap();
         assert!(
@@ -864,6 +890,33 @@ fn vertices_that_are_no_numbers_are_refused() {
         let message = flaw(&glb.bytes(&mesh, r#"{"mesh":0}"#));
         assert!(message.contains("holds infinities or NaN"), "{message}");
     }
+}
+
+/// Section 4.4.3.2 asks for spaces.
+#[test]
+fn the_text_of_a_binary_file_may_end_in_zeros() {
+    let glb = cube_glb("", r#"{"mesh":0}"#, &mut Glb::default());
+    let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
+    let (mut head, rest) = (glb[..20 + length].to_vec(), &glb[20 + length..]);
+    head.extend([0; 4]);
+    for at in [8, 12] {
+        let number = u32::from_le_bytes(head[at..at + 4].try_into().unwrap()) + 4;
+        head[at..at + 4].copy_from_slice(&number.to_le_bytes());
+    }
+    let scene = load_bytes(&[&head, rest].concat(), "").unwrap();
+    assert!((volume_m3(&scene.objects[0].mesh) - 1.0).abs() < 1e-6);
+}
+
+/// Section 5.18 asks for a kind where a view holds an image; the bytes tell it too.
+#[test]
+fn images_need_no_kind() {
+    let mut glb = Glb::default();
+    let view = glb.view(&png([3, 2], [1, 2, 3, 255]));
+    glb.more = format!(
+        r#","images":[{{"bufferView":{view}}}],"textures":[{{"source":0}}],"materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}]"#
+    );
+    let scene = load_bytes(&cube_glb(r#","material":0"#, r#"{"mesh":0}"#, &mut glb), "").unwrap();
+    assert_eq!(scene.textures[0].size_px, [3, 2]);
 }
 
 #[test]

@@ -17,6 +17,19 @@ fn load(shape: &str, more: &str, csv: &[u8]) -> Result<Object, Error> {
     Scene::from_toml(&text, "plate.toml", dir.path()).map(|mut scene| scene.objects.remove(0))
 }
 
+/// As spreadsheets and tables of Python may write them.
+#[test]
+fn cells_may_stand_in_quotes() {
+    let row = "-0.05,-0.05,0,0.05,0.05,0,1.5,200\n";
+    let quoted = |line: &str| format!("\"{}\"\n", line.trim().replace(',', "\",\""));
+    let csv = format!("{}{}", quoted(HEADER), quoted(row));
+    let [quoted, plain] = [csv, format!("{HEADER}{row}")].map(|csv| {
+        let object = load(PLANE, "", csv.as_bytes()).unwrap();
+        object.segments.to_vec()
+    });
+    assert!(!plain.is_empty() && quoted == plain);
+}
+
 #[test]
 fn rows_become_scratches_in_the_objects_own_frame() {
     // Along the diagonal, which is an edge; across it; from corner to corner through everything; and one on top of a corner.

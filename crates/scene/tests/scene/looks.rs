@@ -105,6 +105,48 @@ fn vertices_have_colours() {
     assert!(mesh.other_uvs.is_empty());
 }
 
+/// Section 3.7.2.1: whole numbers of colours are shares, whether the file marks them or not; those of texture coordinates may be themselves by an
+/// extension.
+#[test]
+fn whole_numbers_are_shares_where_they_can_be_nothing_else() {
+    for (extension, u) in [
+        ("", 0.2),
+        (r#","extensionsUsed":["KHR_mesh_quantization"]"#, 51.0),
+    ] {
+        let mut glb = Glb::default();
+        let positions = glb.floats(&[[0.0f32; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+        let view = glb.view(&[51, 102, 255, 255].repeat(3));
+        let shares = |kind: &str| {
+            format!(r#"{{"bufferView":{view},"componentType":5121,"count":3,"type":"{kind}"}}"#)
+        };
+        let [colors, uvs] = [shares("VEC4"), shares("VEC2")];
+        let [colors, uvs] = [glb.accessor(colors), glb.accessor(uvs)];
+        let mesh = format!(
+            r#"{{"primitives":[{{"attributes":{{"POSITION":{positions},"TEXCOORD_0":{uvs},"COLOR_0":{colors}}},"material":0}}]}}"#
+        );
+        let image = image::RgbaImage::from_raw(1, 1, vec![255; 4]).unwrap();
+        let mut png = std::io::Cursor::new(Vec::new());
+        image.write_to(&mut png, image::ImageFormat::Png).unwrap();
+        let image = glb.view(&png.into_inner());
+        glb.more = format!(
+            r#","images":[{{"bufferView":{image},"mimeType":"image/png"}}],"textures":[{{"source":0}}],
+            "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}]{extension}"#
+        );
+        let dir = temporary_dir();
+        std::fs::write(dir.path().join("it.glb"), glb.bytes(&mesh, r#"{"mesh":0}"#)).unwrap();
+        let text = scene_with("[[object]]\nname = \"it\"\nmesh = \"it.glb\"\nup = \"z\"");
+        let scene = Scene::from_toml(&text, "test.toml", dir.path()).unwrap();
+        let mesh = &scene.objects[0].mesh;
+        assert!(
+            (mesh.colors[0] - vec4(0.2, 0.4, 1.0, 1.0))
+                .abs()
+                .max_element()
+                < 1e-6
+        );
+        assert!((mesh.uvs[0].x - u).abs() < 1e-5, "{}", mesh.uvs[0]);
+    }
+}
+
 #[test]
 fn extensions_change_what_a_surface_reflects() {
     let material = |text: &str| {

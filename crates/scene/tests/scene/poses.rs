@@ -57,6 +57,52 @@ fn an_animation_of_a_node_with_a_matrix_is_refused() {
     assert!(load(&bytes, "material = \"steel\"").is_ok());
 }
 
+/// Animations hide what they move by a scale of 0: there is nothing to be seen then, and what lies on it waits.
+#[test]
+fn what_an_animation_scales_to_nothing_is_not_seen() {
+    let mut glb = Glb::default();
+    let mesh_text = cube_mesh(&mut glb, "");
+    let times = glb.floats(&[[0.0], [1.0]]);
+    let sizes = glb.floats(&[[0.0, 0.0, 0.0], [1.0, 1.0, 1.0f32]]);
+    glb.more = format!(
+        r#","animations":[{{"channels":[{{"sampler":0,"target":{{"node":0,"path":"scale"}}}}],
+          "samplers":[{{"input":{times},"output":{sizes}}}]}}]"#
+    );
+    let bytes = glb.bytes(&mesh_text, r#"{"mesh":0}"#);
+    let layers = "\n[[scratches]]\nobject = \"it\"\npattern = \"random\"\ncount = 20\n\
+        [[grating]]\nobject = \"it\"\npattern = \"uv\"\npitch_um = 2.0\n";
+    let keys = |time_s: f64, more: &str| {
+        format!(
+            "material = \"steel\"\ntime_s = {time_s:?}\n{more}[[light]]\nkind = \"sun\"\ndirection = [0, 0, -1]\n[studio]\n[ground]\n"
+        )
+    };
+    let scene = load(&bytes, &keys(0.0, layers)).unwrap();
+    let it = &scene.objects[0];
+    assert!(it.mesh.triangles.is_empty() && it.scratches.is_empty() && it.gratings.is_empty());
+    assert_eq!(
+        scene.notes,
+        ["it.glb: it has no surface at 0 s, so it is not seen then"]
+    );
+    let layers = layers.replace("\"uv\"", "\"parallel\"");
+    let scene = load(&bytes, &keys(1.0, &layers)).unwrap();
+    let it = &scene.objects[0];
+    assert_eq!(
+        (
+            it.mesh.triangles.len(),
+            it.scratches.len(),
+            it.gratings.len()
+        ),
+        (12, 20, 1)
+    );
+    // At rest it is a mistake.
+    let flat = glb.bytes(&mesh_text, r#"{"mesh":0,"scale":[0,0,0]}"#);
+    assert!(
+        load(&flat, "material = \"steel\"")
+            .unwrap_err()
+            .contains("zero area")
+    );
+}
+
 #[test]
 fn nodes_move_as_the_first_animation_has_them() {
     let mut glb = Glb::default();
