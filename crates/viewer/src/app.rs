@@ -193,11 +193,6 @@ impl Viewer {
         self.viewport.view
     }
 
-    /// Number of small pictures of presets, and whether more are being rendered, for tests.
-    pub fn small_pictures(&self) -> (usize, bool) {
-        (self.work.gallery.count(), self.work.gallery.is_working())
-    }
-
     /// Reading of the probe, for tests.
     pub fn probed(&self) -> Option<crate::reading::Reading> {
         self.work.reading.probe.reading()
