@@ -117,6 +117,8 @@ impl Viewer {
         let settings = Settings::load(store.map(|folder| folder.join("settings.toml")));
         crate::style::set(ctx, settings.high_contrast());
         let wake = ctx.clone();
+        let viewport = Viewport::new(render_state);
+        let snapshots = Snapshots::open(document.path(), &viewport.canvas, ctx);
         let work = Workspace {
             document,
             engine: Engine::start(options.backend, Arc::new(move || wake.request_repaint())),
@@ -129,7 +131,7 @@ impl Viewer {
             gallery: Gallery::default(),
             bookmarks,
             settings,
-            snapshots: Snapshots::default(),
+            snapshots,
             closed_lens: None,
             missing: Vec::new(),
             model_notes: Vec::new(),
@@ -138,7 +140,7 @@ impl Viewer {
         };
         let mut viewer = Self {
             work,
-            viewport: Viewport::new(render_state),
+            viewport,
             dialogs: Dialogs::default(),
             files: Files::new(options.state_dir, options.native_dialogs, ctx.clone()),
             export: Export::default(),
