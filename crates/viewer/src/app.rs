@@ -228,6 +228,7 @@ impl Viewer {
             return;
         }
         self.hear_engine();
+        self.work.try_lamps();
         self.work.turn_view(&ctx);
         // Files that are dropped onto a page are handled by the page.
         let dropped = if HAS_DISK {
