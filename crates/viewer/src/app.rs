@@ -261,12 +261,8 @@ impl Viewer {
         let is_comparing = self.compare.is_open();
         let recent = panels::menu::show(ui, &mut self.work, &self.files, is_comparing);
         panels::status::show(ui, &mut self.work, &self.viewport);
-        if !self.hides_list {
-            panels::outliner::show(ui, &mut self.work);
-        }
-        if !self.hides_inspector {
-            panels::inspector::show(ui, &mut self.work);
-        }
+        let (has_list, has_inspector) = (!self.hides_list, !self.hides_inspector);
+        panels::show(ui, &mut self.work, has_list, has_inspector);
         if let Some(path) = recent {
             self.take_file(&ctx, &path);
         }
@@ -276,6 +272,7 @@ impl Viewer {
         match panels::number::told(&ctx) {
             Some(Ok(())) => self.work.notices.clear("number"),
             Some(Err(why)) => self.work.notices.error("number", why),
+            None if !self.work.notices.has("number") => panels::number::forget(&ctx),
             None => {}
         }
         let area = self.show_picture(ui);
@@ -296,6 +293,7 @@ impl Viewer {
             self.run(&ctx, command);
         }
         self.show_dialogs(&ctx);
+        crate::style::show_focus(&ctx);
         self.end_drag_where_nothing_is_held(&ctx);
         self.ask_engine();
         if let Some(pause) = self.work.engine.work() {
