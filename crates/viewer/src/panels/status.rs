@@ -11,6 +11,9 @@ use crate::engine::{Engine, Frame, Latency};
 use crate::viewport::Viewport;
 use crate::workspace::Workspace;
 
+/// Share of the line that the name of what renders may have.
+const LONGEST_BACKEND: f32 = 0.3;
+
 pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, viewport: &Viewport) {
     Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
         let right_to_left = egui::Layout::right_to_left(egui::Align::Center);
@@ -20,8 +23,12 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, viewport: &Viewport) {
             ui.label(RichText::new(format!("interface {}", milliseconds(time))).weak())
                 .on_hover_text("The longest pass of the interface itself of late");
             let backend = work.engine.backend();
-            ui.label(backend.label())
-                .on_hover_text("What renders the picture");
+            let most = LONGEST_BACKEND * ui.available_width();
+            ui.scope(|ui| {
+                ui.set_max_width(most);
+                ui.add(egui::Label::new(backend.label()).truncate())
+                    .on_hover_text("What renders the picture");
+            });
             transport(ui, work);
             // What has no room is cut off, in place of lying over the rest.
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
