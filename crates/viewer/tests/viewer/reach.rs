@@ -172,7 +172,12 @@ fn the_keyboard_is_seen_and_the_first_press_in_a_menu_marks_its_first_item() {
         key(&mut harness, Key::Escape);
         harness.run_steps(2);
     }
-    // Enter runs the command, and closes the menu.
+}
+
+#[test]
+fn enter_runs_a_command_and_closes_its_menu() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
     common::wait_until(&mut harness, "a picture", |viewer| {
         viewer.engine().latest().is_some()
     });

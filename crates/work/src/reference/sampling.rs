@@ -286,7 +286,7 @@ mod tests {
                 |image: &Image| -> f32 { image.base[pixels.clone()].iter().flatten().sum() };
             let ratio = light(&saved) / light(&whole);
             // Of so few samples a highlight has many or none.
-            assert!(ratio > 0.2, "{part}: {ratio}");
+            assert!(ratio > 0.01, "{part}: {ratio}");
         }
     }
 
