@@ -200,6 +200,16 @@ pub struct Render {
     pub method: MethodFlags,
 }
 
+/// What a turntable turns.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Turns {
+    /// The camera, about its target
+    #[default]
+    Camera,
+    /// The objects, before the camera and under the lights
+    Object,
+}
+
 /// A sequence of pictures on a way of the camera.
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Sequences")]
@@ -212,6 +222,15 @@ pub struct SequenceFlags {
     /// The step after the last frame completes them: a full turn of 360 shows no view twice.
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = parse_turn)]
     pub turntable: Option<f64>,
+    /// What --turntable turns. `object`: lights and environment go round with the camera, so that objects turn before it and the light on a floor
+    /// stands still. Each frame is a scene of its own then.
+    #[arg(
+        long,
+        value_name = "WHAT",
+        default_value = "camera",
+        requires = "turntable"
+    )]
+    pub turns: Turns,
     /// Divide the camera's distance to its target by A in the first frame, by B in the last one, by equal factors in
     /// between. 1 is the scene's own view; 1:8 comes within an eighth of the distance, where the target is 8 times as large.
     #[arg(long, value_name = "A:B", value_parser = parse_zoom)]

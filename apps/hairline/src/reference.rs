@@ -115,8 +115,8 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
             "{reason} before the first samples were done; there is nothing to write"
         )));
     }
-    let black = if count.least == 0 {
-        "; pixels without samples are black"
+    let filled = if count.least == 0 {
+        "; pixels without samples show their neighbours"
     } else {
         ""
     };
@@ -126,7 +126,7 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
         ""
     };
     tell(format_args!(
-        "{reason}: {name} has {}{black}{go_on}",
+        "{reason}: {name} has {}{filled}{go_on}",
         listed(count)
     ));
     Ok(())

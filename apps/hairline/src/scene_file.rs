@@ -49,19 +49,19 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// Makes the scene that it is at a time of the models' animations, seconds. Only what moves is made again.
+    /// Makes the scene that another description is of. Only what is other than before is made again.
     ///
     /// # Errors
     /// [`Failure::Input`] where a model cannot be read any more.
-    pub fn go_to(&mut self, time_s: f64) -> Result<(), Failure> {
-        set_time(&mut self.description, time_s);
+    pub fn show(&mut self, description: &Description) -> Result<(), Failure> {
         let loader = Loader::default();
-        self.scene = (self.builder).build(&loader, &self.description, &self.folder)?;
+        self.scene = (self.builder).build(&loader, description, &self.folder)?;
         Ok(())
     }
 }
 
-fn set_time(description: &mut Description, time_s: f64) {
+/// Sets the time of the models' animations.
+pub fn set_time(description: &mut Description, time_s: f64) {
     for object in &mut description.objects {
         if let Surface::Mesh(_) = object.surface {
             object.time_s = Some(time_s);

@@ -12,7 +12,7 @@ use hairline_scene::Description;
 use crate::history::{DragKey, History, State};
 use crate::{ActionError, Selection};
 
-pub use file::{OnDisk, SaveError};
+pub use file::{OnDisk, SaveError, rebased};
 
 /// A scene file in the making, with undo.
 #[derive(Clone, Debug)]

@@ -4,8 +4,10 @@
 
 use glam::{DQuat, DVec2, DVec3};
 use hairline_scene::camera::framing;
-use hairline_scene::description::Camera;
+use hairline_scene::description::{Camera, Description};
 use hairline_scene::schema::{LARGEST_M, SMALLEST_M};
+
+use crate::place_light::turn_about;
 
 /// A view along `up` has no up, so the poles are kept away from by this: less than a pixel's difference to the eye.
 const POLE_RAD: f64 = 1e-3;
@@ -36,6 +38,21 @@ pub fn turn(camera: &mut Camera, angle_rad: f64) {
         ..place
     }
     .give(camera);
+}
+
+/// Turns camera, lights and environment as [`turn`] does, and the objects alone stay: seen by the camera, these turn, as on a turntable, and the
+/// mirror images of lights stand still on a floor.
+pub fn turn_surroundings(scene: &mut Description, angle_rad: f64) {
+    let middle = DVec3::from(scene.camera.target_m);
+    let rotation = DQuat::from_axis_angle(unit_up(&scene.camera), angle_rad);
+    // A studio stands about the camera.
+    turn(&mut scene.camera, angle_rad);
+    for light in &mut scene.lights {
+        turn_about(light, middle, rotation);
+    }
+    if let Some(environment) = &mut scene.environment {
+        environment.rotation_deg = (environment.rotation_deg + angle_rad.to_degrees()) % 360.0;
+    }
 }
 
 /// Moves camera and target by a drag: points at the target's depth follow the pointer exactly.

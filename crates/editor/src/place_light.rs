@@ -230,13 +230,14 @@ fn rounded(direction: DVec3) -> [f64; 3] {
 }
 
 fn turn(light: &mut Light, rotation: DQuat) {
+    turn_about(light, center(light), rotation);
+}
+
+/// Turns a light about a point.
+pub(crate) fn turn_about(light: &mut Light, middle: DVec3, rotation: DQuat) {
     if let (Some(beam), LightKind::Sun { direction, .. }) = (light.kind.sunbeam(), &mut light.kind)
     {
         *direction = rounded(rotation * beam);
-        return;
-    }
-    let middle = center(light);
-    if let (LightKind::Sphere { .. }, None) = (&light.kind, &light.cone) {
         return;
     }
     let corners_m = light.kind.corners_m();

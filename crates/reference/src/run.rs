@@ -50,7 +50,7 @@ impl Integrator<'_> {
     ///
     /// `observe` is told the share that is done, from any thread, many times a second; when it answers
     /// [`ControlFlow::Break`], the batches in progress are finished and `run` returns Break. `image` is then a valid
-    /// picture: some pixels may have more batches than others, and none at all where the first round was cut short.
+    /// picture: some pixels may have more batches than others, and none at all where the first round was cut short, all over the picture.
     ///
     /// # Panics
     /// If `image` has another size than the scene, or the rows of [`Integrator::of_rows`], or no noise, or batches of another size.
@@ -116,38 +116,40 @@ impl Integrator<'_> {
             noise.scratches.par_chunks_mut(CHUNK_PX),
             noise.density.par_chunks_mut(CHUNK_PX),
         );
-        chunks
-            .into_par_iter()
-            .enumerate()
-            .for_each(|(chunk, pixels)| {
-                let (base, scratches, density, samples, v_beauty, v_base, v_scratches, v_density) =
-                    pixels;
-                for i in 0..base.len() {
-                    let pixel = first + chunk * CHUNK_PX + i;
-                    let place = middle(pixel, width);
-                    while samples[i] / BATCH_SAMPLES < up_to && !stop.load(Ordering::Relaxed) {
-                        let batch = samples[i] / BATCH_SAMPLES;
-                        let light = self.batch(pixel as u64, place, batch);
-                        let mut beauty = sum(base[i], scratches[i]);
-                        add_batch(&mut beauty, &mut v_beauty[i], light.total().into(), batch);
-                        add_batch(&mut base[i], &mut v_base[i], light.base.into(), batch);
-                        add_batch(
-                            &mut scratches[i],
-                            &mut v_scratches[i],
-                            light.scratches.into(),
-                            batch,
-                        );
-                        add_batch(
-                            &mut density[i],
-                            &mut v_density[i],
-                            light.density.into(),
-                            batch,
-                        );
-                        samples[i] = (batch + 1) * BATCH_SAMPLES;
-                        report(1);
-                    }
+        // All over the picture from the start: one that is stopped in its first round has no part without samples.
+        let mut chunks: Vec<_> = chunks.into_par_iter().enumerate().map(Some).collect();
+        let order: Vec<_> = scattered(chunks.len())
+            .filter_map(|chunk| chunks[chunk].take())
+            .collect();
+        order.into_par_iter().for_each(|(chunk, pixels)| {
+            let (base, scratches, density, samples, v_beauty, v_base, v_scratches, v_density) =
+                pixels;
+            for i in 0..base.len() {
+                let pixel = first + chunk * CHUNK_PX + i;
+                let place = middle(pixel, width);
+                while samples[i] / BATCH_SAMPLES < up_to && !stop.load(Ordering::Relaxed) {
+                    let batch = samples[i] / BATCH_SAMPLES;
+                    let light = self.batch(pixel as u64, place, batch);
+                    let mut beauty = sum(base[i], scratches[i]);
+                    add_batch(&mut beauty, &mut v_beauty[i], light.total().into(), batch);
+                    add_batch(&mut base[i], &mut v_base[i], light.base.into(), batch);
+                    add_batch(
+                        &mut scratches[i],
+                        &mut v_scratches[i],
+                        light.scratches.into(),
+                        batch,
+                    );
+                    add_batch(
+                        &mut density[i],
+                        &mut v_density[i],
+                        light.density.into(),
+                        batch,
+                    );
+                    samples[i] = (batch + 1) * BATCH_SAMPLES;
+                    report(1);
                 }
-            });
+            }
+        });
     }
 
     /// Number of pixels of the picture before the image.
@@ -186,6 +188,19 @@ impl Integrator<'_> {
             density: share * light.density,
         }
     }
+}
+
+/// Numbers below `count`, each once: neighbours are far from one another.
+fn scattered(count: usize) -> impl Iterator<Item = usize> {
+    // Near the golden ratio, which leaves no part out for long.
+    let nearest = (0.618 * count as f64).round() as usize;
+    let stride = (nearest.max(1)..).find(|stride| gcd(*stride, count) == 1);
+    let stride = stride.unwrap_or(1) as u64;
+    (0..count as u64).map(move |i| (i * stride % count as u64) as usize)
+}
+
+fn gcd(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { gcd(b, a % b) }
 }
 
 /// Progress of a run, and the number of batches in the next step.

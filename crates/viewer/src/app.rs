@@ -117,6 +117,8 @@ impl Viewer {
         let settings = Settings::load(store.map(|folder| folder.join("settings.toml")));
         crate::style::set(ctx, settings.high_contrast());
         let wake = ctx.clone();
+        let viewport = Viewport::new(render_state);
+        let snapshots = Snapshots::open(document.path(), &viewport.canvas, ctx);
         let work = Workspace {
             document,
             engine: Engine::start(options.backend, Arc::new(move || wake.request_repaint())),
@@ -129,7 +131,7 @@ impl Viewer {
             gallery: Gallery::default(),
             bookmarks,
             settings,
-            snapshots: Snapshots::default(),
+            snapshots,
             closed_lens: None,
             missing: Vec::new(),
             model_notes: Vec::new(),
@@ -138,7 +140,7 @@ impl Viewer {
         };
         let mut viewer = Self {
             work,
-            viewport: Viewport::new(render_state),
+            viewport,
             dialogs: Dialogs::default(),
             files: Files::new(options.state_dir, options.native_dialogs, ctx.clone()),
             export: Export::default(),
@@ -193,11 +195,6 @@ impl Viewer {
         self.viewport.view
     }
 
-    /// Number of small pictures of presets, and whether more are being rendered, for tests.
-    pub fn small_pictures(&self) -> (usize, bool) {
-        (self.work.gallery.count(), self.work.gallery.is_working())
-    }
-
     /// Reading of the probe, for tests.
     pub fn probed(&self) -> Option<crate::reading::Reading> {
         self.work.reading.probe.reading()
@@ -231,6 +228,7 @@ impl Viewer {
             return;
         }
         self.hear_engine();
+        self.work.try_lamps();
         self.work.turn_view(&ctx);
         // Files that are dropped onto a page are handled by the page.
         let dropped = if HAS_DISK {
@@ -263,12 +261,8 @@ impl Viewer {
         let is_comparing = self.compare.is_open();
         let recent = panels::menu::show(ui, &mut self.work, &self.files, is_comparing);
         panels::status::show(ui, &mut self.work, &self.viewport);
-        if !self.hides_list {
-            panels::outliner::show(ui, &mut self.work);
-        }
-        if !self.hides_inspector {
-            panels::inspector::show(ui, &mut self.work);
-        }
+        let (has_list, has_inspector) = (!self.hides_list, !self.hides_inspector);
+        panels::show(ui, &mut self.work, has_list, has_inspector);
         if let Some(path) = recent {
             self.take_file(&ctx, &path);
         }
@@ -278,6 +272,7 @@ impl Viewer {
         match panels::number::told(&ctx) {
             Some(Ok(())) => self.work.notices.clear("number"),
             Some(Err(why)) => self.work.notices.error("number", why),
+            None if !self.work.notices.has("number") => panels::number::forget(&ctx),
             None => {}
         }
         let area = self.show_picture(ui);
@@ -298,6 +293,7 @@ impl Viewer {
             self.run(&ctx, command);
         }
         self.show_dialogs(&ctx);
+        crate::style::show_focus(&ctx);
         self.end_drag_where_nothing_is_held(&ctx);
         self.ask_engine();
         if let Some(pause) = self.work.engine.work() {

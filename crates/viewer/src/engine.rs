@@ -48,6 +48,7 @@ pub use event::{Event, Wake};
 pub use frame::{Frame, Latency, Painted, Picture};
 pub use view::View;
 
+pub(crate) use build::ViewBuilder;
 pub(crate) use steps::SHADOW_SAMPLES;
 
 use in_turn::InTurn;

@@ -4,6 +4,7 @@
 //! are there when it is cancelled stay.
 
 mod form;
+mod rehearsal;
 mod work;
 
 use std::path::Path;
@@ -22,7 +23,8 @@ use crate::notices::Notices;
 use crate::viewport::camera;
 use crate::workspace::Workspace;
 use form::{Answer, ExportContext, Form};
-use work::{End, Report, Wish};
+use rehearsal::Rehearsal;
+use work::{End, Expected, Report, Wish};
 
 /// Form of an export, and the exports in progress.
 #[derive(Default)]
@@ -31,6 +33,8 @@ pub(crate) struct Export {
     form: Option<Form>,
     /// The last one of each kind, a picture's and a turntable's.
     earlier: [Option<Form>; 2],
+    /// The beginning of what the question is about.
+    rehearsal: Option<Rehearsal>,
     /// Begins as soon as the newest scene is built.
     waiting: Option<Wish>,
     running: Option<Running>,
@@ -124,7 +128,9 @@ impl Export {
             !running.job.is_over()
         });
         // The export gets the cores.
-        work.engine.set_resting(self.running.is_some());
+        let is_rehearsing = self.rehearsal.as_ref().is_some_and(|it| !it.is_over());
+        work.engine
+            .set_resting(self.running.is_some() || is_rehearsing);
     }
 
     /// Ends the export at once, as far as the window is concerned: its thread stops after the pixels that it is at.
@@ -152,8 +158,14 @@ impl Export {
             has_lens: has_lens(description),
             is_view_free: work.free_view.is_free(),
             is_snapshot: work.snapshots.cover(),
+            expected: self.expected(ctx, work, &form),
         };
         let answer = form.show(ctx, &scene);
+        if matches!(answer, Some(Answer::Close | Answer::Start))
+            && let Some(rehearsal) = self.rehearsal.take()
+        {
+            rehearsal.leave();
+        }
         match answer {
             None => self.form = Some(form),
             Some(Answer::ChooseFile) => {
@@ -170,8 +182,30 @@ impl Export {
         None
     }
 
-    /// Begins an export; refuses at once files that could not be written in the end.
-    fn begin(&mut self, work: &mut Workspace, mut form: Form) {
+    /// What is known of the pictures; finds it out where nothing is.
+    fn expected(&mut self, ctx: &egui::Context, work: &Workspace, form: &Form) -> Expected {
+        let wish = Self::wish(work, form);
+        let rehearsal = self.rehearsal.as_ref();
+        if let Some(rehearsal) = rehearsal.filter(|it| it.is_of(&wish)) {
+            return rehearsal.expected();
+        }
+        let is_over = rehearsal.is_none_or(Rehearsal::is_over);
+        if let Some(rehearsal) = rehearsal {
+            rehearsal.stop();
+            // The thread is at some pixels still.
+            ctx.request_repaint_after(Duration::from_millis(100));
+        }
+        if is_over
+            && !work.engine.is_building()
+            && let Some(built) = work.engine.built()
+        {
+            self.rehearsal = Rehearsal::start(ctx, wish, built).ok();
+        }
+        Expected::default()
+    }
+
+    /// What the form asks for.
+    fn wish(work: &Workspace, form: &Form) -> Wish {
         let mut description = Arc::clone(work.document.description());
         if form.is_as_seen {
             let camera = work.camera();
@@ -179,8 +213,9 @@ impl Export {
                 Arc::make_mut(&mut description).camera = camera;
             }
         }
-        let wish = Wish {
+        Wish {
             description,
+            base_dir: work.document.base_dir().to_owned(),
             size_px: form.size_px,
             samples: form.samples,
             transport: work.wanted_transport(),
@@ -188,7 +223,12 @@ impl Export {
             motion: form.motion(),
             path: form.path(),
             backend: work.engine.backend(),
-        };
+        }
+    }
+
+    /// Begins an export; refuses at once files that could not be written in the end.
+    fn begin(&mut self, work: &mut Workspace, mut form: Form) {
+        let wish = Self::wish(work, &form);
         let checked = match wish.is_animation() {
             true => Animation::check(&wish.path),
             false => Output::check(&wish.frame_path(0)).map(drop),
@@ -222,7 +262,7 @@ impl Export {
         let (wished, told) = (wish.clone(), report.clone());
         #[cfg(not(target_arch = "wasm32"))]
         let job = Job::start("export", move |stop| {
-            work::run_to_the_end(&wished, &built, stop, &told);
+            wished.block_on(work::run(&wished, &built, stop, &told));
         });
         #[cfg(target_arch = "wasm32")]
         let job = Job::in_page(async move |stop| work::run(&wished, &built, &stop, &told).await);
@@ -342,12 +382,16 @@ fn time_left(elapsed: Duration, done: f64) -> Option<String> {
     if done < 0.01 || elapsed < Duration::from_secs(1) {
         return None;
     }
-    let seconds = elapsed.as_secs_f64() * (1.0 - done) / done;
-    Some(match seconds {
+    Some(words(elapsed.mul_f64((1.0 - done) / done)))
+}
+
+/// A time in units that fit.
+fn words(time: Duration) -> String {
+    match time.as_secs_f64() {
         s if s < 90.0 => format!("{s:.0} s"),
         s if s < 5400.0 => format!("{:.0} min", s / 60.0),
         s => format!("{:.1} h", s / 3600.0),
-    })
+    }
 }
 
 /// The largest size of the shape of `scene_px` within `within_px`.

@@ -61,6 +61,11 @@ impl Notices {
         self.list.retain(|notice| notice.topic != topic);
     }
 
+    /// Whether there is one of a topic.
+    pub fn has(&self, topic: &str) -> bool {
+        self.list.iter().any(|notice| notice.topic == topic)
+    }
+
     /// Removes the messages about the scene before, when another one is there. Messages about the machine stay.
     pub fn begin_scene(&mut self) {
         self.list

@@ -3,6 +3,10 @@
 //! What is computed from all pixels is computed where they are, by the painter: [`ReadingRequest`] is part of the view that it is
 //! given, [`Findings`] come with the frame. None of it changes the scene.
 
+use std::sync::Arc;
+
+use hairline_scene::Description;
+
 mod command;
 mod develop;
 mod false_color;
@@ -32,6 +36,8 @@ pub(crate) struct ReadingState {
     /// Added to the camera's exposure in the window alone.
     pub exposure_ev: f64,
     pub probe: Probe,
+    /// The scene as lamps for its scratches lit it, until their brightness is known.
+    pub tried: Option<Arc<Description>>,
 }
 
 impl ReadingState {
@@ -40,6 +46,7 @@ impl ReadingState {
         ReadingRequest {
             shows: self.shows,
             histogram_px: self.has_histogram.then_some(frame_px),
+            tries_lamps: self.tried.is_some(),
         }
     }
 }

@@ -115,6 +115,25 @@ fn fonts() -> egui::FontDefinitions {
     fonts
 }
 
+/// Draws a line around what has the keyboard.
+pub(crate) fn show_focus(ctx: &egui::Context) {
+    let focused = ctx.memory(|memory| memory.focused());
+    let Some(response) = focused.and_then(|id| ctx.read_response(id)) else {
+        return;
+    };
+    // What is scrolled away is empty.
+    if response.interact_rect.is_positive() {
+        let stroke = ctx.global_style().visuals.selection.stroke.color;
+        let rect = response.interact_rect.expand(1.0);
+        ctx.layer_painter(response.layer_id).rect_stroke(
+            rect,
+            4.0,
+            Stroke::new(1.5, stroke),
+            egui::StrokeKind::Middle,
+        );
+    }
+}
+
 /// A tooltip of one of several choices in `menu`: beside all of them, where it covers none.
 pub(crate) fn beside(response: &Response, menu: Rect, text: &str) {
     let row = Rect::from_x_y_ranges(menu.x_range(), response.rect.y_range());

@@ -4,6 +4,8 @@ mod fit;
 mod give;
 mod view;
 
+pub(crate) use fit::FAINT;
+
 use std::path::{Path, PathBuf};
 
 use hairline_editor::actions::pictures::PictureOf;

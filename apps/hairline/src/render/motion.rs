@@ -3,10 +3,12 @@
 use anyhow::anyhow;
 use glam::DVec3;
 use hairline_editor::navigate;
+use hairline_scene::Description;
 use hairline_scene::description;
 use hairline_scene::schema::Bounds;
 
-use crate::cli::SequenceFlags;
+use crate::cli::{SequenceFlags, Turns};
+use crate::scene_file::set_time;
 use hairline_work::failure::Failure;
 
 /// Positions of the camera and times of the frames.
@@ -16,6 +18,7 @@ pub struct Motion {
     pub frames: u32,
     /// Turned about the target over the whole sequence.
     turn_deg: f64,
+    turns: Turns,
     /// Divisor of the distance to the target, in the first frame and in the last.
     zoom: [f64; 2],
     /// Seconds of the models' animations, in the first frame and in the last; none where all frames have one time.
@@ -64,6 +67,7 @@ impl Motion {
         Ok(Some(Self {
             frames,
             turn_deg: flags.turntable.unwrap_or(0.0),
+            turns: flags.turns,
             zoom: flags.zoom.unwrap_or([1.0, 1.0]),
             times_s,
         }))
@@ -92,9 +96,8 @@ impl Motion {
     /// frame is the end of the zoom.
     pub fn position_m(&self, camera: &description::Camera, frame: u32) -> DVec3 {
         let mut camera = camera.clone();
-        let turned = f64::from(frame) / f64::from(self.frames);
         if self.turn_deg != 0.0 {
-            navigate::turn(&mut camera, (turned * self.turn_deg).to_radians());
+            navigate::turn(&mut camera, self.turned_rad(frame));
         }
         let come = self.come(frame);
         let [from, to] = self.zoom;
@@ -103,8 +106,27 @@ impl Motion {
         target + (DVec3::from(camera.position_m) - target) / factor
     }
 
+    /// Whether the camera alone moves.
+    pub fn is_of_camera(&self) -> bool {
+        self.times_s.is_none() && self.turns == Turns::Camera
+    }
+
+    /// Moves what does in a scene of the first frame.
+    pub fn move_scene(&self, scene: &mut Description, frame: u32) {
+        if let Some(time_s) = self.time_s(frame) {
+            set_time(scene, time_s);
+        }
+        if self.turns == Turns::Object {
+            navigate::turn_surroundings(scene, self.turned_rad(frame));
+        }
+    }
+
+    fn turned_rad(&self, frame: u32) -> f64 {
+        (f64::from(frame) / f64::from(self.frames) * self.turn_deg).to_radians()
+    }
+
     /// The time of a frame, seconds; none where it is that of the scene.
-    pub fn time_s(&self, frame: u32) -> Option<f64> {
+    fn time_s(&self, frame: u32) -> Option<f64> {
         let [from_s, to_s] = self.times_s?;
         Some(from_s + self.come(frame) * (to_s - from_s))
     }
@@ -133,6 +155,7 @@ mod tests {
         Motion {
             frames,
             turn_deg,
+            turns: Turns::Camera,
             zoom,
             times_s: None,
         }
@@ -145,6 +168,26 @@ mod tests {
         moving.times_s = Some([1.0, 3.0]);
         let times: Vec<_> = (0..5).filter_map(|i| moving.time_s(i)).collect();
         assert_eq!(times, [1.0, 1.5, 2.0, 2.5, 3.0]);
+    }
+
+    #[test]
+    fn a_turntable_of_the_object_takes_the_lights_along() {
+        let mut scene = Description {
+            camera: camera(),
+            ..hairline_fixtures::scenes::bare_plate().description()
+        };
+        let before = scene.clone();
+        let mut moving = motion(4, 360.0, [1.0, 1.0]);
+        assert!(moving.is_of_camera());
+        moving.move_scene(&mut scene, 1);
+        assert_eq!(scene, before);
+        moving.turns = Turns::Object;
+        assert!(!moving.is_of_camera());
+        moving.move_scene(&mut scene, 1);
+        assert_ne!(scene.lights, before.lights);
+        assert_eq!(scene.objects, before.objects);
+        let place = moving.position_m(&camera(), 1);
+        assert!((place - DVec3::from(scene.camera.position_m)).length() < 1e-12);
     }
 
     #[test]

@@ -50,7 +50,7 @@ pub fn run(
     };
     let camera = loaded.description.camera.clone();
     let place = |frame: usize| motion.position_m(&camera, frame as u32);
-    if motion.time_s(0).is_none() {
+    if motion.is_of_camera() {
         let mut moved = loaded.scene.clone();
         let mut painter = Painter::open(&loaded.scene, task.clone(), terminal)?;
         for frame in 0..motion.frames as usize {
@@ -60,9 +60,9 @@ pub fn run(
         return frames.finish();
     }
     for frame in 0..motion.frames as usize {
-        if let Some(time_s) = motion.time_s(frame as u32) {
-            loaded.go_to(time_s)?;
-        }
+        let mut now = loaded.description.clone();
+        motion.move_scene(&mut now, frame as u32);
+        loaded.show(&now)?;
         loaded.scene.camera.position_m = place(frame);
         // The renderer is reported once.
         let listener: &dyn Listener = if frame == 0 { terminal } else { &Quiet };

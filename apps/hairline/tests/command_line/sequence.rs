@@ -57,6 +57,23 @@ fn frames_are_numbered_and_the_first_is_the_scenes_own_view() {
     assert!((near / far - 0.5).abs() < 0.02, "{near} {far}");
 }
 
+/// Seen by the camera an object turns either way; the light on it stands still in one of them.
+#[test]
+fn a_turntable_turns_the_camera_or_the_objects() {
+    let folder = folder_with_scene();
+    for (name, turns) in [("camera", ""), ("object", "--turns object")] {
+        let sequence = "--frames 2 --turntable 180 --backend cpu";
+        let command = format!("render plate.toml -o {name}.exr {sequence} {turns}");
+        hairline(folder.path(), &command).success();
+    }
+    let read = |name: &str| exr_file::read_image(&folder.path().join(name)).unwrap();
+    assert_eq!(read("camera-0001.exr"), read("object-0001.exr"));
+    let [camera, object] = ["camera-0002.exr", "object-0002.exr"].map(read);
+    assert_eq!(camera.depth_m, object.depth_m);
+    assert_ne!(camera.base, object.base);
+    hairline(folder.path(), "render plate.toml --turns object").code(2);
+}
+
 #[test]
 fn an_animation_is_one_file_and_its_first_frame_is_the_picture() {
     let folder = folder_with_scene();

@@ -217,14 +217,7 @@ impl Document {
 
     /// Rewrites a description whose relative paths start from `base_dir`, so that they start from this document's folder.
     pub fn brought_here(&self, description: &Description, base_dir: &Path) -> Description {
-        let mut description = description.clone();
-        if base_dir != self.base_dir {
-            let (from, to) = (paths::absolute(base_dir), paths::absolute(&self.base_dir));
-            for (_, path) in description.files_mut() {
-                *path = paths::rebase(path, &from, &to);
-            }
-        }
-        description
+        rebased(description, base_dir, &self.base_dir)
     }
 
     fn rebase(&mut self, from: &Path, to: &Path) {
@@ -252,4 +245,16 @@ impl Document {
         self.history.rewrite(&mut change);
         self.end_drag();
     }
+}
+
+/// A description whose relative paths start from `from`, rewritten so that they start from `to`.
+pub fn rebased(description: &Description, from: &Path, to: &Path) -> Description {
+    let mut description = description.clone();
+    if from != to {
+        let (from, to) = (paths::absolute(from), paths::absolute(to));
+        for (_, path) in description.files_mut() {
+            *path = paths::rebase(path, &from, &to);
+        }
+    }
+    description
 }

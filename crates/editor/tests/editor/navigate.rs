@@ -216,3 +216,41 @@ fn a_point_is_centred() {
     frame_points(&mut camera, &[], 1.5);
     assert_eq!(camera.target_m, [0.2, 0.1, 0.0], "nothing");
 }
+
+/// What turns about the axis with the camera looks to it as before: distances to it and directions from it stay.
+#[test]
+fn surroundings_turn_as_the_camera_does() {
+    let mut scene = hairline_fixtures::SceneFile::seen_from([0.1, -0.4, 0.3])
+        .toward([0.1, 0.0, 0.02])
+        .metal("steel", "steel")
+        .object("disk", "steel", hairline_fixtures::DISK)
+        .sphere([0.3, 0.2, 0.5], 0.02, 30.0)
+        .description();
+    scene.lights.push(hairline_scene::description::Light::new(
+        hairline_scene::description::LightKind::Rectangle {
+            center_m: [-0.2, 0.1, 0.4],
+            target_m: [0.1, 0.0, 0.0],
+            width_m: 0.2,
+            height_m: 0.1,
+            rotation_deg: 20.0,
+            two_sided: false,
+        },
+    ));
+    let seen = |scene: &hairline_scene::Description| -> Vec<DVec2> {
+        let points = scene.lights.iter().flat_map(|light| match &light.kind {
+            hairline_scene::description::LightKind::Sphere { center_m, .. } => {
+                vec![(*center_m).into()]
+            }
+            other => other.corners_m(),
+        });
+        let seen = points.map(|point| project(&scene.camera, point, SIZE_PX));
+        seen.map(|place| place.unwrap_or(DVec2::NAN)).collect()
+    };
+    let before = seen(&scene);
+    let objects = scene.objects.clone();
+    hairline_editor::navigate::turn_surroundings(&mut scene, 1.1);
+    for (a, b) in before.iter().zip(seen(&scene)) {
+        assert!(a.distance(b) < 1e-3, "{a} {b}");
+    }
+    assert_eq!(scene.objects, objects);
+}

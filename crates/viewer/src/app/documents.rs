@@ -39,7 +39,7 @@ impl Viewer {
             }
         };
         match opened {
-            Ok(document) => self.replace_document(document),
+            Ok(document) => self.replace_document(ctx, document),
             Err(error) => self.tell_wrong_file("open", error.to_string()),
         }
     }
@@ -124,6 +124,7 @@ impl Viewer {
                 self.files.watch(&work.document);
                 if let Some(path) = work.document.path() {
                     work.bookmarks.saved_as(path);
+                    work.snapshots.saved_as(path, &mut work.notices);
                     self.files.remember(path);
                     let text = format!("Saved {}", path.display());
                     work.notices.note("saved", text);
@@ -180,7 +181,7 @@ impl Viewer {
     }
 
     /// Replaces the document by another one.
-    pub(super) fn replace_document(&mut self, document: Document) {
+    pub(super) fn replace_document(&mut self, ctx: &egui::Context, document: Document) {
         self.files.reopen();
         (self.asked, self.typed, self.sought) = (None, None, None);
         let work = &mut self.work;
@@ -188,7 +189,8 @@ impl Viewer {
         work.engine.forget_scene();
         work.free_view.end();
         work.toolbox.tool = Tool::Select;
-        work.snapshots = Snapshots::default();
+        let canvas = &self.viewport.canvas;
+        work.snapshots = Snapshots::open(work.document.path(), canvas, ctx);
         work.closed_lens = None;
         work.notices.begin_scene();
         work.tell_notes();
@@ -198,10 +200,10 @@ impl Viewer {
         }
     }
 
-    pub(super) fn recover(&mut self, pending: Pending) {
+    pub(super) fn recover(&mut self, ctx: &egui::Context, pending: Pending) {
         match pending.recover() {
             Ok(document) => {
-                self.replace_document(document);
+                self.replace_document(ctx, document);
                 self.files.take_over(pending);
                 let text = "Recovered. Save it to keep it.";
                 self.work.notices.note("recovered", text);
@@ -239,7 +241,7 @@ impl Viewer {
             Answer::Reload => self.work.reload("was loaded again."),
             Answer::PassOver => self.work.document.pass_over_disk(),
             Answer::AddModel(path, fit_m) => self.add_model(&path, fit_m),
-            Answer::Recover(pending) => self.recover(pending),
+            Answer::Recover(pending) => self.recover(ctx, pending),
         }
     }
 

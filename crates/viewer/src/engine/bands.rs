@@ -50,9 +50,9 @@ pub(super) fn prepared<'s>(built: &Built, scene: &'s Scene) -> Prepared<'s> {
     )
 }
 
-/// Renders `scene`, which is that of `built` from elsewhere, in bands of `band_px` pixels at first, then of as many as are
-/// soon done. `go_on` is told before each which share of the picture is done; when it says no, there is no picture. `batches` add up; without
-/// them all samples are taken at once.
+/// Renders `scene`, which is that of `built` from elsewhere, in bands of `band_px` pixels or a little more. `go_on` is told before each which
+/// share of the picture is done, which is the share of its time too; when it says no, there is no picture. `batches` add up; without them
+/// all samples are taken at once.
 pub(crate) fn render(
     built: &Built,
     scene: &Scene,
@@ -63,14 +63,20 @@ pub(crate) fn render(
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Image> {
     let prepared = prepared(built, scene);
-    let size_px = scene.render.size_px;
-    let size = BandSize {
-        first_px: band_px,
-        ..OF_A_THREAD
-    };
     let mut options = options(samples, transport, None);
+    let render_once = |options: &RenderOptions, go_on: &dyn Fn(f64) -> bool| {
+        let mut image = Image::new(scene.render.size_px);
+        for (done, rows) in spread(scene.render.size_px, band_px) {
+            if !go_on(done) {
+                return None;
+            }
+            let (part, _) = prepared.render_unless(&|| false, options, rows.clone(), &|_| {})?;
+            put_rows(&mut image, pixels(scene.render.size_px, rows), &part);
+        }
+        Some(image)
+    };
     let Some(mut batches) = batches else {
-        return render_once(&prepared, size_px, &options, size, go_on);
+        return render_once(&options, go_on);
     };
     options.samples = batches.samples();
     while let Some(batch) = batches.next() {
@@ -78,27 +84,39 @@ pub(crate) fn render(
         let share = 1.0 / f64::from(options.samples);
         let go_on =
             |done: f64| go_on((f64::from(batch.first) + f64::from(batch.count) * done) * share);
-        batches.add(render_once(&prepared, size_px, &options, size, &go_on)?);
+        batches.add(render_once(&options, &go_on)?);
     }
     batches.into_image()
 }
 
-fn render_once(
-    prepared: &Prepared,
+/// The bands of a picture, whole rows of tiles of `band_px` pixels or a little more, each with the share of those before it. The first of them are
+/// all over the picture: they take as long as others, so that the time of the rest is known.
+pub(crate) fn spread(
     size_px: [u32; 2],
-    options: &RenderOptions,
-    size: BandSize,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Option<Image> {
-    let mut bands = Bands::new(size_px, size);
-    loop {
-        if !go_on(bands.done()) {
-            return None;
-        }
-        if bands.next(prepared, options, &|| false)? {
-            return Some(bands.image);
-        }
-    }
+    band_px: u32,
+) -> impl Iterator<Item = (f64, Range<u32>)> + use<> {
+    let [width, height] = size_px;
+    let rows = (band_px / width.max(1)).max(1).next_multiple_of(TILE_PX);
+    let count = height.div_ceil(rows);
+    // Near the golden ratio, which leaves no part out for long.
+    let nearest = (0.618 * f64::from(count)).round() as u32;
+    let stride = (nearest.max(1)..).find(|stride| gcd(*stride, count) == 1);
+    let stride = u64::from(stride.unwrap_or(1));
+    (0..count).map(move |i| {
+        let band = (u64::from(i) * stride % u64::from(count)) as u32;
+        let first = band * rows;
+        let done = f64::from(i) / f64::from(count);
+        (done, first..(first + rows).min(height))
+    })
+}
+
+fn gcd(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+/// Pixels of some rows of a picture.
+pub(crate) fn pixels([width, _]: [u32; 2], rows: Range<u32>) -> Range<usize> {
+    rows.start as usize * width as usize..rows.end as usize * width as usize
 }
 
 /// Options of Hairline's own method.
@@ -156,11 +174,11 @@ impl Bands {
         options: &RenderOptions,
         interrupted: &(dyn Fn() -> bool + Sync),
     ) -> Option<bool> {
-        let [width, height] = self.image.size_px;
+        let height = self.image.size_px[1];
         let start = Instant::now();
         let many = self.rows.next_multiple_of(TILE_PX);
         let rows = self.next_row..(self.next_row + many).min(height);
-        let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
+        let pixels = pixels(self.image.size_px, rows.clone());
         let end = rows.end;
         let cancelled = || self.size.breaks_off && interrupted();
         let part = if self.only_edges {
@@ -209,5 +227,29 @@ pub(crate) fn put_rows(image: &mut Image, pixels: Range<usize>, part: &Image) {
             pixels: vec![FoundPixel::default(); count],
         });
         found.pixels[pixels].copy_from_slice(&of_part.pixels);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_bands_of_a_picture_are_all_over_it() {
+        for size_px in [[1920, 1080], [160, 100], [7, 8], [3000, 1], [640, 2160]] {
+            let bands: Vec<_> = spread(size_px, 1 << 13).collect();
+            let mut all: Vec<_> = bands.iter().map(|(_, rows)| rows.clone()).collect();
+            all.sort_by_key(|rows| rows.start);
+            assert!(all.windows(2).all(|two| two[0].end == two[1].start));
+            assert_eq!((all[0].start, all[all.len() - 1].end), (0, size_px[1]));
+            // Of a tenth of the bands each quarter of the picture has its share.
+            let tenth = bands.len() / 10;
+            for quarter in 0..4 {
+                let of_quarter = |rows: &Range<u32>| rows.start * 4 / size_px[1] == quarter;
+                let there = bands[..tenth].iter().filter(|(_, rows)| of_quarter(rows));
+                let there = there.count();
+                assert!(there >= tenth / 4, "{size_px:?}: {there} of {tenth}");
+            }
+        }
     }
 }

@@ -70,7 +70,7 @@ impl Built {
 
 /// Builds scenes one after the other, and keeps the trees and tables of unchanged parts.
 #[derive(Default)]
-pub(super) struct ViewBuilder {
+pub(crate) struct ViewBuilder {
     scenes: SceneBuilder,
     last: Option<LastBuild>,
     /// Builder of sketches, until a whole scene is built.

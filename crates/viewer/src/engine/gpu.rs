@@ -282,7 +282,10 @@ async fn target(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<wgpu::TextureVie
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: TARGET_FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        // Copied for a snapshot.
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_SRC,
         view_formats: &[],
     };
     let texture = gpu.texture("picture for the window", &descriptor).await?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use egui::{DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
 use hairline_image::{BATCH_SAMPLES, Batches};
 
-use super::work::Motion;
+use super::work::{Expected, Motion, Turns};
 use crate::engine::SHADOW_SAMPLES;
 
 /// Width and height; more is more than a file format or a machine is likely to hold.
@@ -26,6 +26,8 @@ pub(super) struct Form {
     pub is_transparent: bool,
     pub frames: u32,
     pub degrees: f64,
+    /// What a turntable turns.
+    pub turns: Turns,
     /// Path as typed.
     pub path: String,
     /// Reason why it cannot be done so.
@@ -48,6 +50,8 @@ pub(super) struct ExportContext {
     pub is_view_free: bool,
     /// Whether the window shows a snapshot in the place of the scene.
     pub is_snapshot: bool,
+    /// What is known of the pictures beforehand.
+    pub expected: Expected,
 }
 
 /// Button that was pressed.
@@ -68,6 +72,7 @@ impl Form {
             is_transparent: false,
             frames: 120,
             degrees: 360.0,
+            turns: Turns::Object,
             path: path.display().to_string(),
             refused: None,
             agreed: None,
@@ -80,6 +85,7 @@ impl Form {
             Motion::Turntable {
                 frames: self.frames,
                 degrees: self.degrees,
+                turns: self.turns,
             }
         } else {
             Motion::Still
@@ -144,6 +150,14 @@ impl Form {
                     );
                 ui.end_row();
                 if self.is_turntable {
+                    ui.label("Turns");
+                    ui.horizontal(|ui| {
+                        ui.selectable_value(&mut self.turns, Turns::Object, "The objects")
+                            .on_hover_text("Before the camera and under the lights, which stand still");
+                        ui.selectable_value(&mut self.turns, Turns::Camera, "The camera")
+                            .on_hover_text("Around the objects and under the lights: what a floor mirrors swings by");
+                    });
+                    ui.end_row();
                     let frames = DragValue::new(&mut self.frames).range(1..=9999);
                     if row(ui, "Pictures", frames).changed() {
                         self.question = None;
@@ -159,6 +173,7 @@ impl Form {
                 answer = self.path_row(ui);
             });
             self.remarks(ui);
+            self.expectations(ui, scene.expected);
             if scene.is_snapshot {
                 ui.colored_label(
                     ui.visuals().error_fg_color,
@@ -332,6 +347,28 @@ impl Form {
         }
         if let Some(refused) = &self.refused {
             ui.colored_label(ui.visuals().error_fg_color, refused);
+        }
+    }
+}
+
+impl Form {
+    /// Remarks on what is known beforehand.
+    fn expectations(&self, ui: &mut Ui, expected: Expected) {
+        ui.label(match (expected.picture, self.is_turntable) {
+            (None, _) => "Finding out how long it takes".to_owned(),
+            (Some(picture), false) => format!("It takes about {}.", super::words(picture)),
+            (Some(picture), true) => format!(
+                "It takes about {}: {} for each picture.",
+                super::words(self.frames * picture),
+                super::words(picture)
+            ),
+        });
+        if expected.is_filled && self.is_transparent {
+            ui.colored_label(
+                ui.visuals().warn_fg_color,
+                "No pixel will be transparent: objects fill the picture. Hide what stands behind the others in the list, such as a table or \
+                 the ground plane.",
+            );
         }
     }
 }

@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
-use hairline_cpu::closed_form::TILE_PX;
 use hairline_editor::navigate;
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, Method, RenderOptions, Renderer};
 use hairline_image::{Animation, Batches, Display, Image, Output, filter_found};
-use hairline_scene::{Camera, Description, Scene, Transport};
+use hairline_scene::{Camera, Description, Scene, Transport, description};
+use web_time::Instant;
 
-use crate::engine::{Backend, Built, Wake, bands};
+use crate::engine::{Backend, Built, ViewBuilder, Wake, bands};
 use crate::jobs::Stop;
 
 /// Number of pictures, and the movement of the camera between them.
@@ -18,7 +19,19 @@ pub(super) enum Motion {
     /// One, from the camera's place.
     Still,
     /// Pictures on the way around the target. The step after the last one would complete the angle.
-    Turntable { frames: u32, degrees: f64 },
+    Turntable {
+        frames: u32,
+        degrees: f64,
+        turns: Turns,
+    },
+}
+
+/// What a turntable turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Turns {
+    /// Objects, before the camera and under the lights.
+    Object,
+    Camera,
 }
 
 impl Motion {
@@ -45,6 +58,8 @@ pub(super) const FPS: u16 = 25;
 pub(super) struct Wish {
     /// Description with the export's camera, exposure and filter.
     pub description: Arc<Description>,
+    /// Folder from which its paths start.
+    pub base_dir: PathBuf,
     pub size_px: [u32; 2],
     pub samples: u32,
     /// Shadows and bounces, as the window has them.
@@ -90,14 +105,55 @@ impl Wish {
         }
     }
 
-    fn scene(&self, built: &Built, frame: u32) -> Scene {
-        let mut camera = self.description.camera.clone();
-        if let Motion::Turntable { frames, degrees } = self.motion {
-            let share = f64::from(frame) / f64::from(frames.max(1));
-            navigate::turn(&mut camera, share * degrees.to_radians());
+    /// Whether its pictures are made at the same cost.
+    pub fn costs_as(&self, other: &Self) -> bool {
+        self.size_px == other.size_px
+            && self.samples == other.samples
+            && self.transport == other.transport
+            && self.is_transparent == other.is_transparent
+            && self.description == other.description
+    }
+
+    /// The scene's description in a picture.
+    fn at(&self, frame: u32) -> Description {
+        let mut moved = Description::clone(&self.description);
+        if let Motion::Turntable {
+            frames,
+            degrees,
+            turns,
+        } = self.motion
+        {
+            let angle_rad = f64::from(frame) / f64::from(frames.max(1)) * degrees.to_radians();
+            match turns {
+                Turns::Camera => navigate::turn(&mut moved.camera, angle_rad),
+                Turns::Object => navigate::turn_surroundings(&mut moved, angle_rad),
+            }
         }
+        moved
+    }
+
+    fn turns_object(&self) -> bool {
+        matches!(
+            self.motion,
+            Motion::Turntable {
+                turns: Turns::Object,
+                ..
+            }
+        )
+    }
+
+    /// Waits for work on the wish's device, which only a thread may.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn block_on(&self, working: impl Future<Output = ()>) {
+        match &self.backend {
+            Backend::Cpu => pollster::block_on(working),
+            Backend::Gpu(gpu) | Backend::Shared(gpu) => gpu.block_on(working),
+        }
+    }
+
+    fn scene(&self, built: &Built, camera: &description::Camera) -> Scene {
         let mut scene = built.scene.clone();
-        scene.camera = crate::viewport::camera(&camera);
+        scene.camera = crate::viewport::camera(camera);
         scene.render.size_px = self.size_px;
         scene.render.filter_std_px = self.description.render.filter_std_px;
         match self.is_transparent {
@@ -176,13 +232,54 @@ impl Report {
     }
 }
 
-/// Renders and writes all pictures, or fewer once `stop` is set. Blocks, which only a thread may.
-#[cfg(not(target_arch = "wasm32"))]
-pub(super) fn run_to_the_end(wish: &Wish, built: &Built, stop: &Stop, report: &Report) {
-    let working = run(wish, built, stop, report);
-    match &wish.backend {
-        Backend::Cpu => pollster::block_on(working),
-        Backend::Gpu(gpu) | Backend::Shared(gpu) => gpu.block_on(working),
+/// What is known of an export before it begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Expected {
+    /// Time of one picture.
+    pub picture: Option<Duration>,
+    /// Whether objects fill the picture, so that nothing of the background is seen.
+    pub is_filled: bool,
+}
+
+/// Times after which the rest of a picture is guessed from its beginning: the first where the beginning is at least such a share.
+const GUESS_AFTER: [Duration; 2] = [Duration::from_secs(6), Duration::from_secs(20)];
+const GUESS_FROM: f64 = 0.04;
+/// Width and height within which a picture shows whether objects fill it.
+const SMALL_PX: u32 = 128;
+
+/// Begins the first picture, and tells how long it will take and what will be seen.
+pub(super) async fn rehearse(wish: &Wish, built: &Built, stop: &Stop, tell: &dyn Fn(Expected)) {
+    let scene = wish.scene(built, &wish.description.camera);
+    let mut small = scene.clone();
+    small.render.size_px = super::fitting(wish.size_px, [SMALL_PX; 2]);
+    let expected = Expected {
+        picture: None,
+        is_filled: wish.is_transparent
+            && hairline_cpu::alpha(&small, &built.triangles, 1, 1)
+                .iter()
+                .all(|share| *share == 1.0),
+    };
+    tell(expected);
+    let Ok(mut painter) = Painter::open(wish, built).await else {
+        return;
+    };
+    let start = Instant::now();
+    let guess = |share: f64| {
+        tell(Expected {
+            picture: Some(start.elapsed().div_f64(share)),
+            ..expected
+        });
+    };
+    let go_on = |share: f64| {
+        if share > 0.0 {
+            guess(share);
+        }
+        let [few, enough] = GUESS_AFTER.map(|time| start.elapsed() > time);
+        !stop.is_asked() && !(enough || few && share >= GUESS_FROM)
+    };
+    if let Ok(Some(mut image)) = painter.paint(built, &scene, wish, &go_on).await {
+        filter_found(&mut image);
+        guess(1.0);
     }
 }
 
@@ -211,6 +308,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
     };
     let animation = wish.is_animation().then(begin).transpose();
     let mut animation = animation.map_err(|error| error.to_string())?;
+    let mut views = ViewBuilder::default();
     for frame in 0..wish.frames() {
         // Before the work: the folder may have gone meanwhile.
         let output = match animation {
@@ -224,7 +322,26 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
             report.tell(|state| state.share = share);
             !stop.is_asked()
         };
-        let scene = wish.scene(built, frame);
+        let now = wish.at(frame);
+        let camera = now.camera.clone();
+        let turned = match wish.turns_object() && frame > 0 {
+            true => {
+                let cancelled = || stop.is_asked();
+                let (now, asked) = (Arc::new(now), Instant::now());
+                let built = views.build(&cancelled, 0, asked, now, &wish.base_dir);
+                match built.map_err(|error| error.to_string())? {
+                    None => return Ok(false),
+                    built => built,
+                }
+            }
+            false => None,
+        };
+        if let Some(turned) = &turned {
+            let taken = painter.take(turned, wish.transport).await;
+            taken.map_err(|error| error.to_string())?;
+        }
+        let built = turned.as_ref().unwrap_or(built);
+        let scene = wish.scene(built, &camera);
         let image = painter
             .paint(built, &scene, wish, &go_on)
             .await
@@ -312,6 +429,35 @@ impl Painter {
         })
     }
 
+    /// Goes on with a scene of other lights.
+    async fn take(
+        &mut self,
+        built: &Built,
+        transport: Transport,
+    ) -> Result<(), hairline_gpu::Error> {
+        let Self::Gpu {
+            renderer, uploaded, ..
+        } = self
+        else {
+            return Ok(());
+        };
+        let Built {
+            scene,
+            scratches,
+            tables,
+            ..
+        } = built;
+        let method = Method::default();
+        renderer
+            .update(uploaded, scene, scratches, tables, &method)
+            .await?;
+        if transport.shadows {
+            let added = renderer.add_shadows(uploaded, scene, transport.bounces);
+            added.await?;
+        }
+        Ok(())
+    }
+
     /// Renders a picture; none if `go_on` said no.
     async fn paint(
         &mut self,
@@ -376,18 +522,14 @@ async fn on_gpu_in_bands(
     band_px: u32,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Option<Image>, hairline_gpu::Error> {
-    let [width, height] = scene.render.size_px;
-    // Whole rows of tiles.
-    let band = (band_px / width).max(1).next_multiple_of(TILE_PX);
-    let mut image = Image::new(scene.render.size_px);
-    for first in (0..height).step_by(band as usize) {
-        if !go_on(f64::from(first) / f64::from(height)) {
+    let size_px = scene.render.size_px;
+    let mut image = Image::new(size_px);
+    for (done, rows) in bands::spread(size_px, band_px) {
+        if !go_on(done) {
             return Ok(None);
         }
-        let rows = first..(first + band).min(height);
-        let pixels = first as usize * width as usize..rows.end as usize * width as usize;
-        let part = renderer.render_rows(scene, uploaded, options, rows, &|_| {});
-        bands::put_rows(&mut image, pixels, &part.await?);
+        let part = renderer.render_rows(scene, uploaded, options, rows.clone(), &|_| {});
+        bands::put_rows(&mut image, bands::pixels(size_px, rows), &part.await?);
     }
     Ok(Some(image))
 }

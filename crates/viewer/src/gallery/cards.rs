@@ -65,7 +65,7 @@ pub(crate) fn card(
         response.dnd_set_drag_payload(thumb);
     }
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, name));
-    let texture = gallery.texture(ui.ctx(), thumb);
+    let shown = gallery.picture(ui.ctx(), thumb);
     if ui.is_rect_visible(rect) {
         let visuals = ui.style().interact_selectable(&response, is_selected);
         if is_selected || response.hovered() || response.has_focus() {
@@ -78,15 +78,8 @@ pub(crate) fn card(
             );
         }
         let picture = Rect::from_min_size(rect.min + vec2(4.0, 4.0), vec2(side, side));
-        match texture {
-            Some(texture) => {
-                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-                ui.painter().image(texture, picture, whole, Color32::WHITE);
-            }
-            None => {
-                ui.painter()
-                    .rect_filled(picture, 3.0, Color32::from_gray(30));
-            }
+        if let Some((texture, part)) = shown {
+            ui.painter().image(texture, picture, part, Color32::WHITE);
         }
         if let Thumb::Material(MaterialPreset::Metal(metal), _) = thumb {
             let at = picture.right_bottom() - vec2(10.0, 10.0);

@@ -1,20 +1,22 @@
-//! The scenes of the small pictures.
+//! The scenes of the small pictures, their rendering onto the sheet, and whether it is out of date.
 
 use std::path::Path;
 
-use egui::ColorImage;
 use glam::DVec3;
 use hairline_cpu::closed_form::{self, RenderOptions};
+use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::place_light::place_highlight;
-use hairline_editor::presets::{LayerPreset, MaterialPreset};
-use hairline_image::{Picture, png};
+use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
+use hairline_editor::wear::Wear;
+use hairline_image::{Display, Picture, png};
+use hairline_optics::metal::Metal;
 use hairline_scene::description::{
     Light, LightKind, Material, MaterialKind, Scratches, Shape, Surface,
 };
 use hairline_scene::environment::BuiltInMap;
 use hairline_scene::{Description, Environment, Loader};
 
-use super::thumb::{StandIn, Thumb};
+use super::{COLUMNS, SIDE_PX, StandIn, Thumb};
 
 /// A shallow dome of steel under a lamp, seen from above at a slant. The lamp's reflection lies a little behind the
 /// dome's middle.
@@ -74,70 +76,78 @@ const BODY_M: f64 = 0.06;
 
 /// Renderer of small pictures. It keeps the map that several of them use.
 #[derive(Default)]
-pub(super) struct Studio {
+struct Studio {
     map: Option<Environment>,
 }
 
-impl Studio {
-    /// Renders a picture; none where the scene cannot be made, which a test excludes.
-    pub fn picture(&mut self, thumb: Thumb, side_px: u32) -> Option<ColorImage> {
-        let (description, map) = match thumb {
-            Thumb::Layer(preset, StandIn::Flat) => {
-                let mut dome = dome(&[preset.layer("o", DOME_DIAGONAL_M)]);
-                if matches!(preset, LayerPreset::PolishedWatch | LayerPreset::SpunDisk) {
-                    // Scratches that run to the middle light up between it and a lamp beside it.
-                    dome.lights[0] = mirrored(dome.lights[0].clone(), &dome, BESIDE_M);
-                }
-                (dome, None)
+/// The scene of a small picture, with its map.
+fn scene_of(thumb: Thumb, side_px: u32) -> (Description, Option<BuiltInMap>) {
+    let (mut description, map) = match thumb {
+        Thumb::Layer(preset, StandIn::Flat) => {
+            let mut dome = dome(&[preset.layer("o", DOME_DIAGONAL_M)]);
+            if matches!(preset, LayerPreset::PolishedWatch | LayerPreset::SpunDisk) {
+                // Scratches that run to the middle light up between it and a lamp beside it.
+                dome.lights[0] = mirrored(dome.lights[0].clone(), &dome, BESIDE_M);
             }
-            Thumb::Layer(preset, form) => (body(form, &[preset.layer("o", BODY_M)]), None),
-            Thumb::Wear(wear, StandIn::Flat) => {
-                (dome(&wear.layers("o", 0.7 * DOME_DIAGONAL_M)), None)
-            }
-            Thumb::Wear(wear, form) => (body(form, &wear.layers("o", 0.7 * BODY_M)), None),
-            Thumb::Grating(preset, form) => {
-                let mut grooved = match form {
-                    StandIn::Flat => dome(&[]),
-                    form => body(form, &[]),
-                };
-                grooved.gratings = vec![preset.grating("o")];
-                (grooved, None)
-            }
-            Thumb::Material(preset, form) => {
-                let mut made = of_form(form);
-                let material = preset.material();
-                made.objects[0].material = Some(material.name.clone());
-                made.materials = vec![material];
-                (made, Some(BuiltInMap::Studio))
-            }
-            Thumb::Map(map) => (read(BALL), Some(map)),
-            Thumb::Shape(preset) => {
-                let mut shape = read(BALL);
-                shape.objects[0].surface = Surface::Shape(preset.shape(0.043));
-                shape.materials[0] = clay();
-                shape.objects[0].material = Some(shape.materials[0].name.clone());
-                shape.camera.position_m = [0.02, -0.088, 0.058];
-                (shape, Some(BuiltInMap::Studio))
-            }
-            Thumb::Light(preset) => {
-                let mut lit = dome(&[LayerPreset::RandomWear.layer("o", DOME_DIAGONAL_M)]);
-                let light = preset.light(DVec3::ZERO, DVec3::Z, DOME_DIAGONAL_M);
-                lit.lights = vec![mirrored(light, &lit, MIDDLE_M)];
-                lit.camera.exposure_ev = 1.0;
-                (lit, None)
-            }
-        };
-        let mut description = description;
-        description.render.size_px = [side_px; 2];
-        let mut scene = Loader::default().build(&description, Path::new("")).ok()?;
-        match thumb {
-            // A flat one mirrors the soft box above it alone.
-            Thumb::Material(MaterialPreset::Metal(_) | MaterialPreset::Mirror, StandIn::Flat) => {
-                description.camera.exposure_ev = -3.5;
-            }
-            Thumb::Shape(_) | Thumb::Material(..) => description.camera.exposure_ev = 0.5,
-            _ => {}
+            (dome, None)
         }
+        Thumb::Layer(preset, form) => (body(form, &[preset.layer("o", BODY_M)]), None),
+        Thumb::Wear(wear, StandIn::Flat) => (dome(&wear.layers("o", 0.7 * DOME_DIAGONAL_M)), None),
+        Thumb::Wear(wear, form) => (body(form, &wear.layers("o", 0.7 * BODY_M)), None),
+        Thumb::Grating(preset, form) => {
+            let mut grooved = match form {
+                StandIn::Flat => dome(&[]),
+                form => body(form, &[]),
+            };
+            grooved.gratings = vec![preset.grating("o")];
+            (grooved, None)
+        }
+        Thumb::Material(preset, form) => {
+            let mut made = of_form(form);
+            let mut material = preset.material();
+            made.camera.exposure_ev = match (preset, form) {
+                // A flat one mirrors the soft box above it alone.
+                (MaterialPreset::Metal(_), StandIn::Flat) => -2.2,
+                (MaterialPreset::Metal(_), _) => 0.7,
+                (MaterialPreset::Mirror, StandIn::Flat) => -3.5,
+                _ => 0.5,
+            };
+            if let MaterialPreset::Metal(_) = preset {
+                // So dull that its own colour is seen, and not the room.
+                material.roughness = 0.3;
+            }
+            made.objects[0].material = Some(material.name.clone());
+            made.materials = vec![material];
+            (made, Some(BuiltInMap::Studio))
+        }
+        Thumb::Map(map) => (read(BALL), Some(map)),
+        Thumb::Shape(preset) => {
+            let mut shape = read(BALL);
+            shape.objects[0].surface = Surface::Shape(preset.shape(0.043));
+            shape.materials[0] = clay();
+            shape.objects[0].material = Some(shape.materials[0].name.clone());
+            shape.camera.position_m = [0.02, -0.088, 0.058];
+            shape.camera.exposure_ev = -1.0;
+            (shape, Some(BuiltInMap::Studio))
+        }
+        Thumb::Light(preset) => {
+            let mut lit = dome(&[LayerPreset::RandomWear.layer("o", DOME_DIAGONAL_M)]);
+            let light = preset.light(DVec3::ZERO, DVec3::Z, DOME_DIAGONAL_M);
+            lit.lights = vec![mirrored(light, &lit, MIDDLE_M)];
+            lit.camera.exposure_ev = 1.0;
+            (lit, None)
+        }
+    };
+    description.render.size_px = [side_px; 2];
+    (description, map)
+}
+
+impl Studio {
+    /// Renders a picture, as codes of red, green and blue.
+    fn picture(&mut self, thumb: Thumb, side_px: u32) -> Vec<u8> {
+        let (description, map) = scene_of(thumb, side_px);
+        let loader = Loader::default();
+        let mut scene = loader.build(&description, Path::new("")).unwrap();
         if let Some(map) = map {
             let is_seen = matches!(thumb, Thumb::Map(_));
             scene.environment = Some(self.environment(map).with_visible(is_seen));
@@ -147,23 +157,28 @@ impl Studio {
             ..RenderOptions::default()
         };
         let image = closed_form::render(&scene, &options, &|_| {});
-        let display = hairline_image::Display {
+        let display = Display {
             exposure_ev: description.camera.exposure_ev,
             tone_map: description.render.tone_map,
         };
-        // The ground of menus, where there is nothing.
         let mut beauty = image.beauty();
-        if !matches!(thumb, Thumb::Map(_)) {
-            let nothing = image.depth_m.iter().map(|depth_m| *depth_m == 0.0);
-            for (rgb, is_nothing) in beauty.rgb.iter_mut().zip(nothing) {
-                if is_nothing {
-                    *rgb = GROUND;
-                }
+        if let Thumb::Material(MaterialPreset::Metal(metal), _) = thumb {
+            // It lies among others of its kind, whose light has its colour twice: grey metals differ by a few hundredths.
+            let [r, g, b] = metal.reflectance_rgb(1.0).map(|c| c as f32);
+            let mean = (r + g + b) / 3.0;
+            let tint = [r, g, b].map(|c| c * c / mean);
+            for rgb in &mut beauty.rgb {
+                *rgb = [0, 1, 2].map(|c| rgb[c] * tint[c]);
             }
         }
-        let size = [side_px as usize; 2];
-        let codes = png::quantize(&beauty, &display);
-        Some(ColorImage::from_rgb(size, &codes))
+        let mut codes = png::quantize(&beauty, &display);
+        if !matches!(thumb, Thumb::Map(_)) {
+            for (i, _) in (image.depth_m.iter().enumerate()).filter(|(_, depth_m)| **depth_m == 0.0)
+            {
+                codes[3 * i..3 * i + 3].fill(GROUND);
+            }
+        }
+        codes
     }
 
     fn environment(&mut self, map: BuiltInMap) -> Environment {
@@ -181,7 +196,8 @@ impl Studio {
     }
 }
 
-const GROUND: [f32; 3] = [0.012; 3];
+/// The ground of menus, where there is nothing.
+const GROUND: u8 = 34;
 
 /// Grey and dull: it shows nothing but the shape.
 fn clay() -> Material {
@@ -262,108 +278,147 @@ fn mirrored(mut light: Light, description: &Description, point_m: DVec3) -> Ligh
     light
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use hairline_editor::grating_presets::GratingPreset;
-    use hairline_editor::presets::{LightPreset, ShapePreset};
-    use hairline_editor::wear::Wear;
+/// What a picture is made of, in a number.
+fn fingerprint(thumb: Thumb) -> u64 {
+    let (description, map) = scene_of(thumb, SIDE_PX);
+    let text = format!("{thumb:?} {map:?} {}", description.to_toml().unwrap());
+    // FNV-1a.
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
+    })
+}
 
-    #[test]
-    fn each_has_a_picture_of_its_own() {
-        // The most expensive pictures are like others, and one body shows as much as three.
-        have_pictures_of_their_own(
-            all().filter(|thumb| match thumb {
-                Thumb::Wear(wear, form) => {
-                    *form == StandIn::Flat && !matches!(wear, Wear::Keys | Wear::Polished)
-                }
-                Thumb::Layer(layer, form) => {
-                    *form == StandIn::Flat
-                        && !matches!(layer, LayerPreset::TurnedPan | LayerPreset::SpunDisk)
-                }
-                Thumb::Grating(_, form) => *form == StandIn::Flat,
-                Thumb::Light(_) => true,
-                _ => false,
-            }),
-            8,
-        );
-    }
+fn fingerprints() -> String {
+    let lines = Thumb::all().map(|thumb| format!("{:016x} {thumb:?}\n", fingerprint(thumb)));
+    lines.collect()
+}
 
-    #[test]
-    fn so_has_each_material_and_shape() {
-        // One body
-        have_pictures_of_their_own(
-            all().filter(|thumb| {
-                matches!(thumb, Thumb::Shape(_) | Thumb::Material(_, StandIn::Flat))
-            }),
-            8,
-        );
-    }
+const MADE_OF: &str = include_str!("../../assets/tiles.txt");
+const HINT: &str =
+    "out of date: HAIRLINE_WRITE=1 cargo test --release -p hairline-viewer-lib --lib tiles";
 
-    #[test]
-    #[ignore = "long: cargo long"]
-    fn so_has_each_on_every_body() {
-        have_pictures_of_their_own(all(), 96);
-    }
+/// The codes of a picture on the sheet.
+fn on_sheet(place: usize) -> Vec<u8> {
+    let sheet = super::sheet().unwrap();
+    let side = SIDE_PX as usize;
+    let [x0, y0] = [place % COLUMNS as usize, place / COLUMNS as usize].map(|i| i * side);
+    let pixels = (0..side * side).map(|i| (x0 + i % side, y0 + i / side));
+    let codes = pixels.flat_map(|(x, y)| {
+        let [r, g, b, _] = sheet[(x, y)].to_array();
+        [r, g, b]
+    });
+    codes.collect()
+}
 
-    fn all() -> impl Iterator<Item = Thumb> {
-        let on = |form: StandIn| {
-            let layers = LayerPreset::ALL.map(|p| Thumb::Layer(p, form)).into_iter();
-            layers
-                .chain(MaterialPreset::all().map(move |p| Thumb::Material(p, form)))
-                .chain(Wear::ALL.map(|p| Thumb::Wear(p, form)))
-                .chain(GratingPreset::ALL.map(|p| Thumb::Grating(p, form)))
-        };
-        let lights = LightPreset::ALL.map(Thumb::Light).into_iter();
-        lights
-            .chain(ShapePreset::ALL.map(Thumb::Shape))
-            .chain(BuiltInMap::ALL.map(Thumb::Map))
-            .chain(StandIn::ALL.into_iter().flat_map(on))
-    }
-
-    /// With `HAIRLINE_GALLERY=FOLDER` it leaves the pictures in that folder.
-    fn have_pictures_of_their_own(thumbs: impl Iterator<Item = Thumb>, side_px: u32) {
-        let mut studio = Studio::default();
-        let pictures: Vec<(Thumb, ColorImage)> = thumbs
-            .map(|thumb| {
-                let t = std::time::Instant::now();
-                let picture = studio.picture(thumb, side_px);
-                eprintln!("{:.2} {thumb:?}", t.elapsed().as_secs_f64());
-                (thumb, picture.expect("a picture"))
-            })
-            .collect();
-        if let Some(folder) = std::env::var_os("HAIRLINE_GALLERY") {
-            write_sheet(&pictures, Path::new(&folder));
+fn write() {
+    let all: Vec<Thumb> = Thumb::all().collect();
+    let side = SIDE_PX as usize;
+    let width = COLUMNS as usize * side;
+    let height = all.len().div_ceil(COLUMNS as usize) * side;
+    let mut sheet = vec![0; 3 * width * height];
+    let mut studio = Studio::default();
+    for (place, thumb) in all.into_iter().enumerate() {
+        let [x0, y0] = [place % COLUMNS as usize, place / COLUMNS as usize].map(|i| i * side);
+        for (y, row) in studio.picture(thumb, SIDE_PX).chunks(3 * side).enumerate() {
+            let at = 3 * ((y0 + y) * width + x0);
+            sheet[at..at + row.len()].copy_from_slice(row);
         }
-        for (i, (thumb, a)) in pictures.iter().enumerate() {
-            let mean =
-                a.pixels.iter().map(|p| u32::from(p.g())).sum::<u32>() / a.pixels.len() as u32;
-            assert!((6..235).contains(&mean), "{thumb:?}: {mean}");
-            for (other, b) in &pictures[..i] {
-                assert!(a.pixels != b.pixels, "{thumb:?} {other:?}");
+    }
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+    let mut bytes = Vec::new();
+    image::codecs::jpeg::JpegEncoder::new_with_quality(&mut bytes, 90)
+        .encode(
+            &sheet,
+            width as u32,
+            height as u32,
+            image::ExtendedColorType::Rgb8,
+        )
+        .unwrap();
+    std::fs::write(assets.join("tiles.jpg"), bytes).unwrap();
+    std::fs::write(assets.join("tiles.txt"), fingerprints()).unwrap();
+}
+
+#[test]
+fn tiles_are_made_of_the_presets_that_there_are() {
+    if std::env::var_os("HAIRLINE_WRITE").is_some() {
+        write();
+        return;
+    }
+    assert!(fingerprints() == MADE_OF, "{HINT}");
+}
+
+/// A few that are soon rendered stand for all.
+#[test]
+fn tiles_are_what_the_renderer_makes() {
+    let few = [
+        Thumb::Shape(ShapePreset::Torus),
+        Thumb::Map(BuiltInMap::Window),
+        Thumb::Light(LightPreset::SmallLamp),
+        Thumb::Material(MaterialPreset::CarPaint, StandIn::Tall),
+        Thumb::Wear(Wear::ALL[1], StandIn::Round),
+        Thumb::Grating(GratingPreset::ALL[0], StandIn::Flat),
+    ];
+    let mut studio = Studio::default();
+    for thumb in few {
+        let place = Thumb::all().position(|other| other == thumb).unwrap();
+        let (made, there) = (studio.picture(thumb, SIDE_PX), on_sheet(place));
+        let off = made
+            .iter()
+            .zip(&there)
+            .map(|(a, b)| u64::from(a.abs_diff(*b)));
+        let mean = off.sum::<u64>() as f64 / made.len() as f64;
+        assert!(mean < 6.0, "{thumb:?} is {mean} codes off: {HINT}");
+    }
+}
+
+#[test]
+fn each_tile_has_a_picture_of_its_own() {
+    let all: Vec<(Thumb, Vec<u8>)> = Thumb::all()
+        .enumerate()
+        .map(|(place, thumb)| (thumb, on_sheet(place)))
+        .collect();
+    for (i, (thumb, codes)) in all.iter().enumerate() {
+        let mean = codes.iter().map(|c| u32::from(*c)).sum::<u32>() / codes.len() as u32;
+        assert!((6..235).contains(&mean), "{thumb:?}: {mean}");
+        for (other, others) in &all[..i] {
+            assert!(codes != others, "{thumb:?} {other:?}");
+        }
+    }
+}
+
+/// Steel, nickel and titanium are greys: side by side their pictures are told apart.
+#[test]
+fn grey_metals_are_told_apart_by_their_tiles() {
+    let greys = [Metal::StainlessSteel, Metal::Nickel, Metal::Titanium];
+    for form in StandIn::ALL {
+        let colors = greys.map(|metal| {
+            let thumb = Thumb::Material(MaterialPreset::Metal(metal), form);
+            let place = Thumb::all().position(|other| other == thumb).unwrap();
+            // The middle, without the ground.
+            let side = SIDE_PX as usize;
+            let codes = on_sheet(place);
+            let middle = (0..side * side).filter(|i| {
+                [i % side, i / side]
+                    .into_iter()
+                    .all(|x| (side / 3..2 * side / 3).contains(&x))
+            });
+            let mut sum = [0.0; 3];
+            let mut count = 0.0;
+            for i in middle {
+                sum = [0, 1, 2].map(|c| sum[c] + f64::from(codes[3 * i + c]));
+                count += 1.0;
             }
+            sum.map(|sum| sum / count)
+        });
+        for (a, b) in [(0, 1), (0, 2), (1, 2)] {
+            let off = [0, 1, 2].map(|c| (colors[a][c] - colors[b][c]).abs());
+            let all: f64 = off.iter().sum();
+            assert!(
+                all > 16.0,
+                "{form:?} {:?} {:?}: {off:?}",
+                greys[a],
+                greys[b]
+            );
         }
-    }
-
-    /// Writes all pictures on one sheet, to look at.
-    fn write_sheet(pictures: &[(Thumb, ColorImage)], folder: &Path) {
-        const COLUMNS: usize = 9;
-        let side = pictures[0].1.size[0];
-        let rows = pictures.len().div_ceil(COLUMNS);
-        let mut sheet = Picture::new([(COLUMNS * side) as u32, (rows * side) as u32]);
-        for (i, (_, picture)) in pictures.iter().enumerate() {
-            let (x0, y0) = (i % COLUMNS * side, i / COLUMNS * side);
-            for (j, pixel) in picture.pixels.iter().enumerate() {
-                let at = (y0 + j / side) * COLUMNS * side + x0 + j % side;
-                let code = |c: u8| hairline_image::tone_map::linear_from_srgb(f32::from(c) / 255.0);
-                sheet.rgb[at] = [pixel.r(), pixel.g(), pixel.b()].map(code);
-            }
-        }
-        let output = hairline_image::Output::check(&folder.join("gallery.png")).unwrap();
-        let display = hairline_image::Display {
-            exposure_ev: 0.0,
-            tone_map: hairline_image::ToneMap::None,
-        };
-        output.write_picture(&sheet, &display).unwrap();
     }
 }

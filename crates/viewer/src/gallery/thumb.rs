@@ -18,6 +18,22 @@ pub(crate) enum Thumb {
 }
 
 impl Thumb {
+    /// Every subject, in the order of the sheet.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let on = |form: StandIn| {
+            let layers = LayerPreset::ALL.map(|p| Self::Layer(p, form)).into_iter();
+            layers
+                .chain(MaterialPreset::all().map(move |p| Self::Material(p, form)))
+                .chain(Wear::ALL.map(|p| Self::Wear(p, form)))
+                .chain(GratingPreset::ALL.map(|p| Self::Grating(p, form)))
+        };
+        let lights = LightPreset::ALL.map(Self::Light).into_iter();
+        lights
+            .chain(ShapePreset::ALL.map(Self::Shape))
+            .chain(BuiltInMap::ALL.map(Self::Map))
+            .chain(StandIn::ALL.into_iter().flat_map(on))
+    }
+
     /// Name of the preset in a menu, if it can be given to an object.
     pub fn given_name(self) -> Option<&'static str> {
         match self {
@@ -43,7 +59,6 @@ pub(crate) enum StandIn {
 }
 
 impl StandIn {
-    #[cfg(test)]
     pub const ALL: [Self; 3] = [Self::Flat, Self::Round, Self::Tall];
 
     /// The stand-in for a box with these sides, `height` among them, in one unit.

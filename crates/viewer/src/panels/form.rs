@@ -8,7 +8,10 @@ use std::path::PathBuf;
 
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
-use egui::{Align, Context, Id, Layout, Response, Slider, SliderClamping, TextEdit, Ui};
+use egui::{
+    Align, Context, Event, FocusDirection, Id, Key as KeyboardKey, Layout, Response, Slider,
+    SliderClamping, TextEdit, Ui,
+};
 use hairline_editor::DragKey;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::quantity::ShownUnit;
@@ -21,6 +24,8 @@ use crate::platform::HAS_DISK;
 
 /// Width of the labels' column, points.
 const LABEL_WIDTH: f32 = 110.0;
+/// Width of a box among others in which numbers can be read.
+const LEAST_BOX_WIDTH: f32 = 54.0;
 /// Width of a number's box.
 const VALUE_WIDTH: f32 = 78.0;
 
@@ -91,7 +96,7 @@ impl<'a> Form<'a> {
             let text = ui
                 .scope(|ui| {
                     ui.set_width(LABEL_WIDTH);
-                    ui.add(egui::Label::new(label).truncate())
+                    ui.add(egui::Label::new(label).wrap())
                 })
                 .inner;
             if !tooltip.is_empty() {
@@ -159,7 +164,7 @@ impl<'a> Form<'a> {
 
     fn boxes_labelled(&mut self, label: &str, range: &Range, names: &[&str], values: &mut [f64]) {
         let shown = range.unit.shown_together(values, FINE * self.diagonal_m);
-        self.row(label, range.tooltip, |ui, _| {
+        let boxes = |ui: &mut Ui, _: &Response| {
             let width = share(ui, names.len());
             names
                 .iter()
@@ -167,7 +172,17 @@ impl<'a> Form<'a> {
                 .fold(false, |changed, (name, value)| {
                     small_box(ui, width, label, name, (range, shown), value) || changed
                 })
-        });
+        };
+        let needed = LABEL_WIDTH + LEAST_BOX_WIDTH * names.len() as f32;
+        if self.ui.available_width() > needed {
+            self.row(label, range.tooltip, boxes);
+            return;
+        }
+        // In a narrow panel below their label.
+        let text = self.ui.label(label).on_hover_text(range.tooltip);
+        if self.ui.horizontal(|ui| boxes(ui, &text)).inner {
+            self.note(label);
+        }
     }
 
     /// A linear colour, each channel in [0, 1].
@@ -351,7 +366,7 @@ fn line(
         return false;
     }
     ui.data_mut(|data| data.remove_temp::<String>(id));
-    let is_given_up = ui.input(|input| input.key_pressed(egui::Key::Escape));
+    let is_given_up = ui.input(|input| input.key_pressed(KeyboardKey::Escape));
     let changed = response.lost_focus() && typed != *value && !is_given_up;
     if changed {
         // Pasted text may have line ends, which names and paths of scene files have not.
@@ -382,12 +397,31 @@ fn slider_and_box(ui: &mut Ui, label: &Response, range: &Range, value: &mut f64)
             .add(slider)
             .labelled_by(label.id)
             .on_hover_text(range.tooltip);
+        pass_on_focus(ui, &slid, &typed);
         if slid.changed() {
             *value = on_slider.clamp(*range.hard.start(), *range.hard.end());
         }
         typed.changed() || slid.changed()
     })
     .inner
+}
+
+/// The keyboard goes from box to box, in which all can be done that a slider can.
+fn pass_on_focus(ui: &Ui, slid: &Response, typed: &Response) {
+    // A screen reader may want the slider.
+    let is_asked_for = |event: &Event| matches!(event, Event::AccessKitActionRequest(_));
+    if !slid.gained_focus() || ui.input(|input| input.events.iter().any(is_asked_for)) {
+        return;
+    }
+    let is_forward =
+        ui.input(|input| input.key_pressed(KeyboardKey::Tab) && !input.modifiers.shift);
+    ui.memory_mut(|memory| match is_forward {
+        true => {
+            memory.surrender_focus(slid.id);
+            memory.move_focus(FocusDirection::Next);
+        }
+        false => memory.request_focus(typed.id),
+    });
 }
 
 /// Width of one of `n` boxes in the rest of a row.

@@ -26,7 +26,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let mut name = light.name.clone().unwrap_or_default();
     form.text(NAME, "What the outliner calls it", &mut name);
     light.name = (!name.is_empty()).then_some(name);
-    form.toggle("Hidden", "A hidden light gives no light", &mut light.hidden);
+    let mut shines = !light.hidden;
+    form.toggle("Shines", "Whether it gives light", &mut shines);
+    light.hidden = !shines;
     if light.kind.sunbeam().is_none() {
         form.toggle("Visible", "The camera sees its shape", &mut light.visible);
         form.number(&schema::light::RADIANCE, &mut light.radiance);

@@ -37,7 +37,8 @@ fn bar(ui: &mut Ui, work: &mut Workspace, files: &Files, is_comparing: bool) -> 
     MenuBar::new().ui(ui, |ui| {
         for group in Group::ALL {
             let menu = ui.menu_button(group.name(), |ui| menu(ui, work, group, files));
-            if ui.input_mut(|input| input.consume_key(Modifiers::ALT, group.key())) {
+            let is_asked = ui.memory(|memory| memory.top_modal_layer().is_some());
+            if !is_asked && ui.input_mut(|input| input.consume_key(Modifiers::ALT, group.key())) {
                 let popup = Popup::default_response_id(&menu.response);
                 Popup::open_id(ui.ctx(), popup);
                 menu.response.request_focus();
@@ -138,6 +139,8 @@ fn item(ui: &mut Ui, work: &mut Workspace, command: Command) {
     }
     if ui.add_enabled(work.can(command), button).clicked() {
         work.wished.push(command);
+        // Enter closes no menu by itself.
+        ui.close();
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use egui::{Context, DragValue, Id, Key, Response, Stroke, StrokeKind, Ui};
+use egui::{Color32, Context, DragValue, Id, Key, Response, Stroke, StrokeKind, Ui};
 use hairline_editor::quantity::{ShownUnit, parse};
 use hairline_editor::ranges::Range;
 
@@ -14,6 +14,15 @@ pub(super) struct NumberBox<'a> {
     pub range: &'a Range,
     pub shown: ShownUnit,
     pub width: f32,
+}
+
+/// An input that was refused, until the value changes or its message goes.
+#[derive(Clone)]
+struct Refused {
+    of: Id,
+    /// The value that stayed.
+    value: f64,
+    why: String,
 }
 
 /// Result of reading an input.
@@ -59,9 +68,30 @@ impl NumberBox<'_> {
         if range.is_whole {
             drag = drag.max_decimals(0);
         }
-        let response = ui.add_sized([self.width, 20.0], drag);
-        remember(ui, &response, typed.into_inner());
-        self.remark(ui, response)
+        let response = ui
+            .scope(|ui| {
+                self.fit_text(ui, &text);
+                ui.add_sized([self.width, 20.0], drag)
+            })
+            .inner;
+        if let Some(typed) = typed.into_inner() {
+            remember(ui, &response, before, typed);
+        }
+        self.remark(ui, response, *value)
+    }
+
+    /// Makes letters so small that the number fits: a wider box would widen the panel, and with it the picture would start anew.
+    fn fit_text(&self, ui: &mut Ui, number: &str) {
+        let style = ui.style().drag_value_text_style.clone();
+        let font = style.resolve(ui.style());
+        let text = format!("{}{number}", self.prefix);
+        let galley = ui.painter().layout_no_wrap(text, font, Color32::WHITE);
+        let room = self.width - 2.0 * ui.spacing().button_padding.x - 2.0;
+        if galley.size().x > room
+            && let Some(font) = ui.style_mut().text_styles.get_mut(&style)
+        {
+            font.size *= (room / galley.size().x).max(0.5);
+        }
     }
 
     /// Reads a typed number that the scene allows.
@@ -94,20 +124,22 @@ impl NumberBox<'_> {
     }
 
     /// A red rim and the reason while the last input was refused; else the tooltip.
-    fn remark(&self, ui: &Ui, response: Response) -> Response {
-        let id = refused_id(&response);
-        let why = ui.data(|data| data.get_temp::<String>(id));
-        match why {
-            Some(_) if response.changed() => ui.data_mut(|data| data.remove::<String>(id)),
-            Some(why) => {
+    fn remark(&self, ui: &Ui, response: Response, value: f64) -> Response {
+        let refused = ui.data(|data| data.get_temp::<Refused>(refused_id()));
+        match refused.filter(|refused| refused.of == response.id) {
+            Some(refused) if refused.value == value => {
                 let rim = Stroke::new(1.5, ui.visuals().error_fg_color);
                 ui.painter()
                     .rect_stroke(response.rect, 3.0, rim, StrokeKind::Inside);
-                return response.on_hover_text(why);
+                response.on_hover_text(refused.why)
             }
-            None => {}
+            changed => {
+                if changed.is_some() {
+                    remember(ui, &response, value, Typed::Taken);
+                }
+                response.on_hover_text(self.range.tooltip)
+            }
         }
-        response.on_hover_text(self.range.tooltip)
     }
 }
 
@@ -122,8 +154,13 @@ fn is_given_up(ui: &Ui) -> bool {
     pressed.is_some_and(|pressed| pass <= pressed + 2)
 }
 
-fn refused_id(response: &Response) -> Id {
-    response.id.with("refused")
+fn refused_id() -> Id {
+    Id::unique("a number that was refused")
+}
+
+/// Takes the rim off the box whose input was refused: its message is gone.
+pub(crate) fn forget(ctx: &Context) {
+    ctx.data_mut(|data| data.remove::<Refused>(refused_id()));
 }
 
 /// Id under which messages wait for the notices.
@@ -131,14 +168,14 @@ fn told_id() -> Id {
     Id::unique("what was typed for a number")
 }
 
-fn remember(ui: &Ui, response: &Response, typed: Option<Typed>) {
-    let Some(typed) = typed else { return };
+fn remember(ui: &Ui, response: &Response, value: f64, typed: Typed) {
     ui.data_mut(|data| {
         match &typed {
             Typed::Refused(why) => {
-                data.insert_temp(refused_id(response), why.clone());
+                let (of, why) = (response.id, why.clone());
+                data.insert_temp(refused_id(), Refused { of, value, why });
             }
-            Typed::Taken => data.remove::<String>(refused_id(response)),
+            Typed::Taken => data.remove::<Refused>(refused_id()),
         }
         data.insert_temp(told_id(), typed);
     });

@@ -15,7 +15,7 @@ use super::overrides;
 use crate::command::Command;
 use crate::gallery::{SIDE, Thumb, card, cards};
 use crate::parts::ObjectPart;
-use crate::workspace::Workspace;
+use crate::workspace::{FAINT, Workspace};
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let description = work.document.description().clone();
@@ -151,9 +151,6 @@ fn give_cards(
         work.give(preset, object, ObjectPart::default());
     }
 }
-
-/// Share of the scratched pixels in which scratches must be noticed; below it other light is offered.
-const FAINT: f32 = 0.08;
 
 /// Row for the object's wear: one choice over its layers of wear.
 fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {

@@ -1,6 +1,6 @@
 //! The list of all that the scene has.
 
-use egui::{Panel, RichText, ScrollArea, StrokeKind, Ui};
+use egui::{RichText, StrokeKind, Ui};
 use hairline_editor::Selection;
 use hairline_editor::actions::{gratings, layers, lights, materials, objects, parts};
 use hairline_editor::maps;
@@ -15,19 +15,7 @@ use crate::gallery::{Thumb, cards};
 use crate::parts::ObjectPart;
 use crate::workspace::Workspace;
 
-pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
-    Panel::left("outliner")
-        .default_size(230.0)
-        .size_range(160.0..=400.0)
-        .show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                ui.add_space(4.0);
-                rows(ui, work);
-            });
-        });
-}
-
-fn rows(ui: &mut Ui, work: &mut Workspace) {
+pub(super) fn rows(ui: &mut Ui, work: &mut Workspace) {
     let description = work.document.description().clone();
     line(ui, work, Selection::Camera, "Camera", true);
     let map = match description.environment.as_ref().map(|e| &e.map) {

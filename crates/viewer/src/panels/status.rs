@@ -11,37 +11,50 @@ use crate::engine::{Engine, Frame, Latency};
 use crate::viewport::Viewport;
 use crate::workspace::Workspace;
 
+/// Share of the line that the name of what renders may have.
+const LONGEST_BACKEND: f32 = 0.3;
+
 pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, viewport: &Viewport) {
     Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
-        ui.horizontal_centered(|ui| {
+        let right_to_left = egui::Layout::right_to_left(egui::Align::Center);
+        ui.with_layout(right_to_left, |ui| {
             ui.spacing_mut().item_spacing.x = 14.0;
-            let engine = &work.engine;
-            match engine.latest() {
-                Some(frame) => {
-                    picture(ui, &frame, viewport.canvas.is_stale(), engine.is_resting());
-                }
-                None => drop(ui.label(before_the_first(engine))),
-            }
-            if let Some(built) = engine.built() {
-                let (scratches, segments) = built.scratch_counts();
-                ui.label(format!("{} scratches", grouped(scratches)))
-                    .on_hover_text(format!("in {} straight pieces", grouped(segments)));
-            }
-            if engine.is_building() {
-                ui.add(Busy::new());
-                ui.label("laying scratches");
-            }
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let time = viewport.interface_time;
-                ui.label(RichText::new(format!("interface {}", milliseconds(time))).weak())
-                    .on_hover_text("The longest pass of the interface itself of late");
-                let backend = work.engine.backend();
-                ui.label(backend.label())
+            let time = viewport.interface_time;
+            ui.label(RichText::new(format!("interface {}", milliseconds(time))).weak())
+                .on_hover_text("The longest pass of the interface itself of late");
+            let backend = work.engine.backend();
+            let most = LONGEST_BACKEND * ui.available_width();
+            ui.scope(|ui| {
+                ui.set_max_width(most);
+                ui.add(egui::Label::new(backend.label()).truncate())
                     .on_hover_text("What renders the picture");
-                transport(ui, work);
+            });
+            transport(ui, work);
+            // What has no room is cut off, in place of lying over the rest.
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                ui.set_clip_rect(ui.max_rect().intersect(ui.clip_rect()));
+                progress(ui, &work.engine, viewport);
             });
         });
     });
+}
+
+fn progress(ui: &mut Ui, engine: &Engine, viewport: &Viewport) {
+    match engine.latest() {
+        Some(frame) => {
+            picture(ui, &frame, viewport.canvas.is_stale(), engine.is_resting());
+        }
+        None => drop(ui.label(before_the_first(engine))),
+    }
+    if engine.is_building() {
+        ui.add(Busy::new());
+        ui.label("laying scratches");
+    }
+    if let Some(built) = engine.built() {
+        let (scratches, segments) = built.scratch_counts();
+        ui.label(format!("{} scratches", grouped(scratches)))
+            .on_hover_text(format!("in {} straight pieces", grouped(segments)));
+    }
 }
 
 /// Text about the current work while there is no picture yet.

@@ -8,7 +8,7 @@ use hairline_editor::Document;
 use crate::compare::divider;
 use crate::engine::{Frame, View};
 use crate::viewport::Area;
-use crate::viewport::canvas::CanvasTexture;
+use crate::viewport::canvas::{BELOW_BADGES, CanvasTexture};
 
 use super::{Snapshots, Way};
 
@@ -28,9 +28,7 @@ impl Snapshots {
         if self.is_empty() {
             return;
         }
-        for snapshot in &mut self.list {
-            snapshot.see(now);
-        }
+        self.see(now);
         self.draw(ui, area, view, (now, canvas));
         if let Some(index) = self.strip(ui, area) {
             self.restore(index, document);
@@ -50,9 +48,8 @@ impl Snapshots {
             return;
         };
         let name = snapshot.name.clone();
-        let size_px = snapshot.view.size_px;
-        let kept = snapshot.frame.clone();
-        let texture = kept.and_then(|frame| snapshot.canvas.texture(ui.ctx(), &frame));
+        let size_px = snapshot.size_px;
+        let texture = snapshot.texture(ui.ctx());
         let rect = area.rect;
         match way {
             Way::Flip => {
@@ -114,7 +111,7 @@ fn caption(ui: &Ui, rect: Rect, text: &str) {
     let painter = ui.painter();
     let font = FontId::proportional(14.0);
     let galley = painter.layout_no_wrap(text.into(), font, Color32::WHITE);
-    let at = rect.center_top() + vec2(0.0, 12.0);
+    let at = rect.center_top() + vec2(0.0, BELOW_BADGES);
     let rect = Align2::CENTER_TOP.anchor_size(at, galley.size());
     painter.rect_filled(rect.expand(5.0), 4.0, crate::style::UNDER_WORDS);
     painter.galley(rect.min, galley, Color32::WHITE);

@@ -105,7 +105,7 @@ fn small(painter: &Painter, texture: TextureId, image: Rect, part: Rect, times: 
 
 /// True if it was clicked.
 fn thumbnail(ui: &mut Ui, snapshot: &mut Snapshot, is_chosen: bool, is_shown: bool) -> bool {
-    let [width, height] = snapshot.view.size_px.map(|side| side.max(1) as f32);
+    let [width, height] = snapshot.size_px.map(|side| side.max(1) as f32);
     let wide = (HEIGHT * width / height).clamp(*WIDTHS.start(), *WIDTHS.end());
     let size = Vec2::new(wide, HEIGHT + NAME_HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -116,10 +116,7 @@ fn thumbnail(ui: &mut Ui, snapshot: &mut Snapshot, is_chosen: bool, is_shown: bo
     let (text, selected) = (visuals.text_color(), visuals.selection.stroke.color);
     let painter = ui.painter();
     painter.rect_filled(image, 2.0, Color32::BLACK);
-    let frame = snapshot.frame.clone();
-    if let Some(frame) = frame
-        && let Some(texture) = snapshot.canvas.texture(ui.ctx(), &frame)
-    {
+    if let Some(texture) = snapshot.texture(ui.ctx()) {
         // The middle of a picture that is wider than a thumbnail may be.
         let share = (wide / (HEIGHT * width / height)).min(1.0);
         let part = Rect::from_min_max(pos2(0.5 - 0.5 * share, 0.0), pos2(0.5 + 0.5 * share, 1.0));

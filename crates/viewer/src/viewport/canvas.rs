@@ -1,8 +1,10 @@
 //! The newest picture as something that egui can draw.
 
+use std::sync::Arc;
+
 use eframe::egui_wgpu::RenderState;
 use egui::layers::ShapeIdx;
-use egui::{Color32, Rect, Shape, TextureHandle, TextureId, TextureOptions, pos2};
+use egui::{Color32, ColorImage, Rect, Shape, TextureHandle, TextureId, TextureOptions, pos2};
 
 use crate::engine::{Frame, Picture, View};
 
@@ -20,6 +22,8 @@ pub(crate) struct CanvasTexture {
 
 /// Time for which a picture of another view is shown without a sign: while something moves, a new picture comes earlier.
 const STALE_S: f64 = 0.4;
+/// Distance of words on a picture from its upper edge, points: badges stand above.
+pub(crate) const BELOW_BADGES: f32 = 46.0;
 /// Tint of a picture that is out of date.
 const STALE: Color32 = Color32::from_gray(110);
 
@@ -69,7 +73,7 @@ impl CanvasTexture {
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         let mut shapes = vec![Shape::image(id, area.rect, whole, tint)];
         if self.is_stale {
-            let at = area.rect.center_top() + egui::vec2(0.0, 12.0);
+            let at = area.rect.center_top() + egui::vec2(0.0, BELOW_BADGES);
             let font = egui::FontId::proportional(14.0);
             let text = "Earlier view. The new one is being rendered";
             let galley = ui
@@ -90,9 +94,19 @@ impl CanvasTexture {
 
     /// The frame as a texture; none where it lies on a device that the window has not.
     pub fn texture(&mut self, ctx: &egui::Context, frame: &Frame) -> Option<TextureId> {
-        if self.number != Some(frame.number) {
-            self.take(ctx, frame);
-            self.number = Some(frame.number);
+        self.texture_of(ctx, frame.number, &frame.picture)
+    }
+
+    /// The picture of that number as a texture.
+    pub fn texture_of(
+        &mut self,
+        ctx: &egui::Context,
+        number: u64,
+        picture: &Picture,
+    ) -> Option<TextureId> {
+        if self.number != Some(number) {
+            self.take(ctx, picture);
+            self.number = Some(number);
         }
         match &self.held {
             CanvasSource::Nothing => None,
@@ -101,8 +115,17 @@ impl CanvasTexture {
         }
     }
 
-    fn take(&mut self, ctx: &egui::Context, frame: &Frame) {
-        match (&frame.picture, &self.render_state) {
+    /// The picture in main memory.
+    pub fn pixels(&self, picture: &Picture) -> Option<Arc<ColorImage>> {
+        match (picture, &self.render_state) {
+            (Picture::Pixels(pixels), _) => Some(Arc::clone(pixels)),
+            (Picture::Texture(view), Some(state)) => read(state, view.texture()).map(Arc::new),
+            (Picture::Texture(_), None) => None,
+        }
+    }
+
+    fn take(&mut self, ctx: &egui::Context, picture: &Picture) {
+        match (picture, &self.render_state) {
             (Picture::Pixels(image), _) => {
                 let options = TextureOptions::LINEAR;
                 match &mut self.held {
@@ -140,6 +163,45 @@ impl CanvasTexture {
     }
 }
 
+/// Reads a texture of four bytes a pixel, and waits for it.
+fn read(state: &RenderState, texture: &wgpu::Texture) -> Option<ColorImage> {
+    let [width, height] = [texture.width(), texture.height()];
+    let row_bytes = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = state.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("picture of a snapshot"),
+        size: u64::from(row_bytes) * u64::from(height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = state.device.create_command_encoder(&Default::default());
+    encoder.copy_texture_to_buffer(
+        texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(row_bytes),
+                rows_per_image: None,
+            },
+        },
+        texture.size(),
+    );
+    state.queue.submit([encoder.finish()]);
+    buffer.slice(..).map_async(wgpu::MapMode::Read, |_| {});
+    state
+        .device
+        .poll(wgpu::PollType::wait_indefinitely())
+        .ok()?;
+    let mapped = buffer.slice(..).get_mapped_range().ok()?;
+    let rows = mapped.chunks(row_bytes as usize);
+    let pixels: Vec<u8> = rows
+        .flat_map(|row| &row[..4 * width as usize])
+        .copied()
+        .collect();
+    let size = [width as usize, height as usize];
+    Some(ColorImage::from_rgba_premultiplied(size, &pixels))
+}
+
 impl Drop for CanvasTexture {
     fn drop(&mut self) {
         self.hold(CanvasSource::Nothing);
@@ -152,7 +214,6 @@ mod tests {
     use crate::engine::Engine;
     use egui::{Context, FullOutput, RawInput};
     use hairline_fixtures::scenes::bare_plate;
-    use std::sync::Arc;
 
     fn frame() -> Arc<Frame> {
         let description = bare_plate().description();

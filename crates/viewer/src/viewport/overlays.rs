@@ -14,6 +14,11 @@ use crate::workspace::Workspace;
 impl Viewport {
     /// Draws the overlays of the picture that can be dragged.
     pub fn show_overlays(&mut self, ui: &mut Ui, work: &mut Workspace, area: &Area) {
+        if self.canvas.is_stale() {
+            // They would stand where nothing is in the picture yet.
+            self.gizmo = Gizmo::default();
+            return;
+        }
         let tool = work.toolbox.tool;
         line_field::show(ui, &mut self.line_fields, work, area);
         if matches!(tool, Tool::Select | Tool::PlaceLight | Tool::PickPart)

@@ -1,11 +1,19 @@
 //! Settings that fit the objects and the view: the camera that shows them, and the brush.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use hairline_editor::actions::materials;
 use hairline_editor::brush::BrushSettings;
 use hairline_editor::{Selection, navigate};
+use hairline_scene::Description;
 
 use super::Workspace;
+
+/// Share of the scratched pixels in which scratches must be noticed; below it other light is offered.
+pub(crate) const FAINT: f32 = 0.08;
+/// The step's name in the history.
+const LAMPS: &str = "Light for the scratches";
 
 /// Bounds of things that are assumed before the scene is built.
 const UNKNOWN_M: (DVec3, DVec3) = (DVec3::splat(-0.1), DVec3::splat(0.1));
@@ -124,18 +132,62 @@ impl Workspace {
     pub fn light_for_scratches(&mut self) {
         let built = self.engine.built();
         match (built, self.built_bounds_m()) {
-            (Some(built), Some(_)) => self.apply("Light for the scratches", |d, selection| {
-                d.light_for_scratches(&built.scene);
-                // Lights that were selected are gone.
-                Ok(match selection {
-                    Selection::Light(_) | Selection::Studio => Selection::None,
-                    other => other,
-                })
-            }),
+            (Some(built), Some(_)) => {
+                self.apply(LAMPS, |d, selection| {
+                    d.light_for_scratches(&built.scene);
+                    // Lights that were selected are gone.
+                    Ok(match selection {
+                        Selection::Light(_) | Selection::Studio => Selection::None,
+                        other => other,
+                    })
+                });
+                self.reading.tried = Some(Arc::clone(self.document.description()));
+            }
             _ => (self.notices).note(
                 "light",
                 "Lights are placed by the shapes: wait until the picture shows them.",
             ),
+        }
+    }
+
+    /// Makes lamps for scratches as bright as shows most of these, once a picture tells; says so where little is seen in the best light.
+    pub fn try_lamps(&mut self) {
+        let Some(tried) = &self.reading.tried else {
+            return;
+        };
+        let now = self.document.description();
+        if now.lights != tried.lights || now.scratches != tried.scratches {
+            self.reading.tried = None;
+            return;
+        }
+        let frame = self.engine.latest().filter(|frame| {
+            let painted = &frame.painted;
+            let is_whole = painted.thin == 1 && painted.size_px == frame.view.size_px;
+            is_whole && frame.built.description.lights == tried.lights
+        });
+        let Some((stops, share)) = frame.and_then(|frame| frame.findings.best_lamps) else {
+            return;
+        };
+        self.reading.tried = None;
+        if stops != 0 && self.document.undo_label() == Some(LAMPS) {
+            // The same step with other lamps.
+            let lit = Arc::clone(self.document.description());
+            self.document.undo();
+            self.apply(LAMPS, |d, selection| {
+                *d = Description::clone(&lit);
+                for light in &mut d.lights {
+                    light.radiance *= 2.0_f64.powi(stops);
+                }
+                Ok(selection)
+            });
+        }
+        if share < FAINT {
+            let text = format!(
+                "No brightness of lamps shows more than {:.0} % of the scratches from here: the surface sends more light itself, as brushed metal and paint do. A smoother \
+                 surface, deeper scratches or a nearer view show more.",
+                100.0 * share
+            );
+            self.notices.note("light", text);
         }
     }
 

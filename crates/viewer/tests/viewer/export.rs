@@ -62,6 +62,7 @@ fn export_turntable(harness: &mut Harness<'static, Viewer>, path: &Path, frames:
         .get_by_role_and_label(Role::SpinButton, "Pictures")
         .set_value_accesskit(f64::from(frames));
     harness.run_steps(3);
+    common::click_on(harness, "The camera");
     common::click_on(harness, "Export");
 }
 
@@ -194,6 +195,70 @@ fn a_turntable_goes_round() {
     }
     let (first, _) = rendered(TINY, 0.0);
     assert_ne!(first, rendered(TINY, 120.0).0, "the camera does turn");
+}
+
+/// The objects turn before the camera and under the lights, if nothing else is asked for.
+#[test]
+fn a_turntable_turns_the_objects() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = viewer(TINY);
+    common::click_on(&mut harness, "File");
+    common::click_on(&mut harness, "Export a turntable…");
+    type_path(&mut harness, &folder.path().join("t.exr"));
+    harness
+        .get_by_role_and_label(Role::SpinButton, "Pictures")
+        .set_value_accesskit(3.0);
+    harness.run_steps(3);
+    common::click_on(&mut harness, "Export");
+    wait_exported(&mut harness);
+    for (i, name) in names(folder.path()).iter().enumerate() {
+        let found = exr_file::read_image(&folder.path().join(name)).unwrap();
+        let mut turned = Description::from_toml(TINY, Path::new("test")).unwrap();
+        navigate::turn_surroundings(&mut turned, (120.0 * i as f64).to_radians());
+        let scene = Loader::default().build(&turned, Path::new("")).unwrap();
+        let options = RenderOptions {
+            samples: SAMPLES,
+            ..RenderOptions::default()
+        };
+        let right = closed_form::render(&scene, &options, &|_| {});
+        assert_eq!(found, in_a_file(right), "{name}");
+        assert_eq!(
+            found == in_a_file(rendered(TINY, 120.0 * i as f64).0),
+            i == 0
+        );
+    }
+}
+
+/// Beforehand: the time, and that nothing would be transparent.
+#[test]
+fn the_form_says_how_long_it_takes_and_where_nothing_is_transparent() {
+    let mut harness = viewer(TINY);
+    let says = |harness: &mut Harness<'static, Viewer>, words: &'static str| {
+        let start = std::time::Instant::now();
+        while harness.query_by_label_contains(words).is_none() {
+            assert!(start.elapsed() < Duration::from_secs(60), "{words}");
+            harness.step();
+        }
+    };
+    const FILLED: &str = "No pixel will be transparent";
+    for (height_m, is_filled) in [(0.5, false), (0.1, true)] {
+        let document = harness.state_mut().document_mut();
+        document.edit("by the test", |d| {
+            d.camera.position_m = [0.0, -0.001, height_m];
+            d.camera.target_m = [0.0; 3];
+        });
+        common::wait_built(&mut harness);
+        harness.key_press_modifiers(Modifiers::COMMAND, Key::P);
+        harness.run_steps(3);
+        says(&mut harness, "It takes about");
+        common::click_on(&mut harness, "Transparent background");
+        says(&mut harness, "It takes about");
+        assert_eq!(harness.query_by_label_contains(FILLED).is_some(), is_filled);
+        common::click_on(&mut harness, "Transparent background");
+        assert!(harness.query_by_label_contains(FILLED).is_none());
+        common::click_on(&mut harness, "Cancel");
+        assert!(!harness.state().engine().is_resting());
+    }
 }
 
 /// Checks that there are only whole pictures, numbered without a gap; returns their number.

@@ -1,8 +1,6 @@
 //! Presets with their pictures, grades of wear, and maps in the box.
 
-use crate::common::{
-    self, SMALL, click_on, description, viewer, viewer_with, wait_built, wait_until,
-};
+use crate::common::{self, SMALL, click_on, description, viewer, viewer_with, wait_built};
 use egui::accesskit::{Role, Toggled};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
@@ -50,14 +48,22 @@ fn wear_is_one_choice_over_the_layers_of_an_object() {
 }
 
 #[test]
-fn pictures_of_presets_come_in_the_background_and_are_chosen_by_name() {
+fn pictures_of_presets_are_there_at_once_and_are_chosen_by_name() {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);
-    assert_eq!(harness.state().small_pictures(), (0, false));
-    click_on(&mut harness, "Add to objects");
-    wait_until(&mut harness, "a picture of each", |viewer| {
-        viewer.small_pictures() == (ShapePreset::ALL.len(), false)
-    });
+    let textured = |harness: &Harness<'static, Viewer>| {
+        let shapes = harness.output().shapes.iter().map(|clipped| &clipped.shape);
+        let pictures = shapes.filter(|shape| match shape {
+            egui::Shape::Mesh(mesh) => mesh.texture_id != egui::TextureId::default(),
+            egui::Shape::Rect(rect) => rect.brush.is_some(),
+            _ => false,
+        });
+        pictures.count()
+    };
+    let before = textured(&harness);
+    harness.get_by_label("Add to objects").click();
+    harness.run_steps(3);
+    assert_eq!(textured(&harness), before + ShapePreset::ALL.len());
     let objects = description(&harness).objects.len();
     click_on(&mut harness, "Sphere");
     assert_eq!(description(&harness).objects.len(), objects + 1);

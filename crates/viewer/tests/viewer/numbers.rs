@@ -264,3 +264,116 @@ fn depth_of_field_comes_back_as_it_was() {
     toggle(&mut harness);
     assert_eq!(*description(&harness), *before);
 }
+
+/// From box to box, past the slider, forwards and back.
+#[test]
+fn tab_goes_on_to_the_next_value() {
+    let mut harness = with_layer();
+    let focused = |harness: &Harness<'static, Viewer>| {
+        let id = harness.ctx.memory(|memory| memory.focused());
+        let rect = id
+            .and_then(|id| harness.ctx.read_response(id))
+            .map(|it| it.rect);
+        let boxes = harness.query_all_by_role(Role::SpinButton);
+        let mut there =
+            boxes.filter(|node| rect.is_some_and(|rect| rect.contains(node.rect().center())));
+        there.next().and_then(|node| node.accesskit_node().label())
+    };
+    harness
+        .get_by_role_and_label(Role::SpinButton, "Length")
+        .focus();
+    harness.run_steps(2);
+    let first = focused(&harness).unwrap();
+    let mut way = vec![first];
+    for _ in 0..4 {
+        harness.key_press(Key::Tab);
+        harness.run_steps(3);
+        way.push(focused(&harness).expect("a box"));
+    }
+    way.dedup();
+    assert_eq!(way.len(), 5, "{way:?}");
+    harness.key_press_modifiers(egui::Modifiers::SHIFT, Key::Tab);
+    harness.run_steps(3);
+    assert_eq!(focused(&harness).as_deref(), Some(&*way[3]), "{way:?}");
+    // What was typed counts.
+    let before = description(&harness);
+    harness
+        .get_by_role_and_label(Role::SpinButton, "Width")
+        .focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+    harness.event(egui::Event::Text("7".to_owned()));
+    harness.run_steps(2);
+    harness.key_press(Key::Tab);
+    harness.run_steps(3);
+    assert_ne!(*description(&harness), *before);
+    assert_eq!(width_um(&harness), 7.0);
+}
+
+/// Whether a box has a red rim.
+fn has_rim(harness: &Harness<'static, Viewer>) -> bool {
+    let color = harness
+        .ctx
+        .style_of(egui::Theme::Dark)
+        .visuals
+        .error_fg_color;
+    let shapes = harness.output().shapes.iter();
+    let mut rims = shapes.filter(|clipped| match &clipped.shape {
+        egui::Shape::Rect(rect) => rect.stroke.color == color && rect.stroke.width > 0.0,
+        _ => false,
+    });
+    rims.next().is_some()
+}
+
+/// With the value that it was refused for, with the part that it belongs to, and with its message.
+#[test]
+fn a_red_rim_goes_with_the_value() {
+    let mut harness = with_layer();
+    let refuse = |harness: &mut Harness<'static, Viewer>| {
+        type_into(harness, "Width", "1 m");
+        assert!(has_rim(harness) && !harness.state().messages().is_empty());
+    };
+    refuse(&mut harness);
+    let document = harness.state_mut().document_mut();
+    document.edit("by the test", |d| {
+        if let Layer::Laid(laid) = &mut d.scratches[0].layer {
+            laid.width_um.mean = 6.0;
+        }
+    });
+    harness.run_steps(3);
+    assert!(!has_rim(&harness) && harness.state().messages().is_empty());
+    refuse(&mut harness);
+    harness.get_by_label("Dismiss").click();
+    harness.run_steps(3);
+    assert!(!has_rim(&harness));
+    refuse(&mut harness);
+    let document = harness.state_mut().document_mut();
+    document.select(Selection::Object(0));
+    harness.run_steps(3);
+    assert!(!has_rim(&harness));
+}
+
+/// Whatever the numbers are: the picture would start anew in another size.
+#[test]
+fn long_numbers_do_not_widen_the_panel() {
+    let mut harness = with_layer();
+    let document = harness.state_mut().document_mut();
+    document.edit("by the test", |d| {
+        d.camera.position_m = [-0.123_456, -0.543_217, 0.312_345];
+        d.camera.target_m = [-1234.567, 0.000_123, 77.123_456];
+    });
+    document.select(Selection::None);
+    harness.run_steps(3);
+    let before = crate::common::picture(&harness);
+    for selection in [
+        Selection::Camera,
+        Selection::Light(1),
+        Selection::Object(0),
+        Selection::Layer(0),
+        Selection::Environment,
+    ] {
+        harness.state_mut().document_mut().select(selection);
+        harness.run_steps(3);
+        assert_eq!(crate::common::picture(&harness), before, "{selection:?}");
+    }
+}

@@ -135,3 +135,82 @@ fn messages_stand_above_the_snapshots() {
     let message = harness.get_by_label_contains("Select a light first").rect();
     assert!(message.bottom() <= strip.top(), "{message:?} {strip:?}");
 }
+
+/// A line is drawn around what has the keyboard, and the first press in a menu comes to its first item.
+#[test]
+fn the_keyboard_is_seen_and_the_first_press_in_a_menu_marks_its_first_item() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    for by_mouse in [false, true] {
+        match by_mouse {
+            false => harness.key_press_modifiers(Modifiers::ALT, Key::F),
+            true => harness.get_by_label("File").click(),
+        }
+        harness.run_steps(3);
+        key(&mut harness, Key::ArrowDown);
+        harness.run_steps(2);
+        let item = harness
+            .get_by_label_contains("New from the built-in scene")
+            .rect();
+        let color = harness
+            .ctx
+            .style_of(egui::Theme::Dark)
+            .visuals
+            .selection
+            .stroke
+            .color;
+        let shapes = harness.output().shapes.iter();
+        let mut lines = shapes.filter(|clipped| match &clipped.shape {
+            egui::Shape::Rect(rect) => rect.stroke.color == color && rect.stroke.width > 1.0,
+            _ => false,
+        });
+        let is_around = lines.any(|clipped| {
+            let around = clipped.shape.visual_bounding_rect();
+            around.contains_rect(item) && around.height() < item.height() + 8.0
+        });
+        assert!(is_around, "{by_mouse}");
+        key(&mut harness, Key::Escape);
+        harness.run_steps(2);
+    }
+}
+
+#[test]
+fn enter_runs_a_command_and_closes_its_menu() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    common::wait_until(&mut harness, "a picture", |viewer| {
+        viewer.engine().latest().is_some()
+    });
+    harness.key_press_modifiers(Modifiers::ALT, Key::I);
+    harness.run_steps(3);
+    for name in [Key::ArrowDown, Key::ArrowDown, Key::Enter] {
+        key(&mut harness, name);
+    }
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("Next layer view").is_none());
+    assert!(harness.query_all_by_label("Histogram").count() > 0);
+}
+
+/// In a small window list and panel stand one above the other, and all of a row is in sight.
+#[test]
+fn a_small_window_leaves_two_thirds_to_the_picture() {
+    let options = Options {
+        scene: None,
+        built_in: SMALL,
+        backend: Backend::Cpu,
+        state_dir: None,
+        native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
+    };
+    let mut harness = common::viewer_in(options, [800.0, 500.0], 0.25);
+    wait_built(&mut harness);
+    for selection in [Selection::None, Selection::Camera, Selection::Layer(0)] {
+        select(&mut harness, selection);
+        let picture = picture(&harness);
+        assert!(picture.width() >= 800.0 * 2.0 / 3.0, "{picture:?}");
+        for node in harness.query_all_by_role(Role::SpinButton) {
+            assert!(node.rect().right() <= picture.left(), "{:?}", node.rect());
+        }
+    }
+    harness.get_by_label("Camera");
+}

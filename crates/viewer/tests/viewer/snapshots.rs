@@ -95,6 +95,63 @@ fn a_snapshot_that_is_flipped_to_has_the_frame_of_the_picture() {
     assert_eq!(dims(&harness), now);
 }
 
+/// They are beside the file, as scenes of their own, and go with it under another name.
+#[test]
+fn snapshots_belong_to_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("a.toml");
+    std::fs::write(&scene, common::SMALL).unwrap();
+    let looks = folder.path().join("a.looks");
+    let mut harness = common::viewer_of_file(&scene);
+    finish(&mut harness);
+    common::key(&mut harness, Key::S);
+    common::wait_until(&mut harness, "its picture", |_| {
+        looks.join("Look 1.png").exists()
+    });
+    let taken = harness.state().document().description().clone();
+    turn(&mut harness);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::S);
+    harness.run_steps(3);
+    drop(harness);
+
+    let mut harness = common::viewer_of_file(&scene);
+    finish(&mut harness);
+    let is_drawn = |harness: &Harness<'static, Viewer>| {
+        let at = harness
+            .get_by_role_and_label(Role::Button, "Look 1")
+            .rect()
+            .center();
+        let shapes = harness.output().shapes.iter().map(|clipped| &clipped.shape);
+        let mut pictures = shapes.filter(|shape| match shape {
+            Shape::Mesh(mesh) => mesh.texture_id != TextureId::default(),
+            Shape::Rect(rect) => rect.brush.is_some(),
+            _ => false,
+        });
+        pictures.any(|shape| {
+            let rect = shape.visual_bounding_rect();
+            rect.contains(at) && rect.height() < 100.0
+        })
+    };
+    while !is_drawn(&harness) {
+        harness.step();
+    }
+    assert_ne!(*harness.state().document().description(), taken);
+    click(&mut harness, "Look 1");
+    assert!(is_shown(&harness, "Look 1"));
+    click(&mut harness, "Restore");
+    assert_eq!(*harness.state().document().description(), taken);
+    click(&mut harness, "Snapshot");
+    assert!(looks.join("Look 2.toml").exists());
+    for _ in 0..2 {
+        click(&mut harness, "Delete the snapshot");
+        if let Some(look) = harness.query_by_label("Look 1") {
+            look.click();
+            harness.run_steps(3);
+        }
+    }
+    assert!(!looks.exists());
+}
+
 #[test]
 fn looks_are_compared_side_by_side_and_under_a_slider_and_deleted() {
     let mut harness = opened();

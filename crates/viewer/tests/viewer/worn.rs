@@ -36,6 +36,31 @@ fn scratches_that_are_hardly_seen_are_offered_other_light() {
     assert_eq!(*description(&harness), *before);
 }
 
+/// Shallow scratches on rough metal: no lamp shows them, and the window says so.
+#[test]
+fn scratches_that_no_lamp_shows_are_told_of() {
+    let text = FAINT
+        .replace(
+            "metal = \"steel\"\n",
+            "metal = \"steel\"\nroughness = 0.5\n",
+        )
+        .replace("depth_nm = 150.0", "depth_nm = 15.0")
+        .replace("count = 12000", "count = 500");
+    let mut harness = viewer(text.leak());
+    wait_built(&mut harness);
+    let before = description(&harness);
+    click_on(&mut harness, "Edit");
+    click_on(&mut harness, LIGHT);
+    wait_until(&mut harness, "what shows is measured", |viewer| {
+        viewer
+            .messages()
+            .concat()
+            .contains("No brightness of lamps")
+    });
+    common::undo(&mut harness);
+    assert_eq!(*description(&harness), *before);
+}
+
 #[test]
 fn an_object_is_made_of_a_preset_in_one_move() {
     let mut harness = viewer(FAINT);

@@ -68,7 +68,7 @@ pub fn read_to_resume(path: &Path, size_px: [u32; 2], wanted: &Notes) -> Result<
             path.display()
         ))
     };
-    let (image, notes) = match exr_file::read_image_with_notes(path) {
+    let (mut image, notes) = match exr_file::read_image_with_notes(path) {
         Ok(read) => read,
         Err(hairline_image::Error::Unusable { reason, .. }) => {
             return Err(refuse(&format!("it is not a reference ({reason})")));
@@ -76,6 +76,13 @@ pub fn read_to_resume(path: &Path, size_px: [u32; 2], wanted: &Notes) -> Result<
         Err(error) => return Err(error.into()),
     };
     check(&image, &notes, size_px, wanted).map_err(|reason| refuse(&reason))?;
+    // What stands in pixels without samples is their neighbours' light.
+    let samples = image.noise.as_ref().map_or(&[][..], |noise| &noise.samples);
+    for (i, _) in samples.iter().enumerate().filter(|(_, n)| **n == 0) {
+        for layer in [&mut image.base, &mut image.scratches, &mut image.density] {
+            layer[i] = [0.0; 3];
+        }
+    }
     Ok(image)
 }
 

@@ -1,5 +1,6 @@
 //! The work itself: samples until there are enough, time is up or the user has enough, saved now and then.
 
+use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -54,7 +55,8 @@ pub enum End {
     Interrupted,
 }
 
-/// Samples, and hands the image to `save` now and then and at the end. An image without a single sample is not saved.
+/// Samples, and hands the image to `save` now and then and at the end. An image without a single sample is not saved; where some pixels have none,
+/// `save` gets their neighbours' light in them.
 ///
 /// # Errors
 /// What `save` says at the end. Before that it is a warning: there may be room by the next time.
@@ -96,10 +98,10 @@ pub fn sample(
         };
         let saving = Instant::now();
         listener.say("saving");
-        let saved = if count.mean > 0.0 {
-            save(image)
-        } else {
-            Ok(())
+        let saved = match count {
+            Count { mean: 0.0, .. } => Ok(()),
+            Count { least: 0, .. } => save(&filled(image)),
+            _ => save(image),
         };
         match (end, saved) {
             (Some(end), saved) => return saved.map(|()| end),
@@ -109,6 +111,33 @@ pub fn sample(
         listener.say("sampling");
         work = limits.save_every.max(saving.elapsed() * WORK_PER_SAVING);
     }
+}
+
+/// The picture with the light of the nearest pixel where there is no sample yet, which stays said.
+fn filled(image: &Image) -> Image {
+    let mut filled = image.clone();
+    let [width, height] = image.size_px.map(|side| side as usize);
+    let samples = image.noise.as_ref().map_or(&[][..], |noise| &noise.samples);
+    let mut is_known: Vec<bool> = samples.iter().map(|n| *n > 0).collect();
+    let mut nearest: VecDeque<usize> = (0..samples.len()).filter(|i| is_known[*i]).collect();
+    while let Some(from) = nearest.pop_front() {
+        let (x, y) = (from % width, from / width);
+        let beside = [
+            (x > 0).then(|| from - 1),
+            (x + 1 < width).then_some(from + 1),
+            (y > 0).then(|| from - width),
+            (y + 1 < height).then_some(from + width),
+        ];
+        for to in beside.into_iter().flatten() {
+            if !std::mem::replace(&mut is_known[to], true) {
+                filled.base[to] = filled.base[from];
+                filled.scratches[to] = filled.scratches[from];
+                filled.density[to] = filled.density[from];
+                nearest.push_back(to);
+            }
+        }
+    }
+    filled
 }
 
 /// Samples of a picture's pixels.
@@ -213,6 +242,52 @@ mod tests {
         });
         assert_eq!(end.unwrap(), End::Complete);
         assert_eq!(image, whole, "bit for bit");
+    }
+
+    /// Each quarter has samples, and the pixels between them show their neighbours.
+    #[test]
+    fn what_is_stopped_in_its_first_round_has_no_black_part() {
+        let scene = scene();
+        let integrator = Integrator::new(&scene, Settings::default());
+        let mut image = integrator.start();
+        let saved = Cell::new(None);
+        let polls = std::sync::atomic::AtomicUsize::new(0);
+        let quarter = image.pixel_count() / 4;
+        let interrupted = || polls.fetch_add(1, Ordering::Relaxed) > quarter;
+        let save = |image: &Image| {
+            saved.set(Some(image.clone()));
+            Ok(())
+        };
+        let limits = Limits {
+            save_every: Duration::from_secs(60),
+            ..limits()
+        };
+        let end = sample(
+            &integrator,
+            &mut image,
+            &limits,
+            &interrupted,
+            &Quiet,
+            &save,
+        );
+        assert_eq!(end.unwrap(), End::Interrupted);
+        let saved = saved.take().unwrap();
+        let samples = &saved.noise.as_ref().unwrap().samples;
+        assert_eq!(samples, &image.noise.as_ref().unwrap().samples);
+        let whole = uninterrupted(&integrator);
+        for part in 0..4 {
+            let pixels = part * quarter..(part + 1) * quarter;
+            let begun = samples[pixels.clone()].iter().filter(|n| **n > 0).count();
+            assert!(
+                (quarter / 8..quarter / 2).contains(&begun),
+                "{part}: {begun}"
+            );
+            let light =
+                |image: &Image| -> f32 { image.base[pixels.clone()].iter().flatten().sum() };
+            let ratio = light(&saved) / light(&whole);
+            // Of so few samples a highlight has many or none.
+            assert!(ratio > 0.01, "{part}: {ratio}");
+        }
     }
 
     #[test]
