@@ -28,6 +28,15 @@ GPUAdapter.prototype.requestDevice = async function (...wanted) {
   Object.defineProperty(device, 'lost', { value: new Promise((resolve) => { lose = resolve; }) });
   return device;
 };
+/** Workers of Hairline's own code that were started. */
+let workers = 0;
+const { Worker } = globalThis;
+globalThis.Worker = class extends Worker {
+  constructor(url, options) {
+    super(url, options);
+    workers += String(url).endsWith('/engine_worker.js') ? 1 : 0;
+  }
+};
 const { createShaderModule } = GPUDevice.prototype;
 GPUDevice.prototype.createShaderModule = function (described) {
   programs += described.code.includes('fn hairline_mask') ? 1 : 0;
@@ -116,6 +125,7 @@ try {
   await loaded;
   check(posterOf(near).hidden && canvasOf(near), 'found the poster over the model');
   check(!canvasOf(far), 'found a model that is far below');
+  check(workers === 1, `found ${workers} workers; must be one`);
   near.setAttribute('alt', 'a worn plate');
   check(nameOf(near) === 'a worn plate', `found the name "${nameOf(near)}" after another alt`);
   await send('/result/element', await pixelsOf(near));
@@ -147,6 +157,14 @@ try {
   await refuses({ src: addressOf(bytes.slice(0, bytes.byteLength / 2)) }, /is cut off: found \d+ bytes; must be \d+$/);
   // A poster that is none, too.
   await refuses({ src: '/pages/none.glb', poster: '/pages/none.png' }, /404/);
+
+  // As where a page's rules forbid workers: it computes by itself.
+  globalThis.Worker = class {
+    constructor() {
+      throw new Error('a test');
+    }
+  };
+  (await shown('/pages/plate.glb')).remove();
 
   // As in a browser without WebGPU.
   Object.defineProperty(navigator, 'gpu', { value: undefined });
