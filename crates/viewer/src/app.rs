@@ -5,6 +5,7 @@ mod on_disk;
 mod paths;
 mod picture;
 mod run;
+mod sheets;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -261,14 +262,19 @@ impl Viewer {
             self.run(&ctx, command);
         }
         let is_comparing = self.compare.is_open();
-        let recent = panels::menu::show(ui, &mut self.work, &self.files, is_comparing);
-        panels::status::show(ui, &mut self.work, &self.viewport);
-        if !self.hides_list {
-            panels::outliner::show(ui, &mut self.work);
-        }
-        if !self.hides_inspector {
-            panels::inspector::show(ui, &mut self.work);
-        }
+        let recent = if panels::phone::is_phone(&ctx) {
+            self.show_sheets(ui)
+        } else {
+            let recent = panels::menu::show(ui, &mut self.work, &self.files, is_comparing);
+            panels::status::show(ui, &mut self.work, &self.viewport);
+            if !self.hides_list {
+                panels::outliner::show(ui, &mut self.work);
+            }
+            if !self.hides_inspector {
+                panels::inspector::show(ui, &mut self.work);
+            }
+            recent
+        };
         if let Some(path) = recent {
             self.take_file(&ctx, &path);
         }

@@ -10,28 +10,30 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
     Panel::right("inspector")
         .default_size(340.0)
         .size_range(300.0..=480.0)
-        .show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                ui.add_space(4.0);
-                // Whatever is selected, the panel keeps its width: else the picture would jump.
-                ui.set_width(ui.available_width());
-                super::menu::brush_settings(ui, work);
-                match work.selection() {
-                    Selection::None => overview(ui, work),
-                    Selection::Camera => camera::show(ui, work),
-                    Selection::Render => camera::show_render(ui, work),
-                    Selection::Environment => environment::show(ui, work),
-                    Selection::Studio => studio::show(ui, work),
-                    Selection::Ground => studio::show_ground(ui, work),
-                    Selection::Object(i) => object::show(ui, work, i),
-                    Selection::Material(i) => material::show(ui, work, i),
-                    Selection::Layer(i) => layer::show(ui, work, i),
-                    Selection::Grating(i) => grating::show(ui, work, i),
-                    Selection::Light(i) => light::show(ui, work, i),
-                }
-                super::form::end_naming(ui.ctx());
-            });
-        });
+        .show(ui, |ui| contents(ui, work));
+}
+
+pub(super) fn contents(ui: &mut Ui, work: &mut Workspace) {
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.add_space(4.0);
+        // Whatever is selected, the panel keeps its width: else the picture would jump.
+        ui.set_width(ui.available_width());
+        super::menu::brush_settings(ui, work);
+        match work.selection() {
+            Selection::None => overview(ui, work),
+            Selection::Camera => camera::show(ui, work),
+            Selection::Render => camera::show_render(ui, work),
+            Selection::Environment => environment::show(ui, work),
+            Selection::Studio => studio::show(ui, work),
+            Selection::Ground => studio::show_ground(ui, work),
+            Selection::Object(i) => object::show(ui, work, i),
+            Selection::Material(i) => material::show(ui, work, i),
+            Selection::Layer(i) => layer::show(ui, work, i),
+            Selection::Grating(i) => grating::show(ui, work, i),
+            Selection::Light(i) => light::show(ui, work, i),
+        }
+        super::form::end_naming(ui.ctx());
+    });
 }
 
 /// Overview of the scene, for someone who has selected nothing.

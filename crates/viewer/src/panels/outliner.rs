@@ -19,12 +19,14 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
     Panel::left("outliner")
         .default_size(230.0)
         .size_range(160.0..=400.0)
-        .show(ui, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                ui.add_space(4.0);
-                rows(ui, work);
-            });
-        });
+        .show(ui, |ui| contents(ui, work));
+}
+
+pub(super) fn contents(ui: &mut Ui, work: &mut Workspace) {
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.add_space(4.0);
+        rows(ui, work);
+    });
 }
 
 fn rows(ui: &mut Ui, work: &mut Workspace) {

@@ -1,0 +1,129 @@
+//! The window where it is narrower than panels and a picture side by side, as on a telephone: the picture, a sheet over its lower half with one of the
+//! panels, a line that tells of the picture, and targets for fingers.
+
+use std::path::PathBuf;
+
+use egui::{Button, Context, Id, Label, Panel, RichText, ScrollArea, Style, TextStyle, Ui, vec2};
+
+use super::{inspector, menu, outliner, status};
+use crate::command::{Command, Group};
+use crate::files::Files;
+use crate::viewport::Viewport;
+use crate::workspace::Workspace;
+
+/// The narrowest window with panels beside the picture, points.
+const NARROWEST: f32 = 600.0;
+/// Height of what a finger touches.
+const TARGET: f32 = 44.0;
+/// Size of texts.
+const TEXT: f32 = 16.0;
+/// Part of the window's height that a sheet covers.
+const SHEET: f32 = 0.42;
+
+/// The panel that the sheet shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Sheet {
+    List,
+    Inspector,
+}
+
+/// Whether the window is a telephone's; sizes of texts and targets follow.
+pub(crate) fn is_phone(ctx: &Context) -> bool {
+    let is_phone = ctx.content_rect().width() < NARROWEST;
+    let id = Id::unique("telephone");
+    if ctx.data(|data| data.get_temp(id)).unwrap_or(false) != is_phone {
+        ctx.data_mut(|data| data.insert_temp(id, is_phone));
+        ctx.all_styles_mut(|style| set_sizes(style, is_phone));
+    }
+    is_phone
+}
+
+fn set_sizes(style: &mut Style, is_phone: bool) {
+    let usual = Style::default();
+    let spacing = &mut style.spacing;
+    spacing.interact_size = usual.spacing.interact_size;
+    spacing.button_padding = usual.spacing.button_padding;
+    spacing.icon_width = usual.spacing.icon_width;
+    style.text_styles = usual.text_styles;
+    if is_phone {
+        spacing.interact_size = vec2(TARGET, TARGET);
+        spacing.button_padding = vec2(10.0, 6.0);
+        spacing.icon_width = 24.0;
+        for name in [TextStyle::Body, TextStyle::Button] {
+            style
+                .text_styles
+                .entry(name)
+                .and_modify(|font| font.size = TEXT);
+        }
+    }
+}
+
+/// Shows all but the picture; a file of the list of recent ones, if it was chosen, and the sheet from now on.
+pub(crate) fn show(
+    ui: &mut Ui,
+    work: &mut Workspace,
+    viewport: &Viewport,
+    files: &Files,
+    mut sheet: Option<Sheet>,
+) -> (Option<PathBuf>, Option<Sheet>) {
+    let recent = Panel::top("menu").show(ui, |ui| top(ui, work, files)).inner;
+    Panel::bottom("sheets").show(ui, |ui| {
+        ui.horizontal(|ui| {
+            for (which, name) in [(Sheet::List, "Parts"), (Sheet::Inspector, "Settings")] {
+                let is_open = sheet == Some(which);
+                if ui.add(Button::selectable(is_open, name)).clicked() {
+                    sheet = (!is_open).then_some(which);
+                }
+            }
+            let words = RichText::new(status::summary(&work.engine, viewport)).size(TEXT - 1.0);
+            ui.add(Label::new(words).truncate());
+        });
+    });
+    let height = (SHEET * ui.ctx().content_rect().height()).round();
+    if let Some(which) = sheet {
+        Panel::bottom("sheet")
+            .exact_size(height)
+            .show(ui, |ui| match which {
+                Sheet::List => outliner::contents(ui, work),
+                Sheet::Inspector => inspector::contents(ui, work),
+            });
+    }
+    (recent, sheet)
+}
+
+/// One line: all menus in one, and what is wanted most.
+fn top(ui: &mut Ui, work: &mut Workspace, files: &Files) -> Option<PathBuf> {
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        ui.menu_button("Menu", |ui| {
+            for group in Group::ALL {
+                let inner = ui.menu_button(group.name(), |ui| {
+                    let height = ui.ctx().content_rect().height() - 3.0 * TARGET;
+                    let area = ScrollArea::vertical().max_height(height);
+                    area.show(ui, |ui| menu::menu(ui, work, group, files)).inner
+                });
+                chosen = inner.inner.flatten().or(chosen.take());
+            }
+        });
+        for command in [
+            Command::Gallery,
+            Command::Undo,
+            Command::Redo,
+            Command::TakeSnapshot,
+        ] {
+            let name = match command {
+                Command::Gallery => "Scenes",
+                Command::TakeSnapshot => "Snapshot",
+                _ => command.label(),
+            };
+            if command.is_here()
+                && ui
+                    .add_enabled(work.can(command), Button::new(name))
+                    .clicked()
+            {
+                work.wished.push(command);
+            }
+        }
+    });
+    chosen
+}
