@@ -59,7 +59,7 @@ impl NumberBox<'_> {
         if range.is_whole {
             drag = drag.max_decimals(0);
         }
-        let response = ui.add_sized([self.width, 20.0], drag);
+        let response = ui.add_sized([self.width, ui.spacing().interact_size.y.max(20.0)], drag);
         remember(ui, &response, typed.into_inner());
         self.remark(ui, response)
     }

@@ -20,6 +20,13 @@ const TEXT: f32 = 16.0;
 /// Part of the window's height that a sheet covers.
 const SHEET: f32 = 0.42;
 
+/// What fingers do, for someone who has selected nothing.
+pub(super) const WORDS: [&str; 3] = [
+    "Tap an object in the picture, or a line under Parts, to change it here.",
+    "One finger turns the view, two move it and bring it nearer.",
+    "A long press shows what can be done with an object.",
+];
+
 /// The panel that the sheet shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Sheet {
@@ -71,7 +78,10 @@ pub(crate) fn show(
         ui.horizontal(|ui| {
             for (which, name) in [(Sheet::List, "Parts"), (Sheet::Inspector, "Settings")] {
                 let is_open = sheet == Some(which);
-                if ui.add(Button::selectable(is_open, name)).clicked() {
+                if ui
+                    .add(Button::selectable(is_open, name).frame_when_inactive(true))
+                    .clicked()
+                {
                     sheet = (!is_open).then_some(which);
                 }
             }
@@ -99,7 +109,9 @@ fn top(ui: &mut Ui, work: &mut Workspace, files: &Files) -> Option<PathBuf> {
             for group in Group::ALL {
                 let inner = ui.menu_button(group.name(), |ui| {
                     let height = ui.ctx().content_rect().height() - 3.0 * TARGET;
-                    let area = ScrollArea::vertical().max_height(height);
+                    let area = ScrollArea::vertical()
+                        .max_height(height)
+                        .min_scrolled_height(height);
                     area.show(ui, |ui| menu::menu(ui, work, group, files)).inner
                 });
                 chosen = inner.inner.flatten().or(chosen.take());
