@@ -262,7 +262,7 @@ impl Viewer {
             self.run(&ctx, command);
         }
         let is_comparing = self.compare.is_open();
-        let recent = if panels::phone::is_phone(&ctx) {
+        let recent = if crate::fingers::is_phone(&ctx) {
             self.show_sheets(ui)
         } else {
             let recent = panels::menu::show(ui, &mut self.work, &self.files, is_comparing);

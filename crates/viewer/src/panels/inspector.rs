@@ -51,8 +51,8 @@ fn overview(ui: &mut Ui, work: &Workspace) {
     ];
     ui.label(counts.join(", "));
     ui.add_space(8.0);
-    let words = match super::phone::is_phone(ui.ctx()) {
-        true => super::phone::WORDS,
+    let words = match crate::fingers::is_phone(ui.ctx()) {
+        true => crate::fingers::WORDS,
         false => [
             "Click an object in the picture, or a line on the left, to change it here.",
             "Drag turns the view, Shift and drag moves it, the wheel comes nearer.",

@@ -3,66 +3,23 @@
 
 use std::path::PathBuf;
 
-use egui::{Button, Context, Id, Label, Panel, RichText, ScrollArea, Style, TextStyle, Ui, vec2};
+use egui::{Button, Label, Panel, RichText, ScrollArea, Ui};
 
 use super::{inspector, menu, outliner, status};
 use crate::command::{Command, Group};
 use crate::files::Files;
+use crate::fingers::{TARGET, TEXT};
 use crate::viewport::Viewport;
 use crate::workspace::Workspace;
 
-/// The narrowest window with panels beside the picture, points.
-const NARROWEST: f32 = 600.0;
-/// Height of what a finger touches.
-const TARGET: f32 = 44.0;
-/// Size of texts.
-const TEXT: f32 = 16.0;
 /// Part of the window's height that a sheet covers.
 const SHEET: f32 = 0.42;
-
-/// What fingers do, for someone who has selected nothing.
-pub(super) const WORDS: [&str; 3] = [
-    "Tap an object in the picture, or a line under Parts, to change it here.",
-    "One finger turns the view, two move it and bring it nearer.",
-    "A long press shows what can be done with an object.",
-];
 
 /// The panel that the sheet shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Sheet {
     List,
     Inspector,
-}
-
-/// Whether the window is a telephone's; sizes of texts and targets follow.
-pub(crate) fn is_phone(ctx: &Context) -> bool {
-    let is_phone = ctx.content_rect().width() < NARROWEST;
-    let id = Id::unique("telephone");
-    if ctx.data(|data| data.get_temp(id)).unwrap_or(false) != is_phone {
-        ctx.data_mut(|data| data.insert_temp(id, is_phone));
-        ctx.all_styles_mut(|style| set_sizes(style, is_phone));
-    }
-    is_phone
-}
-
-fn set_sizes(style: &mut Style, is_phone: bool) {
-    let usual = Style::default();
-    let spacing = &mut style.spacing;
-    spacing.interact_size = usual.spacing.interact_size;
-    spacing.button_padding = usual.spacing.button_padding;
-    spacing.icon_width = usual.spacing.icon_width;
-    style.text_styles = usual.text_styles;
-    if is_phone {
-        spacing.interact_size = vec2(TARGET, TARGET);
-        spacing.button_padding = vec2(10.0, 6.0);
-        spacing.icon_width = 24.0;
-        for name in [TextStyle::Body, TextStyle::Button] {
-            style
-                .text_styles
-                .entry(name)
-                .and_modify(|font| font.size = TEXT);
-        }
-    }
 }
 
 /// Shows all but the picture; a file of the list of recent ones, if it was chosen, and the sheet from now on.
