@@ -1,8 +1,9 @@
 //! `cargo xtask package`: the shaders for other engines, with tables and the JavaScript of packages/hairline-shaders, as one npm package
-//! without a build step; prints its sizes. `--pictures` also draws its test pages in Chromium, against the CPU renderer.
+//! without a build step, and the file that npm installs; prints its sizes. `--pictures` also draws its test pages in Chromium, against the CPU renderer.
 
 mod browser;
 mod element;
+mod examples;
 mod files;
 mod modules;
 mod pictures;
@@ -17,7 +18,7 @@ use flate2::write::GzEncoder;
 use hairline_gpu::shaders::{FOR_ENGINES, with_needs};
 
 use crate::wasm;
-use files::{copy, install, node, write};
+use files::{copy, install, node, pack, write};
 
 /// The command's arguments.
 #[derive(clap::Args)]
@@ -34,11 +35,14 @@ pub struct Package {
     /// Make the element `<hairline-viewer>` beside it, one script, and look at it in Chromium: needs Node.
     #[arg(long)]
     viewer: bool,
+    /// Build the examples for Vite and react-three-fiber of the file that npm installs, and look at them in Chromium: needs Node.
+    #[arg(long)]
+    examples: bool,
     /// Compile it for tests: little is optimised, and warnings are errors.
     #[arg(long)]
     quick: bool,
     /// Leave out what the package computes on the processor, the one part that is compiled.
-    #[arg(long, conflicts_with_all = ["pictures", "viewer", "serve"])]
+    #[arg(long, conflicts_with_all = ["pictures", "viewer", "examples", "serve"])]
     shaders_alone: bool,
     /// Serve the example for three.js on this port of this machine, until it is ended.
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8080")]
@@ -92,8 +96,13 @@ impl Package {
             let engine = package.join("engine");
             wasm::write(&root, "hairline-engine-web", self.quick, "engine", &engine)?;
             print_sizes(&package)?;
+            let packed = pack(&package)?;
+            println!("{}: what npm installs", packed.display());
             if self.test {
                 node(&tests, &["check.mjs"], &self.output)?;
+            }
+            if self.examples {
+                examples::look(&root, &self.output, &packed)?;
             }
         }
         if self.pictures {
@@ -103,9 +112,6 @@ impl Package {
         if self.viewer {
             let bytes = element::make(&root, &self.output)?;
             println!("{:<28} {bytes:>9}", "hairline-viewer.js");
-            if !self.pictures {
-                pictures::write_pages(&root, &self.output)?;
-            }
             element::look(&root, &self.output)?;
         }
         if let Some(port) = self.serve {

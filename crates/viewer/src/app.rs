@@ -5,6 +5,7 @@ mod on_disk;
 mod paths;
 mod picture;
 mod run;
+mod sheets;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -259,10 +260,15 @@ impl Viewer {
             self.run(&ctx, command);
         }
         let is_comparing = self.compare.is_open();
-        let recent = panels::menu::show(ui, &mut self.work, &self.files, is_comparing);
-        panels::status::show(ui, &mut self.work, &self.viewport);
-        let (has_list, has_inspector) = (!self.hides_list, !self.hides_inspector);
-        panels::show(ui, &mut self.work, has_list, has_inspector);
+        let recent = if crate::fingers::is_phone(&ctx) {
+            self.show_sheets(ui)
+        } else {
+            let recent = panels::menu::show(ui, &mut self.work, &self.files, is_comparing);
+            panels::status::show(ui, &mut self.work, &self.viewport);
+            let (has_list, has_inspector) = (!self.hides_list, !self.hides_inspector);
+            panels::show(ui, &mut self.work, has_list, has_inspector);
+            recent
+        };
         if let Some(path) = recent {
             self.take_file(&ctx, &path);
         }

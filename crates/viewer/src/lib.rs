@@ -27,6 +27,7 @@ mod dialogs;
 pub mod engine;
 mod export;
 mod files;
+mod fingers;
 mod free_view;
 mod gallery;
 mod jobs;

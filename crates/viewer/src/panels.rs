@@ -5,6 +5,7 @@ pub(crate) mod form;
 pub(crate) mod inspector;
 pub(crate) mod menu;
 pub(crate) mod outliner;
+pub(crate) mod phone;
 pub(crate) mod status;
 
 mod camera;

@@ -1,6 +1,7 @@
 // Hairline's own maps of an environment for three.js: base, scratches and gratings then mirror it as `hairline render` has it.
 import { DataTexture, DataUtils, FloatType, HalfFloatType, Matrix4, NearestFilter, NearestMipmapNearestFilter, RGBAFormat, Vector3 } from 'three/webgpu';
 import { cameraWorldMatrix, mat3, mat4, materialEnvIntensity, materialEnvRotation, positionView, texture, vec3, vec4 } from 'three/tsl';
+import { beside } from './beside.js';
 import { around } from './three_lights.js';
 import { vertexTexture } from './three_outlines.js';
 
@@ -47,20 +48,10 @@ function levelsTexture(texels, width) {
  */
 export async function prepareEnvironment(map) {
   if (known.has(map)) return;
-  const numbers = rowsFromTop(map);
-  const worker = new Worker(new URL('./environment_worker.js', import.meta.url), { type: 'module' });
-  try {
-    const { levels, besideWindows, width, ...rest } = await new Promise((resolve, reject) => {
-      worker.onmessage = ({ data }) => (data.error === undefined ? resolve(data) : reject(new Error(data.error)));
-      worker.onerror = ({ message }) => reject(new Error(`environment_worker.js: ${message ?? 'cannot be loaded'}`));
-      worker.postMessage(numbers, [numbers.rgb.buffer]);
-    });
-    const whole = levelsTexture(levels, width);
-    known.set(map, { ...rest, levels: whole, besideWindows: besideWindows ? levelsTexture(besideWindows, width) : whole });
-    count += 1;
-  } finally {
-    worker.terminate();
-  }
+  const { levels, besideWindows, width, ...rest } = await beside('maps', rowsFromTop(map));
+  const whole = levelsTexture(levels, width);
+  known.set(map, { ...rest, levels: whole, besideWindows: besideWindows ? levelsTexture(besideWindows, width) : whole });
+  count += 1;
 }
 
 /** From three.js's maps to Hairline's, whose middle column is at -z where three.js has it at x. */

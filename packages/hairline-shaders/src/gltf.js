@@ -4,9 +4,10 @@ import {
   Box3, DataTexture, LinearFilter, LinearMipmapLinearFilter, Matrix3, Matrix4, Mesh, RectAreaLight, RepeatWrapping, RGBAFormat, Vector2, Vector3,
 } from 'three/webgpu';
 import { COHERENCE_UM } from './data.js';
-import { Grating, layGratings } from './gratings.js';
-import { ScratchedNodeMaterial } from './three.js';
-import { Scratches, layScratches, profilesOf } from './scratches.js';
+import { beside } from './beside.js';
+import { Grating } from './gratings.js';
+import { ScratchedNodeMaterial, prepareScratches } from './three.js';
+import { Scratches, profilesOf } from './scratches.js';
 import { metals } from './metals.js';
 
 const NAME = 'HAIRLINE_scratches';
@@ -39,6 +40,11 @@ class HairlineScratches {
     };
   }
 
+  /** Before three.js reads a file that ends early, and says so in words of its own. */
+  async beforeRoot() {
+    if (this.parser.json.extensions?.[NAME]) await this.refuseWhatIsCutOff();
+  }
+
   async afterRoot(gltf) {
     const { json } = this.parser;
     const extension = json.extensions?.[NAME];
@@ -47,7 +53,6 @@ class HairlineScratches {
       this.warn(`found version ${extension.version}; must be ${VERSION}: the model is shown plain`);
       return;
     }
-    await this.refuseWhatIsCutOff();
     for (const scene of gltf.scenes) {
       scene.updateMatrixWorld(true);
       const nodes = [];
@@ -75,7 +80,9 @@ class HairlineScratches {
 
   /** A file that ends early has no part of its scratches, or wrong ones. */
   async refuseWhatIsCutOff() {
-    for (const [i, { byteLength }] of (this.parser.json.buffers ?? []).entries()) {
+    for (const [i, { uri, byteLength }] of (this.parser.json.buffers ?? []).entries()) {
+      // What is packed stands for its bytes: EXT_meshopt_compression.
+      if (uri === undefined && i > 0) continue;
       const buffer = await this.parser.getDependency('buffer', i);
       if (buffer.byteLength < byteLength) {
         throw new Error(`${NAME}: found ${buffer.byteLength} bytes in buffer ${i}; must be ${byteLength}: the file is cut off`);
@@ -160,7 +167,7 @@ class HairlineScratches {
         ...grating, axis: grating.axis && new Vector3(...grating.axis).transformDirection(toMesh).toArray(),
         center: new Vector3(...grating.center).applyMatrix4(toMesh).toArray(), mask: laidOn(grating.mask, mesh), directions: laidOn(grating.directions, mesh),
       }));
-      if (own !== null || rows.length > 0) mesh.material = this.material(mesh, described, own, rows, scale);
+      if (own !== null || rows.length > 0) mesh.material = await this.material(mesh, described, own, rows, scale);
     }
   }
 
@@ -189,7 +196,8 @@ class HairlineScratches {
     const [mask, directions] = await Promise.all(['mask', 'directions'].map((key) => this.groovePicture(row, key, way, extension)));
     if (!laid) {
       try {
-        return { ...layGratings(bare, { metal: metalOf(described), coherenceUm: described?.coherence_um })[0], mask, directions };
+        const [made] = await beside('gratings', { rows: bare, options: { metal: metalOf(described), coherenceUm: described?.coherence_um } });
+        return { ...made, mask, directions };
       } catch ({ message }) {
         throw new Error(message.replace(/^grating\[0\]/, way));
       }
@@ -221,18 +229,18 @@ class HairlineScratches {
     const files = {};
     const described = await Promise.all(layers.map((layer, i) => this.described(layer, i, extension, files)));
     const partOf = ({ material, node: below }) => JSON.stringify([material, below]);
-    return [...new Set(shown.map(partOf))].map((part) => {
+    return Promise.all([...new Set(shown.map(partOf))].map(async (part) => {
       const [material, below] = JSON.parse(part);
       const own = meshes.filter((mesh) => (material === null || mesh.material.name === material) && (below === null || isBelow(mesh, node, below)));
       // All of them, as a layer's seed counts with those before it.
       const rows = described.map((row, i) => ({ ...row, solo: false, hidden: !shown.includes(layers[i]) || partOf(layers[i]) !== part }));
       try {
-        return layScratches(together(own, node), rows, { metresPerUnit, files });
+        return new Scratches(await beside('lay', { mesh: together(own, node), layers: rows, options: { metresPerUnit, files } }));
       } catch ({ message }) {
         // By the layer's number in the file.
         throw new Error(message.replace(/^scratches\[(\d+)\]/, (_, i) => wayOf(layers[i], extension)));
       }
-    });
+    }));
   }
 
   /** A layer without the part that it lies on; what it names is added to `files`. */
@@ -275,7 +283,7 @@ class HairlineScratches {
   }
 
   /** The scratched twin of a mesh's material. `described` is the scene's own, where the object has one. */
-  material({ material: from, geometry }, described, scratches, gratings, metresPerUnit) {
+  async material({ material: from, geometry }, described, scratches, gratings, metresPerUnit) {
     const { tables, parameters } = this;
     for (const key of ['sheen', 'iridescence']) {
       if (from[key] > 0) this.warn(`drawn under environments, not under lights: ${key}`);
@@ -289,9 +297,9 @@ class HairlineScratches {
     }
     // Without tangents three.js has the bitangent where v rises, glTF where it falls.
     if (taken.anisotropyRotation && !geometry.attributes.tangent) taken.anisotropyRotation *= -1;
-    return new ScratchedNodeMaterial({
-      tables, metal, scratches, gratings, metresPerUnit, coherenceUm: described?.coherence_um ?? COHERENCE_UM, ...taken, ...parameters,
-    });
+    const given = { tables, metal, scratches, gratings, metresPerUnit, coherenceUm: described?.coherence_um ?? COHERENCE_UM, ...taken, ...parameters };
+    if (scratches) await prepareScratches(scratches, given);
+    return new ScratchedNodeMaterial(given);
   }
 }
 
@@ -449,6 +457,7 @@ function within(scratches, geometry) {
     if (box.containsPoint(a.add(b).multiplyScalar(0.5))) kept.push(i);
   }
   if (kept.length === 0) return null;
+  if (kept.length === scratches.count) return scratches;
   const pick = (array, width) => Float32Array.from(kept.flatMap((i) => Array.from(array.subarray(width * i, width * (i + 1)))));
   const { starts, ends, normals, widthsUm, depthsNm, scratch, profiles } = scratches;
   return new Scratches({

@@ -5,8 +5,6 @@ import { COHERENCE_UM, COLUMNS, FINE_ROWS, GRATING_ROWS, ROW_NM } from './data.j
 
 /** With the constants of groove_field.wgsl. Grooves by texture coordinates lie along a direction that differs from pixel to pixel. */
 const KINDS = { along: 0, circular: 1, radial: 2, spun: 3, 'along-u': 0, 'along-v': 0 };
-/** Gratings that the package has tables of. */
-const PRESETS = ['cd', 'dvd'];
 
 /** Whether grooves follow texture coordinates. */
 export const isByUv = ({ kind }) => kind === 'along-u' || kind === 'along-v';
@@ -77,9 +75,8 @@ export function layGratings(rows, { metal = null, coherenceUm = COHERENCE_UM, pi
   }));
 }
 
-/** Fetches the table of a grating that the package has, "cd" or "dvd" in aluminium; `options` are those of Grating. */
-export async function loadGrating(name, options = {}, url = new URL(`../gratings/${name}.bin`, import.meta.url)) {
-  if (!PRESETS.includes(name)) throw new Error(`grating: found ${JSON.stringify(name)}; must be one of ${PRESETS.join(', ')}`);
+/** Fetches the table of a grating, such as `cd` of hairline-shaders/cd; `options` are those of Grating. */
+export async function loadGrating(url, options = {}) {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
   return new Grating({ ...options, texels: new Uint32Array(await response.arrayBuffer()) });

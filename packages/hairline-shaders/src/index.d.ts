@@ -147,5 +147,5 @@ export interface GratingLaying {
 }
 /** Makes the tables of rows of grooves, as Hairline does with `theory = "scalar"`; of hidden rows none. */
 export function layGratings(rows: GratingRow | GratingRow[], options?: GratingLaying): Grating[];
-/** Fetches the table of a grating that the package has, in aluminium. */
-export function loadGrating(name: 'cd' | 'dvd', options?: Omit<GratingOptions, 'texels'>, url?: string | URL): Promise<Grating>;
+/** Fetches the table of a grating: `cd` of hairline-shaders/cd, `dvd` of hairline-shaders/dvd, or one of your own. */
+export function loadGrating(url: string | URL, options?: Omit<GratingOptions, 'texels'>): Promise<Grating>;

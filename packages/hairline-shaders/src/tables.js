@@ -14,6 +14,16 @@ export class Tables {
 }
 
 let isLoaded = false;
+let loaded = null;
+
+/** Tells that Hairline's own code is there, and its module, by which a worker starts. */
+export function loadedWith(module) {
+  isLoaded = true;
+  loaded = module;
+}
+
+/** The module, or null before it is there. */
+export const engineModule = () => loaded;
 
 /** For what needs Hairline's own code: throws before it is there. */
 export function needsTables(name) {
@@ -24,7 +34,8 @@ export function needsTables(name) {
 export async function loadTables(url = new URL('../engine/engine_bg.wasm', import.meta.url)) {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
-  await init({ module_or_path: response });
-  isLoaded = true;
+  const module = await WebAssembly.compile(await response.arrayBuffer());
+  await init({ module_or_path: module });
+  loadedWith(module);
   return new Tables();
 }

@@ -8,6 +8,12 @@ export { Grating, Scratches, layGratings, loadGrating, loadTables, readScratches
 export function scratchesOn(geometry: BufferGeometry, layers: Layer | Layer[], options?: LayingOptions): Scratches;
 
 /**
+ * Makes the tree of scratches in a worker, before the material of the same `coherenceUm` and `metresPerUnit` that is made of them: of hundreds of thousands of
+ * pieces seconds, in which a page would stand still.
+ */
+export function prepareScratches(scratches: Scratches, options?: { coherenceUm?: number; metresPerUnit?: number }): Promise<void>;
+
+/**
  * Makes Hairline's own maps of an equirectangular texture, in a worker, before it is `scene.environment` or a material's `envMap`: base, scratches and gratings
  * then mirror it as `hairline render` has it. Without it three.js's maps count.
  */

@@ -11,6 +11,7 @@ import { texture, uniform, vec4 } from 'three/tsl';
 import { Scratches, layScratches, readScratches, scratchTree } from './scratches.js';
 import { noScratches, scratchTables } from './table.js';
 import { COHERENCE_UM } from './data.js';
+import { beside } from './beside.js';
 import { curveOf, metalColor } from './metals.js';
 import { Grating, isByUv } from './gratings.js';
 import { mapsOf, preparedCount } from './environment.js';
@@ -84,6 +85,31 @@ function treeTexture({ texels, width, height }) {
   return made;
 }
 
+const treesOf = new WeakMap();
+
+/** Trees of scratches, by what they were made for. */
+function treesOfScratches(scratches) {
+  if (!treesOf.has(scratches)) treesOf.set(scratches, new Map());
+  return treesOf.get(scratches);
+}
+
+/** The tree of scratches, made once. */
+function treeOf(scratches, options) {
+  const [trees, key] = [treesOfScratches(scratches), JSON.stringify(options)];
+  if (!trees.has(key)) trees.set(key, scratchTree(scratches, options));
+  return trees.get(key);
+}
+
+/**
+ * Makes the tree of scratches in a worker, before the material of the same `coherenceUm` and `metresPerUnit` that is made of them: of hundreds of thousands of
+ * pieces seconds, in which a page would stand still.
+ */
+export async function prepareScratches(scratches, { coherenceUm = COHERENCE_UM, metresPerUnit = 1 } = {}) {
+  const options = { coherenceUm, metresPerUnit };
+  const [trees, key] = [treesOfScratches(scratches), JSON.stringify(options)];
+  if (!trees.has(key)) trees.set(key, await beside('tree', { scratches: { ...scratches }, options }));
+}
+
 /**
  * MeshPhysicalNodeMaterial with scratches. Besides its own parameters: `tables` of loadTables(); `metal` by name, or null for `color` and
  * `metalness`; `scratches` in the object's own frame, or null; `gratings`, an array; `coherenceUm`; `metresPerUnit`, how long a unit of the object's frame is;
@@ -104,8 +130,10 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
       throw new Error('gratings: found something else; must be an array of Gratings');
     }
     this.isScratchedNodeMaterial = true;
-    Object.assign(this, { tables, metal, coherenceUm, metresPerUnit, lightRadius });
-    const tree = scratches && scratchTree(scratches, { coherenceUm, metresPerUnit });
+    Object.assign(this, { tables, coherenceUm, metresPerUnit, lightRadius });
+    // No part of the key of programs, as what can be enumerated is.
+    Object.defineProperty(this, 'metal', { value: metal });
+    const tree = scratches && treeOf(scratches, { coherenceUm, metresPerUnit });
     const { shapes: grooves, tableRows } = tree ?? noScratches;
     Object.assign(this, { scratches, gratings, tableOf: { shapes: grooves, tableRows } });
     if (metal !== null) {
@@ -113,19 +141,38 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
       this.metalness = 1;
     }
     this.setValues(parameters);
-    const { shapes, albedo, curves } = texturesOf(tables);
-    Object.defineProperty(this, 'hairlineNodes', {
-      value: {
-        shapes: texture(shapes), albedo: texture(albedo), curves: texture(curves), table: texture(this.table()),
-        tree: tree && texture(treeTexture(tree)), curve: uniform(curveOf(metal)),
-        gratings: gratings.map((grating) => ({ rows: texture(rowsTexture(grating)), field: uniform(new Matrix4().fromArray(grating.numbers)) })),
-      },
-    });
+    Object.defineProperty(this, 'hairline', { value: { tree: tree && treeTexture(tree), curve: curveOf(metal) } });
+  }
+
+  /** Nodes whose values are those of the material that is drawn: programs are shared by all materials of a kind. */
+  nodes() {
+    const { shapes, albedo, curves } = texturesOf(this.tables);
+    const { tree, curve } = this.hairline;
+    const field = (grating) => new Matrix4().fromArray(grating.numbers);
+    const checked = new WeakSet();
+    return {
+      shapes: texture(shapes), albedo: texture(albedo), curves: texture(curves),
+      table: texture(this.table()).onObjectUpdate(({ material }) => material.table()),
+      tree: tree && texture(tree).onObjectUpdate(({ material }) => material.hairline.tree),
+      curve: uniform(curve).onObjectUpdate(({ material, object }) => {
+        if (!checked.has(object)) material.check(object);
+        checked.add(object);
+        return material.hairline.curve;
+      }),
+      metresPerUnit: uniform(this.metresPerUnit).onObjectUpdate(({ material }) => material.metresPerUnit),
+      gratings: this.gratings.map((grating, i) => ({
+        rows: texture(rowsTexture(grating)).onObjectUpdate(({ material }) => rowsTexture(material.gratings[i])),
+        field: uniform(field(grating)).onObjectUpdate(({ material }) => field(material.gratings[i])),
+      })),
+    };
   }
 
   /** The spectra of the scratches: a coat, in which they lie, has no colour of its own. */
   table() {
-    return tableTexture(this.tables, this.useClearcoat ? null : this.metal, this.tableOf);
+    const { hairline } = this;
+    const metal = this.useClearcoat ? null : this.metal;
+    if (hairline.tableMetal !== metal) Object.assign(hairline, { tableMetal: metal, table: tableTexture(this.tables, metal, this.tableOf) });
+    return hairline.table;
   }
 
   setupLightingModel(builder) {
@@ -133,9 +180,6 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
       console.warn('ScratchedNodeMaterial: found the backend for WebGL; must be that for WebGPU, which this browser lacks or `forceWebGL` turns off: drawn without scratches');
       return super.setupLightingModel(builder);
     }
-    this.checkScale(builder.object);
-    this.checkUvs(builder);
-    this.hairlineNodes.table.value = this.table();
     const environment = this.environmentOf(builder);
     return new ScratchedLightingModel(this, environment, environment && mapsOf(environment));
   }
@@ -157,6 +201,12 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
     return super.setupOutput(builder, vec4(output.rgb.min(GREATEST_HALF), output.a));
   }
 
+  /** Tells of what will be drawn wrong. */
+  check(object) {
+    this.checkScale(object);
+    this.checkUvs(object);
+  }
+
   /** Scratches of another scale than they were made for end in the wrong places. */
   checkScale(object) {
     if (isBent(object) || (!this.scratches && this.gratings.length === 0)) return;
@@ -167,17 +217,19 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
   }
 
   /** Without texture coordinates a picture has one value, and grooves have no direction. */
-  checkUvs({ object, geometry }) {
+  checkUvs(object) {
     for (const { kind, mask, directions } of this.gratings) {
       const channels = [...[mask, directions].flatMap((it) => it?.channel ?? []), ...(isByUv({ kind }) ? [0] : [])];
-      const name = channels.map((channel) => (channel ? `uv${channel}` : 'uv')).find((it) => !geometry.hasAttribute(it));
+      const name = channels.map((channel) => (channel ? `uv${channel}` : 'uv')).find((it) => !object.geometry.hasAttribute(it));
       if (name) console.warn(`ScratchedNodeMaterial: found no attribute ${name} of mesh "${object.name}"; must be there for a grating with a picture or of kind along-u or along-v`);
     }
   }
 
   customProgramCacheKey() {
-    // Each material has its own textures.
-    return `${super.customProgramCacheKey()}-${this.id}-${preparedCount()}`;
+    // Pictures on grooves and environments of its own are in the program of a material.
+    const isAlone = this.envMap || this.gratings.some(({ mask, directions }) => mask || directions);
+    const kinds = this.gratings.map((grating) => (isByUv(grating) ? grating.kind : 'by place'));
+    return `${super.customProgramCacheKey()}-${isAlone ? this.id : kinds}-${preparedCount()}`;
   }
 
   clone() {
@@ -186,7 +238,7 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
   }
 
   dispose() {
-    this.hairlineNodes.tree?.value.dispose();
+    this.hairline.tree?.dispose();
     super.dispose();
   }
 }

@@ -79,13 +79,13 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
 
   start(builder) {
     const { material } = this;
-    const nodes = material.hairlineNodes;
+    const nodes = material.nodes();
     const side = normalViewGeometry.dot(normalView).sign();
     const perspective = vec2(cameraProjectionMatrix.element(0).x, cameraProjectionMatrix.element(1).y).toVar();
     const middle = cameraProjectionMatrix.element(2).xy;
     const place = {
       position: positionGeometry,
-      view_from_object: viewFromObject(builder.object, material.metresPerUnit).toVar(),
+      view_from_object: viewFromObject(builder.object, nodes.metresPerUnit).toVar(),
       position_view: positionView,
       normal_view: normalView,
       pixel: vec3(vec2(2).div(viewportSize.mul(perspective)), cameraProjectionMatrix.element(3).w).toVar(),
@@ -215,7 +215,6 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
 
   direct({ lightDirection, lightColor, lightNode }) {
     const { light } = lightNode;
-    const { lightRadius } = this.material;
     let center;
     let radius;
     let radiance;
@@ -225,7 +224,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       radiance = lightColor.mul(FAR_M * FAR_M);
     } else {
       center = lightViewPosition(light);
-      radius = uniform(0).onRenderUpdate(() => light.userData.radius ?? lightRadius);
+      radius = uniform(0).onObjectUpdate(({ material }) => light.userData.radius ?? material.lightRadius);
       const way = center.sub(positionView);
       // three.js holds its fall-off at that of 0.1 m.
       radiance = lightColor.mul(way.dot(way).max(0.01));

@@ -306,6 +306,16 @@ async function refusesMistakes(tables) {
   }
 }
 
+/** A file that is cut off is refused, wherever it ends. */
+async function refusesWhatIsCutOff(tables) {
+  const bytes = await (await fetch('/pages/plate/worn.glb')).arrayBuffer();
+  for (const share of [0.3, 0.6, 0.9]) {
+    const loader = new GLTFLoader().register(hairlineScratches({ tables }));
+    const said = await loader.parseAsync(bytes.slice(0, Math.floor(share * bytes.byteLength)), '').then(() => 'nothing', (error) => error.message);
+    if (!/found \d+ bytes in buffer 0; must be \d+: the file is cut off$/.test(said)) throw new Error(`a file cut off at ${share}: found the message "${said}"`);
+  }
+}
+
 /** Maps that are none have a message. */
 async function refusesMaps() {
   const square = new THREE.DataTexture(new Float32Array(4 * 16), 4, 4, THREE.RGBAFormat, THREE.FloatType);
@@ -324,6 +334,7 @@ try {
   for (const name of new URLSearchParams(location.search).get('scenes').split(',')) await draw(renderer, name, tables);
   await refusesMaps();
   await refusesMistakes(tables);
+  await refusesWhatIsCutOff(tables);
   await outlives(renderer, tables);
   await send('/done', '');
 } catch (error) {

@@ -1,8 +1,9 @@
 // Programs of users, as TypeScript sees them: `cargo xtask package --pictures` checks their types.
 import * as THREE from 'three/webgpu';
 import { layScratches, makeScratchTables, scratchTree, type Grating, type Layer } from 'hairline-shaders';
+import { cd } from 'hairline-shaders/cd';
 import { hairlineScratches } from 'hairline-shaders/gltf';
-import { ScratchedNodeMaterial, layGratings, loadGrating, loadTables, prepareEnvironment, readScratches, scratchesOn } from 'hairline-shaders/three';
+import { ScratchedNodeMaterial, layGratings, loadGrating, loadTables, prepareEnvironment, prepareScratches, readScratches, scratchesOn } from 'hairline-shaders/three';
 
 export async function material(sky: THREE.DataTexture, mask: THREE.Texture): Promise<ScratchedNodeMaterial> {
   const tables = await loadTables();
@@ -10,8 +11,9 @@ export async function material(sky: THREE.DataTexture, mask: THREE.Texture): Pro
   const layers: Layer[] = [{ pattern: 'random', count: 300, depth_nm: { mean: 160, spread: 0.1 }, where: { mask: 'mask' } }, { pattern: 'circular', count: 3 }];
   const files = { mask: { width: 1, rgba: new Uint8Array(4) } };
   const scratches = scratchesOn(new THREE.PlaneGeometry(), layers, { files });
+  await prepareScratches(scratches);
   const foil: Grating[] = layGratings([{ pattern: 'uv', along: 'v', pitch_um: 8, mask: 'mask' }], { metal: 'gold', pictures: { mask } });
-  const gratings = [...foil, await loadGrating('cd', { kind: 'along-u', mask })];
+  const gratings = [...foil, await loadGrating(cd, { kind: 'along-u', mask })];
   return new ScratchedNodeMaterial({ tables, metal: 'gold', roughness: 0.1, clearcoat: 1, scratches, gratings });
 }
 

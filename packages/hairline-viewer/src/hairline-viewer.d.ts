@@ -2,6 +2,11 @@
 export class HairlineViewer extends HTMLElement {
   src: string | null;
 }
+/** `load` when the model is there, `error` with the reason in `detail` when it cannot be shown. */
+export interface HairlineViewerEventMap {
+  load: CustomEvent<null>;
+  error: CustomEvent<Error>;
+}
 
 declare global {
   interface HTMLElementTagNameMap {

@@ -16,8 +16,8 @@ pub(super) type Folders = Vec<(&'static str, PathBuf)>;
 
 /// The names under which browsers with WebGPU are installed.
 const PROGRAMS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
-/// SwiftShader compiles for seconds, and maps of an environment take seconds too.
-const PATIENCE: Duration = Duration::from_secs(240);
+/// SwiftShader compiles for seconds, and maps of an environment take seconds too: together two minutes, on a machine with other work many.
+const PATIENCE: Duration = Duration::from_secs(600);
 
 /// Answer of a page: the rest of the address after `/result/`, and the bytes.
 pub(super) type Answer = (String, Vec<u8>);

@@ -1,9 +1,10 @@
 //! Files of the package, and the npm packages of its tests.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, ensure};
+use serde_json::Value;
 
 /// Runs a test in its folder, with its npm packages installed there.
 pub(super) fn node(folder: &Path, script: &[&str], output: &Path) -> anyhow::Result<()> {
@@ -33,6 +34,25 @@ pub(super) fn install(folder: &Path) -> anyhow::Result<()> {
         .context("npm cannot be run")?;
     ensure!(status.success(), "npm ci failed");
     Ok(())
+}
+
+/// Packs a package into the file that npm installs, beside its folder; returns its path.
+pub(super) fn pack(package: &Path) -> anyhow::Result<PathBuf> {
+    let output = package.parent().context("a package without a folder")?;
+    let described: Value = serde_json::from_slice(&std::fs::read(package.join("package.json"))?)?;
+    let [name, version] = ["name", "version"].map(|key| described[key].as_str().unwrap_or(""));
+    let packed = output.join(format!("{name}-{version}.tgz"));
+    // npm leaves out the first folder of paths, whatever its name.
+    let status = Command::new("tar")
+        .arg("-czf")
+        .arg(&packed)
+        .arg("-C")
+        .arg(output)
+        .arg(name)
+        .status()
+        .context("tar cannot be run")?;
+    ensure!(status.success(), "tar failed");
+    Ok(packed)
 }
 
 pub(super) fn copy(from: &Path, to: &Path) -> anyhow::Result<()> {

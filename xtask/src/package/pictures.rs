@@ -147,10 +147,7 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
 }
 
 /// Writes what the pages of all scenes show, and returns the scenes.
-pub(super) fn write_pages(
-    root: &Path,
-    output: &Path,
-) -> anyhow::Result<Vec<(&'static str, Scene)>> {
+fn write_pages(root: &Path, output: &Path) -> anyhow::Result<Vec<(&'static str, Scene)>> {
     let tests = root.join("packages/hairline-shaders/test");
     let page = |name: &'static str| {
         let file = tests.join(format!("{name}.toml"));
@@ -166,6 +163,14 @@ pub(super) fn write_pages(
         Ok((name, scene))
     };
     SCENES.into_iter().map(page).collect()
+}
+
+/// Writes a scene as a model with its scratches.
+pub(super) fn write_model(scene: &Path, model: &Path) -> anyhow::Result<()> {
+    let described = Description::from_toml(&std::fs::read_to_string(scene)?, scene)?;
+    let folder = scene.parent().context("a scene without a folder")?;
+    let exported = Loader::default().export(&described, folder, Export { laid: true })?;
+    write(model, &exported.bytes)
 }
 
 fn render(scene: &Scene) -> Image {

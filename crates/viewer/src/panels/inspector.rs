@@ -41,9 +41,17 @@ fn overview(ui: &mut Ui, work: &Workspace) {
     ];
     ui.label(counts.join(", "));
     ui.add_space(8.0);
-    ui.label("Click an object in the picture, or a line on the left, to change it here.");
-    ui.label("Drag turns the view, Shift and drag moves it, the wheel comes nearer.");
-    ui.label("F1 shows all keys.");
+    let words = match crate::fingers::is_phone(ui.ctx()) {
+        true => crate::fingers::WORDS,
+        false => [
+            "Click an object in the picture, or a line on the left, to change it here.",
+            "Drag turns the view, Shift and drag moves it, the wheel comes nearer.",
+            "F1 shows all keys.",
+        ],
+    };
+    for sentence in words {
+        ui.label(sentence);
+    }
 }
 
 fn count(n: usize, one: &str, many: &str) -> String {

@@ -92,7 +92,12 @@ fn bar_button(ui: &mut Ui, work: &mut Workspace, command: Command, button: Butto
     }
 }
 
-fn menu(ui: &mut Ui, work: &mut Workspace, group: Group, files: &Files) -> Option<PathBuf> {
+pub(super) fn menu(
+    ui: &mut Ui,
+    work: &mut Workspace,
+    group: Group,
+    files: &Files,
+) -> Option<PathBuf> {
     let mut chosen = None;
     for (i, entry) in command::entries()
         .filter(|entry| entry.group == group)

@@ -71,7 +71,7 @@ impl NumberBox<'_> {
         let response = ui
             .scope(|ui| {
                 self.fit_text(ui, &text);
-                ui.add_sized([self.width, 20.0], drag)
+                ui.add_sized([self.width, ui.spacing().interact_size.y.max(20.0)], drag)
             })
             .inner;
         if let Some(typed) = typed.into_inner() {

@@ -57,6 +57,23 @@ fn progress(ui: &mut Ui, engine: &Engine, viewport: &Viewport) {
     }
 }
 
+/// What the picture is and how long it takes to be clean, in few words.
+pub(super) fn summary(engine: &Engine, viewport: &Viewport) -> String {
+    if engine.is_building() {
+        return "laying scratches".to_owned();
+    }
+    let Some(frame) = engine.latest() else {
+        return before_the_first(engine).to_owned();
+    };
+    let is_stale = viewport.canvas.is_stale();
+    let what = activity(&frame, is_stale);
+    match frame.painted.left.filter(|_| !is_stale) {
+        Some(_) if engine.is_resting() => "paused while an export runs".to_owned(),
+        Some(left) => format!("{} left: {what}", rough(left)),
+        None => what,
+    }
+}
+
 /// Text about the current work while there is no picture yet.
 pub(crate) fn before_the_first(engine: &Engine) -> &'static str {
     match engine.built() {
