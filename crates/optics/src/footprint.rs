@@ -253,7 +253,7 @@ mod tests {
     #[test]
     fn a_seen_part_has_its_mean_and_its_deviation() {
         for ends in [
-            [-9.0, 9.0],
+            [-9.0f64, 9.0],
             [-0.2, 3.0],
             [1.0, 1.5],
             [-3.0, -2.2],

@@ -275,7 +275,7 @@ pub(super) async fn rehearse(wish: &Wish, built: &Built, stop: &Stop, tell: &dyn
             guess(share);
         }
         let [few, enough] = GUESS_AFTER.map(|time| start.elapsed() > time);
-        !stop.is_asked() && !(enough || few && share >= GUESS_FROM)
+        !(stop.is_asked() || enough || few && share >= GUESS_FROM)
     };
     if let Ok(Some(mut image)) = painter.paint(built, &scene, wish, &go_on).await {
         filter_found(&mut image);
