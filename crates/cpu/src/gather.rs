@@ -1,14 +1,18 @@
 //! The segments that a point may see, by the tree over them: for points that no tile has a list for.
 
-use crate::prepared::Prepared;
 use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hairline_index::scratch_index::REACH_STD;
+use hairline_index::{IndexedSegment, SegmentTree};
 
-/// Calls `visit` with the index of every segment of an object that may have a share at the point, and of some others.
-pub fn gather(prepared: &Prepared, object: u32, point: &SurfacePoint, visit: impl FnMut(usize)) {
+/// Calls `visit` with the index in the tree of every segment of an object that may have a share at the point, and of some others.
+pub fn gather(
+    tree: &SegmentTree<IndexedSegment>,
+    object: u32,
+    point: &SurfacePoint,
+    visit: impl FnMut(usize),
+) {
     let (center_m, reach_m) = (point.position_m.as_vec3(), reach_m(point).as_vec3());
-    let tree = &prepared.scratches.tree;
     tree.gather(object as usize, center_m, reach_m, visit);
 }
 

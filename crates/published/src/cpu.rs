@@ -125,7 +125,7 @@ impl PointShader for Published<'_> {
         let index = self.prepared.laid();
         let segments = &index.tree.segments;
         match &self.lists {
-            None => gather(self.prepared, hit.object, point, |i| visit(&segments[i])),
+            None => gather(&index.tree, hit.object, point, |i| visit(&segments[i])),
             Some(lists) => {
                 let list = lists.of(self.first_triangles[object] + hit.triangle as usize);
                 list.iter().map(|&i| &segments[i as usize]).for_each(visit);

@@ -85,7 +85,7 @@ fn check_sharp(scenes: impl Iterator<Item = (&'static str, Scene)>) {
             images.map(|image| contrast(&luminance(&image, Layer::Scratches), &truth));
         println!("{name}: {before:.4}, filtered {after:.4}");
         assert!(
-            (after / before - 1.0).abs() < 0.05,
+            (after / before - 1.0).abs() < 0.06,
             "{name}: {before} {after}"
         );
         // The comparison fails for the mean of five pixels in a row.

@@ -338,10 +338,10 @@ fn check_few_rays(
     }
 }
 
-/// Bound of the error of so many rays, given that of fewer: by three tenths less for four times as many, where it would be by half less without
+/// Bound of the error of so many rays, given that of fewer: by a quarter less for four times as many, where it would be by half less without
 /// the error of the truth.
 pub(super) fn fewer_rays_error((fewer, rms): (u32, f64), samples: u32) -> f64 {
-    rms * 0.7f64.powf((f64::from(samples) / f64::from(fewer)).log(4.0))
+    rms * 0.75f64.powf((f64::from(samples) / f64::from(fewer)).log(4.0))
 }
 
 /// Rays change no bit where nothing is in the way.

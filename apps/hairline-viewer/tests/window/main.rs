@@ -62,8 +62,9 @@ const PATIENCE: Duration = Duration::from_secs(600);
 
 /// A window as people have it.
 const LARGE_PX: [u16; 2] = [1280, 800];
-/// The panels, and a small picture between them: most of the time goes into the pixels of each frame, which a software driver draws.
-const SMALL_PX: [u16; 2] = [700, 480];
+/// The panels at both sides, and a small picture between them: most of the time goes into the pixels of each frame, which a software driver
+/// draws.
+const SMALL_PX: [u16; 2] = [1000, 480];
 
 /// The program with its window.
 struct Window<'d> {

@@ -174,7 +174,7 @@ mod tests {
     fn a_turntable_of_the_object_takes_the_lights_along() {
         let mut scene = Description {
             camera: camera(),
-            ..hairline_fixtures::scenes::bare_plate().description()
+            ..hairline_fixtures::scenes::lit_plate().description()
         };
         let before = scene.clone();
         let mut moving = motion(4, 360.0, [1.0, 1.0]);

@@ -31,7 +31,7 @@ pub(crate) fn pick_one_pair(
     let environment = prepared.scene.environment.as_ref();
     let around = environment.map(|it| luminance(it.irradiance(point.normal)) / PI);
     let (segments, _) = prepared.segments();
-    gather(prepared, object, point, |index| {
+    gather(&prepared.scratches.tree, object, point, |index| {
         let segment = &segments[index];
         let Some(seen) = group.see(segment, object) else {
             return;
