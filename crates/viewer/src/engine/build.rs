@@ -12,6 +12,7 @@ use web_time::Instant;
 use super::sketch::Sketch;
 
 /// A scene with all that painting and picking look up.
+#[derive(Clone)]
 pub struct Built {
     /// Revision of the description.
     pub revision: u64,
@@ -52,6 +53,14 @@ impl Built {
     /// Whether the scene has only some of the scratches, which stand for all of them.
     pub fn is_sketch(&self) -> bool {
         self.sketch.is_some()
+    }
+
+    /// The same with scratches as the camera of `scene` sees them, at the size of its picture: the window's serve for any view.
+    pub(crate) fn seen_from(&self, scene: &Scene) -> Self {
+        Self {
+            scratches: Arc::new(ScratchIndex::build(scene)),
+            ..self.clone()
+        }
     }
 
     /// Numbers of scratches and of straight pieces in the scene.

@@ -260,7 +260,8 @@ pub(super) async fn rehearse(wish: &Wish, built: &Built, stop: &Stop, tell: &dyn
                 .all(|share| *share == 1.0),
     };
     tell(expected);
-    let Ok(mut painter) = Painter::open(wish, built).await else {
+    let built = built.seen_from(&scene);
+    let Ok(mut painter) = Painter::open(wish, &built).await else {
         return;
     };
     let start = Instant::now();
@@ -277,7 +278,7 @@ pub(super) async fn rehearse(wish: &Wish, built: &Built, stop: &Stop, tell: &dyn
         let [few, enough] = GUESS_AFTER.map(|time| start.elapsed() > time);
         !(stop.is_asked() || enough || few && share >= GUESS_FROM)
     };
-    if let Ok(Some(mut image)) = painter.paint(built, &scene, wish, &go_on).await {
+    if let Ok(Some(mut image)) = painter.paint(&built, &scene, wish, &go_on).await {
         filter_found(&mut image);
         guess(1.0);
     }
@@ -295,7 +296,8 @@ pub(super) async fn run(wish: &Wish, built: &Built, stop: &Stop, report: &Report
 
 /// False if it was stopped.
 async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Result<bool, String> {
-    let opened = Painter::open(wish, built).await;
+    let mut seen = built.seen_from(&wish.scene(built, &wish.at(0).camera));
+    let opened = Painter::open(wish, &seen).await;
     let mut painter = opened.map_err(|error| error.to_string())?;
     let begin = || {
         Animation::begin(
@@ -336,14 +338,15 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
             }
             false => None,
         };
-        if let Some(turned) = &turned {
-            let taken = painter.take(turned, wish.transport).await;
+        let own = turned.as_ref().unwrap_or(built);
+        let scene = wish.scene(own, &camera);
+        if turned.is_some() || !seen.scratches.serves(&scene) {
+            seen = own.seen_from(&scene);
+            let taken = painter.take(&seen, wish.transport).await;
             taken.map_err(|error| error.to_string())?;
         }
-        let built = turned.as_ref().unwrap_or(built);
-        let scene = wish.scene(built, &camera);
         let image = painter
-            .paint(built, &scene, wish, &go_on)
+            .paint(&seen, &scene, wish, &go_on)
             .await
             .map_err(|error| error.to_string())?;
         let Some(mut image) = image else {
@@ -356,7 +359,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         if wish.is_transparent {
             let batches = wish.batches(&scene.camera);
             let all = batches.map_or(wish.samples, |it| it.samples());
-            image.alpha = Some(hairline_cpu::alpha(&scene, &built.triangles, all, all));
+            image.alpha = Some(hairline_cpu::alpha(&scene, &seen.triangles, all, all));
         }
         let written = match (&mut animation, &output) {
             (Some(animation), _) => animation.add(&image, &wish.display()),
@@ -429,7 +432,7 @@ impl Painter {
         })
     }
 
-    /// Goes on with a scene of other lights.
+    /// Goes on with a scene of other lights, or seen from elsewhere.
     async fn take(
         &mut self,
         built: &Built,

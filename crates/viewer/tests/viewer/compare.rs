@@ -7,8 +7,9 @@ use std::time::{Duration, Instant};
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::{Harness, kittest::Queryable};
-use hairline_cpu::closed_form::{self, RenderOptions};
+use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_image::{Image, Layer};
+use hairline_index::{Pieces, Watch};
 use hairline_scene::Scene;
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Figures, LayerFigures, Options, Viewer};
@@ -59,7 +60,8 @@ fn rendered(text: &str, size_px: [u32; 2]) -> Image {
         samples: 16,
         ..RenderOptions::default()
     };
-    closed_form::render(&scene, &options, &|_| {})
+    let laid = Prepared::watched(&scene, Pieces::Laid, &Watch::default());
+    laid.unwrap().render(&options, &|_| {})
 }
 
 #[test]
@@ -90,7 +92,7 @@ fn agrees_and_another_does_not(text: &'static str) {
     assert!(agrees(&beauty, beauty.mean, 0.15), "{figures:?}");
     // The closed form is within a few percent of the integral where scratches are many.
     assert!(agrees(&scratches, scratches.mean, 0.03), "{figures:?}");
-    // The comparison's picture is the renderer's.
+    // The comparison's picture is the renderer's, of scratches as they were laid.
     let right = rendered(text, figures.size_px);
     assert!((mean(&right, Layer::Scratches) / scratches.mean - 1.0).abs() < 1e-6);
 
