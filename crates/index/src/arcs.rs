@@ -2,7 +2,6 @@
 //! section 6): a pixel then meets a scratch once, and not each of the chords that curves and triangles cut it into.
 
 use crate::IndexedSegment;
-use crate::scratch_index::Pieces;
 use glam::Vec3;
 use hairline_scene::{Object, Scene};
 
@@ -22,6 +21,15 @@ const SAME_SIDE_COS: f32 = 0.95;
 const COARSER_MAX: f32 = 8.0;
 /// No arc is of more pieces, so that trying one piece more stays cheap.
 const PIECES_MAX: usize = 64;
+
+/// What the trees of an index are over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pieces {
+    /// The straight pieces that were laid: whatever the view, and for methods that know no arcs.
+    Laid,
+    /// Arcs, as long as the camera of the scene does not tell them from what was laid, at the size of its picture.
+    Seen,
+}
 
 /// Distance by which arcs may lie beside what was laid, for each object, metres; 0 where pieces stay as they were laid.
 #[derive(Clone, Debug, PartialEq)]

@@ -39,12 +39,12 @@ pub mod triangle_beam;
 pub(crate) mod triangle_index;
 pub mod watch;
 
-pub use arcs::TURN_MAX_RAD;
+pub use arcs::{Pieces, TURN_MAX_RAD};
 pub use coverage::Coverage;
 pub use groove_index::Groove;
 pub use hit::Hit;
 pub use indexed_segment::{IndexedProfile, IndexedSegment};
-pub use scratch_index::{Pieces, ScratchIndex};
+pub use scratch_index::ScratchIndex;
 pub use segment_tree::{ScratchNode, SegmentTree};
 pub use triangle_beam::TriangleBeam;
 pub use triangle_index::{TriangleIndex, TriangleNode, intersect_triangle};

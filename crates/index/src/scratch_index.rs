@@ -2,7 +2,7 @@
 //! docs/model.md, section 6, for the whole scratch; joined ends do not move, and pieces shorter than an end's shift are left out. For a
 //! view pieces are put together to arcs.
 
-use crate::arcs::Deviations;
+use crate::arcs::{Deviations, Pieces};
 use crate::depth_spread::object_coherence;
 use crate::indexed_segment::IndexedSegment;
 use crate::layer_runs::{LayerRun, groups};
@@ -25,15 +25,6 @@ pub struct ScratchIndex {
     coherence_max_um: Vec<f32>,
     /// How far arcs may lie beside what was laid.
     deviations: Deviations,
-}
-
-/// What the trees of an index are over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pieces {
-    /// The straight pieces that were laid: whatever the view, and for methods that know no arcs.
-    Laid,
-    /// Arcs, as long as the camera of the scene does not tell them from what was laid, at the size of its picture.
-    Seen,
 }
 
 /// Number of standard deviations at which a footprint is cut off: 5e-4 of its Gaussian lies beyond.

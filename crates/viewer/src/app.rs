@@ -266,7 +266,7 @@ impl Viewer {
             let recent = panels::menu::show(ui, &mut self.work, &self.files, is_comparing);
             panels::status::show(ui, &mut self.work, &self.viewport);
             let (has_list, has_inspector) = (!self.hides_list, !self.hides_inspector);
-            panels::show(ui, &mut self.work, has_list, has_inspector);
+            panels::sides::show(ui, &mut self.work, has_list, has_inspector);
             recent
         };
         if let Some(path) = recent {

@@ -22,9 +22,9 @@ use crate::jobs::Job;
 use crate::notices::Notices;
 use crate::viewport::camera;
 use crate::workspace::Workspace;
-use form::{Answer, ExportContext, Form};
+use form::{Answer, ExportContext, Form, words};
 use rehearsal::Rehearsal;
-use work::{End, Expected, Report, Wish};
+use work::{End, Expected, Report, Wish, fitting};
 
 /// Form of an export, and the exports in progress.
 #[derive(Default)]
@@ -383,22 +383,6 @@ fn time_left(elapsed: Duration, done: f64) -> Option<String> {
         return None;
     }
     Some(words(elapsed.mul_f64((1.0 - done) / done)))
-}
-
-/// A time in units that fit.
-fn words(time: Duration) -> String {
-    match time.as_secs_f64() {
-        s if s < 90.0 => format!("{s:.0} s"),
-        s if s < 5400.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.1} h", s / 3600.0),
-    }
-}
-
-/// The largest size of the shape of `scene_px` within `within_px`.
-fn fitting(scene_px: [u32; 2], within_px: [u32; 2]) -> [u32; 2] {
-    let [width, height] = scene_px.map(|side| f64::from(side.max(1)));
-    let scale = (f64::from(within_px[0]) / width).min(f64::from(within_px[1]) / height);
-    [width, height].map(|side| ((side * scale).round() as u32).max(1))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The question of an export: how large, how fine, how many, and where to.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use egui::{DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
 use hairline_image::{BATCH_SAMPLES, Batches};
@@ -356,11 +357,11 @@ impl Form {
     fn expectations(&self, ui: &mut Ui, expected: Expected) {
         ui.label(match (expected.picture, self.is_turntable) {
             (None, _) => "Finding out how long it takes".to_owned(),
-            (Some(picture), false) => format!("It takes about {}.", super::words(picture)),
+            (Some(picture), false) => format!("It takes about {}.", words(picture)),
             (Some(picture), true) => format!(
                 "It takes about {}: {} for each picture.",
-                super::words(self.frames * picture),
-                super::words(picture)
+                words(self.frames * picture),
+                words(picture)
             ),
         });
         if expected.is_filled && self.is_transparent {
@@ -378,6 +379,15 @@ fn row(ui: &mut Ui, label: &str, control: impl Widget) -> Response {
     let response = ui.add(control).labelled_by(label.id);
     ui.end_row();
     response
+}
+
+/// A time in units that fit.
+pub(super) fn words(time: Duration) -> String {
+    match time.as_secs_f64() {
+        s if s < 90.0 => format!("{s:.0} s"),
+        s if s < 5400.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    }
 }
 
 #[cfg(test)]

@@ -251,7 +251,7 @@ const SMALL_PX: u32 = 128;
 pub(super) async fn rehearse(wish: &Wish, built: &Built, stop: &Stop, tell: &dyn Fn(Expected)) {
     let scene = wish.scene(built, &wish.description.camera);
     let mut small = scene.clone();
-    small.render.size_px = super::fitting(wish.size_px, [SMALL_PX; 2]);
+    small.render.size_px = fitting(wish.size_px, [SMALL_PX; 2]);
     let expected = Expected {
         picture: None,
         is_filled: wish.is_transparent
@@ -535,6 +535,13 @@ async fn on_gpu_in_bands(
         bands::put_rows(&mut image, bands::pixels(size_px, rows), &part.await?);
     }
     Ok(Some(image))
+}
+
+/// The largest size of the shape of `scene_px` within `within_px`.
+pub(super) fn fitting(scene_px: [u32; 2], within_px: [u32; 2]) -> [u32; 2] {
+    let [width, height] = scene_px.map(|side| f64::from(side.max(1)));
+    let scale = (f64::from(within_px[0]) / width).min(f64::from(within_px[1]) / height);
+    [width, height].map(|side| ((side * scale).round() as u32).max(1))
 }
 
 #[cfg(test)]

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use egui::{Button, Label, Panel, RichText, ScrollArea, Ui};
 
-use super::{column, inspector, menu, outliner, status};
+use super::sides::column;
+use super::{inspector, menu, outliner, status};
 use crate::command::{Command, Group};
 use crate::files::Files;
 use crate::fingers::{TARGET, TEXT};
