@@ -53,14 +53,7 @@ const PAUSE: Duration = Duration::from_millis(10);
 /// The window with the scene of that text, 1280 by 800 points of few pixels, painted by the CPU, after its first pass. Nothing is
 /// read or written outside.
 pub fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
-    viewer_with(Options {
-        scene: None,
-        built_in: scene,
-        backend: Backend::Cpu,
-        state_dir: None,
-        native_dialogs: false,
-        transport: hairline_scene::Transport::DIRECT,
-    })
+    viewer_with(built_in(scene))
 }
 
 /// Viewer with other options.
@@ -79,17 +72,25 @@ pub fn viewer_of_file(scene: &std::path::Path) -> Harness<'static, Viewer> {
 pub fn viewer_of_any_file(scene: &std::path::Path) -> Harness<'static, Viewer> {
     viewer_with(Options {
         scene: Some(scene.to_owned()),
-        built_in: SMALL,
-        backend: Backend::Cpu,
-        state_dir: None,
-        native_dialogs: false,
-        transport: hairline_scene::Transport::DIRECT,
+        ..built_in(SMALL)
     })
 }
 
 /// Viewer in another size, with a pixel for each point.
 pub fn viewer_of(options: Options, size: [f32; 2]) -> Harness<'static, Viewer> {
     viewer_in(options, size, 1.0)
+}
+
+/// Settings of a viewer that opens this text, renders it on the CPU without rays, and keeps nothing.
+pub fn built_in(text: &'static str) -> Options {
+    Options {
+        scene: None,
+        built_in: text,
+        backend: Backend::Cpu,
+        state_dir: None,
+        native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
+    }
 }
 
 /// Viewer in another size, with pixels of another size.

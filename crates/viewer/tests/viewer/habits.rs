@@ -270,14 +270,7 @@ fn is_below(harness: &Harness<'static, Viewer>, above: &str, below: &str) {
 
 #[test]
 fn menus_have_the_usual_order_and_redo_its_other_key() {
-    let mut harness = viewer_with(Options {
-        scene: None,
-        built_in: SMALL,
-        backend: Backend::Cpu,
-        state_dir: None,
-        native_dialogs: false,
-        transport: hairline_scene::Transport::DIRECT,
-    });
+    let mut harness = viewer_with(crate::common::built_in(SMALL));
     wait_built(&mut harness);
     click_on(&mut harness, "File");
     is_below(&harness, "Open…", "Recent");
@@ -331,17 +324,7 @@ fn the_right_button_opens_what_can_be_done() {
 /// The whole of the help, without a bar to scroll it, on a small screen.
 #[test]
 fn the_help_fits_and_reads_as_the_keyboard_does() {
-    let mut harness = viewer_of(
-        Options {
-            scene: None,
-            built_in: SMALL,
-            backend: Backend::Cpu,
-            state_dir: None,
-            native_dialogs: false,
-            transport: hairline_scene::Transport::DIRECT,
-        },
-        [1360.0, 800.0],
-    );
+    let mut harness = viewer_of(crate::common::built_in(SMALL), [1360.0, 800.0]);
     wait_built(&mut harness);
     key(&mut harness, Key::F1);
     harness.run_steps(5);

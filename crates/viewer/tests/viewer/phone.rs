@@ -4,8 +4,7 @@ use egui::Rect;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use hairline_viewer::engine::Backend;
-use hairline_viewer::{Options, Viewer};
+use hairline_viewer::Viewer;
 
 use crate::common::{SMALL, viewer_of, wait_built};
 
@@ -14,14 +13,7 @@ const SIZE: [f32; 2] = [390.0, 844.0];
 const TARGET: f32 = 44.0;
 
 fn telephone() -> Harness<'static, Viewer> {
-    let options = Options {
-        scene: None,
-        built_in: SMALL,
-        backend: Backend::Cpu,
-        state_dir: None,
-        native_dialogs: false,
-        transport: hairline_scene::Transport::DIRECT,
-    };
+    let options = crate::common::built_in(SMALL);
     let mut harness = viewer_of(options, SIZE);
     wait_built(&mut harness);
     harness.run_steps(3);

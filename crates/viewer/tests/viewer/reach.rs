@@ -194,14 +194,7 @@ fn enter_runs_a_command_and_closes_its_menu() {
 /// In a small window list and panel stand one above the other, and all of a row is in sight.
 #[test]
 fn a_small_window_leaves_two_thirds_to_the_picture() {
-    let options = Options {
-        scene: None,
-        built_in: SMALL,
-        backend: Backend::Cpu,
-        state_dir: None,
-        native_dialogs: false,
-        transport: hairline_scene::Transport::DIRECT,
-    };
+    let options = crate::common::built_in(SMALL);
     let mut harness = common::viewer_in(options, [800.0, 500.0], 0.25);
     wait_built(&mut harness);
     for selection in [Selection::None, Selection::Camera, Selection::Layer(0)] {

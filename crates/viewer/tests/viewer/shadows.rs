@@ -6,8 +6,8 @@ use egui::{Key, Modifiers, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
 use hairline_image::exr_file;
 use hairline_scene::Transport;
-use hairline_viewer::engine::{Backend, Picture};
-use hairline_viewer::{Options, Viewer};
+use hairline_viewer::Viewer;
+use hairline_viewer::engine::Picture;
 
 /// A disk under a lamp, and a smaller one between them.
 const SCREENED: &str = r#"
@@ -23,14 +23,7 @@ light = [{ kind = "sphere", center_m = [0.0, 0.3, 0.3], radius_m = 0.02, radianc
 
 /// A small window: each sample is of all its pixels.
 fn viewer() -> Harness<'static, Viewer> {
-    let options = Options {
-        scene: None,
-        built_in: SCREENED,
-        backend: Backend::Cpu,
-        state_dir: None,
-        native_dialogs: false,
-        transport: Transport::DIRECT,
-    };
+    let options = crate::common::built_in(SCREENED);
     let mut harness = viewer_in(options, [900.0, 300.0], 0.5);
     wait_built(&mut harness);
     harness
