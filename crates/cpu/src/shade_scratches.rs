@@ -12,6 +12,7 @@ mod light_bounds;
 mod one_pair;
 mod picks;
 mod picture_chords;
+mod places;
 mod point;
 mod row_spread;
 mod scratch_light;
@@ -19,13 +20,15 @@ mod scratch_light;
 use crate::counts::Counts;
 use crate::prepared::Prepared;
 use crate::project::Projected;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use hairline_index::IndexedSegment;
 use hairline_optics::band::OutlineRoots;
+use hairline_optics::footprint::ScratchShare;
 use hairline_optics::mask::ScratchSums;
 use hairline_optics::vectors::with_widest;
 use lanes::{GROUPS, Group, LANES, Line, SegmentView};
 use light_bounds::LightBounds;
+use places::Places;
 use scratch_light::scratch_energy;
 
 pub(crate) use course::Course;
@@ -53,6 +56,10 @@ pub(crate) struct ScratchShader {
     frames: Vec<Frame>,
     groups: Vec<Group>,
     bounds: LightBounds,
+    /// The segment in hand under each group.
+    seen: [SegmentView; GROUPS],
+    /// The points that see it, with their shares.
+    pairs: Vec<(usize, ScratchShare)>,
     /// Lights that can reach the segment in hand.
     lit: Vec<u32>,
     roots: [OutlineRoots; 2],
@@ -64,6 +71,8 @@ impl ScratchShader {
             frames: Vec::with_capacity(BATCH),
             groups: Vec::with_capacity(GROUPS),
             bounds: LightBounds::default(),
+            seen: Default::default(),
+            pairs: Vec::with_capacity(BATCH),
             lit: Vec::new(),
             roots: Default::default(),
         }
@@ -132,78 +141,93 @@ impl Shading<'_, '_> {
         node: Option<f64>,
     ) {
         let line = Line::new(projected);
-        let mut is_new = true;
-        for i in 0..self.shader.groups.len() {
-            let group = &self.shader.groups[i];
+        let ScratchShader {
+            groups,
+            seen,
+            pairs,
+            ..
+        } = &mut *self.shader;
+        pairs.clear();
+        for (i, group) in groups.iter().enumerate() {
             if !group.is_near(&line) {
                 continue;
             }
             self.counts.tests += LANES as u64;
-            let Some(seen) = group.see(segment, projected.object) else {
+            if !group.see(segment, projected.object, &mut seen[i]) {
                 continue;
-            };
-            if is_new {
-                self.shader.bounds.find(segment, &mut self.shader.lit);
-                is_new = false;
             }
-            self.light(segment, i * LANES, &seen, weight, node);
+            for lane in 0..LANES {
+                if let Some(mut share) = seen[i].share(lane, segment.profile) {
+                    // A weight counts as that many scratches, each with the line's full length.
+                    share.segment *= weight;
+                    pairs.push((i * LANES + lane, share));
+                }
+            }
+        }
+        if !self.shader.pairs.is_empty() {
+            self.light(segment, line.along(), node);
         }
     }
 
-    /// Adds the light of a segment, times `weight`, to the points of a group that the segment lies under.
+    /// Adds the light of a segment to the points that see it. `along` is its direction in the picture.
     #[inline(always)]
-    fn light(
-        &mut self,
-        segment: &IndexedSegment,
-        first: usize,
-        seen: &SegmentView,
-        weight: f64,
-        node: Option<f64>,
-    ) {
-        let environment = self.prepared.scene.environment.as_ref();
-        let profile = segment.profile;
-        for lane in 0..LANES {
-            let Some(mut share) = seen.share(lane, profile) else {
-                continue;
-            };
-            // A weight counts as that many scratches, each with the line's full length.
-            share.segment *= weight;
+    fn light(&mut self, segment: &IndexedSegment, along: DVec2, node: Option<f64>) {
+        let ScratchShader {
+            frames,
+            seen,
+            pairs,
+            bounds,
+            lit,
+            roots,
+            ..
+        } = &mut *self.shader;
+        let (prepared, points, profile) = (self.prepared, self.points, segment.profile);
+        let table = |i: usize| prepared.scratch_table(points[i].point.table, profile);
+        let course = |i: usize| seen[i / LANES].course(i % LANES, &frames[i], segment.turn_rad);
+        let scratch = |i: usize, course: Course| {
+            ScratchLight::new(points[i].point.wo, course, table(i), profile).by_one_line(node)
+        };
+        bounds.find(segment, lit);
+        let surrounding = prepared.scene.environment.as_ref().map(|environment| {
+            let seen = pairs
+                .iter()
+                .map(|(i, _)| (&points[*i], seen[i / LANES].off2(i % LANES)));
+            let mut places = Places::new(along, seen);
+            places.light(|pair| {
+                let (i, _) = pairs[pair];
+                scratch(i, course(i)).environment(points[i].point, environment)
+            });
+            places
+        });
+        for &(i, share) in pairs.iter() {
             self.counts.pairs += 1;
-            let point = &self.points[first + lane];
-            let frame = &self.shader.frames[first + lane];
-            let table = self
-                .prepared
-                .scratch_table(point.point.table, segment.profile);
+            let (point, stds) = (&points[i], &frames[i].stds);
+            let energy = scratch_energy(profile, table(i), point.point.wo.z);
             let mut radiance = DVec3::ZERO;
-            let energy = scratch_energy(segment.profile, table, point.point.wo.z);
             let mut picks = self.picks.as_mut().map(|picks| &mut picks[point.index]);
-            if picks.is_some() || !self.shader.lit.is_empty() || environment.is_some() {
-                let course = seen.course(lane, frame, segment.turn_rad);
-                let place = seen.place(lane, frame);
-                let light = ScratchLight::new(point.point.wo, course, table, segment.profile)
-                    .by_one_line(node);
-                let pick = || seen.pick(lane, frame, segment, course, share.segment);
+            if picks.is_some() || !lit.is_empty() || surrounding.is_some() {
+                let (group, lane) = (&seen[i / LANES], i % LANES);
+                let course = course(i);
+                let place = group.place(lane, &frames[i]);
+                let light = scratch(i, course);
+                let pick = || group.pick(lane, &frames[i], segment, course, share.segment);
                 let mut add = |source: usize, sent: DVec3| {
                     radiance += sent;
                     if let Some(picks) = &mut picks {
                         picks.add_light(source, share.segment * sent, pick);
                     }
                 };
-                for &index in &self.shader.lit {
+                for &index in lit.iter() {
                     if let Some(view) = point.views.view_of(index) {
                         self.counts.asked += 1;
-                        let roots = &mut self.shader.roots;
-                        if let Some(sent) =
-                            light.light(&frame.stds, place, point.views, view, roots)
-                        {
+                        if let Some(sent) = light.light(stds, place, point.views, view, roots) {
                             self.counts.lit += 1;
                             add(view, sent);
                         }
                     }
                 }
-                if let Some(environment) = environment {
-                    let sent = light.environment(point.point, environment);
-                    add(point.views.views.len(), sent);
+                if let Some(places) = &surrounding {
+                    add(point.views.views.len(), places.sent(point));
                 }
                 if let Some(picks) = picks {
                     picks.add_energy(share.segment * DVec3::from(energy), pick);

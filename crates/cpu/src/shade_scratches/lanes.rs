@@ -116,9 +116,9 @@ impl Group {
         across <= line.reach_px && along <= half + line.reach_px
     }
 
-    /// Position of a segment of an object under the footprints; none if no point sees it.
+    /// Finds the position of a segment of an object under the footprints; false if no point sees it.
     #[inline(always)]
-    pub fn see(&self, segment: &IndexedSegment, object: u32) -> Option<SegmentView> {
+    pub fn see(&self, segment: &IndexedSegment, object: u32, seen: &mut SegmentView) -> bool {
         let (s, e) = (segment.start_m.as_dvec3(), segment.end_m.as_dvec3());
         let n = segment.normal.as_dvec3();
         let (x, y, z) = (&self.axis_x_um, &self.axis_y_um, &self.normal);
@@ -154,10 +154,9 @@ impl Group {
             is_near[i] = u64::from(near);
         }
         if is_near.iter().sum::<u64>() == 0 {
-            return None;
+            return false;
         }
         let blur_um = f64::from(segment.blur_um);
-        let mut seen = SegmentView::default();
         let mut count = 0;
         for i in 0..LANES {
             let per_length2 = 1.0 / length2[i];
@@ -198,7 +197,7 @@ impl Group {
             seen.std_um[i] = left.sqrt();
             seen.shift_um[i] = shift;
         }
-        (count > 0).then_some(seen)
+        count > 0
     }
 }
 
@@ -230,6 +229,13 @@ impl SegmentView {
     /// Ends of the segment, in standard deviations along it.
     pub fn ends(&self, lane: usize) -> [f64; 2] {
         [self.low[lane], self.high[lane]]
+    }
+
+    /// Square of the distance from the segment to the point, in standard deviations of the footprint.
+    pub fn off2(&self, lane: usize) -> f64 {
+        let [low, high] = self.ends(lane);
+        let beyond = low.max(-high).max(0.0);
+        self.far2[lane] + beyond * beyond
     }
 
     /// Place of the segment under the footprint of a point.
@@ -332,5 +338,10 @@ impl Line {
             length_px,
             reach_px: segment.reach_px,
         }
+    }
+
+    /// Its direction in the picture.
+    pub fn along(&self) -> DVec2 {
+        self.tangent.map(f64::from).into()
     }
 }

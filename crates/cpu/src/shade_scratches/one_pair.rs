@@ -1,7 +1,7 @@
 //! One pair of a scratch and a source that stands for all that a point sees: where a ray met the point, one more ray will tell of its light anyway.
 //! The pair is drawn by a cheap bound, and only its light is computed.
 
-use super::lanes::Group;
+use super::lanes::{Group, SegmentView};
 use super::picks::Picks;
 use super::point::{Frame, ScratchPoint};
 use super::scratch_light::{ScratchLight, scratch_energy};
@@ -31,11 +31,12 @@ pub(crate) fn pick_one_pair(
     let environment = prepared.scene.environment.as_ref();
     let around = environment.map(|it| luminance(it.irradiance(point.normal)) / PI);
     let (segments, _) = prepared.segments();
+    let mut seen = SegmentView::default();
     gather(&prepared.scratches.tree, object, point, |index| {
         let segment = &segments[index];
-        let Some(seen) = group.see(segment, object) else {
+        if !group.see(segment, object, &mut seen) {
             return;
-        };
+        }
         let Some(share) = seen.share(0, segment.profile) else {
             return;
         };

@@ -34,6 +34,13 @@ fn dish() -> Scene {
         .scene()
 }
 
+/// The share of a segment that the first point of a group sees.
+fn share_of(group: &Group, segment: &IndexedSegment, object: u32) -> Option<ScratchShare> {
+    let mut seen = SegmentView::default();
+    let is_seen = group.see(segment, object, &mut seen);
+    is_seen.then(|| seen.share(0, segment.profile))?
+}
+
 /// Pairs that a look at all segments of the object finds and project and bin would lose, for each margin.
 #[derive(Debug, Default)]
 struct Needed {
@@ -75,8 +82,7 @@ fn needed_margin(scene: &Scene, step: usize) -> Needed {
         let range = prepared.scratches.segment_range(object);
         let coherence_m = f64::from(prepared.scratches.coherence_max_um()[object]) * 1e-6;
         for segment in &prepared.scratches.tree.segments[range.start as usize..range.end as usize] {
-            let seen = group.see(segment, hit.object);
-            let Some(share) = seen.and_then(|s| s.share(0, segment.profile)) else {
+            let Some(share) = share_of(&group, segment, hit.object) else {
                 continue;
             };
             needed.pairs += 1;
@@ -219,9 +225,7 @@ fn lanes_see_the_closed_forms_share() {
             index: 0,
         };
         let group = Group::new(&[at], &[Frame::new(&point)]);
-        let share = group
-            .see(&segment, 0)
-            .and_then(|s| s.share(0, segment.profile));
+        let share = share_of(&group, &segment, 0);
         let share = share.map_or(0.0, |share| share.segment);
         seen += usize::from(share > 0.0);
         // Beyond the reach there is nothing: less than 5e-4 of the window's middle.

@@ -86,7 +86,7 @@ pub(super) fn write(
 
 /// Writes the picture of a look, in the background.
 pub(super) fn write_picture(folder: &Path, name: &str, pixels: Arc<ColorImage>) {
-    let path = picture_path(folder, name);
+    let (folder, name) = (folder.to_owned(), name.to_owned());
     let work = move || {
         let mut png = Vec::new();
         let size = pixels.size.map(|side| side as u32);
@@ -95,7 +95,11 @@ pub(super) fn write_picture(folder: &Path, name: &str, pixels: Arc<ColorImage>) 
             encoder.write_image(pixels.as_raw(), size[0], size[1], ExtendedColorType::Rgba8);
         // A look without a picture is a look.
         if encoded.is_ok() {
-            let _ = write_atomically(&path, &png);
+            let _ = write_atomically(&picture_path(&folder, &name), &png);
+        }
+        // The look may have been deleted meanwhile.
+        if !scene_path(&folder, &name).exists() {
+            remove(&folder, &name);
         }
     };
     let _ = std::thread::Builder::new()

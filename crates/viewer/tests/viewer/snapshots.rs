@@ -149,7 +149,7 @@ fn snapshots_belong_to_the_file() {
             harness.run_steps(3);
         }
     }
-    assert!(!looks.exists());
+    common::wait_until(&mut harness, "an empty folder", |_| !looks.exists());
 }
 
 #[test]
