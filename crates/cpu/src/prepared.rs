@@ -66,7 +66,7 @@ impl<'a> Prepared<'a> {
 
     /// Makes the pieces of scratches ready for a scene that differs in its camera or the size of its picture.
     pub fn look_from(&mut self, scene: &Scene) {
-        if !self.scratches.serves(scene) {
+        if !self.scratches.serves(&scene.camera, scene.render.size_px) {
             self.scratches = Arc::new(ScratchIndex::build(scene));
         }
     }

@@ -3,7 +3,7 @@
 
 use crate::IndexedSegment;
 use glam::Vec3;
-use hairline_scene::{Object, Scene};
+use hairline_scene::{CameraFrame, Object, Scene};
 
 /// Part of a pixel by which an arc may lie beside what was laid.
 const DEVIATION_PX: f64 = 0.1;
@@ -29,41 +29,41 @@ pub enum Pieces {
     Laid,
     /// Arcs, as long as the camera of the scene does not tell them from what was laid, at the size of its picture.
     Seen,
+    /// Arcs that serve a camera that comes up to [`NEARER`] times as near, too.
+    Near,
 }
 
-/// Distance by which arcs may lie beside what was laid, for each object, metres; 0 where pieces stay as they were laid.
+/// See [`Pieces::Near`].
+const NEARER: f32 = 4.0;
+
+/// Distance by which arcs may lie beside what was laid, metres, and the box of each object; 0 where pieces stay as they were laid.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Deviations(Vec<f32>);
+pub(crate) struct Deviations(Vec<(f32, [Vec3; 2])>);
 
 impl Deviations {
-    /// For what is seen a tenth of a pixel where an object comes nearest to the camera, rounded down to a power of two: cameras that
-    /// are about as far away share trees.
+    /// Those of the pieces of a scene.
     pub(crate) fn of(scene: &Scene, pieces: Pieces) -> Self {
-        if pieces == Pieces::Laid {
-            return Self(vec![0.0; scene.objects.len()]);
-        }
-        let frame = scene.camera.frame(scene.render.size_px);
-        let per_px = frame.per_px_x.length();
         let of = |object: &Object| {
             let (low, high) = object.mesh.bounds_m();
-            let nearest_m = frame.position_m.clamp(low.as_dvec3(), high.as_dvec3());
-            let px_m = frame.position_m.distance(nearest_m) * per_px;
-            let deviation_m = (DEVIATION_PX * px_m).log2().floor().exp2();
-            // Not for an object without triangles.
-            if deviation_m.is_finite() {
-                deviation_m as f32
-            } else {
-                0.0
-            }
+            let bounds_m = [low, high];
+            let seen = || seen_m(bounds_m, &scene.camera.frame(scene.render.size_px));
+            let deviation_m = match pieces {
+                Pieces::Laid => 0.0,
+                Pieces::Seen => seen(),
+                Pieces::Near => seen() / NEARER,
+            };
+            (deviation_m, bounds_m)
         };
         Self(scene.objects.iter().map(of).collect())
     }
 
-    /// Whether arcs of these deviations serve for a view that asks for others: they lie nearer to what was laid, and not by so much
-    /// that far more arcs are there than are needed.
-    pub(crate) fn serve(&self, wanted: &Self) -> bool {
-        let mut pairs = self.iter().zip(wanted.iter());
-        pairs.all(|(own, wanted)| own <= wanted && own * COARSER_MAX >= wanted)
+    /// Whether arcs of these deviations serve a camera: they lie near enough to what was laid, and not by so much that far more arcs are
+    /// there than are needed.
+    pub(crate) fn serve(&self, camera: &CameraFrame) -> bool {
+        self.0.iter().all(|&(own, bounds_m)| {
+            let wanted = seen_m(bounds_m, camera);
+            own <= wanted && own * COARSER_MAX >= wanted
+        })
     }
 
     /// Whether pieces stay as they were laid.
@@ -73,7 +73,21 @@ impl Deviations {
 
     /// Object by object.
     pub(crate) fn iter(&self) -> impl Iterator<Item = f32> {
-        self.0.iter().copied()
+        self.0.iter().map(|(deviation_m, _)| *deviation_m)
+    }
+}
+
+/// The deviation of what a camera sees: a tenth of a pixel where a box comes nearest to it, rounded down to a power of two, so that cameras that
+/// are about as far away share trees.
+fn seen_m([low, high]: [Vec3; 2], camera: &CameraFrame) -> f32 {
+    let nearest_m = camera.position_m.clamp(low.as_dvec3(), high.as_dvec3());
+    let px_m = camera.position_m.distance(nearest_m) * camera.per_px_x.length();
+    let deviation_m = (DEVIATION_PX * px_m).log2().floor().exp2();
+    // Not for an object without triangles.
+    if deviation_m.is_finite() {
+        deviation_m as f32
+    } else {
+        0.0
     }
 }
 

@@ -8,6 +8,7 @@ use crate::indexed_segment::IndexedSegment;
 use crate::layer_runs::{LayerRun, groups};
 use crate::segment_tree::{Plot, SegmentTree, Tree, plant};
 use crate::watch::Watch;
+use hairline_scene::scene::Camera;
 use hairline_scene::{GrooveShapes, Object, Scene, Scratch};
 use std::ops::Range;
 
@@ -86,9 +87,9 @@ impl ScratchIndex {
         self.deviations.is_none()
     }
 
-    /// Whether the pieces serve for a scene that differs in its camera or the size of its picture alone.
-    pub fn serves(&self, scene: &Scene) -> bool {
-        self.is_laid() || self.deviations.serve(&Deviations::of(scene, Pieces::Seen))
+    /// Whether the pieces serve another camera, or the same one for a picture of another size.
+    pub fn serves(&self, camera: &Camera, size_px: [u32; 2]) -> bool {
+        self.is_laid() || self.deviations.serve(&camera.frame(size_px))
     }
 
     /// Makes the index without trees, for pictures of a draft, which looks nothing up there.

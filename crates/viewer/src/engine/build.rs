@@ -9,6 +9,7 @@ use hairline_scene::description::Description;
 use hairline_scene::{Loader, Scene, SceneBuilder, ScratchTables};
 use web_time::Instant;
 
+use super::View;
 use super::sketch::Sketch;
 
 /// A scene with all that painting and picking look up.
@@ -55,7 +56,7 @@ impl Built {
         self.sketch.is_some()
     }
 
-    /// The same with scratches as the camera of `scene` sees them, at the size of its picture: the window's serve for any view.
+    /// The same with scratches as the camera of `scene` sees them, at the size of its picture: the window's serve nearer views, too.
     pub(crate) fn seen_from(&self, scene: &Scene) -> Self {
         Self {
             scratches: Arc::new(ScratchIndex::build(scene)),
@@ -156,7 +157,7 @@ impl ViewBuilder {
         })
     }
 
-    /// Builds a scene; none where `cancelled` says so, which is asked from any thread.
+    /// Builds a scene for a view of it; none where `cancelled` says so, which is asked from any thread.
     ///
     /// # Errors
     /// As [`Loader::build`]; what was kept stays.
@@ -167,6 +168,7 @@ impl ViewBuilder {
         asked: Instant,
         description: Arc<Description>,
         base_dir: &Path,
+        view: Option<View>,
     ) -> Result<Option<Built>, hairline_scene::Error> {
         let start = Instant::now();
         let loader = Loader {
@@ -183,15 +185,27 @@ impl ViewBuilder {
             Some(last) if has_same_meshes(&last.scene, &scene) => Arc::clone(&last.triangles),
             _ => Arc::new(TriangleIndex::build(&scene)),
         };
+        let mut viewed = scene.clone();
+        if let Some(View {
+            camera, size_px, ..
+        }) = view
+        {
+            (viewed.camera, viewed.render.size_px) = (camera, size_px);
+        }
         let scratches = match last {
-            Some(last) if has_same_scratches(&last.scene, &scene) => Arc::clone(&last.scratches),
+            Some(last)
+                if has_same_scratches(&last.scene, &scene)
+                    && (last.scratches).serves(&viewed.camera, viewed.render.size_px) =>
+            {
+                Arc::clone(&last.scratches)
+            }
             _ => {
                 let before = last.map(|last| (&last.scene, &*last.scratches));
                 let watch = Watch {
                     cancelled,
                     ..Watch::default()
                 };
-                match ScratchIndex::rebuild(&scene, Pieces::Laid, before, &watch) {
+                match ScratchIndex::rebuild(&viewed, Pieces::Near, before, &watch) {
                     Some(scratches) => Arc::new(scratches),
                     None => return Ok(None),
                 }
@@ -265,7 +279,14 @@ mod tests {
                 .with(&format!("width_um = {width_um:?}"))
                 .description();
             let now = Instant::now();
-            let built = builder.build(&|| false, 1, now, Arc::new(description), Path::new(""));
+            let built = builder.build(
+                &|| false,
+                1,
+                now,
+                Arc::new(description),
+                Path::new(""),
+                None,
+            );
             let built = built.unwrap().unwrap();
             assert_eq!(built.tables.shapes.count(), shapes, "{width_um} um");
             assert!(built.tables.are_of(&built.scene));

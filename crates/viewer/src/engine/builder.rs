@@ -51,6 +51,7 @@ pub(super) fn build(shared: &Shared, view_builder: &mut ViewBuilder, wanted: Wan
             wanted.asked,
             wanted.description,
             &wanted.base_dir,
+            shared.view(),
         )
     });
     match built {

@@ -21,6 +21,8 @@ pub(super) struct WantedScene {
 #[derive(Default)]
 struct State {
     wanted_scene: Option<WantedScene>,
+    /// Folder from which the paths of the newest description start.
+    base_dir: PathBuf,
     is_building: bool,
     built: Option<Arc<Built>>,
     /// Sketch of a newer description than that of `built`.
@@ -45,6 +47,22 @@ impl State {
             built: Arc::clone(self.sketch.as_ref().or(self.built.as_ref())?),
             view: self.view?,
         })
+    }
+
+    /// Wants the scene built anew where the view came so near, or went so far away, that it takes other pieces of the scratches. What is there is
+    /// shown until then.
+    fn want_pieces_for_view(&mut self) {
+        let (Some(built), Some(view), None) = (&self.built, &self.view, &self.wanted_scene) else {
+            return;
+        };
+        if built.revision == self.asked && !built.scratches.serves(&view.camera, view.size_px) {
+            self.wanted_scene = Some(WantedScene {
+                revision: built.revision,
+                description: Arc::clone(&built.description),
+                base_dir: self.base_dir.clone(),
+                asked: Instant::now(),
+            });
+        }
     }
 
     /// Whether the newest picture shows the current view and the scene of this revision.
@@ -120,6 +138,7 @@ impl Shared {
     pub fn want_scene(&self, revision: u64, description: Arc<Description>, base_dir: PathBuf) {
         let mut state = self.lock();
         state.asked = revision;
+        state.base_dir.clone_from(&base_dir);
         state.wanted_scene = Some(WantedScene {
             revision,
             description,
@@ -142,6 +161,7 @@ impl Shared {
         let mut state = self.lock();
         if state.view != Some(view) {
             state.view = Some(view);
+            state.want_pieces_for_view();
             drop(state);
             self.news.notify_all();
         }
@@ -215,6 +235,7 @@ impl Shared {
         }
         state.sketch = None;
         state.built = Some(Arc::new(built));
+        state.want_pieces_for_view();
         drop(state);
         self.news.notify_all();
         (self.wake)();

@@ -330,7 +330,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
             true => {
                 let cancelled = || stop.is_asked();
                 let (now, asked) = (Arc::new(now), Instant::now());
-                let built = views.build(&cancelled, 0, asked, now, &wish.base_dir);
+                let built = views.build(&cancelled, 0, asked, now, &wish.base_dir, None);
                 match built.map_err(|error| error.to_string())? {
                     None => return Ok(false),
                     built => built,
@@ -340,7 +340,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         };
         let own = turned.as_ref().unwrap_or(built);
         let scene = wish.scene(own, &camera);
-        if turned.is_some() || !seen.scratches.serves(&scene) {
+        if turned.is_some() || !seen.scratches.serves(&scene.camera, scene.render.size_px) {
             seen = own.seen_from(&scene);
             let taken = painter.take(&seen, wish.transport).await;
             taken.map_err(|error| error.to_string())?;

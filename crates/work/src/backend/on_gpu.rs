@@ -41,7 +41,7 @@ impl OnGpu {
 
     /// Whether the pieces of scratches serve for the camera of a scene.
     pub(super) fn serves(&self, scene: &Scene) -> bool {
-        self.scratches.serves(scene)
+        self.scratches.serves(&scene.camera, scene.render.size_px)
     }
 
     /// The device.
