@@ -24,6 +24,10 @@ pub struct WearShown {
     #[arg(long, num_args = 2, default_values_t = [320, 180])]
     size_px: Vec<u32>,
 
+    /// Roughness of the materials, in place of their own.
+    #[arg(long)]
+    roughness: Option<f64>,
+
     /// Leave out the light of a `[studio]`.
     #[arg(long)]
     alone: bool,
@@ -40,7 +44,8 @@ impl WearShown {
         println!("|---|---|---:|---:|---:|---:|");
         for model in &self.models {
             let name = model.file_stem().unwrap_or_default().to_string_lossy();
-            for material in materials() {
+            for mut material in materials() {
+                material.roughness = self.roughness.unwrap_or(material.roughness);
                 let mut row = format!("| {name} | {} |", material.name);
                 for is_studio in [false, true].into_iter().take(2 - usize::from(self.alone)) {
                     for wear in [Wear::Worn, Wear::Old] {

@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairline_console::{Backend, EXIT_CODES, Switch, View};
+use hairline_editor::wear::Wear;
 use hairline_image::{FPS_MAX, Layer, ToneMap};
 use hairline_scene::DEFAULT_SAMPLES;
 use hairline_scene::schema::camera::EXPOSURE_EV;
@@ -121,6 +122,9 @@ pub struct SceneFlags {
     /// most of the surface shows the colours around them, two dim strips and a dark room. A model without lights of its own is lit so anyway.
     #[arg(long)]
     pub show_scratches: bool,
+    /// Wear of the objects that the scene is about, in the place of the wear that they have: other scratches stay.
+    #[arg(long, value_name = "WEAR", value_parser = wears(), ignore_case = true)]
+    pub wear: Option<Wear>,
 }
 
 /// `hairline completions`
@@ -416,6 +420,10 @@ fn tone_maps() -> impl TypedValueParser<Value = ToneMap> {
     by_name(ToneMap::ALL, ToneMap::name)
 }
 
+fn wears() -> impl TypedValueParser<Value = Wear> {
+    by_name(Wear::ALL, Wear::name)
+}
+
 fn layers() -> impl TypedValueParser<Value = Layer> {
     by_name(Layer::ALL, Layer::name)
 }
@@ -427,7 +435,7 @@ fn by_name<T: Copy + Send + Sync + 'static, const N: usize>(
 ) -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(all.map(name)).try_map(move |given| {
         all.into_iter()
-            .find(|one| name(*one) == given)
+            .find(|one| name(*one).eq_ignore_ascii_case(&given))
             .ok_or("unknown name")
     })
 }

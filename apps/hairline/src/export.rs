@@ -27,6 +27,7 @@ pub fn run(arguments: &cli::Export) -> Result<(), Failure> {
         time_s: arguments.time,
         camera: arguments.scene_flags.camera.as_deref(),
         is_lit_for_scratches: arguments.scene_flags.show_scratches,
+        wear: arguments.scene_flags.wear,
         ..Overrides::default()
     };
     let loaded = scene_file::load(Some(&arguments.scene), &overrides, &[output])?;

@@ -61,6 +61,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         camera: arguments.scene_flags.camera.as_deref(),
         highlight: arguments.highlight.as_ref(),
         is_lit_for_scratches: arguments.scene_flags.show_scratches,
+        wear: arguments.scene_flags.wear,
     };
     let mut outputs = target.paths();
     outputs.extend(labels.as_ref().map(Output::path));

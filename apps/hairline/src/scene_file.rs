@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
+use glam::Vec3;
 use hairline_console::{BUILT_IN, refuse_other_files, tell};
+use hairline_editor::subject;
+use hairline_editor::wear::{Wear, set_wear};
 use hairline_image::ToneMap;
 use hairline_memory::budget_bytes;
-use hairline_scene::description::{Description, Surface};
+use hairline_scene::description::{Description, Object, Surface};
 use hairline_scene::estimate::Estimate;
 use hairline_scene::inputs::{Input, is_same_file};
 use hairline_scene::{Loader, Scene, SceneBuilder, Stage, reading};
@@ -34,6 +37,8 @@ pub struct Overrides<'a> {
     pub highlight: Option<&'a Highlight>,
     /// Whether the scene's lights are replaced by lights that show its scratches.
     pub is_lit_for_scratches: bool,
+    /// Wear of the objects that the scene is about.
+    pub wear: Option<Wear>,
 }
 
 /// A scene with its description and its files.
@@ -66,6 +71,21 @@ pub fn set_time(description: &mut Description, time_s: f64) {
         if let Surface::Mesh(_) = object.surface {
             object.time_s = Some(time_s);
         }
+    }
+}
+
+/// Gives wear to the objects that a scene is about.
+fn give_wear(description: &mut Description, scene: &Scene, wear: Wear) {
+    let bounds_m = |object: &Object| {
+        let same = scene.objects.iter().find(|built| built.name == object.name);
+        let (low, high) = same.map_or((Vec3::ZERO, Vec3::ZERO), |built| built.mesh.bounds_m());
+        (low.as_dvec3(), high.as_dvec3())
+    };
+    let boxes_m: Vec<_> = description.objects.iter().map(bounds_m).collect();
+    for object in subject::objects(description, &boxes_m) {
+        let (low_m, high_m) = boxes_m[object];
+        let set = set_wear(description, object, low_m.distance(high_m), wear);
+        set.unwrap_or_else(|error| unreachable!("the object is there: {error}"));
     }
 }
 
@@ -123,6 +143,10 @@ pub fn load(
     let mut builder = SceneBuilder::new();
     let built = builder.build(&loader, &description, &source.folder);
     let mut scene = built.map_err(wrong)?;
+    if let Some(wear) = overrides.wear {
+        give_wear(&mut description, &scene, wear);
+        scene = (builder.build(&loader, &description, &source.folder)).map_err(wrong)?;
+    }
     if let Some(wanted) = overrides.highlight {
         highlight::place(wanted, &mut description, &scene)?;
     }

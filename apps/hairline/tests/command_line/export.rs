@@ -40,6 +40,28 @@ fn the_picture_of_the_file_is_that_of_the_scene() {
     assert!(told.contains("plate"), "{told}");
 }
 
+/// Wear takes the place of wear, on what the scene is about; the layers that are the scene's own stay.
+#[test]
+fn wear_is_given_by_a_flag() {
+    let folder = folder_with("s.toml", &bare_plate().part(WORN).to_string());
+    let layers = |arguments: &str| {
+        hairline(folder.path(), &format!("export {arguments}")).success();
+        hairline(folder.path(), "scratches worn.glb -o a.csv").success();
+        fs::read_to_string(folder.path().join("a.csv"))
+            .unwrap()
+            .lines()
+            .count()
+    };
+    let [new, used, old] = ["new", "used", "Old"]
+        .map(|wear| layers(&format!("s.toml -o worn.glb --laid off --wear {wear}")));
+    assert!(
+        30 < new && 10 * new < used && 2 * used < old,
+        "{new} {used} {old}"
+    );
+    let told = hairline(folder.path(), "export s.toml -o worn.glb --wear rusty").failure();
+    assert!(stderr_of(&told).contains("Polished"));
+}
+
 #[test]
 fn wrong_names_are_refused() {
     let folder = folder_with("s.toml", &bare_plate().part(WORN).to_string());
