@@ -2,6 +2,7 @@
 
 use crate::draft::Draft;
 use crate::sampling::environment::EnvironmentSampler;
+use crate::shade_scratches::alike_rad;
 use hairline_index::{
     Hit, IndexedProfile, IndexedSegment, Pieces, ScratchIndex, TriangleIndex, Watch,
 };
@@ -21,6 +22,7 @@ pub struct Prepared<'a> {
     pub(crate) draft: Option<Arc<Draft>>,
     /// Sampler of rays to the environment.
     sampler: OnceLock<EnvironmentSampler>,
+    alike_rad: OnceLock<f64>,
 }
 
 impl<'a> Prepared<'a> {
@@ -61,6 +63,7 @@ impl<'a> Prepared<'a> {
             tables,
             draft: None,
             sampler: OnceLock::new(),
+            alike_rad: OnceLock::new(),
         }
     }
 
@@ -82,6 +85,7 @@ impl<'a> Prepared<'a> {
             tables: self.tables.clone(),
             draft: self.draft.clone(),
             sampler: OnceLock::new(),
+            alike_rad: OnceLock::new(),
         };
         shared.look_from(scene);
         shared
@@ -122,6 +126,12 @@ impl<'a> Prepared<'a> {
         let environment = self.scene.environment.as_ref()?;
         let sampler = || EnvironmentSampler::new(environment);
         Some(self.sampler.get_or_init(sampler))
+    }
+
+    /// [`alike_rad`] of the environment, if there is one.
+    pub(crate) fn alike_rad(&self) -> f64 {
+        let environment = self.scene.environment.as_ref();
+        *(self.alike_rad).get_or_init(|| environment.map_or(0.0, alike_rad))
     }
 
     /// Whether the object has any scratches.

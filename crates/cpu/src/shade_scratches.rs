@@ -35,6 +35,7 @@ pub(crate) use course::Course;
 pub(crate) use drawn_light::{Choice, DrawnLight};
 pub(crate) use one_pair::pick_one_pair;
 pub(crate) use picks::{Pick, Picks};
+pub(crate) use places::alike_rad;
 pub(crate) use point::{Frame, ScratchPoint};
 pub(crate) use row_spread::{ROW_PROFILE, RowSpread};
 pub(crate) use scratch_light::ScratchLight;
@@ -188,6 +189,7 @@ impl Shading<'_, '_> {
             ScratchLight::new(points[i].point.wo, course, table(i), profile).by_one_line(node)
         };
         bounds.find(segment, lit);
+        let alike_rad = prepared.alike_rad();
         let surrounding = prepared.scene.environment.as_ref().map(|environment| {
             let seen = pairs
                 .iter()
@@ -197,7 +199,7 @@ impl Shading<'_, '_> {
                 let (i, _) = pairs[pair];
                 scratch(i, course(i)).environment(points[i].point, environment)
             });
-            places
+            (environment, places)
         });
         for &(i, share) in pairs.iter() {
             self.counts.pairs += 1;
@@ -226,8 +228,12 @@ impl Shading<'_, '_> {
                         }
                     }
                 }
-                if let Some(places) = &surrounding {
-                    add(point.views.views.len(), places.sent(point));
+                if let Some((environment, places)) = &surrounding {
+                    let alone = || light.environment(point.point, environment);
+                    add(
+                        point.views.views.len(),
+                        places.sent(point, alike_rad).unwrap_or_else(alone),
+                    );
                 }
                 if let Some(picks) = picks {
                     picks.add_energy(share.segment * DVec3::from(energy), pick);
