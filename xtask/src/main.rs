@@ -54,3 +54,23 @@ fn main() -> anyhow::Result<()> {
         Command::Wheel(command) => command.run(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use hairline_fixtures::documents::documents;
+
+    use super::*;
+
+    #[test]
+    fn tasks_in_documents_exist() {
+        for block in documents().into_iter().flat_map(|(_, blocks)| blocks) {
+            let commands = block.text.lines().filter(|_| block.language == "sh");
+            for command in commands.filter_map(|line| line.split("cargo xtask ").nth(1)) {
+                let command = command.split(['#', '&']).next().unwrap_or(command);
+                let words = ["xtask"].into_iter().chain(command.split_whitespace());
+                let parsed = Command::try_parse_from(words);
+                assert!(parsed.is_ok(), "{}: {:?}", block.place, parsed.err());
+            }
+        }
+    }
+}

@@ -2,6 +2,7 @@
 //! without a build step, and the file that npm installs; prints its sizes. `--pictures` also draws its test pages in Chromium, against the CPU renderer.
 
 mod browser;
+mod documents;
 mod element;
 mod examples;
 mod files;
@@ -91,6 +92,8 @@ impl Package {
         let tests = by_hand.join("test");
         if self.test {
             node(&tests, &["check_shaders.mjs"], &self.output)?;
+            let programs = documents::programs(&root, &self.output, &whole)?;
+            types::check(&tests, &self.output, &programs)?;
         }
         if !self.shaders_alone {
             let engine = package.join("engine");
@@ -106,7 +109,6 @@ impl Package {
             }
         }
         if self.pictures {
-            types::check(&tests, &self.output)?;
             pictures::run(&root, &self.output)?;
         }
         if self.viewer {

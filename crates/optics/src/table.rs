@@ -337,9 +337,10 @@ impl TableRow<'_> {
     /// T and its derivative by the column at a place among the columns: by those of the nearest one.
     #[inline]
     fn near_column(&self, x: f64) -> ([f64; 3], [f64; 3]) {
-        let column = (x + 0.5) as usize;
-        let f = x - column as f64;
-        let (near, far) = (self.near[column], self.far[column]);
+        // By way of i32, to which and from which processors convert in one step.
+        let column = (x + 0.5) as i32;
+        let f = x - f64::from(column);
+        let (near, far) = (self.near[column as usize], self.far[column as usize]);
         let (near_slopes, far_slopes) = (unpack_slopes(near[3]), unpack_slopes(far[3]));
         let values = std::array::from_fn(|c| {
             let near = f64::from(f32::from_bits(near[c])) + f * near_slopes[c];

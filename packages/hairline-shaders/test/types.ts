@@ -1,4 +1,4 @@
-// Programs of users, as TypeScript sees them: `cargo xtask package --pictures` checks their types.
+// Programs of users, as TypeScript sees them: `cargo xtask package --test` checks their types.
 import * as THREE from 'three/webgpu';
 import { layScratches, makeScratchTables, scratchTree, type Grating, type Layer } from 'hairline-shaders';
 import { cd } from 'hairline-shaders/cd';

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hairline_scene::schema::{Form, Initial, Key, Section, grating, place, scratches, stroke};
 use serde_json::json;
 
-use super::files::{node, write};
+use super::files::{install, node, write};
 
 /// The interfaces of a layer, of the tables in it, and of a grating.
 pub(super) fn layer() -> String {
@@ -23,14 +23,20 @@ pub(super) fn layer() -> String {
     text
 }
 
-/// Checks the types of the package by the programs in types.ts, and those of the package itself.
-pub(super) fn check(tests: &Path, output: &Path) -> anyhow::Result<()> {
+/// Checks the types of the package by the programs in types.ts and in the documents, and those of the package itself.
+pub(super) fn check(tests: &Path, output: &Path, programs: &[PathBuf]) -> anyhow::Result<()> {
+    install(tests)?;
     let output = output.canonicalize()?;
     let three = |file: &str| tests.join("node_modules/@types/three").join(file);
     let source = |file: &str| output.join("hairline-shaders/src").join(file);
+    let files = [
+        &["types.ts", "documents.d.ts"].map(|file| tests.join(file)),
+        programs,
+    ]
+    .concat();
     let settings = json!({
         "compilerOptions": {
-            "strict": true, "noEmit": true, "target": "es2022", "module": "esnext", "moduleResolution": "bundler", "types": [],
+            "strict": true, "noImplicitAny": false, "strictNullChecks": false, "allowJs": true, "checkJs": true, "noEmit": true, "target": "es2022", "module": "esnext", "moduleResolution": "bundler", "types": [],
             "paths": {
                 "hairline-shaders": [source("index.d.ts")],
                 "hairline-shaders/*": [source("*.d.ts")],
@@ -39,7 +45,7 @@ pub(super) fn check(tests: &Path, output: &Path) -> anyhow::Result<()> {
                 "three/addons/*": [three("examples/jsm/*")],
             },
         },
-        "files": [tests.join("types.ts")],
+        "files": files,
     });
     let file = output.join("tsconfig.json");
     write(&file, settings.to_string().as_bytes())?;

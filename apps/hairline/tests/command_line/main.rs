@@ -9,6 +9,7 @@ mod bench;
 mod cli;
 mod commands;
 mod compare;
+mod documents;
 mod export;
 mod labels;
 mod method;
