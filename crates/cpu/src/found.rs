@@ -2,7 +2,7 @@
 //! (docs/model.md, section 11). In the picture: [`hairline_image::FoundLight`].
 
 use crate::sampling::luminance;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use hairline_image::FoundLight;
 use std::ops::AddAssign;
 
@@ -19,10 +19,10 @@ pub(crate) struct LayerLight {
     pub seen: DVec3,
     /// Light of other objects.
     pub bounced: DVec3,
-    /// Sums over rounds of the share of luminance that is seen, and of its square.
-    share_moments: DVec2,
-    /// Sums over rounds of the ratio of luminances of `bounced` and `around`, and of its square.
-    bounced_moments: DVec2,
+    /// Sums over rounds of x x, x y and y y, the luminances of a round's weight and of the part of it that is seen.
+    share_moments: DVec3,
+    /// The same of `around` and of the light of other objects.
+    bounced_moments: DVec3,
 }
 
 impl LayerLight {
@@ -36,6 +36,24 @@ impl LayerLight {
 
     /// Multiplies the light by a factor for each channel.
     pub fn times(self, factor: DVec3) -> Self {
+        // Of its luminance, squared.
+        let of_squares = |rgb: DVec3| match luminance(rgb) {
+            0.0 => 1.0,
+            all => (luminance(rgb * factor) / all).powi(2),
+        };
+        Self {
+            share_moments: self.share_moments * of_squares(self.weight),
+            bounced_moments: self.bounced_moments * of_squares(self.around),
+            ..self.scaled(factor)
+        }
+    }
+
+    /// The light of as many samples as it is said to be of: the rounds are those that they have in all.
+    pub fn for_samples(self, samples: f64) -> Self {
+        self.scaled(DVec3::splat(samples))
+    }
+
+    fn scaled(self, factor: DVec3) -> Self {
         Self {
             open: self.open * factor,
             around: self.around * factor,
@@ -46,9 +64,14 @@ impl LayerLight {
         }
     }
 
-    /// Divides the sum of the light of `samples` samples by their number.
-    pub fn mean(self, samples: f64) -> Self {
-        self.times(DVec3::splat(1.0 / samples))
+    /// Sets the light that is sent of radiance 1 from all around, and the light of other objects, of which each round told the mean over that.
+    pub fn with_bounced(self, around: DVec3, bounced: DVec3) -> Self {
+        Self {
+            around,
+            bounced,
+            bounced_moments: self.bounced_moments * luminance(around).powi(2),
+            ..self
+        }
     }
 
     /// Converts the light to the picture's form.
@@ -62,8 +85,8 @@ impl LayerLight {
             weight,
             seen,
             bounced,
-            share_moments: self.share_moments.as_vec2().to_array(),
-            bounced_moments: self.bounced_moments.as_vec2().to_array(),
+            share_moments: self.share_moments.as_vec3().to_array(),
+            bounced_moments: self.bounced_moments.as_vec3().to_array(),
         }
     }
 }
@@ -130,20 +153,12 @@ impl LayerRays {
         sum.weight += self.weight;
         sum.seen += self.seen;
         sum.bounced += self.bounced;
-        let by_luminance = |seen: DVec3, all: DVec3| {
-            let all = luminance(all);
-            (all > 0.0).then(|| (luminance(seen) / all).clamp(0.0, 1.0))
+        let moments = |whole: DVec3, part: DVec3| {
+            let (x, y) = (luminance(whole), luminance(part));
+            DVec3::new(x * x, x * y, y * y)
         };
-        // A round without a ray tells what those before it do.
-        let share = by_luminance(self.seen, self.weight)
-            .or_else(|| by_luminance(sum.seen, sum.weight))
-            .unwrap_or(1.0);
-        sum.share_moments += DVec2::new(share, share * share);
-        let around = luminance(sum.around);
-        if around > 0.0 {
-            let bounced = luminance(self.bounced) / around;
-            sum.bounced_moments += DVec2::new(bounced, bounced * bounced);
-        }
+        sum.share_moments += moments(self.weight, self.seen);
+        sum.bounced_moments += moments(sum.around, self.bounced);
         (self.weight, self.seen, self.bounced) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
         self.rounds += 1;
     }

@@ -133,14 +133,13 @@ impl Pixel {
         if self.samples == 0 {
             return None;
         }
-        let samples = f64::from(self.samples);
-        let per_sample = 1.0 / samples;
+        let per_sample = 1.0 / f64::from(self.samples);
         let covered = f64::from(self.covered.max(1));
         Some(Sample {
             rest: self.sum.rest * per_sample,
-            diffuse: self.sum.diffuse.mean(samples),
-            specular: self.sum.specular.mean(samples),
-            scratches: self.sum.scratches.mean(samples),
+            diffuse: self.sum.diffuse.for_samples(per_sample),
+            specular: self.sum.specular.for_samples(per_sample),
+            scratches: self.sum.scratches.for_samples(per_sample),
             density: self.sum.density * per_sample,
             normal: self.sum.normal.normalize_or_zero(),
             depth_m: self.sum.depth_m / covered,

@@ -321,7 +321,7 @@ impl<'a> Tile<'a> {
                                 light.scratches = shadows.by_picks(&at, &picks[i], &mut self.rooms);
                                 // Exact to the bit if nothing is hidden.
                                 light.scratches.open = sums.radiance.into();
-                                light.scratches = light.scratches.times(DVec3::splat(samples));
+                                light.scratches = light.scratches.for_samples(samples);
                             }
                             if has_gratings {
                                 let picks = &mut self.grating_picks;
@@ -337,7 +337,7 @@ impl<'a> Tile<'a> {
                             });
                             let base = base.radiance(environment, transformed_sphere);
                             let mut light = PointLight::open(base, &sums, gratings);
-                            light.scratches = light.scratches.times(DVec3::splat(samples));
+                            light.scratches = light.scratches.for_samples(samples);
                             (sums.resolve(mask, coherence), light)
                         }
                         (PictureMethod::Other(method), _) => {

@@ -7,7 +7,7 @@
 
 use rayon::prelude::*;
 
-use crate::found::{Found, FoundLight, FoundPixel, left, variance};
+use crate::found::{Found, FoundLight, FoundPixel, left};
 use crate::tone_map::tone_luminance as luminance;
 use crate::{Image, Noise};
 
@@ -152,8 +152,9 @@ const NOTHING: [f32; 4] = [0.0, 0.0, 0.0, -1.0];
 impl Signals {
     fn new(light: &FoundLight, rounds: u32) -> Self {
         let [r, g, b] = light.share();
+        let [share_variance, bounced_variance] = light.variances(rounds);
         let of_share = if luminance(light.open) > 0.0 {
-            [r, g, b, variance(light.share_moments, rounds)]
+            [r, g, b, share_variance]
         } else {
             NOTHING
         };
@@ -165,7 +166,7 @@ impl Signals {
                     0.0
                 }
             });
-            [r, g, b, variance(light.bounced_moments, rounds)]
+            [r, g, b, bounced_variance]
         } else {
             NOTHING
         };

@@ -46,10 +46,10 @@ pub struct FoundLight {
     pub seen: [f32; 3],
     /// Light of other objects: the mean of the rays.
     pub bounced: [f32; 3],
-    /// Sums over the rounds of the share of luminance that is seen, and of its square.
-    pub share_moments: [f32; 2],
-    /// Sums over the rounds of the ratio of luminances of `bounced` and `around`, and of its square.
-    pub bounced_moments: [f32; 2],
+    /// Sums over the rounds of x x, x y and y y, the luminances of a round's weight and of the part of it that is seen.
+    pub share_moments: [f32; 3],
+    /// The same of `around` and of the light of other objects.
+    pub bounced_moments: [f32; 3],
 }
 
 impl FoundLight {
@@ -78,21 +78,32 @@ impl FoundLight {
         mix(&mut self.weight, &other.weight);
         mix(&mut self.seen, &other.seen);
         mix(&mut self.bounced, &other.bounced);
-        for i in 0..2 {
+        for i in 0..3 {
             self.share_moments[i] += other.share_moments[i];
             self.bounced_moments[i] += other.bounced_moments[i];
         }
     }
 }
 
-/// The variance of the mean of so many numbers, from their sum and that of their squares; 0 for one, which tells nothing of it.
-pub(crate) fn variance([sum, squares]: [f32; 2], count: u32) -> f32 {
-    if count < 2 {
+/// The variance of a ratio of sums over rounds, from the means of the part and of the whole and from their moments. A round counts for as much as it weighs:
+/// what is left of the parts, less the ratio times their wholes, is squared. A round that outweighs the others draws the ratio to itself and leaves
+/// little; the jackknife divides by the square of what the whole has without it (B. Efron, C. Stein, *The Jackknife Estimate of Variance*, 1981), here
+/// for all rounds by their mean share. 0 for one round, which tells nothing of it.
+fn ratio_variance(part: f32, all: f32, [xx, xy, yy]: [f32; 3], rounds: u32) -> f32 {
+    if rounds < 2 || !(all > 0.0) {
         return 0.0;
     }
-    let n = count as f32;
-    ((squares - sum * sum / n) / (n * (n - 1.0))).max(0.0)
+    let (n, ratio) = (rounds as f32, part / all);
+    let sum = n * all;
+    let left = (yy - 2.0 * ratio * xy + ratio * ratio * xx) / (sum * sum);
+    let of_others = (1.0 - xx / (sum * sum)).max(LEAST_OF_OTHERS);
+    (left * (1.0 - 1.0 / n) / (of_others * of_others)).max(0.0)
 }
+
+/// Least share of the other rounds: with less, one round is all that is known.
+const LEAST_OF_OTHERS: f32 = 1e-3;
+/// The largest variance of a share: of one that is nothing or all.
+const MOST_SHARE_VARIANCE: f32 = 0.25;
 
 /// Multiplies a closed form by the shares of its channels. A channel below 0, where a colour lies outside of the gamut, takes the share of the
 /// luminance of the others, so that the result has no negative luminance. Twin: `found_left`.
@@ -167,10 +178,19 @@ impl Found {
 }
 
 impl FoundLight {
+    /// The variances of the share of luminance that is seen and of the ratio of luminances of `bounced` and `around`, after so many rounds.
+    pub(crate) fn variances(&self, rounds: u32) -> [f32; 2] {
+        let of_ratio =
+            |part, all, moments| ratio_variance(luminance(part), luminance(all), moments, rounds);
+        [
+            of_ratio(self.seen, self.weight, self.share_moments).min(MOST_SHARE_VARIANCE),
+            of_ratio(self.bounced, self.around, self.bounced_moments),
+        ]
+    }
+
     /// The variance of [`Self::light`] after so many rounds, by channel. Rays to sources and to objects are drawn apart.
     pub(crate) fn variance(&self, rounds: u32) -> [f32; 3] {
-        let of_share = variance(self.share_moments, rounds);
-        let of_bounced = variance(self.bounced_moments, rounds);
+        let [of_share, of_bounced] = self.variances(rounds);
         std::array::from_fn(|c| {
             self.open[c] * self.open[c] * of_share + self.around[c] * self.around[c] * of_bounced
         })
@@ -238,5 +258,39 @@ mod tests {
         }
         assert_eq!(sum.rounds, 32);
         assert_eq!(sum.pixels[0].light()[1], [0.1, 0.2, 0.3]);
+    }
+
+    /// Rounds that all weigh as much, and rounds of which few carry most, as where a lobe seldom meets a lamp.
+    #[test]
+    fn the_variance_of_a_share_is_that_of_many_trials() {
+        const ROUNDS: u32 = 8;
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(1);
+            (state >> 40) as f32 / (1 << 24) as f32
+        };
+        for heavy in [1.0, 30.0] {
+            let [mut shares, mut squares, mut variances] = [0.0; 3];
+            let trials = 4000;
+            for _ in 0..trials {
+                let mut light = FoundLight::default();
+                for _ in 0..ROUNDS {
+                    let x = if random() < 0.16 { heavy } else { 1.0 };
+                    let y = if random() < 0.5 { x } else { 0.0 };
+                    for c in 0..3 {
+                        light.weight[c] += x / ROUNDS as f32;
+                        light.seen[c] += y / ROUNDS as f32;
+                        light.share_moments[c] += [x * x, x * y, y * y][c];
+                    }
+                }
+                let share = f64::from(light.share()[0]);
+                shares += share;
+                squares += share * share;
+                variances += f64::from(light.variances(ROUNDS)[0]);
+            }
+            let mean = shares / f64::from(trials);
+            let told = variances / (squares - shares * mean);
+            assert!((0.6..1.2).contains(&told), "{heavy}: {told}");
+        }
     }
 }

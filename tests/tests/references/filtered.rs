@@ -2,8 +2,12 @@
 
 use super::shadowed::{bounced, luminance, scenes};
 use conformance::two_renderers::at_width;
-use hairline_image::{Image, Layer, filter_found};
-use hairline_scene::{DEFAULT_SAMPLES, Scene};
+use glam::{DVec2, DVec3};
+use hairline_fixtures::SceneFile;
+use hairline_image::{Image, Layer, Picture, filter_found};
+use hairline_scene::environment::lookup::environment_dir;
+use hairline_scene::{DEFAULT_SAMPLES, Environment, Scene};
+use std::ops::Range;
 use std::path::Path;
 
 /// A picture with default samples, as rays found it and filtered.
@@ -94,4 +98,47 @@ fn check_sharp(scenes: impl Iterator<Item = (&'static str, Scene)>) {
             .collect();
         assert!(contrast(&blurred, &truth) < 0.9, "{name}");
     }
+}
+
+/// The rms by which pixels of the base differ from the mean of the four beside them, over the mean of all.
+pub(super) fn grain(image: &Image, columns: Range<usize>, rows: Range<usize>) -> f64 {
+    let base = luminance(image, Layer::Base);
+    let width = image.size_px[0] as usize;
+    let at = |x: usize, y: usize| base[y * width + x];
+    let pixels = || {
+        rows.clone()
+            .flat_map(|y| columns.clone().map(move |x| (x, y)))
+    };
+    let off =
+        |(x, y)| at(x, y) - 0.25 * (at(x - 1, y) + at(x + 1, y) + at(x, y - 1) + at(x, y + 1));
+    let squares: Vec<f64> = pixels().map(|pixel| f64::powi(off(pixel), 2)).collect();
+    let values: Vec<f64> = pixels().map(|(x, y)| at(x, y)).collect();
+    mean(&squares).sqrt() / mean(&values)
+}
+
+/// A rough table that mirrors a low lamp of a map past a ball: few rays meet the lamp, and these have most of the light.
+#[test]
+fn half_shadow_of_a_lamp_that_few_rays_meet_has_no_speckle() {
+    let mut scene = SceneFile::seen_from([0.0, -0.34, 0.26])
+        .fov_y_deg(16.0)
+        .size_px([64, 48])
+        .part("[[material]]\nname = \"m\"\nkind = \"dielectric\"\nbase_color = [0.05, 0.05, 0.05]")
+        .with("roughness = 0.45")
+        .object("table", "m", "plane = { size_m = [3.0, 3.0] }")
+        .object("ball", "m", "sphere = { radius_m = 0.06 }")
+        .with("translation_m = [0.0, 0.16, 0.06]")
+        .scene();
+    let size_px = [128, 64];
+    let mut map = Picture::new(size_px);
+    for (i, texel) in map.rgb.iter_mut().enumerate() {
+        let at = [i as u32 % size_px[0], i as u32 / size_px[0]].map(|n| f64::from(n) + 0.5);
+        let direction = environment_dir(DVec2::from(at) / DVec2::new(128.0, 64.0));
+        let is_lamp = direction.angle_between(DVec3::new(0.0, 0.95, 0.3)) < 0.15;
+        *texel = [if is_lamp { 30.0 } else { 0.3 }; 3];
+    }
+    scene.environment = Some(Environment::from_map(map, 0.0, 1.0, false));
+    let [found, filtered] = found_and_filtered(&scene);
+    let [before, after] = [found, filtered].map(|image| grain(&image, 8..56, 8..40));
+    println!("{before:.4}, filtered {after:.4}");
+    assert!(before > 0.03 && after < 0.2 * before, "{before} {after}");
 }

@@ -54,10 +54,8 @@ impl<'a> Shadows<'a> {
         let around = picks.energy * brought.per_energy();
         let first = picks.lit.get(0);
         let source = first.and_then(|pick| at.views.light_of(pick.source));
-        let mut light = rays.light(|| self.sees_highest(at, source.map(|light| light as u32)));
-        light.around = around;
-        light.bounced = in_gamut(around * brought.mean());
-        light
+        let light = rays.light(|| self.sees_highest(at, source.map(|light| light as u32)));
+        light.with_bounced(around, in_gamut(around * brought.mean()))
     }
 
     /// A ray to the source of a pick.

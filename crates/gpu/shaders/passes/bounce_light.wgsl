@@ -23,7 +23,7 @@ fn add_light(i: u32, light: vec3f, noise: vec3f) {
     found[i].round_bounced += rgb_luminance(noise);
     if shadow_round.ends_round != 0u {
         let all = found[i].round_bounced;
-        found[i].bounced_moments += vec2f(all, all * all);
+        found[i].bounced_moments += vec3f(1.0, all, all * all);
         found[i].round_bounced = 0.0;
     }
 }

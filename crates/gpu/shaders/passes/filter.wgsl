@@ -15,6 +15,8 @@
 
 const FILTER_DIFFUSE: u32 = 0u;
 const FILTER_SPECULAR: u32 = 1u;
+const LEAST_OF_OTHERS: f32 = 1e-3;
+const MOST_SHARE_VARIANCE: f32 = 0.25;
 
 // Guide that tells whether pixels see the same surface.
 struct Guide {
@@ -95,10 +97,18 @@ fn layer_at(at: u32) -> FoundLight {
     return film_found[at].scratches;
 }
 
-// Variance of the mean of as many numbers as there are rounds; 0 of one, which tells nothing of it.
-fn variance_of(moments: array<f32, 2>) -> f32 {
+// Variance of a ratio of sums over rounds: `ratio_variance` in image/src/found.rs.
+fn variance_of(part: vec3f, whole: vec3f, moments: array<f32, 3>) -> f32 {
     let count = f32(settings.rounds);
-    return select(0.0, max((moments[1] - moments[0] * moments[0] / count) / (count * (count - 1.0)), 0.0), settings.rounds > 1u);
+    let mean = rgb_luminance(whole);
+    if settings.rounds < 2u || !(mean > 0.0) {
+        return 0.0;
+    }
+    let ratio = rgb_luminance(part) / mean;
+    let per_sum = 1.0 / (count * mean);
+    let left = (moments[2] - 2.0 * ratio * moments[1] + ratio * ratio * moments[0]) * per_sum * per_sum;
+    let of_others = max(1.0 - moments[0] * per_sum * per_sum, LEAST_OF_OTHERS);
+    return max(left * (1.0 - 1.0 / count) / (of_others * of_others), 0.0);
 }
 
 // Writes the film of a band to the textures.
@@ -121,12 +131,17 @@ fn filter_signals(@builtin(global_invocation_id) id: vec3u) {
     textureStore(guides_out, pixel, guide_packed(guide));
     let light = layer_at(at);
     let nothing = vec4f(0.0, 0.0, 0.0, -1.0);
-    let share = found_share(found_rgb(light.weight), found_rgb(light.seen));
+    let weight = found_rgb(light.weight);
+    let seen = found_rgb(light.seen);
+    // Of the means over the pixel's samples.
+    let per_sample = 1.0 / f32(max(film.pixels[at].samples, 1u));
+    let share_variance = min(variance_of(per_sample * seen, per_sample * weight, light.share_moments), MOST_SHARE_VARIANCE);
     let is_lit = rgb_luminance(found_rgb(light.open)) > 0.0;
-    textureStore(shares_out, pixel, select(nothing, vec4f(share, variance_of(light.share_moments)), is_lit));
+    textureStore(shares_out, pixel, select(nothing, vec4f(found_share(weight, seen), share_variance), is_lit));
     let around = found_rgb(light.around);
-    let mean = select(vec3f(0.0), found_rgb(light.bounced) / max(around, vec3f(1e-30)), around > vec3f(0.0));
-    textureStore(bounced_out, pixel, select(nothing, vec4f(mean, variance_of(light.bounced_moments)), rgb_luminance(around) > 0.0));
+    let others = found_rgb(light.bounced);
+    let mean = select(vec3f(0.0), others / max(around, vec3f(1e-30)), around > vec3f(0.0));
+    textureStore(bounced_out, pixel, select(nothing, vec4f(mean, variance_of(per_sample * others, per_sample * around, light.bounced_moments)), rgb_luminance(around) > 0.0));
 }
 
 // Contribution of a signal to weights, variances, values and squares.

@@ -16,8 +16,8 @@ fn added(sum: FoundLight, ray: FoundRays) -> FoundLight {
         found_plus(sum.weight, ray.weight),
         found_plus(sum.seen, ray.seen),
         found_plus(sum.bounced, ray.bounced),
-        array(sum.share_moments[0] + ray.share_moments.x, sum.share_moments[1] + ray.share_moments.y),
-        array(sum.bounced_moments[0] + ray.bounced_moments.x, sum.bounced_moments[1] + ray.bounced_moments.y),
+        found_plus(sum.share_moments, ray.share_moments),
+        found_plus(sum.bounced_moments, ray.bounced_moments),
     );
 }
 

@@ -8,6 +8,13 @@
 @group(3) @binding(5) var<storage, read_write> film: Film;
 @group(3) @binding(6) var<uniform> shadow_round: ShadowRound;
 
+// The square of what a factor for each channel makes of a luminance.
+fn of_squares(rgb: vec3f, factor: vec3f) -> f32 {
+    let all = rgb_luminance(rgb);
+    let ratio = select(1.0, rgb_luminance(rgb * factor) / select(1.0, all, all != 0.0), all != 0.0);
+    return ratio * ratio;
+}
+
 // A layer whose closed form is `open`, of which the share `kept` reaches the viewer. That of the base knows what it sends of light from all around.
 fn finish(i: u32, is_base: bool, open: vec3f, kept: vec3f) {
     let per_round = 1.0 / f32(shadow_round.rounds);
@@ -21,13 +28,16 @@ fn finish(i: u32, is_base: bool, open: vec3f, kept: vec3f) {
     var around = found[i].around;
     var bounced = found[i].bounced * per_round;
     if is_base {
-        let per_around = select(0.0, 1.0 / max(rgb_luminance(around), 1e-30), rgb_luminance(around) > 0.0);
-        found[i].bounced_moments *= vec2f(per_around, per_around * per_around);
+        let x = rgb_luminance(around);
+        found[i].bounced_moments *= vec3f(x * x, x, 1.0);
     } else {
         around *= per_round;
         // Each ray has a colour of its own; weighed by it, even light looks as all scratches send it together.
         bounced = select(vec3f(0.0), around * found[i].bounced / max(found[i].open, vec3f(1e-30)), found[i].open > vec3f(0.0));
     }
+    found[i].share_moments *= of_squares(weight, kept);
+    // Rays of scratches told the mean over `around`.
+    found[i].bounced_moments *= of_squares(select(vec3f(1.0), around, is_base), select(around * kept, kept, is_base));
     found[i].open = found_finite(open * kept);
     found[i].weight = found_finite(weight * kept);
     found[i].seen = found_finite(seen * kept);

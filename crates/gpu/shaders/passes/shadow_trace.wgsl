@@ -17,10 +17,9 @@ fn add_ray(i: u32, weight: vec3f, is_seen: bool) {
     found[i].round_weight += rgb_luminance(all);
     found[i].round_seen += rgb_luminance(seen);
     if shadow_round.ends_round != 0u {
-        // A round without a ray tells what those before it do.
-        let before = found_ratio(rgb_luminance(found[i].seen), rgb_luminance(found[i].weight), 1.0);
-        let share = found_ratio(found[i].round_seen, found[i].round_weight, before);
-        found[i].share_moments += vec2f(share, share * share);
+        let x = found[i].round_weight;
+        let y = found[i].round_seen;
+        found[i].share_moments += vec3f(x * x, x * y, y * y);
         found[i].round_weight = 0.0;
         found[i].round_seen = 0.0;
     }

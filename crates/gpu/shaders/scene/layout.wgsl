@@ -269,8 +269,8 @@ struct FoundRays {
     round_bounced: f32,
     around: vec3f,              // what is sent of light of radiance 1 from all around
     open: vec3f,                // the closed form; before that, of scratches, what their rays to objects bring of even light
-    share_moments: vec2f,       // of the share that a round sees: sum, and sum of squares
-    bounced_moments: vec2f,     // the same of the luminance of what it brings
+    share_moments: vec3f,       // sums of x x, x y, y y: luminances of a round's weight and of what of it is seen
+    bounced_moments: vec3f,     // sums of 1, y, y y: y is the luminance of what a round brings; then x is that of `around`
 }
 
 // See image/src/found.rs, which documents it. Sums over the samples of a pixel.
@@ -280,8 +280,8 @@ struct FoundLight {
     weight: array<f32, 3>,
     seen: array<f32, 3>,
     bounced: array<f32, 3>,
-    share_moments: array<f32, 2>,
-    bounced_moments: array<f32, 2>,
+    share_moments: array<f32, 3>,
+    bounced_moments: array<f32, 3>,
 }
 
 struct FoundPixel {
