@@ -280,9 +280,9 @@ fn a_4k_canvas_is_there_or_refused_by_its_memory() {
     match gpu.block_on(stage.renderer.canvas([3840, 2160], u32::MAX)) {
         Ok(canvas) => {
             assert_eq!(canvas.bytes(), 3840 * 2160 * 64);
-            // 128 MiB hold what rays find of 140 rows, and tiles have eight.
-            assert_eq!((canvas.bands(), canvas.rows(0)), (16, 0..136));
-            assert_eq!(canvas.rows(15), 2040..2160);
+            // 128 MiB hold what rays find of 128 rows, and tiles have eight.
+            assert_eq!((canvas.bands(), canvas.rows(0)), (17, 0..128));
+            assert_eq!(canvas.rows(16), 2048..2160);
         }
         Err(error) => {
             assert!(matches!(error, Error::OutOfMemory { .. }), "{error}");
