@@ -6,7 +6,7 @@ use crate::light_view::LightViews;
 use crate::resolve::{PointLight, Sample};
 use crate::shade_base::PixelBase;
 use crate::shade_scratches::{Picks, ScratchPoint, pick_one_pair};
-use crate::shadows::{HitRoom, MetObject, Rounds, ShadowPoint, Shadows};
+use crate::shadows::{HitRoom, MetObject, ShadowPoint, Shadows};
 use crate::surface::{SurfacePoint, surface_point};
 use glam::{DVec3, Vec3};
 use hairline_optics::mask::ScratchSums;
@@ -34,7 +34,8 @@ impl<'a> Shadows<'a> {
             direction,
             hit,
             solid_angle_sr,
-            number,
+            round,
+            by_base,
         } = *met;
         let Some((HitRoom { views, picks }, rooms)) = rooms.split_first_mut() else {
             return DVec3::ZERO;
@@ -56,8 +57,8 @@ impl<'a> Shadows<'a> {
         point.footprint_axes_m = across(point.normal, scratches_m);
         point.distance_m = viewer_m(at.point, hit.distance_m, direction);
         views.look_from(&point);
-        let ray = 2 * at.rounds.now.first + number;
-        let seed = (at.seed ^ ray.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) ^ at.depth;
+        // One sequence for all rounds: in a mirror they meet the same place, where the sources that are drawn are then even over them.
+        let seed = (at.seed ^ u32::from(by_base)).wrapping_mul(0x85eb_ca6b) ^ at.depth;
         let is_scratched = self.prepared.draft.is_none() && self.prepared.is_scratched(&hit);
         let has_gratings = self.prepared.has_gratings(&hit);
         if is_scratched || has_gratings {
@@ -68,7 +69,7 @@ impl<'a> Shadows<'a> {
             object: hit.object,
             pixel: None,
             views,
-            rounds: Rounds::all(1),
+            rounds: at.rounds.one(round),
             seed,
             depth: at.depth + 1,
         };

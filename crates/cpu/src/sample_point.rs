@@ -11,6 +11,8 @@ use hairline_scene::CameraFrame;
 pub(crate) struct SamplePoint<'a> {
     /// Index of the pixel in the tile.
     pub pixel: usize,
+    /// Middle of the pixel, and place of the sample.
+    pub middle_px: DVec2,
     pub at_px: DVec2,
     /// Standard deviation of the sample's filter.
     pub std_px: f64,
@@ -94,13 +96,13 @@ impl<'a> SamplePoint<'a> {
         Some(at)
     }
 
-    /// Seed of random numbers, another one for each sample of each pixel.
+    /// Seed of random numbers, another one for each pixel: its samples on an edge are rounds of one sequence.
     fn seed(&self) -> u32 {
         let mixed = |a: u32, b: f64| {
             let a = (a ^ (b as f32).to_bits()).wrapping_mul(0x85eb_ca6b);
             a ^ (a >> 15)
         };
-        mixed(mixed(1, self.at_px.x), self.at_px.y).wrapping_mul(0xc2b2_ae35)
+        mixed(mixed(1, self.middle_px.x), self.middle_px.y).wrapping_mul(0xc2b2_ae35)
     }
 }
 

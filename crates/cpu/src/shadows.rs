@@ -51,8 +51,9 @@ pub(crate) struct MetObject {
     pub hit: Hit,
     /// Solid angle that the ray stands for.
     pub solid_angle_sr: f64,
-    /// Number among the rays of a point; another one for each of a batch.
-    pub number: u32,
+    /// Round of the point that the ray is of, and whether it is the one by its base.
+    pub round: u32,
+    pub by_base: bool,
 }
 
 /// End of a ray.
@@ -88,11 +89,14 @@ pub(crate) struct Rounds {
 }
 
 impl Rounds {
-    /// All rounds at once.
-    pub fn all(rounds: u32) -> Self {
+    /// One of the rounds that are cast now, by itself: its numbers are those of the sequence of all.
+    pub fn one(self, round: u32) -> Self {
         Self {
-            now: Batch::all(rounds),
-            all: rounds,
+            now: Batch {
+                first: self.now.first + round,
+                count: 1,
+            },
+            all: 1,
         }
     }
 }

@@ -146,8 +146,7 @@ impl<'a> Tile<'a> {
             if picture.only_edges {
                 return;
             }
-            let hit = picture.visibility.hit(x, y).copied();
-            self.add(column, row, pixel, center(x, y), 1, hit);
+            self.add(column, row, pixel, [x, y], None);
             return;
         }
         let range = picture.options.batch().range();
@@ -158,45 +157,53 @@ impl<'a> Tile<'a> {
             }
             let in_batch = self.batch.len();
             for sample in chunk {
-                let at_px = center(x, y) + picture.prepared.scene.render.jitter_px(sample, samples);
-                let camera = &picture.camera;
-                let direction = camera.camera_ray(at_px).normalize();
-                let triangles = &picture.prepared.triangles;
-                let coverage = coverage(x, y, sample);
-                let rays = &mut self.rays;
-                let hit = rays.intersect(triangles, camera, at_px, direction, coverage);
-                self.add(column, row, pixel, at_px, samples, hit);
+                self.add(column, row, pixel, [x, y], Some(sample));
             }
             share_scratches(picture.prepared, &mut self.batch, in_batch, center(x, y));
         }
     }
 
-    /// Adds a sample of a pixel, given the hit of its ray; the pixel has `samples` in all.
+    /// Adds a sample of a pixel: of one that has several its number.
     fn add(
         &mut self,
         column: usize,
         row: usize,
         pixel: usize,
-        at_px: DVec2,
-        samples: u32,
-        hit: Option<Hit>,
+        [x, y]: [usize; 2],
+        sample: Option<u32>,
     ) {
         if self.batch.len() == BATCH {
             self.shade(column, row);
         }
-        let seen = self.picture.surface(at_px, samples, hit);
+        let picture = self.picture;
+        let (options, render) = (&picture.options, &picture.prepared.scene.render);
         // A pixel without an edge has one sample, and the rays of all.
-        let options = &self.picture.options;
-        let rounds = match samples {
-            1 => Rounds {
-                now: options.batch(),
-                all: options.samples.max(1),
-            },
-            _ => Rounds::all(1),
+        let all_rounds = Rounds {
+            now: options.batch(),
+            all: options.samples.max(1),
         };
-        let std_px = self.picture.prepared.scene.render.footprint_std_px(samples);
+        let middle_px = center(x, y);
+        let (at_px, samples, rounds, hit) = match sample {
+            None => {
+                let hit = picture.visibility.hit(x, y).copied();
+                (middle_px, 1, all_rounds, hit)
+            }
+            Some(sample) => {
+                let at_px = middle_px + render.jitter_px(sample, all_rounds.all);
+                let direction = picture.camera.camera_ray(at_px).normalize();
+                let triangles = &picture.prepared.triangles;
+                let (camera, coverage) = (&picture.camera, coverage(x, y, sample));
+                let rays = &mut self.rays;
+                let hit = rays.intersect(triangles, camera, at_px, direction, coverage);
+                let round = all_rounds.one(sample - all_rounds.now.first);
+                (at_px, all_rounds.all, round, hit)
+            }
+        };
+        let seen = picture.surface(at_px, samples, hit);
+        let std_px = render.footprint_std_px(samples);
         self.batch.push(SamplePoint {
             pixel,
+            middle_px,
             at_px,
             std_px,
             is_smooth: samples == 1 && options.samples > 1,

@@ -1,6 +1,7 @@
 //! Closed forms with light from other objects against the path tracer with as many bounces.
 
 use super::environment::over;
+use super::filtered::grain;
 use super::pictures::{LINEAR, compared, sampled};
 use super::scenes::{add_quad, plate, scratch, sphere};
 use super::shadowed::{
@@ -13,7 +14,7 @@ use hairline_image::{Image, Layer};
 use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
 use hairline_scene::environment::BuiltInMap;
-use hairline_scene::{Base, Environment, Scene};
+use hairline_scene::{Base, DEFAULT_SAMPLES, Environment, Scene};
 use std::sync::Arc;
 
 /// A scratched plate and a wall on it, both lit from before the wall: all that the camera sees mirrored is the wall.
@@ -252,4 +253,26 @@ fn without_objects_bounces_change_nothing() {
     scene.objects.truncate(1);
     let [some, none] = [3, 0].map(|bounces| alone(bounced(&scene, 4, true, bounces)));
     assert!(some == none);
+}
+
+/// A coin upright on the floor of the studio: its face shows the floor alone, which each ray lights by one of the lamps.
+#[test]
+fn a_floor_in_a_mirror_has_little_noise() {
+    let scene = SceneFile::seen_from([0.0, -0.09, 0.05])
+        .toward([0.0, 0.0, 0.012])
+        .fov_y_deg(18.0)
+        .size_px([64, 48])
+        .metal("silver", "silver")
+        .with("roughness = 0.06")
+        .object(
+            "coin",
+            "silver",
+            "cylinder = { radius_m = 0.012, height_m = 0.002 }",
+        )
+        .with("rotation_deg = [90, 0, 0]\ntranslation_m = [0, 0, 0.012]")
+        .part("[studio]\n\n[ground]")
+        .scene();
+    let noise = grain(&bounced(&scene, DEFAULT_SAMPLES, true, 1), 24..40, 18..34);
+    println!("{noise:.4}");
+    assert!(noise < 0.18, "{noise}");
 }

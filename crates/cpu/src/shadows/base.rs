@@ -196,7 +196,8 @@ impl<'a> Shadows<'a> {
                     direction,
                     hit,
                     solid_angle_sr: 1.0 / (f64::from(at.rounds.all) * ray.pdf),
-                    number: 2 * round,
+                    round,
+                    by_base: true,
                 };
                 let brought = self.light_of_object(at, &met, rooms);
                 rays.bounce(ray.sent.times(brought / ray.pdf));

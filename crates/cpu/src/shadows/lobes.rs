@@ -5,6 +5,7 @@ use crate::sampling::luminance;
 use crate::shade_base::{Base, BaseRadiance};
 use crate::surface::SurfacePoint;
 use glam::{DMat3, DVec2, DVec3};
+use hairline_optics::band::Cap;
 use hairline_optics::facets::{FacetAxes, Facets};
 use hairline_optics::fresnel::{FresnelRgb, half_vector_cos};
 use hairline_optics::ggx::ggx_alpha;
@@ -158,8 +159,13 @@ impl<'l, 'a> Lobes<'l, 'a> {
         } else {
             0.0
         };
-        let specular = (sent * solid_angle_sr).min(1.0);
-        let diffuse = luminance(self.base.body) * (solid_angle_sr / PI).min(1.0) * highest;
+        // No lobe sends more than its albedo, and all of it only to a light far larger than the lobe is wide.
+        let (small, albedo) = (
+            sent * solid_angle_sr,
+            luminance(self.base.albedo().specular),
+        );
+        let specular = small * albedo / (small + albedo).max(f64::MIN_POSITIVE);
+        let diffuse = luminance(self.base.body) * (solid_angle_sr / PI).min(1.0) * mean_cos(cap);
         luminance(light.radiance()) * (specular + diffuse + LEAST_LIKELY * solid_angle_sr)
     }
 
@@ -176,5 +182,17 @@ impl<'l, 'a> Lobes<'l, 'a> {
                 .coated(bare, |coat| coat.of_single(drawn.single(wi))),
             None => bare,
         }
+    }
+}
+
+/// About the mean over a cap of the cosines above the horizon.
+fn mean_cos(cap: &Cap) -> f64 {
+    let (middle, radius) = (cap.axis.z, cap.sin_radius);
+    if cap.cos_radius <= 0.0 {
+        0.5
+    } else if middle >= radius {
+        middle
+    } else {
+        (middle + radius).max(0.0).powi(2) / (4.0 * radius)
     }
 }

@@ -120,7 +120,8 @@ impl<'a> Shadows<'a> {
                 direction,
                 hit,
                 solid_angle_sr: 0.0,
-                number: 2 * round + 1,
+                round,
+                by_base: false,
             };
             self.light_of_object(at, &met, rooms)
         });
