@@ -11,7 +11,7 @@ use crate::scan::ScanPasses;
 use crate::strip::StripRoom;
 
 /// Bands of rows, each with a film of its own, so that no binding has to hold the whole picture and that work can stop after
-/// any band. It takes 64 bytes a pixel, 248 more with shadows, and what the passes need for one band at a time.
+/// any band. It takes 64 bytes a pixel, 272 more with shadows, and what the passes need for one band at a time.
 ///
 /// [`Renderer::accumulate`](crate::Renderer::accumulate) adds to it, [`Renderer::show`](crate::Renderer::show) and
 /// [`Renderer::read_shown`](crate::Renderer::read_shown) display it, [`Canvas::image`] reads
