@@ -122,17 +122,31 @@ fn note(text: &str, name: &Path, key: &str, why: &str) -> String {
     format!("{}{line}: {key}: {why}", printable(&name.to_string_lossy()))
 }
 
+/// Whether a line, counted from 1, sets a key to a number such as 0,15.
+fn has_decimal_comma(text: &str, line: usize) -> bool {
+    let line = text.lines().nth(line.saturating_sub(1)).unwrap_or_default();
+    line.split('=').skip(1).any(|value| {
+        let value = value.trim_start().trim_start_matches(['+', '-']);
+        let after = value.trim_start_matches(|c: char| c.is_ascii_digit());
+        let fraction = after
+            .strip_prefix(',')
+            .filter(|_| after.len() < value.len());
+        fraction.is_some_and(|it| it.starts_with(|c: char| c.is_ascii_digit()))
+    })
+}
+
 /// Parses TOML; a mistake in the grammar gets its line.
 fn parse<'a>(text: &'a str, name: &Path) -> Result<DeTable<'a>, Error> {
     let root = DeTable::parse(text).map_err(|error| {
         let line = error.span().map(|span| line_of(text, span.start));
         let found = error.message().replace('\n', " ");
         // `\u` and `\U` of a path begin a number to TOML: "C:\Users".
-        let right = match found.contains("escape") || found.contains("unicode") {
-            true => {
-                "a backslash in double quotes begins an escape of TOML: write paths with slashes, \"models/pan.glb\", or in single quotes"
-            }
-            false => "must be valid TOML (https://toml.io)",
+        let right = if found.contains("escape") || found.contains("unicode") {
+            "a backslash in double quotes begins an escape of TOML: write paths with slashes, \"models/pan.glb\", or in single quotes"
+        } else if line.is_some_and(|line| has_decimal_comma(text, line)) {
+            "numbers have a decimal point, not a comma"
+        } else {
+            "must be valid TOML (https://toml.io)"
         };
         Error::new("", found, right).at(name, line)
     })?;

@@ -126,6 +126,17 @@ impl<'a> Table<'a> {
             known: vec![tag],
         };
         let Some(tag_value) = unchecked.get(tag) else {
+            // As `type = "metal"`.
+            let is_kind = |value: &&str| kinds.iter().any(|(name, _)| name == value);
+            let misnamed = entries.iter().find(|(name, value)| {
+                let value = value.get_ref().as_str().filter(is_kind);
+                value.is_some() && !shared.contains(&name.get_ref().as_ref())
+            });
+            if let Some((name, _)) = misnamed {
+                let key = unchecked.way(&shown(name.get_ref()));
+                let right = format!("did you mean `{tag}`?");
+                return Err(Error::new(key, "unknown key", right));
+            }
             let names = hint::list(kinds.iter().map(|(name, _)| *name));
             return Err(Error::new(
                 key,

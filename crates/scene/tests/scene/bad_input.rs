@@ -100,6 +100,10 @@ fn unknown_keys() {
             "[render]\ntone_mapping = \"agx\"",
             "plate.toml:12: render.tone_mapping: unknown key; did you mean `tone_map`?",
         ),
+        (
+            "[[material]]\nname = \"a\"\ntype = \"metal\"\nmetal = \"gold\"",
+            "plate.toml:13: material[1].type: unknown key; did you mean `kind`?",
+        ),
     ]);
     assert_eq!(
         scratches("pattern = \"random\"\ncount = 1\naxis = [0, 0, 1]"),
@@ -223,6 +227,14 @@ fn missing_keys_and_broken_grammar() {
         of("[camera]\nposition_m = [0, 0, 1]\nposition_m = [0, 0, 1]\n"),
         "a.toml:3: duplicate key; must be valid TOML (https://toml.io)"
     );
+    for value in ["-0,15", "{ mean = 0,15, spread = 0.1 }"] {
+        let said = of(&format!("[camera]\nexposure_ev = {value}\n"));
+        assert!(said.starts_with("a.toml:2: "), "{said}");
+        assert!(
+            said.ends_with("; numbers have a decimal point, not a comma"),
+            "{said}"
+        );
+    }
 }
 
 #[test]
