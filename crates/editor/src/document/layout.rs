@@ -97,7 +97,8 @@ fn merge_parts(text: &mut ArrayOfTables, before: &ArrayOfTables, after: &ArrayOf
     }
 }
 
-/// Index before the edit of each part after it: the same one, else that of its name, else, renamed, that of its place.
+/// Index before the edit of each part after it: the same one, else that of its name, else, renamed, that of its place. Another thing
+/// in its place is new: a comment would describe what is gone.
 fn matches(before: &ArrayOfTables, after: &ArrayOfTables) -> Vec<Option<usize>> {
     let mut found: Vec<Option<usize>> = vec![None; after.len()];
     let mut taken = vec![false; before.len()];
@@ -105,7 +106,7 @@ fn matches(before: &ArrayOfTables, after: &ArrayOfTables) -> Vec<Option<usize>> 
     let alike: [fn(IndexedTable<'_>, IndexedTable<'_>) -> bool; 3] = [
         |(_, a), (_, b)| a.to_string() == b.to_string(),
         |(_, a), (_, b)| name(a).is_some() && name(a) == name(b),
-        |(i, _), (j, _)| i == j,
+        |(i, a), (j, b)| i == j && is_same_thing(a, b),
     ];
     for alike in alike {
         for (j, b) in after.iter().enumerate() {
@@ -119,6 +120,19 @@ fn matches(before: &ArrayOfTables, after: &ArrayOfTables) -> Vec<Option<usize>> 
         }
     }
     found
+}
+
+/// Whether a part may be an edit of another: it is of the same kind, and not all the rest is other than before, its name included.
+fn is_same_thing(before: &Table, after: &Table) -> bool {
+    let is_kept = |key: &str| match (before.get(key), after.get(key)) {
+        (Some(a), Some(b)) => same(a, b),
+        (a, b) => a.is_none() && b.is_none(),
+    };
+    let mut rest = before
+        .iter()
+        .map(|(key, _)| key)
+        .filter(|key| *key != "kind");
+    is_kept("kind") && (is_kept("name") || rest.any(is_kept))
 }
 
 fn name(part: &Table) -> Option<&str> {
@@ -165,7 +179,7 @@ fn place(table: &mut Table, position: Option<isize>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hairline_scene::description::Layer;
+    use hairline_scene::description::{Layer, Light, LightKind};
 
     const SCENE: &str = r#"# A plate for the window of the shop.
 
@@ -277,6 +291,40 @@ radiance = 1.0
             text.contains("# Blued at the edge.\n[[material]]\nname = \"blue\""),
             "{text}"
         );
+    }
+
+    /// As by lights for the scratches, which replace all: another name and another kind, or another name and all other values.
+    #[test]
+    fn a_comment_goes_with_what_it_describes() {
+        for kind in [
+            LightKind::Disk {
+                center_m: [0.0, 0.3, 0.3],
+                target_m: [0.0; 3],
+                radius_m: 0.05,
+                two_sided: false,
+            },
+            LightKind::sphere([0.1, 0.2, 0.3], 0.02),
+        ] {
+            let text = saved(|d| {
+                d.lights[0] = Light {
+                    name: Some("lamp".to_owned()),
+                    radiance: 100.0,
+                    color: [1.0, 0.9, 0.8],
+                    ..Light::new(kind)
+                }
+            });
+            assert!(!text.contains("# The lamp"), "{text}");
+            assert!(
+                text.contains("# behind") && text.contains("# The end."),
+                "{text}"
+            );
+        }
+        // Moved and dimmed it is still the same lamp.
+        let text = saved(|d| {
+            d.lights[0].kind = LightKind::sphere([0.1, 0.2, 0.3], 0.02);
+            d.lights[0].radiance = 2.0;
+        });
+        assert!(text.contains("# The lamp\n[[light]]"), "{text}");
     }
 
     #[test]
