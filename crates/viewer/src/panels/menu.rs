@@ -2,14 +2,13 @@
 
 use std::path::PathBuf;
 
-use egui::scroll_area::ScrollBarVisibility;
-use egui::{Button, MenuBar, Modifiers, Panel, Popup, RichText, ScrollArea, Ui};
+use egui::{Button, Color32, MenuBar, Modifiers, Panel, Popup, RichText, Ui};
 use hairline_scene::schema;
 
 use super::form::Form;
 use crate::command::{self, Command, Group};
 use crate::files::Files;
-use crate::platform::{HAS_DISK, HAS_PAGE};
+use crate::platform::HAS_DISK;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
@@ -20,15 +19,7 @@ pub(crate) fn show(
     files: &Files,
     is_comparing: bool,
 ) -> Option<PathBuf> {
-    let shown = Panel::top("menu").show(ui, |ui| match HAS_PAGE {
-        false => bar(ui, work, files, is_comparing),
-        // Narrower than the bar, on a telephone: a finger moves it.
-        true => {
-            let area =
-                ScrollArea::horizontal().scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden);
-            area.show(ui, |ui| bar(ui, work, files, is_comparing)).inner
-        }
-    });
+    let shown = Panel::top("menu").show(ui, |ui| bar(ui, work, files, is_comparing));
     shown.inner
 }
 
@@ -45,50 +36,125 @@ fn bar(ui: &mut Ui, work: &mut Workspace, files: &Files, is_comparing: bool) -> 
             }
             chosen = menu.inner.flatten().or(chosen.take());
         }
-        ui.separator();
-        for tool in Tool::ALL {
-            let command = Command::Pick(tool);
-            let button = Button::selectable(work.toolbox.tool == tool, command.label());
-            bar_button(ui, work, command, button, tool.hint());
+        let tools = tools(work, is_comparing);
+        let (fitting, rest) = tools.split_at(fitting(ui, &tools));
+        for tool in fitting {
+            if tool.begins_section {
+                ui.separator();
+            }
+            bar_button(ui, work, tool);
         }
-        ui.separator();
-        if Command::Gallery.is_here() {
-            let text = "Scenes to begin with";
-            let button = Button::new("Scenes");
-            bar_button(ui, work, Command::Gallery, button, text);
-            ui.separator();
-        }
-        let undo = work.document.undo_label().map(str::to_owned);
-        let redo = work.document.redo_label().map(str::to_owned);
-        for (command, what) in [(Command::Undo, undo), (Command::Redo, redo)] {
-            let button = Button::new(command.label());
-            let text = what.as_deref().unwrap_or("nothing");
-            bar_button(ui, work, command, button, text);
-        }
-        ui.separator();
-        let text = "Keeps this look, with its picture, to compare with and to come back to";
-        let button = Button::new("Snapshot");
-        bar_button(ui, work, Command::TakeSnapshot, button, text);
-        if Command::Compare.is_here() {
-            ui.separator();
-            let text = "Renders the reference of this view in the background and shows it beside the \
-                        picture";
-            let button = Button::selectable(is_comparing, "Compare");
-            bar_button(ui, work, Command::Compare, button, text);
+        if !rest.is_empty() {
+            ui.menu_button(MORE, |ui| {
+                for tool in rest {
+                    bar_button(ui, work, tool);
+                }
+            });
         }
     });
     chosen
 }
 
+/// The menu of what has no room in the bar.
+const MORE: &str = "More";
+
+/// A button of the bar, for a command.
+struct BarTool {
+    command: Command,
+    label: &'static str,
+    is_on: bool,
+    /// Effect, for the tooltip.
+    text: String,
+    begins_section: bool,
+}
+
+fn tools(work: &Workspace, is_comparing: bool) -> Vec<BarTool> {
+    let tool = |command: Command, label, text: &str| BarTool {
+        command,
+        label,
+        is_on: false,
+        text: text.to_owned(),
+        begins_section: true,
+    };
+    let mut tools: Vec<BarTool> = (Tool::ALL.into_iter().enumerate())
+        .map(|(i, it)| BarTool {
+            is_on: work.toolbox.tool == it,
+            begins_section: i == 0,
+            ..tool(Command::Pick(it), Command::Pick(it).label(), it.hint())
+        })
+        .collect();
+    let (undo, redo) = (work.document.undo_label(), work.document.redo_label());
+    let label = Command::Redo.label();
+    tools.extend([
+        tool(Command::Gallery, "Scenes", "Scenes to begin with"),
+        tool(Command::Undo, Command::Undo.label(), undo.unwrap_or("nothing")),
+        BarTool {
+            begins_section: false,
+            ..tool(Command::Redo, label, redo.unwrap_or("nothing"))
+        },
+        tool(
+            Command::TakeSnapshot,
+            "Snapshot",
+            "Keeps this look, with its picture, to compare with and to come back to",
+        ),
+        BarTool {
+            is_on: is_comparing,
+            ..tool(
+                Command::Compare,
+                "Compare",
+                "Renders the reference of this view in the background and shows it beside the picture",
+            )
+        },
+    ]);
+    tools.retain(|tool| tool.command.is_here());
+    tools
+}
+
+/// How many of the tools have room in the rest of the bar, with the menu of those that have none.
+fn fitting(ui: &Ui, tools: &[BarTool]) -> usize {
+    let spacing = ui.spacing();
+    let font = egui::TextStyle::Button.resolve(ui.style());
+    let width = |label: &str| {
+        let words = ui
+            .painter()
+            .layout_no_wrap(label.to_owned(), font.clone(), Color32::WHITE);
+        words.size().x + 2.0 * spacing.button_padding.x + spacing.item_spacing.x
+    };
+    let gap = SEPARATOR + spacing.item_spacing.x;
+    let ends: Vec<f32> = tools
+        .iter()
+        .scan(0.0, |end, tool| {
+            *end += width(tool.label) + if tool.begins_section { gap } else { 0.0 };
+            Some(*end)
+        })
+        .collect();
+    let room = ui.available_width();
+    match ends.last() {
+        Some(all) if *all > room => {
+            let room = room - width(MORE);
+            ends.iter().filter(|end| **end <= room).count()
+        }
+        _ => ends.len(),
+    }
+}
+
+/// Width of egui's separators.
+const SEPARATOR: f32 = 6.0;
+
 /// A button for a command; the tooltip has its effect and its key.
-fn bar_button(ui: &mut Ui, work: &mut Workspace, command: Command, button: Button, text: &str) {
-    let response = ui.add_enabled(work.can(command), button);
+fn bar_button(ui: &mut Ui, work: &mut Workspace, tool: &BarTool) {
+    let BarTool { command, text, .. } = tool;
+    let button = match command {
+        Command::Pick(_) | Command::Compare => Button::selectable(tool.is_on, tool.label),
+        _ => Button::new(tool.label),
+    };
+    let response = ui.add_enabled(work.can(*command), button);
     let text = match command.shortcut() {
         Some(shortcut) => format!("{text} ({})", command::key_text(&shortcut)),
-        None => text.to_owned(),
+        None => text.clone(),
     };
     if response.on_hover_text(text).clicked() {
-        work.wished.push(command);
+        work.wished.push(*command);
     }
 }
 

@@ -30,32 +30,42 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, viewport: &Viewport) {
                     .on_hover_text("What renders the picture");
             });
             transport(ui, work);
-            // What has no room is cut off, in place of lying over the rest.
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                ui.set_clip_rect(ui.max_rect().intersect(ui.clip_rect()));
                 progress(ui, &work.engine, viewport);
             });
         });
     });
 }
 
+/// One line, whose end is left out where it has no room; all of it and more in the tooltip.
 fn progress(ui: &mut Ui, engine: &Engine, viewport: &Viewport) {
+    let mut parts = Vec::new();
+    let mut details = String::new();
     match engine.latest() {
         Some(frame) => {
-            picture(ui, &frame, viewport.canvas.is_stale(), engine.is_resting());
+            let is_stale = viewport.canvas.is_stale();
+            parts.extend(picture(&frame, is_stale, engine.is_resting()));
+            details += &times(&frame);
         }
-        None => drop(ui.label(before_the_first(engine))),
+        None => parts.push(before_the_first(engine).to_owned()),
     }
     if engine.is_building() {
         ui.add(Busy::new());
-        ui.label("laying scratches");
+        parts.push("laying scratches".to_owned());
     }
     if let Some(built) = engine.built() {
         let (scratches, segments) = built.scratch_counts();
-        ui.label(format!("{} scratches", grouped(scratches)))
-            .on_hover_text(format!("in {} straight pieces", grouped(segments)));
+        parts.push(format!("{} scratches", grouped(scratches)));
+        details += &format!("\n{} straight pieces of scratches", grouped(segments));
     }
+    let text = parts.join(GAP);
+    let label = egui::Label::new(&text).truncate();
+    ui.add(label.show_tooltip_when_elided(false))
+        .on_hover_text(format!("{text}\n{}", details.trim_start()));
 }
+
+/// Between parts of the line.
+const GAP: &str = "    ";
 
 /// What the picture is and how long it takes to be clean, in few words.
 pub(super) fn summary(engine: &Engine, viewport: &Viewport) -> String {
@@ -83,30 +93,37 @@ pub(crate) fn before_the_first(engine: &Engine) -> &'static str {
     }
 }
 
-fn picture(ui: &mut Ui, frame: &Frame, is_stale: bool, is_resting: bool) {
+/// Size, time and state of the picture.
+fn picture(frame: &Frame, is_stale: bool, is_resting: bool) -> Vec<String> {
     let painted = &frame.painted;
     let [width, height] = painted.size_px;
-    let text = format!("{width} × {height}, {}", milliseconds(painted.time));
-    let mut details = String::from("The picture and what it took");
-    for pass in &painted.passes {
-        details += &format!("\n{}: {}", pass.name, milliseconds(pass.time));
-    }
-    if let Some(latency) = &painted.latency {
-        details += &latency_text(latency);
-    }
-    ui.label(text).on_hover_text(details);
-    ui.label(activity(frame, is_stale));
+    let mut parts = vec![
+        format!("{width} × {height}, {}", milliseconds(painted.time)),
+        activity(frame, is_stale),
+    ];
     if let Some(left) = painted.left.filter(|_| !is_stale) {
-        ui.label(match is_resting {
+        parts.push(match is_resting {
             true => "paused while an export runs".to_owned(),
             false => format!("{} left", rough(left)),
-        })
-        .on_hover_text("Until the picture is as clean as it gets");
+        });
     }
     if !painted.passes.is_empty() {
         let device: Duration = painted.passes.iter().map(|pass| pass.time).sum();
-        ui.label(format!("device {}", milliseconds(device)));
+        parts.push(format!("device {}", milliseconds(device)));
     }
+    parts
+}
+
+/// What the picture and the last edit took.
+fn times(frame: &Frame) -> String {
+    let painted = &frame.painted;
+    let passes = painted.passes.iter();
+    let lines = passes.map(|pass| format!("\n{}: {}", pass.name, milliseconds(pass.time)));
+    let mut times: String = lines.collect();
+    if let Some(latency) = &painted.latency {
+        times += &latency_text(latency);
+    }
+    times
 }
 
 /// Text about the current work on the picture.

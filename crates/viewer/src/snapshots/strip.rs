@@ -13,6 +13,8 @@ use super::{Snapshot, Snapshots, Way};
 const HEIGHT: f32 = 72.0;
 const WIDTHS: std::ops::RangeInclusive<f32> = 48.0..=150.0;
 const NAME_HEIGHT: f32 = 18.0;
+/// Height of the picture below which the strip is one line of names and tools.
+const LOW: f32 = 420.0;
 
 impl Snapshots {
     /// Shows it; the index of the one that is to be restored.
@@ -24,28 +26,39 @@ impl Snapshots {
             .show(ui.ctx(), |ui| {
                 egui::Frame::popup(ui.style()).show(ui, |ui| {
                     ui.set_max_width(area.rect.width() - 40.0);
-                    let restored = self.tools(ui);
-                    ScrollArea::horizontal().show(ui, |ui| {
-                        ui.horizontal(|ui| {
-                            let mut clicked = None;
-                            for index in 0..self.list.len() {
-                                let is_shown = self.is_shown && self.chosen == Some(index);
-                                let is_chosen = self.chosen == Some(index);
-                                let snapshot = &mut self.list[index];
-                                if thumbnail(ui, snapshot, is_chosen, is_shown) {
-                                    clicked = Some(index);
-                                }
-                            }
-                            if let Some(index) = clicked {
-                                self.choose(index);
-                            }
+                    let is_low = area.rect.height() < LOW;
+                    let restored = if is_low { None } else { self.tools(ui) };
+                    let line = ScrollArea::horizontal().show(ui, |ui| {
+                        let line = ui.horizontal(|ui| {
+                            self.looks(ui, is_low);
+                            is_low.then(|| self.tools(ui)).flatten()
                         });
+                        line.inner
                     });
-                    restored
+                    restored.or(line.inner)
                 })
             });
         self.strip_top = shown.response.rect.top();
         shown.inner.inner
+    }
+
+    /// The looks, to be chosen: thumbnails, or where it `is_low`, names.
+    fn looks(&mut self, ui: &mut Ui, is_low: bool) {
+        let mut clicked = None;
+        for (index, snapshot) in self.list.iter_mut().enumerate() {
+            let is_chosen = self.chosen == Some(index);
+            let is_shown = self.is_shown && is_chosen;
+            let is_clicked = match is_low {
+                true => ui.selectable_label(is_shown, &snapshot.name).clicked(),
+                false => thumbnail(ui, snapshot, is_chosen, is_shown),
+            };
+            if is_clicked {
+                clicked = Some(index);
+            }
+        }
+        if let Some(index) = clicked {
+            self.choose(index);
+        }
     }
 
     /// The part of `area` above the strip, if there is one: room for messages.

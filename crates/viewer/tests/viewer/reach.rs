@@ -207,3 +207,36 @@ fn a_small_window_leaves_two_thirds_to_the_picture() {
     }
     harness.get_by_label("Camera");
 }
+
+/// At 640 x 400 tools that have no room are in a menu, the strip of snapshots is a line, and the status ends with an ellipsis.
+#[test]
+fn a_very_small_window_cuts_nothing_off() {
+    let options = crate::common::built_in(SMALL);
+    let mut harness = common::viewer_in(options, [640.0, 400.0], 0.25);
+    wait_built(&mut harness);
+    common::wait_until(&mut harness, "a picture", |viewer| {
+        viewer.engine().latest().is_some()
+    });
+    key(&mut harness, Key::S);
+    harness.run_steps(3);
+    for name in ["Select", "Brush", "More"] {
+        let rect = harness.get_by_role_and_label(Role::Button, name).rect();
+        assert!(rect.right() <= 640.0, "{name} {rect:?}");
+    }
+    assert!(harness.query_by_label("Compare").is_none());
+    click_on(&mut harness, "More");
+    click_on(&mut harness, "Compare");
+    let look = harness.get_by_role_and_label(Role::Button, "Look 1").rect();
+    let above = picture(&harness).bottom() - look.top();
+    assert!(above < 50.0, "{above} points");
+    let status = harness.get_by_label_contains("scratches").rect();
+    assert!(
+        status.height() < 26.0 && status.right() < 640.0,
+        "{status:?}"
+    );
+    // With room for all there is no such menu.
+    let harness = viewer(SMALL);
+    assert!(
+        harness.query_by_label("More").is_none() && harness.query_by_label("Compare").is_some()
+    );
+}
