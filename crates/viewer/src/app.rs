@@ -257,7 +257,11 @@ impl Viewer {
         while !self.is_asking()
             && let Some(command) = Command::next_pressed(&ctx, escape_is_taken)
         {
+            let can = self.work.can(command);
             self.run(&ctx, command);
+            if can {
+                self.tell_key(command);
+            }
         }
         let is_comparing = self.compare.is_open();
         let recent = if crate::fingers::is_phone(&ctx) {

@@ -19,14 +19,8 @@ struct Notice {
     since: Option<f64>,
     /// Replaced by the next of the same topic.
     topic: &'static str,
-}
-
-impl Notice {
     /// Seconds for which it stays, if it is a note.
-    fn seconds(&self) -> f64 {
-        let lines = self.text.lines().count().max(1);
-        NOTE_SECONDS + LINE_SECONDS * (lines - 1) as f64
-    }
+    seconds: f64,
 }
 
 /// The newest last.
@@ -38,6 +32,8 @@ pub(crate) struct Notices {
 /// Seconds after which a note disappears, and the additional time for each further line, which takes time to read.
 const NOTE_SECONDS: f64 = 5.0;
 const LINE_SECONDS: f64 = 3.0;
+/// The same of a few words about a key.
+const GLANCE_SECONDS: f64 = 2.0;
 /// Largest number of messages: more would hide the picture.
 const MOST: usize = 4;
 
@@ -49,11 +45,19 @@ impl Notices {
         if !self.list.iter().any(is_known) {
             eprintln!("error: {}", printable(&text));
         }
-        self.push(NoticeKind::Error, topic, text);
+        self.push(NoticeKind::Error, topic, text, f64::INFINITY);
     }
 
     pub fn note(&mut self, topic: &'static str, text: impl Into<String>) {
-        self.push(NoticeKind::Note, topic, text.into());
+        let text = text.into();
+        let further = text.lines().count().saturating_sub(1);
+        let seconds = NOTE_SECONDS + LINE_SECONDS * further as f64;
+        self.push(NoticeKind::Note, topic, text, seconds);
+    }
+
+    /// Shows a few words for a moment.
+    pub fn glance(&mut self, topic: &'static str, text: impl Into<String>) {
+        self.push(NoticeKind::Note, topic, text.into(), GLANCE_SECONDS);
     }
 
     /// Removes the error of a topic once it is right again.
@@ -72,13 +76,14 @@ impl Notices {
             .retain(|notice| matches!(notice.topic, "device" | "autosave"));
     }
 
-    fn push(&mut self, kind: NoticeKind, topic: &'static str, text: String) {
+    fn push(&mut self, kind: NoticeKind, topic: &'static str, text: String, seconds: f64) {
         self.clear(topic);
         self.list.push(Notice {
             kind,
             text,
             since: None,
             topic,
+            seconds,
         });
         if self.list.len() > MOST {
             self.list.remove(0);
@@ -102,16 +107,14 @@ impl Notices {
             }
         }
         self.list.retain(|notice| {
-            notice.kind == NoticeKind::Error
-                || notice
-                    .since
-                    .is_none_or(|since| now - since < notice.seconds())
+            let since = notice.since;
+            since.is_none_or(|since| now - since < notice.seconds)
         });
         if self.list.is_empty() {
             return;
         }
         let notes = self.list.iter().filter(|it| it.kind == NoticeKind::Note);
-        if let Some(seconds) = notes.map(Notice::seconds).reduce(f64::min) {
+        if let Some(seconds) = notes.map(|it| it.seconds).reduce(f64::min) {
             ctx.request_repaint_after(std::time::Duration::from_secs_f64(seconds));
         }
         let mut dismissed = None;

@@ -5,10 +5,12 @@ use hairline_editor::actions::{layers, parts};
 use hairline_editor::{Selection, navigate};
 
 use super::Viewer;
-use crate::command::Command;
+use crate::command::{self, Command};
 use crate::dialogs::Wish;
 use crate::files::Purpose;
+use crate::free_view::ViewCommand;
 use crate::panels;
+use crate::reading::ReadCommand;
 use crate::tools::Tool;
 
 /// Factor of a press of a bracket on the brush.
@@ -100,6 +102,41 @@ impl Viewer {
             }
             Command::Shadows => self.work.transport.shadows = !self.work.transport.shadows,
         }
+    }
+
+    /// Tells for a moment what a plain key did: it may have been typed for a text.
+    pub(super) fn tell_key(&mut self, command: Command) {
+        // They are seen, or tell of themselves.
+        let is_told = matches!(
+            command,
+            Command::Deselect
+                | Command::Rename
+                | Command::Help
+                | Command::FocusHere
+                | Command::View(ViewCommand::NextBookmark)
+        );
+        let keys = command.shortcut().filter(|keys| !keys.modifiers.command);
+        let Some(keys) = keys.filter(|_| !is_told) else {
+            return;
+        };
+        let label = command.label();
+        let what = match (command, self.work.is_on(command)) {
+            (
+                Command::Read(
+                    ReadCommand::Brighter | ReadCommand::Darker | ReadCommand::ResetExposure,
+                ),
+                _,
+            ) => format!(
+                "Exposure {:+} EV in the window",
+                self.work.reading.exposure_ev
+            ),
+            (Command::Look(_), _) => format!("View {}", label.to_lowercase()),
+            (_, Some(true)) => format!("{label}: on"),
+            (_, Some(false)) => format!("{label}: off"),
+            _ => label.to_owned(),
+        };
+        let text = format!("{what} ({})", command::key_text(&keys));
+        self.work.notices.glance("key", text);
     }
 
     fn take_snapshot(&mut self) {

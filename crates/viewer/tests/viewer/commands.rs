@@ -228,3 +228,21 @@ fn each_press_of_undo_and_redo_in_one_pass_is_a_step() {
     // Back three, forth one, back one: in another order it would be something else.
     assert_eq!(pressed(&[true, true, true, true, false, true, false]), 11.0);
 }
+
+/// Text that was typed without a box for it may be keys of commands.
+#[test]
+fn a_key_tells_for_two_seconds_what_it_did() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    for (key, text) in [
+        (Key::Comma, "Exposure -0.25 EV in the window (,)"),
+        (Key::Num3, "View from the left (3)"),
+        (Key::X, "False colour, or the picture: on (X)"),
+    ] {
+        press(&mut harness, Modifiers::NONE, key);
+        assert!(harness.state().messages().contains(&text), "{text}");
+    }
+    // A pass of tests is a quarter of a second.
+    harness.run_steps(12);
+    assert_eq!(harness.state().messages(), [""; 0]);
+}
