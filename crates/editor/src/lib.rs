@@ -42,6 +42,7 @@ pub mod recent;
 mod rotation;
 pub mod selection;
 pub mod settings;
+pub mod shown;
 pub mod subject;
 pub mod wear;
 

@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use hairline_editor::shown::Shown;
 use hairline_scene::Description;
 
 mod command;
@@ -36,8 +37,8 @@ pub(crate) struct ReadingState {
     /// Added to the camera's exposure in the window alone.
     pub exposure_ev: f64,
     pub probe: Probe,
-    /// The scene as lamps for its scratches lit it, until their brightness is known.
-    pub tried: Option<Arc<Description>>,
+    /// The scene as lamps for its scratches lit it, until their brightness is known; and what the lights before showed, if a picture told.
+    pub tried: Option<(Arc<Description>, Option<Shown>)>,
 }
 
 impl ReadingState {

@@ -4,8 +4,6 @@ mod fit;
 mod give;
 mod view;
 
-pub(crate) use fit::FAINT;
-
 use std::path::{Path, PathBuf};
 
 use hairline_editor::actions::pictures::PictureOf;

@@ -25,6 +25,20 @@ pub struct Frame {
     pub findings: crate::reading::Findings,
 }
 
+impl Frame {
+    /// Whether it is as fine as the view and shows all scratches of its scene.
+    pub fn has_all_scratches(&self) -> bool {
+        let painted = &self.painted;
+        painted.size_px == self.view.size_px && painted.thin == 1 && self.is_whole()
+    }
+
+    /// Whether all of it is as fine. One that waits for its rays is, and has findings.
+    pub fn is_whole(&self) -> bool {
+        let is_done = self.painted.done >= 1.0 || self.findings.shown.is_some();
+        is_done && !self.built.is_sketch()
+    }
+}
+
 /// Pixels, encoded for the display.
 #[derive(Clone)]
 pub enum Picture {

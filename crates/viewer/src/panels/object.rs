@@ -5,6 +5,7 @@ use hairline_editor::Selection;
 use hairline_editor::actions::{gratings, layers, objects};
 use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::LayerPreset;
+use hairline_editor::shown::FAINT;
 use hairline_editor::wear::{self, Wear};
 use hairline_scene::description::{Shape, Surface, Up};
 use hairline_scene::schema::{self, Key};
@@ -15,7 +16,7 @@ use super::overrides;
 use crate::command::Command;
 use crate::gallery::{SIDE, Thumb, card, cards};
 use crate::parts::ObjectPart;
-use crate::workspace::{FAINT, Workspace};
+use crate::workspace::Workspace;
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let description = work.document.description().clone();
@@ -181,15 +182,7 @@ fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
         ui.weak("Its layers of wear were changed by hand: a grade replaces them.");
     }
     let is_worn = is != Some(Wear::New);
-    // A coarse picture has other scratches.
-    let frame = work
-        .engine
-        .latest()
-        .filter(|frame| frame.painted.thin == 1 && frame.painted.size_px == frame.view.size_px);
-    if let Some(share) = frame.and_then(|frame| frame.findings.noticed)
-        && is_worn
-        && share < FAINT
-    {
+    if is_worn && (work.shown()).is_some_and(|shown| shown.noticed < FAINT) {
         ui.weak("Little of the scratches is seen: they are bright beside the mirror images of small lamps, before something dark.");
         super::button(ui, work, Command::LightForScratches);
     }

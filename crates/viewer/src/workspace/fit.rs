@@ -5,13 +5,12 @@ use std::sync::Arc;
 use glam::DVec3;
 use hairline_editor::actions::materials;
 use hairline_editor::brush::BrushSettings;
+use hairline_editor::shown::{LITTLE, Shown};
 use hairline_editor::{Selection, navigate};
 use hairline_scene::Description;
 
 use super::Workspace;
 
-/// Share of the scratched pixels in which scratches must be noticed; below it other light is offered.
-pub(crate) const FAINT: f32 = 0.08;
 /// The step's name in the history.
 const LAMPS: &str = "Light for the scratches";
 
@@ -131,6 +130,7 @@ impl Workspace {
     /// Replaces the scene's lights by lights that show its scratches.
     pub fn light_for_scratches(&mut self) {
         let built = self.engine.built();
+        let before = self.shown();
         match (built, self.built_bounds_m()) {
             (Some(built), Some(_)) => {
                 self.apply(LAMPS, |d, selection| {
@@ -141,7 +141,7 @@ impl Workspace {
                         other => other,
                     })
                 });
-                self.reading.tried = Some(Arc::clone(self.document.description()));
+                self.reading.tried = Some((Arc::clone(self.document.description()), before));
             }
             _ => (self.notices).note(
                 "light",
@@ -150,26 +150,37 @@ impl Workspace {
         }
     }
 
-    /// Makes lamps for scratches as bright as shows most of these, once a picture tells; says so where little is seen in the best light.
+    /// What the newest picture shows of its scratches, if it is a whole one: a coarse one has others.
+    pub fn shown(&self) -> Option<Shown> {
+        let frame = self
+            .engine
+            .latest()
+            .filter(|frame| frame.has_all_scratches());
+        frame?.findings.shown
+    }
+
+    /// Makes lamps for scratches as bright as shows most of these, once a picture tells, and says what they show.
     pub fn try_lamps(&mut self) {
-        let Some(tried) = &self.reading.tried else {
+        let Some((tried, before)) = &self.reading.tried else {
             return;
         };
+        let before = *before;
         let now = self.document.description();
         if now.lights != tried.lights || now.scratches != tried.scratches {
             self.reading.tried = None;
             return;
         }
         let frame = self.engine.latest().filter(|frame| {
-            let painted = &frame.painted;
-            let is_whole = painted.thin == 1 && painted.size_px == frame.view.size_px;
-            is_whole && frame.built.description.lights == tried.lights
+            frame.has_all_scratches() && frame.built.description.lights == tried.lights
         });
-        let Some((stops, share)) = frame.and_then(|frame| frame.findings.best_lamps) else {
+        let Some((mut stops, shown)) = frame.and_then(|frame| frame.findings.best_lamps) else {
             return;
         };
         self.reading.tried = None;
-        if stops != 0 && self.document.undo_label() == Some(LAMPS) {
+        if self.document.undo_label() != Some(LAMPS) {
+            stops = 0;
+        }
+        if stops != 0 {
             // The same step with other lamps.
             let lit = Arc::clone(self.document.description());
             self.document.undo();
@@ -181,14 +192,7 @@ impl Workspace {
                 Ok(selection)
             });
         }
-        if share < FAINT {
-            let text = format!(
-                "No brightness of lamps shows more than {:.0} % of the scratches from here: the surface sends more light itself, as brushed metal and paint do. A smoother \
-                 surface, deeper scratches or a nearer view show more.",
-                100.0 * share
-            );
-            self.notices.note("light", text);
-        }
+        self.notices.note("light", lamps_text(stops, shown, before));
     }
 
     /// Height of their lowest point along the vertical.
@@ -225,4 +229,29 @@ impl Workspace {
         let (low_m, high_m) = self.bounds_m(object);
         low_m.distance(high_m)
     }
+}
+
+/// What became of lamps for scratches that were made brighter by so many stops, in a line.
+fn lamps_text(stops: i32, shown: Shown, before: Option<Shown>) -> String {
+    let percent = |share: f32| format!("{:.0} %", 100.0 * share);
+    let mut text = match shown.noticed < LITTLE {
+        true => format!("The {}", shown.little()),
+        false => format!(
+            "Light for the scratches shows {} of them; {} of where they lie is white.",
+            percent(shown.noticed),
+            percent(shown.white)
+        ),
+    };
+    match stops {
+        0 => {}
+        1.. => text += &format!(" The lamps are {} times as bright as at first.", 1 << stops),
+        ..0 => text += &format!(" The lamps are 1/{} as bright as at first.", 1 << -stops),
+    }
+    if let Some(before) = before
+        && before.noticed > shown.noticed
+    {
+        let better = percent(before.noticed);
+        text += &format!(" The lights before showed {better}: undo brings them back.");
+    }
+    text
 }

@@ -18,7 +18,14 @@ fn scratches_that_are_hardly_seen_are_offered_other_light() {
     let mut harness = viewer(FAINT);
     wait_built(&mut harness);
     (harness.state_mut().document_mut()).select(Selection::Object(0));
-    let noticed = |viewer: &Viewer| viewer.engine().latest()?.findings.noticed;
+    let noticed = |viewer: &Viewer| {
+        viewer
+            .engine()
+            .latest()?
+            .findings
+            .shown
+            .map(|it| it.noticed)
+    };
     wait_until(&mut harness, "few are noticed", |viewer| {
         noticed(viewer).is_some_and(|share| share < 0.05)
     });
@@ -29,6 +36,10 @@ fn scratches_that_are_hardly_seen_are_offered_other_light() {
     assert_eq!(lit.scratches, before.scratches);
     wait_until(&mut harness, "more are noticed", |viewer| {
         noticed(viewer).is_some_and(|share| share > 0.1)
+    });
+    wait_until(&mut harness, "what it did is told", |viewer| {
+        let said = viewer.messages().concat();
+        said.contains("ight for the scratches shows")
     });
     harness.run_steps(2);
     assert!(harness.query_by_label(LIGHT).is_none(), "it is done");
@@ -52,10 +63,8 @@ fn scratches_that_no_lamp_shows_are_told_of() {
     click_on(&mut harness, "Edit");
     click_on(&mut harness, LIGHT);
     wait_until(&mut harness, "what shows is measured", |viewer| {
-        viewer
-            .messages()
-            .concat()
-            .contains("No brightness of lamps")
+        let said = viewer.messages().concat();
+        said.contains("shows 0 % of them from here")
     });
     common::undo(&mut harness);
     assert_eq!(*description(&harness), *before);
