@@ -55,7 +55,8 @@ impl Viewport {
             egui::Popup::close_all(ui.ctx());
         }
         let is_in_hand = is_brush && !alt && !is_shielded && fingers.is_none();
-        self.stroke.interact(ui, work, area, response, is_in_hand);
+        let hand = (is_in_hand, &self.canvas);
+        self.stroke.interact(ui, work, area, response, hand);
         if pans && moved != DVec2::ZERO {
             let key = DragKey::of("pan");
             work.move_view("Pan", Some(key), |camera| {

@@ -2,21 +2,27 @@
 
 mod draw_brush;
 
+use std::sync::Arc;
+
 use egui::{PointerButton, Pos2, Response, Ui};
 use glam::{DMat4, DVec3};
 use hairline_editor::Selection;
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
 use hairline_scene::description;
 
-use crate::engine::Built;
+use crate::engine::{Built, Frame};
 use crate::overlays::Overlay;
+use crate::seen::makes_same_scene;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
 use super::Area;
+use super::canvas::CanvasTexture;
 use super::lens::Lens;
 use super::pick::{self, Picked};
-use draw_brush::{Drawn, color, show_drawn, show_ring, show_way, stroke_count};
+use draw_brush::{
+    Drawn, are_alike, color, is_comparable, show_drawn, show_ring, show_way, stroke_count,
+};
 
 /// Distance of rays between two places of the pointer, points.
 const SPACING: f32 = 3.0;
@@ -35,6 +41,8 @@ pub(super) struct StrokeTool {
     is_cancelled: bool,
     /// Strokes that were drawn last, kept until a picture shows them.
     drawn: Option<Drawn>,
+    /// The newest pictures of the closed form, of each number of pixels and scratches.
+    clean: Vec<Arc<Frame>>,
 }
 
 /// State of one drag. It stays on the object that it began on, and is one step.
@@ -65,8 +73,13 @@ impl StrokeTool {
         work: &mut Workspace,
         area: &Area,
         response: &Response,
-        is_in_hand: bool,
+        (is_in_hand, canvas): (bool, &CanvasTexture),
     ) {
+        if let Some(frame) = work.engine.latest().filter(|frame| is_comparable(frame)) {
+            let built = &frame.built;
+            (self.clean).retain(|it| Arc::ptr_eq(&it.built, built) && !are_alike(it, &frame));
+            self.clean.push(frame);
+        }
         let is_held = is_in_hand
             && response.is_pointer_button_down_on()
             && ui.input(|input| input.pointer.button_down(PointerButton::Primary));
@@ -100,12 +113,13 @@ impl StrokeTool {
                 show_way(&painter, &lens, way_m, color);
             }
         }
-        show_drawn(ui, work, &mut self.drawn, area);
+        show_drawn(ui, work, &mut self.drawn, area, canvas);
         if !is_held {
             self.is_cancelled = false;
             self.before = None;
             if let Some(going) = self.going_on.take() {
-                self.drawn = finish(work, going).or(self.drawn.take());
+                let last = self.drawn.take();
+                self.drawn = finish(work, going, last, &self.clean);
             }
         }
     }
@@ -278,17 +292,31 @@ fn settings(work: &mut Workspace, hit: &Picked) -> BrushSettings {
     work.brush()
 }
 
-/// All strokes of the drag as one step.
-fn finish(work: &mut Workspace, mut going: Going) -> Option<Drawn> {
+/// All strokes of the drag as one step, after those of `last`, which no picture may show yet. `clean` may be pictures without them.
+fn finish(
+    work: &mut Workspace,
+    mut going: Going,
+    last: Option<Drawn>,
+    clean: &[Arc<Frame>],
+) -> Option<Drawn> {
     going.lift();
     if going.done.is_empty() {
-        return None;
+        return last;
     }
     let label = match going.settings.erase {
         true => "Erase",
         false => "Brush stroke",
     };
-    let ways_m = going.done.iter().map(|(_, way_m)| way_m.clone()).collect();
+    let radius_m = going.settings.radius_m;
+    let mut ways_m: Vec<_> = going.done.iter().map(|(_, way_m)| way_m.clone()).collect();
+    let (description, revision) = (work.document.description(), work.document.revision());
+    let is_without = |frame: &&Arc<Frame>| makes_same_scene(&frame.built.description, description);
+    let mut before: Vec<_> = clean.iter().filter(is_without).cloned().collect();
+    if let Some(last) = last.filter(|last| last.revision == revision && !last.is_judged) {
+        // All that the picture is without.
+        ways_m.extend(last.ways_m);
+        before = last.before;
+    }
     let done = work.document.apply(label, |description, selection| {
         // The strokes go where they were drawn, whatever was selected.
         let mut selection = match selection.object(description) {
@@ -309,5 +337,10 @@ fn finish(work: &mut Workspace, mut going: Going) -> Option<Drawn> {
         revision: work.document.revision(),
         strokes: stroke_count(work.document.description()),
         tool: work.toolbox.tool,
+        radius_m,
+        before,
+        // What was erased shows no more.
+        is_judged: work.toolbox.tool == Tool::Eraser,
+        is_faint: false,
     })
 }

@@ -317,3 +317,49 @@ fn full_size(harness: &mut Harness<'static, Viewer>) -> std::sync::Arc<egui::Col
         hairline_viewer::engine::Picture::Texture(_) => panic!("the CPU paints pixels"),
     }
 }
+
+/// A dark polished plate whose lamp has its mirror image there on the plate's plane.
+fn plate_with_highlight_at(x_m: f64) -> &'static str {
+    let scene = SceneFile::seen_from([0.0, -0.3, 0.3])
+        .fov_y_deg(30.0)
+        .mirror("m")
+        .object("plate", "m", "plane = { size_m = [0.2, 0.2] }")
+        .sphere([2.0 * x_m, 0.3, 0.3], 0.01, 500.0);
+    scene.to_string().leak()
+}
+
+/// The stroke that the brush has drawn, over the picture.
+fn marks(harness: &Harness<'static, Viewer>) -> usize {
+    let shapes = harness.output().shapes.iter().map(|clipped| &clipped.shape);
+    let is_mark =
+        |shape: &&egui::Shape| matches!(shape, egui::Shape::Path(path) if path.stroke.width == 3.0);
+    shapes.filter(is_mark).count()
+}
+
+#[test]
+fn a_stroke_that_hardly_shows_is_marked_and_told_of() {
+    for (x_m, is_faint) in [(0.0, false), (40.0, true)] {
+        let mut harness = with_brush(plate_with_highlight_at(x_m));
+        let is_whole = |viewer: &Viewer| {
+            viewer
+                .engine()
+                .latest()
+                .is_some_and(|frame| frame.painted.is_final)
+        };
+        common::wait_until(&mut harness, "a whole picture", is_whole);
+        let from = middle(&harness) + vec2(-30.0, 5.0);
+        common::drag(&mut harness, from, from + vec2(60.0, 0.0), 12);
+        assert_eq!(marks(&harness), 1, "nothing shows it yet");
+        let revision = harness.state().document().revision();
+        common::wait_until(&mut harness, "a whole picture of it", |viewer| {
+            let frame = viewer.engine().latest();
+            frame.is_some_and(|it| it.built.revision >= revision && it.painted.is_final)
+        });
+        harness.run_steps(2);
+        let said = harness.state().messages().concat();
+        assert_eq!(said.contains("The stroke hardly shows"), is_faint, "{said}");
+        assert_eq!(marks(&harness), usize::from(is_faint));
+        common::key(&mut harness, egui::Key::V);
+        assert_eq!(marks(&harness), 0);
+    }
+}

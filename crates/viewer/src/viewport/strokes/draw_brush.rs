@@ -1,16 +1,21 @@
 //! Drawing of the brush over the picture: its edge, and the strokes that the picture does not have yet.
 
-use egui::{Color32, Painter, Pos2, Shape, Stroke, Ui};
+use std::sync::Arc;
+
+use egui::{Color32, ColorImage, Painter, Pos2, Shape, Stroke, Ui};
 use glam::DVec3;
+use hairline_editor::shown::{FAINT, LITTLE};
 use hairline_scene::Description;
 
+use crate::engine::Frame;
 use crate::tools::Tool;
+use crate::viewport::canvas::CanvasTexture;
 use crate::viewport::lens::Lens;
 use crate::viewport::pick::Picked;
 use crate::viewport::{Area, ink};
 use crate::workspace::Workspace;
 
-/// Strokes of the scene that no picture shows yet, since laying takes long on a slow machine.
+/// Strokes of the scene that no picture shows yet, since laying takes long on a slow machine, or that hardly show.
 pub(super) struct Drawn {
     pub ways_m: Vec<Vec<DVec3>>,
     /// Revision of the document with the strokes.
@@ -18,34 +23,153 @@ pub(super) struct Drawn {
     /// Number of strokes that the scene has with them: with fewer, they were taken away again.
     pub strokes: usize,
     pub tool: Tool,
+    pub radius_m: f64,
+    /// Pictures without them, to be compared with.
+    pub before: Vec<Arc<Frame>>,
+    /// Whether it is known how a whole picture shows them, or nobody asks.
+    pub is_judged: bool,
+    /// Whether that shows little of them.
+    pub is_faint: bool,
 }
 
 impl Drawn {
-    fn is_awaited(&self, work: &Workspace) -> bool {
-        let description = work.document.description();
-        let is_there = stroke_count(description) >= self.strokes;
+    /// Whether no picture has them.
+    pub fn is_awaited(&self, work: &Workspace) -> bool {
         let shown = work.engine.latest().map(|frame| frame.built.revision);
-        is_there && shown.is_some_and(|shown| shown < self.revision)
+        shown.is_some_and(|shown| shown < self.revision)
+    }
+
+    fn is_there(&self, work: &Workspace) -> bool {
+        stroke_count(work.document.description()) >= self.strokes
+    }
+
+    /// Compares a picture that has the strokes with one alike without them; where there was none, judges by what a whole one shows in all.
+    fn judge(&mut self, work: &mut Workspace, lens: &Lens, area: &Area, canvas: &CanvasTexture) {
+        let view = work.engine.view();
+        let after = work.engine.latest().filter(|frame| {
+            frame.built.revision >= self.revision
+                && is_comparable(frame)
+                && Some(frame.view) == view
+        });
+        let Some(after) = after.filter(|_| !self.is_judged) else {
+            return;
+        };
+        self.is_judged = after.has_all_scratches();
+        let pixels = |frame: &Frame| canvas.pixels(&frame.picture);
+        let before = self.before.iter().find(|before| are_alike(before, &after));
+        let pair = before.and_then(|before| Some((pixels(before)?, pixels(&after)?)));
+        self.is_faint = match pair {
+            Some((before, after)) => {
+                changed(&before, &after, &self.ways_m, self.radius_m, lens, area) < LITTLE
+            }
+            None => {
+                let shown = after.findings.shown.filter(|_| self.is_judged);
+                shown.is_some_and(|shown| shown.noticed < FAINT)
+            }
+        };
+        self.is_judged |= self.is_faint;
+        if self.is_faint {
+            let lights = &work.document.description().lights;
+            let is_lit = lights.iter().any(|it| it.name.as_deref() == Some("lamp"));
+            let text = match is_lit {
+                false => {
+                    "The stroke hardly shows under these lights: Edit > Light for the scratches."
+                }
+                true => {
+                    "The stroke hardly shows here: press L and click beside it to bring a highlight there, or draw denser, wider or deeper."
+                }
+            };
+            work.notices.note("stroke", text);
+        }
     }
 }
+
+/// Whether a picture is the closed form, fine enough to tell whether a stroke shows: shadows and bounces differ by noise.
+pub(super) fn is_comparable(frame: &Frame) -> bool {
+    let width = |px: [u32; 2]| f64::from(px[0]);
+    let is_fine = width(frame.painted.size_px) >= LEAST_SCALE * width(frame.view.size_px);
+    is_fine && frame.is_whole() && !frame.painted.transport.shadows
+}
+
+/// Whether two pictures have as many pixels and scratches, shown alike.
+pub(super) fn are_alike(a: &Frame, b: &Frame) -> bool {
+    (a.painted.size_px, a.painted.thin) == (b.painted.size_px, b.painted.thin)
+        && a.view.has_same_pixels(&b.view)
+        && a.view.is_shown_as(&b.view)
+}
+
+/// Scale of the coarsest picture that is looked at.
+const LEAST_SCALE: f64 = 0.35;
+
+/// The share of the ways on which two pictures differ so that it is noticed, somewhere across the brush.
+fn changed(
+    before: &ColorImage,
+    after: &ColorImage,
+    ways_m: &[Vec<DVec3>],
+    radius_m: f64,
+    lens: &Lens,
+    area: &Area,
+) -> f32 {
+    let [width, height] = before.size;
+    if before.size != after.size {
+        return 1.0;
+    }
+    let px_per_point = width as f32 / area.rect.width().max(1.0);
+    let is_changed = |x: i32, y: i32| {
+        let is_inside = (0..width as i32).contains(&x) && (0..height as i32).contains(&y);
+        let at = |image: &ColorImage| image.pixels[y as usize * width + x as usize].to_array();
+        is_inside && std::iter::zip(at(before), at(after)).any(|(a, b)| a.abs_diff(b) >= NOTICED)
+    };
+    let (mut looked_at, mut changed) = (0, 0);
+    for point_m in ways_m.iter().flatten() {
+        let Some(pos) = lens.project(*point_m) else {
+            continue;
+        };
+        let [x, y] = ((pos - area.rect.min) * px_per_point).into();
+        let reach = (radius_m / lens.m_per_point(*point_m)) as f32 * px_per_point;
+        let reach = reach.clamp(1.0, MOST_REACH_PX) as i32;
+        let (x, y) = (x as i32, y as i32);
+        let mut across = (-reach..=reach).flat_map(|i| (-reach..=reach).map(move |j| (i, j)));
+        looked_at += 1;
+        changed += u32::from(across.any(|(i, j)| is_changed(x + i, y + j)));
+    }
+    changed as f32 / looked_at.max(1) as f32
+}
+
+/// As of [`hairline_image::Display::is_noticed`].
+const NOTICED: u8 = 5;
+const MOST_REACH_PX: f32 = 16.0;
 
 pub(super) fn stroke_count(description: &Description) -> usize {
     let layers = description.scratches.iter();
     layers.map(|layer| layer.strokes.len()).sum()
 }
 
-/// Shows the strokes that were drawn last, while the picture is without them.
-pub(super) fn show_drawn(ui: &Ui, work: &Workspace, kept: &mut Option<Drawn>, area: &Area) {
-    let Some(drawn) = kept.take() else {
+/// Shows the strokes that were drawn last, while the picture is without them, and with a brush in hand while it shows little of them.
+pub(super) fn show_drawn(
+    ui: &Ui,
+    work: &mut Workspace,
+    kept: &mut Option<Drawn>,
+    area: &Area,
+    canvas: &CanvasTexture,
+) {
+    let Some(drawn) = kept else {
         return;
     };
-    if drawn.is_awaited(work) {
-        let lens = Lens::new(&work.camera(), area);
-        let painter = ui.painter().with_clip_rect(area.rect);
-        for way_m in &drawn.ways_m {
-            show_way(&painter, &lens, way_m, color(drawn.tool));
-        }
-        *kept = Some(drawn);
+    let lens = Lens::new(&work.camera(), area);
+    drawn.judge(work, &lens, area, canvas);
+    let has_brush = matches!(work.toolbox.tool, Tool::Brush | Tool::Eraser);
+    let is_marked = drawn.is_awaited(work) || has_brush && (drawn.is_faint || !drawn.is_judged);
+    if drawn.is_judged && !is_marked || !drawn.is_there(work) {
+        *kept = None;
+        return;
+    }
+    if !is_marked {
+        return;
+    }
+    let painter = ui.painter().with_clip_rect(area.rect);
+    for way_m in &drawn.ways_m {
+        show_way(&painter, &lens, way_m, color(drawn.tool));
     }
 }
 
