@@ -10,6 +10,7 @@ use std::path::Path;
 
 use anyhow::anyhow;
 use hairline_console::{Switch, tell};
+use hairline_editor::shown::{LITTLE, Shown};
 use hairline_image::exr_file::Notes;
 use hairline_image::{Animation, Display, Format, Image, Output};
 use hairline_published::Method;
@@ -62,6 +63,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         highlight: arguments.highlight.as_ref(),
         is_lit_for_scratches: arguments.scene_flags.show_scratches,
         wear: arguments.scene_flags.wear,
+        interrupt: None,
     };
     let mut outputs = target.paths();
     outputs.extend(labels.as_ref().map(Output::path));
@@ -101,6 +103,11 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
             } = rendered;
             if let Some(nothing) = nothing_seen(&image) {
                 tell(format_args!("note: {nothing}"));
+            }
+            if arguments.scene_flags.show_scratches
+                && let Some(shown) = Shown::of(&image, &display).filter(|it| it.noticed < LITTLE)
+            {
+                tell(format_args!("note: {}", shown.little()));
             }
             if image
                 .alpha

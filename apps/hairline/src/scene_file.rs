@@ -15,6 +15,7 @@ use hairline_scene::inputs::{Input, is_same_file};
 use hairline_scene::{Loader, Scene, SceneBuilder, Stage, reading};
 
 use crate::highlight::{self, Highlight};
+use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use hairline_work::failure::Failure;
 
@@ -39,6 +40,8 @@ pub struct Overrides<'a> {
     pub is_lit_for_scratches: bool,
     /// Wear of the objects that the scene is about.
     pub wear: Option<Wear>,
+    /// Ends the reading with an error; none where nobody listens.
+    pub interrupt: Option<&'a Interrupt>,
 }
 
 /// A scene with its description and its files.
@@ -137,6 +140,7 @@ pub fn load(
             });
             progress.set(at.done as f64 / at.total.max(1) as f64);
         },
+        cancelled: &|| overrides.interrupt.is_some_and(Interrupt::is_asked),
         ..Loader::default()
     };
     let wrong = |error: hairline_scene::Error| error.in_scene_file(&source.text, &source.name);

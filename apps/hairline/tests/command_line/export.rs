@@ -100,3 +100,43 @@ fn a_file_of_an_unknown_version_is_shown_plain_and_told() {
     let wanted = "worn.glb: extensions.HAIRLINE_scratches.version: found version 9; must be 1";
     assert!(told.contains(wanted), "{told}");
 }
+
+#[test]
+fn a_file_that_is_mostly_laid_scratches_names_the_flag() {
+    let worn = WORN.replace("count = 30", "count = 30000");
+    let folder = folder_with("s.toml", &bare_plate().part(&worn).to_string());
+    let told = |flags: &str| {
+        let run = format!("export s.toml -o worn.glb{flags}");
+        stderr_of(&hairline(folder.path(), &run).success())
+    };
+    assert!(told("").contains("of it and more are scratches as they lie"));
+    assert!(!told(" --laid off").contains("--laid"));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_export_says_so() {
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+    let worn = WORN.replace("count = 30", "count = 3000000");
+    let folder = folder_with("s.toml", &bare_plate().part(&worn).to_string());
+    let child = Command::new(assert_cmd::cargo::cargo_bin("hairline"))
+        .current_dir(folder.path())
+        .args(["export", "s.toml", "-o", "worn.glb"])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(300));
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(kill.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(
+        told.contains("interrupted: worn.glb is not written"),
+        "{told}"
+    );
+    assert!(!folder.path().join("worn.glb").exists());
+}

@@ -4,6 +4,7 @@ use std::fs;
 
 use crate::common::{folder_with, hairline, stderr_of};
 use hairline_fixtures::scenes::bare_plate;
+use hairline_fixtures::{DISK, SceneFile};
 
 const LISTED: &str = "[[scratches]]\nobject = \"plate\"\npattern = \"file\"\nfile = \"list.csv\"\n\
                       [[scratches]]\nobject = \"plate\"\npattern = \"random\"\ncount = 3\nlength_m = 0.01\n";
@@ -66,4 +67,30 @@ fn laid_scratches_are_listed_as_they_lie() {
         assert!(text.contains(message), "{arguments}: {text}");
     }
     assert_eq!(read("list.csv"), list, "what the scene is made of stays");
+}
+
+/// Light for scratches that shows little of them says so; shallow ones drown in what a rough base sends.
+#[test]
+fn light_that_hardly_shows_scratches_is_told_of() {
+    for (base, depth_nm, is_told) in [
+        ("roughness = 0.5", 15, true),
+        ("roughness = 0.05", 180, false),
+    ] {
+        let scene = SceneFile::seen_from([0.0, -0.3, 0.3])
+            .metal("m", "steel")
+            .with(base)
+            .object("plate", "m", DISK)
+            .random("plate", 1500)
+            .with(&format!(
+                "length_m = 0.03\nwidth_um = 4.0\ndepth_nm = {depth_nm}"
+            ));
+        let folder = folder_with("s.toml", &scene.to_string());
+        let run = "render s.toml --show-scratches --backend cpu --size 96x64 --samples 1 --shadows off -o a.png";
+        let told = stderr_of(&hairline(folder.path(), run).success());
+        assert_eq!(
+            told.contains("light for the scratches shows"),
+            is_told,
+            "{told}"
+        );
+    }
 }
