@@ -14,7 +14,7 @@ const WHITE: f32 = 245.0 / 255.0;
 /// Stops that are tried.
 const LAMP_STOPS: std::ops::RangeInclusive<i32> = -10..=2;
 /// What other lamps must show over that of those that are there.
-const BETTER: f32 = 1.15;
+const BETTER: f32 = 1.25;
 
 /// One pixel of so many is looked at.
 const LOOKED_AT: usize = 7;

@@ -69,7 +69,7 @@ fn shadows_add_up_when_nothing_moves_and_begin_anew_when_something_did() {
     harness.step();
     let told = |harness: &Harness<'static, Viewer>, n: u32| {
         harness
-            .query_by_label(&format!("sample {n} of 64"))
+            .query_by_label_contains(&format!("sample {n} of 64"))
             .is_some()
     };
     let newest = painted(harness.state()).samples;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Color32, ColorImage, Painter, Pos2, Shape, Stroke, Ui};
 use glam::DVec3;
-use hairline_editor::shown::{FAINT, LITTLE};
+use hairline_editor::shown::FAINT;
 use hairline_scene::Description;
 
 use crate::engine::Frame;
@@ -60,7 +60,7 @@ impl Drawn {
         let pair = before.and_then(|before| Some((pixels(before)?, pixels(&after)?)));
         self.is_faint = match pair {
             Some((before, after)) => {
-                changed(&before, &after, &self.ways_m, self.radius_m, lens, area) < LITTLE
+                changed(&before, &after, &self.ways_m, self.radius_m, lens, area) < LEAST_SEEN
             }
             None => {
                 let shown = after.findings.shown.filter(|_| self.is_judged);
@@ -101,7 +101,7 @@ pub(super) fn are_alike(a: &Frame, b: &Frame) -> bool {
 /// Scale of the coarsest picture that is looked at.
 const LEAST_SCALE: f64 = 0.35;
 
-/// The share of the ways on which two pictures differ so that it is noticed, somewhere across the brush.
+/// The share of the ways on which two pictures differ so that it is seen, somewhere across the brush.
 fn changed(
     before: &ColorImage,
     after: &ColorImage,
@@ -118,7 +118,7 @@ fn changed(
     let is_changed = |x: i32, y: i32| {
         let is_inside = (0..width as i32).contains(&x) && (0..height as i32).contains(&y);
         let at = |image: &ColorImage| image.pixels[y as usize * width + x as usize].to_array();
-        is_inside && std::iter::zip(at(before), at(after)).any(|(a, b)| a.abs_diff(b) >= NOTICED)
+        is_inside && std::iter::zip(at(before), at(after)).any(|(a, b)| a.abs_diff(b) >= SEEN)
     };
     let (mut looked_at, mut changed) = (0, 0);
     for point_m in ways_m.iter().flatten() {
@@ -136,8 +136,10 @@ fn changed(
     changed as f32 / looked_at.max(1) as f32
 }
 
-/// As of [`hairline_image::Display::is_noticed`].
-const NOTICED: u8 = 5;
+/// Change of a component, of 255, that is seen without a search for it.
+const SEEN: u8 = 12;
+/// Share of a stroke's way on which it must be seen.
+const LEAST_SEEN: f32 = 0.5;
 const MOST_REACH_PX: f32 = 16.0;
 
 pub(super) fn stroke_count(description: &Description) -> usize {
