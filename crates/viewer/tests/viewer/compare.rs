@@ -60,8 +60,8 @@ fn rendered(text: &str, size_px: [u32; 2]) -> Image {
         samples: 16,
         ..RenderOptions::default()
     };
-    let laid = Prepared::watched(&scene, Pieces::Laid, &Watch::default());
-    laid.unwrap().render(&options, &|_| {})
+    let near = Prepared::watched(&scene, Pieces::Near, &Watch::default());
+    near.unwrap().render(&options, &|_| {})
 }
 
 #[test]
@@ -92,9 +92,10 @@ fn agrees_and_another_does_not(text: &'static str) {
     assert!(agrees(&beauty, beauty.mean, 0.15), "{figures:?}");
     // The closed form is within a few percent of the integral where scratches are many.
     assert!(agrees(&scratches, scratches.mean, 0.03), "{figures:?}");
-    // The comparison's picture is the renderer's, of scratches as they were laid.
+    // The comparison's picture is the renderer's, of the arcs that the window has at another size.
     let right = rendered(text, figures.size_px);
-    assert!((mean(&right, Layer::Scratches) / scratches.mean - 1.0).abs() < 1e-6);
+    let off = mean(&right, Layer::Scratches) / scratches.mean - 1.0;
+    assert!(off.abs() < 2e-3, "{off}");
 
     // Grooves half as deep scatter less.
     let shallow = text
