@@ -109,9 +109,9 @@ impl Folder {
 
     /// Writes a scene, with fewer scratches, into the file that the text before it names.
     fn scene(&self, block: &Block) {
-        let names = block.before.split('`').filter(|it| it.ends_with(".toml"));
+        let mut names = block.before.split('`').filter(|it| it.ends_with(".toml"));
         let name = names
-            .last()
+            .next_back()
             .unwrap_or_else(|| panic!("{}: has no name", block.place));
         let few = |line: &str| match line.split_once(" = ") {
             Some((key @ ("count" | "density_per_m2"), _)) => format!("{key} = 20\n"),
@@ -221,8 +221,8 @@ impl Folder {
                 let file = root().join(format!("lab/src/{task}.rs"));
                 let text = fs::read_to_string(&file).expect(task);
                 let flags = flags.iter().filter_map(|word| word.strip_prefix("--"));
-                let missing = flags.filter(|flag| !text.contains(&format!("\n    {flag}: ")));
-                assert_eq!(missing.last(), None, "{}: no flag of {task}", block.place);
+                let mut missing = flags.filter(|flag| !text.contains(&format!("\n    {flag}: ")));
+                assert_eq!(missing.next(), None, "{}: no flag of {task}", block.place);
                 return true;
             }
             // Outside of the workspace, of whose dependencies none need be there.
