@@ -29,7 +29,7 @@ pub enum Pieces {
     Laid,
     /// Arcs, as long as the camera of the scene does not tell them from what was laid, at the size of its picture.
     Seen,
-    /// Arcs that serve a camera that comes up to [`NEARER`] times as near, too.
+    /// Arcs that serve a camera that comes up to four times as near, too.
     Near,
 }
 
