@@ -22,6 +22,7 @@ pub struct Prepared<'a> {
     pub(crate) draft: Option<Arc<Draft>>,
     /// Sampler of rays to the environment.
     sampler: OnceLock<EnvironmentSampler>,
+    /// How far normals may differ at which the environment counts as the same.
     alike_rad: OnceLock<f64>,
 }
 

@@ -36,23 +36,23 @@ pub enum Pieces {
 /// See [`Pieces::Near`].
 const NEARER: f32 = 4.0;
 
-/// Distance by which arcs may lie beside what was laid, metres, and the box of each object; 0 where pieces stay as they were laid.
+/// Distance by which arcs may lie beside what was laid, metres, and the box of each object; 0, and no box, where pieces stay as they were laid.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Deviations(Vec<(f32, [Vec3; 2])>);
 
 impl Deviations {
     /// Those of the pieces of a scene.
     pub(crate) fn of(scene: &Scene, pieces: Pieces) -> Self {
+        let frame = scene.camera.frame(scene.render.size_px);
         let of = |object: &Object| {
-            let (low, high) = object.mesh.bounds_m();
-            let bounds_m = [low, high];
-            let seen = || seen_m(bounds_m, &scene.camera.frame(scene.render.size_px));
-            let deviation_m = match pieces {
-                Pieces::Laid => 0.0,
-                Pieces::Seen => seen(),
-                Pieces::Near => seen() / NEARER,
+            let nearer = match pieces {
+                // Their boxes are not measured: a scene is sketched at each step of a drag.
+                Pieces::Laid => return (0.0, [Vec3::ZERO; 2]),
+                Pieces::Seen => 1.0,
+                Pieces::Near => NEARER,
             };
-            (deviation_m, bounds_m)
+            let bounds_m = object.mesh.bounds_m().into();
+            (seen_m(bounds_m, &frame) / nearer, bounds_m)
         };
         Self(scene.objects.iter().map(of).collect())
     }

@@ -1,5 +1,5 @@
 //! Places along a segment, at each of which the environment lights it once: at the point that sees most of it (docs/model.md, section 8).
-//! Blurred by the cells of the band, an environment differs little over a pixel or two where a surface is smooth; a footprint is six pixels wide.
+//! Blurred by the cells of the band, an environment differs little over a pixel or two where a surface is smooth; points up to two pixels to either side see a segment.
 
 use super::point::ScratchPoint;
 use glam::{DVec2, DVec3, Vec3};
