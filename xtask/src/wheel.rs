@@ -22,11 +22,12 @@ pub struct Wheel {
 /// Package that builds it.
 pub const MATURIN: &str = "maturin>=1.9,<2";
 /// Packages that build and test it.
-const TOOLS: [&str; 10] = [
+const TOOLS: [&str; 11] = [
     MATURIN,
     "numpy",
     "pillow",
     "pytest",
+    "pytest-xdist",
     "mypy",
     "typing_extensions",
     "distributed",
@@ -116,6 +117,8 @@ impl Wheel {
             run(python()
                 .current_dir(&output)
                 .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
+                // Most of a test runs on one core.
+                .args(["-n", "auto", "--dist", "worksteal"])
                 .args(which)
                 .arg(package.join("tests"))
                 .env("HAIRLINE_PROGRAM", &program)

@@ -32,8 +32,8 @@ pub(super) struct CpuStepRenderer {
     adding: Adding,
     drafts: Drafts,
     band_size: BandSize,
-    /// Whether unfinished pictures are shown, which takes time of its own.
-    shows_parts: bool,
+    /// Interval between pictures of an unfinished one; none are shown where it is none, as they take time of their own.
+    refresh: Option<Duration>,
 }
 
 /// The last picture that was done.
@@ -74,7 +74,7 @@ impl CpuStepRenderer {
             adding: Adding::default(),
             drafts: Drafts::default(),
             band_size,
-            shows_parts: band_size.breaks_off,
+            refresh: band_size.breaks_off.then_some(REFRESH),
         }
     }
 }
@@ -102,8 +102,8 @@ impl StepRenderer for CpuStepRenderer {
             .take()
             .filter(|begun| begun.step == *step && begun.order.has_same_pixels(order));
         let is_coarse = step.samples == 1 && !step.is_whole(&order.view);
-        let is_of_order = |last: &&Last| last.order.has_same_pixels(order);
-        let before = self.last.as_ref().filter(is_of_order);
+        let before = self.last.as_ref();
+        let before = before.filter(|last| last.order.has_same_pixels(order));
         let mut bands = match (begun, before) {
             (Some(begun), _) => begun.bands,
             (None, Some(last)) if step.refines(&last.step, &order.view) => {
@@ -122,16 +122,10 @@ impl StepRenderer for CpuStepRenderer {
             let draft = crew.install(|| self.drafts.of(&order.built, step.thin));
             prepared = prepared.with_draft(draft);
         }
-        // Picture for the rows that are left.
-        let before = before
-            .filter(|last| {
-                !is_coarse && self.shows_parts && !bands.only_edges && !last.step.is_added()
-            })
-            .filter(|_| order.view.reading.shows == Shows::Beauty);
+        // What was there before it, shown until the step is done.
+        let waiting = before.zip(self.refresh).filter(|_| !is_coarse);
+        let shows_rows = !bands.only_edges && order.view.reading.shows == Shows::Beauty;
         let options = options(step.samples, step.transport, step.batch);
-        // Rays take a while: the picture before them stays, and the status line tells how far they are.
-        let waiting = self.last.as_ref().filter(is_of_order);
-        let waiting = waiting.filter(|_| step.is_added() && self.shows_parts);
         let mut backdrop = None;
         let mut shown_last = Instant::now();
         let is_done = loop {
@@ -144,15 +138,22 @@ impl StepRenderer for CpuStepRenderer {
                 Some(false) => {}
                 None => break false,
             }
-            if let Some(last) = before
-                && shown_last.elapsed() > REFRESH
-            {
+            let Some((last, _)) = waiting.filter(|(_, refresh)| shown_last.elapsed() > *refresh)
+            else {
+                continue;
+            };
+            if step.is_added() {
+                // Rows of a round are noise until all are there to be filtered: the status line tells how far they are.
+                show(RenderedStep {
+                    done: bands.done(),
+                    ..last.shown(order)
+                });
+            } else if shows_rows {
                 let backdrop = backdrop.get_or_insert_with(|| {
                     Backdrop::new(&last.image, step.size_px, &order.view.display)
                 });
-                let picture = backdrop.under(&bands.image, bands.next_row);
                 show(RenderedStep {
-                    picture,
+                    picture: backdrop.under(&bands.image, bands.next_row),
                     size_px: step.size_px,
                     samples: step.samples,
                     of_samples: None,
@@ -162,17 +163,8 @@ impl StepRenderer for CpuStepRenderer {
                     passes: Vec::new(),
                     findings: Findings::default(),
                 });
-                shown_last = Instant::now();
             }
-            if let Some(last) = waiting
-                && shown_last.elapsed() > REFRESH
-            {
-                show(RenderedStep {
-                    done: bands.done(),
-                    ..last.shown(order)
-                });
-                shown_last = Instant::now();
-            }
+            shown_last = Instant::now();
         };
         if !is_done {
             self.begun = Some(Begun {
@@ -243,6 +235,90 @@ impl Last {
             done: 1.0,
             passes: Vec::new(),
             findings,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::View;
+    use super::super::build::ViewBuilder;
+    use super::super::steps::SHADOW_SAMPLES;
+    use super::*;
+    use hairline_fixtures::scenes::scratched_plate;
+    use hairline_image::{Batch, Display, ToneMap};
+    use hairline_scene::Transport;
+    use std::path::Path;
+
+    /// A plate with shadows in a view so large that its rounds take several bands.
+    fn order() -> Order {
+        let description = Arc::new(scratched_plate().description());
+        let now = Instant::now();
+        let built = ViewBuilder::default()
+            .build(&|| false, 1, now, description, Path::new(""), None)
+            .unwrap()
+            .unwrap();
+        let view = View {
+            reading: Default::default(),
+            camera: built.scene.camera,
+            size_px: [128, 96],
+            display: Display {
+                exposure_ev: 0.0,
+                tone_map: ToneMap::default(),
+            },
+            filter_std_px: 0.5,
+            transport: Transport {
+                shadows: true,
+                bounces: 0,
+            },
+        };
+        let built = Arc::new(built);
+        Order { built, view }
+    }
+
+    fn shown(renderer: &mut CpuStepRenderer, order: &Order, step: &Step) -> Vec<RenderedStep> {
+        let mut shown = Vec::new();
+        let mut show = |step| shown.push(step);
+        let painting = renderer.paint(order, step, &|| false, &mut show);
+        assert!(pollster::block_on(painting).unwrap());
+        shown
+    }
+
+    fn pixels(step: &RenderedStep) -> &[egui::Color32] {
+        match &step.picture {
+            Picture::Pixels(image) => &image.pixels,
+            Picture::Texture(_) => panic!("the CPU renders no texture"),
+        }
+    }
+
+    /// Rows of a round that is not whole are noise.
+    #[test]
+    fn a_round_is_shown_when_it_is_whole() {
+        let order = order();
+        let mut renderer = CpuStepRenderer {
+            refresh: Some(Duration::ZERO),
+            ..CpuStepRenderer::new(IN_TURN)
+        };
+        let step = |transport, batch: Option<Batch>| Step {
+            size_px: order.view.size_px,
+            samples: batch.map_or(1, |_| SHADOW_SAMPLES),
+            thin: 1,
+            transport,
+            batch,
+        };
+        let mut before = shown(&mut renderer, &order, &step(Transport::DIRECT, None));
+        for batch in Batch::growing(SHADOW_SAMPLES).take(2) {
+            let step = step(order.view.transport, Some(batch));
+            let round = shown(&mut renderer, &order, &step);
+            let (last, parts) = round.split_last().unwrap();
+            assert!(parts.len() > 2, "{} bands", parts.len());
+            let old = before.last().unwrap();
+            for part in parts {
+                assert!(part.done < 1.0);
+                assert!(pixels(part) == pixels(old), "at {}", part.done);
+            }
+            assert!(pixels(last) != pixels(old));
+            before = round;
         }
     }
 }
