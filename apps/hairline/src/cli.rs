@@ -93,8 +93,9 @@ pub struct Export {
     /// The file: .glb.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
-    /// Whether the scratches are in it as they lie too, 44 bytes for each straight piece: programs that lay none by themselves show these.
-    #[arg(long, value_enum, default_value_t = Switch::On)]
+    /// Whether the scratches are in it as they lie too, 44 bytes for each straight piece, for programs that lay none by themselves. Hairline and its
+    /// packages for three.js and Bevy lay them.
+    #[arg(long, value_enum, default_value_t = Switch::Off)]
     pub laid: Switch,
     /// The time of the models' animations, seconds, at which the scratches lie, in place of the scene's.
     #[arg(long, value_name = "SECONDS", value_parser = parse_time)]

@@ -64,7 +64,7 @@ pub fn run(arguments: &cli::Export) -> Result<(), Failure> {
     let laid = (PIECE_BYTES * pieces) as f64;
     if export.laid && bytes > LARGE && laid > 0.5 * bytes {
         tell(format_args!(
-            "note: {} of it and more are scratches as they lie, for programs that lay none; `--laid off` leaves them out",
+            "note: {} of it and more are scratches as they lie, for programs that lay none; without `--laid on` they are left out",
             in_words(laid)
         ));
     }

@@ -2,7 +2,7 @@
 
 use crate::draft::Draft;
 use crate::sampling::environment::EnvironmentSampler;
-use crate::shade_scratches::alike_rad;
+use crate::shade_scratches::{ALIKE_ON_BUMPS_RAD, alike_rad};
 use hairline_index::{
     Hit, IndexedProfile, IndexedSegment, Pieces, ScratchIndex, TriangleIndex, Watch,
 };
@@ -129,10 +129,15 @@ impl<'a> Prepared<'a> {
         Some(self.sampler.get_or_init(sampler))
     }
 
-    /// [`alike_rad`] of the environment, if there is one.
-    pub(crate) fn alike_rad(&self) -> f64 {
+    /// The largest distance between the normals of two points of a material that the environment, if there is one, lights alike.
+    pub(crate) fn alike_rad(&self, material: usize) -> f64 {
         let environment = self.scene.environment.as_ref();
-        *(self.alike_rad).get_or_init(|| environment.map_or(0.0, alike_rad))
+        let by_environment = *(self.alike_rad).get_or_init(|| environment.map_or(0.0, alike_rad));
+        let material = &self.scene.materials[material];
+        match material.normal_texture.is_some() || material.has_coat_normals() {
+            true => by_environment.min(ALIKE_ON_BUMPS_RAD),
+            false => by_environment,
+        }
     }
 
     /// Whether the object has any scratches.

@@ -35,7 +35,7 @@ pub(crate) use course::Course;
 pub(crate) use drawn_light::{Choice, DrawnLight};
 pub(crate) use one_pair::pick_one_pair;
 pub(crate) use picks::{Pick, Picks};
-pub(crate) use places::alike_rad;
+pub(crate) use places::{ALIKE_ON_BUMPS_RAD, alike_rad};
 pub(crate) use point::{Frame, ScratchPoint};
 pub(crate) use row_spread::{ROW_PROFILE, RowSpread};
 pub(crate) use scratch_light::ScratchLight;
@@ -189,7 +189,6 @@ impl Shading<'_, '_> {
             ScratchLight::new(points[i].point.wo, course, table(i), profile).by_one_line(node)
         };
         bounds.find(segment, lit);
-        let alike_rad = prepared.alike_rad();
         let surrounding = prepared.scene.environment.as_ref().map(|environment| {
             let seen = pairs
                 .iter()
@@ -232,7 +231,9 @@ impl Shading<'_, '_> {
                     let alone = || light.environment(point.point, environment);
                     add(
                         point.views.views.len(),
-                        places.sent(point, alike_rad).unwrap_or_else(alone),
+                        places
+                            .sent(point, prepared.alike_rad(point.point.material))
+                            .unwrap_or_else(alone),
                     );
                 }
                 if let Some(picks) = picks {

@@ -25,6 +25,7 @@
 
 mod scratches;
 mod textures;
+mod unlaid_layers;
 mod worn_files;
 mod worn_object;
 

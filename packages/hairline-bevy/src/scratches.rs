@@ -84,7 +84,7 @@ fn tables(name: &str, rows: &[&str]) -> Result<String, std::fmt::Error> {
 }
 
 /// Those that this package draws; a warning tells of others.
-fn drawn(laid: Vec<Option<LaidGrating>>) -> Vec<GratingTexels> {
+pub(crate) fn drawn(laid: Vec<Option<LaidGrating>>) -> Vec<GratingTexels> {
     let all = laid.into_iter().map(|it| it?.without_pictures());
     let all: Vec<_> = all.collect();
     if all.iter().any(Option::is_none) {

@@ -334,10 +334,13 @@ impl WornFile {
         if gltf.blob.is_none() {
             return Err("found no binary chunk; must be a .glb file".to_owned());
         }
-        let objects = rows(extension, "object").map(|(_, object)| {
-            let read = WornObject::read(gltf, extension, object);
-            read.map_err(|why| format!("on object {}: {why}", object["name"]))
-        });
+        let mut objects = Vec::new();
+        for (i, object) in rows(extension, "object") {
+            let read = WornObject::read(gltf, extension, i as u64, object);
+            // Hidden ones have numbers too.
+            objects.resize(i, None);
+            objects.push(read.map_err(|why| format!("on object {}: {why}", object["name"]))?);
+        }
         Ok(Self {
             extension: extension.clone(),
             area: gltf
@@ -345,7 +348,7 @@ impl WornFile {
                 .extension_value(AREA)
                 .cloned()
                 .unwrap_or_default(),
-            objects: objects.collect::<Result<_, _>>()?,
+            objects,
         })
     }
 }

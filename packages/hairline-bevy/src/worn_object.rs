@@ -1,24 +1,36 @@
-//! An object of a file with HAIRLINE_scratches: its scratches and gratings as they lie.
+//! An object of a file with HAIRLINE_scratches: its scratches and gratings.
 
 use std::sync::Arc;
 
 use bevy::log::warn;
 use gltf::accessor::{DataType, Dimensions, Item, Iter};
-use hairline_engine::{GratingField, GratingTexels, Pieces, section};
+use hairline_engine::{GratingField, GratingTexels, LaidGrating, Pieces, section};
 use hairline_optics::metal::Metal;
 use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_GRATING_ROWS, ROWS};
-use hairline_scene::description::metal_names;
+use hairline_scene::description::{Grating, metal_names};
 use hairline_scene::{DEFAULT_COHERENCE_UM, Error, SectionId};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::Scratches;
+use crate::scratches::drawn;
+use crate::unlaid_layers::UnlaidLayers;
 
 pub(crate) const NAME: &str = "HAIRLINE_scratches";
 
+/// The scratches of an object.
+#[derive(Clone)]
+enum ScratchSource {
+    /// As they lie.
+    Laid(Pieces),
+    /// To be laid.
+    Unlaid(UnlaidLayers),
+}
+
 /// An object in its own frame and unit.
+#[derive(Clone)]
 pub(crate) struct WornObject {
     pub name: String,
-    pieces: Pieces,
+    scratches: ScratchSource,
     coherence_um: f64,
     gratings: Vec<GratingTexels>,
     pub metal: Option<Metal>,
@@ -28,9 +40,12 @@ impl WornObject {
     /// In metres, where a unit of the object is so long.
     ///
     /// # Errors
-    /// What is wrong with the pieces of its scratches.
+    /// What is wrong with its scratches.
     pub(crate) fn scratches(&self, metres: f32) -> Result<Scratches, Error> {
-        let mut pieces = self.pieces.clone();
+        let mut pieces = match &self.scratches {
+            ScratchSource::Laid(pieces) => pieces.clone(),
+            ScratchSource::Unlaid(layers) => layers.lay(metres)?,
+        };
         for rows in [&mut pieces.starts, &mut pieces.ends] {
             for x in rows.as_flattened_mut() {
                 *x *= metres;
@@ -50,19 +65,18 @@ impl WornObject {
     pub(crate) fn read(
         gltf: &gltf::Gltf,
         extension: &Value,
+        number: u64,
         object: &Value,
     ) -> Result<Option<Self>, String> {
         let of_object =
             |table| rows(extension, table).filter(|(_, row)| row["object"] == object["name"]);
-        let mut layers = Vec::new();
-        for (i, row) in of_object("scratches") {
-            match row.get("laid") {
-                Some(laid) => layers.push((i, row, laid)),
-                None => {
-                    warn!("{NAME}: not drawn: scratches[{i}], which the file has without `laid`")
-                }
-            }
-        }
+        let layers: Vec<_> = of_object("scratches").collect();
+        let mut materials = rows(extension, "material").map(|(_, row)| row);
+        let material = materials.find(|row| row["name"] == object["material"]);
+        let material = material.unwrap_or(&Value::Null);
+        let named = |(name, _): &&(&str, Metal)| material["metal"] == **name;
+        let metal = metal_names().iter().find(named).map(|(_, metal)| *metal);
+        let coherence_um = self::number(material, "coherence_um").unwrap_or(DEFAULT_COHERENCE_UM);
         let mut gratings = Vec::new();
         for (i, row) in of_object("grating") {
             match row.get("laid") {
@@ -74,35 +88,47 @@ impl WornObject {
                 Some(laid) => {
                     gratings.push(read_grating(gltf, laid, &format!("grating[{i}].laid"))?)
                 }
-                None => warn!("{NAME}: not drawn: grating[{i}], which the file has without `laid`"),
+                None => {
+                    let told = |error: Error| format!("grating[{i}]: {error}");
+                    let row = Grating::from_json(json!([row])).map_err(told)?;
+                    gratings.extend(drawn(LaidGrating::lay(&row, metal, coherence_um)));
+                }
             }
         }
         if layers.is_empty() && gratings.is_empty() {
             return Ok(None);
         }
-        let mut pieces = Pieces::default();
-        for (i, row, laid) in layers {
-            let section = section(row.get("profile").cloned());
-            let section = SectionId::new(&section.map_err(|error| error.to_string())?);
-            let way = format!("scratches[{i}].laid");
-            read_layer(gltf, laid, &way, (i as u32, section), &mut pieces)?;
-        }
-        let mut materials = rows(extension, "material").map(|(_, row)| row);
-        let material = materials.find(|row| row["name"] == object["material"]);
-        let material = material.unwrap_or(&Value::Null);
+        let laid = layers
+            .iter()
+            .map(|(i, row)| Some((*i, *row, row.get("laid")?)));
+        let scratches = match laid.collect::<Option<Vec<_>>>() {
+            Some(layers) => {
+                let mut pieces = Pieces::default();
+                for (i, row, laid) in layers {
+                    let section = section(row.get("profile").cloned());
+                    let section = SectionId::new(&section.map_err(|error| error.to_string())?);
+                    let way = format!("scratches[{i}].laid");
+                    read_layer(gltf, laid, &way, (i as u32, section), &mut pieces)?;
+                }
+                ScratchSource::Laid(pieces)
+            }
+            None => {
+                let name = &object["name"];
+                ScratchSource::Unlaid(UnlaidLayers::read(gltf, extension, number, name)?)
+            }
+        };
         if material.get("cover").is_some() {
             warn!(
                 "{NAME}: not drawn: the plate over the material of {}",
                 object["name"]
             );
         }
-        let named = |(name, _): &&(&str, Metal)| material["metal"] == **name;
         Ok(Some(Self {
             name: object["name"].as_str().unwrap_or_default().to_owned(),
-            pieces,
-            coherence_um: number(material, "coherence_um").unwrap_or(DEFAULT_COHERENCE_UM),
+            scratches,
+            coherence_um,
             gratings,
-            metal: metal_names().iter().find(named).map(|(_, metal)| *metal),
+            metal,
         }))
     }
 }
@@ -196,7 +222,7 @@ pub(crate) fn numbers<const N: usize>(value: &Value, key: &str) -> Option<[f64; 
 }
 
 /// The elements of an accessor that a key names.
-fn accessor<T: Item>(
+pub(crate) fn accessor<T: Item>(
     gltf: &gltf::Gltf,
     laid: &Value,
     way: &str,

@@ -82,6 +82,8 @@ fn a_file_shows_what_hairline_renders() {
         let described = described(&text);
         let mut scene = Scene::build(&described, scenes()).expect("a scene");
         let worn = compare_pictures(name, "a file", &scene, draw_file(&scene, &glb(&described)));
+        let as_it_lies = draw_file(&scene, &exported(&described, true));
+        compare_pictures(name, "a file as it lies", &scene, as_it_lies);
         // Of a file without any scratch Bevy draws the standard material.
         let mut bare = self::described(&with_one_scratch(&text));
         bare.gratings.clear();
@@ -164,7 +166,11 @@ fn described(text: &str) -> Description {
 }
 
 fn glb(described: &Description) -> Vec<u8> {
-    let exported = Loader::default().export(described, &scenes(), Export::default());
+    exported(described, false)
+}
+
+fn exported(described: &Description, laid: bool) -> Vec<u8> {
+    let exported = Loader::default().export(described, &scenes(), Export { laid });
     exported.expect("a file").bytes
 }
 

@@ -31,11 +31,11 @@ fn the_picture_of_the_file_is_that_of_the_scene() {
         fs::read_to_string(path.join(output)).unwrap()
     };
     assert_eq!(list("s.toml", "a.csv"), list("worn.glb", "b.csv"));
-    // Another seed lays others, and without those that lie it is smaller.
-    run("export s.toml -o other.glb --seed 7 --laid off");
+    // Another seed lays others, and with those that lie it is larger.
+    run("export s.toml -o other.glb --seed 7 --laid on");
     assert_ne!(list("s.toml", "a.csv"), list("other.glb", "b.csv"));
     let length = |name: &str| path.join(name).metadata().unwrap().len();
-    assert!(length("other.glb") + 44 * 30 < length("worn.glb"));
+    assert!(length("worn.glb") + 44 * 30 < length("other.glb"));
     let told = stdout_of(&run("info worn.glb"));
     assert!(told.contains("plate"), "{told}");
 }
@@ -52,8 +52,8 @@ fn wear_is_given_by_a_flag() {
             .lines()
             .count()
     };
-    let [new, used, old] = ["new", "used", "Old"]
-        .map(|wear| layers(&format!("s.toml -o worn.glb --laid off --wear {wear}")));
+    let [new, used, old] =
+        ["new", "used", "Old"].map(|wear| layers(&format!("s.toml -o worn.glb --wear {wear}")));
     assert!(
         30 < new && 10 * new < used && 2 * used < old,
         "{new} {used} {old}"
@@ -109,8 +109,8 @@ fn a_file_that_is_mostly_laid_scratches_names_the_flag() {
         let run = format!("export s.toml -o worn.glb{flags}");
         stderr_of(&hairline(folder.path(), &run).success())
     };
-    assert!(told("").contains("of it and more are scratches as they lie"));
-    assert!(!told(" --laid off").contains("--laid"));
+    assert!(told(" --laid on").contains("of it and more are scratches as they lie"));
+    assert!(!told("").contains("--laid"));
 }
 
 #[cfg(unix)]

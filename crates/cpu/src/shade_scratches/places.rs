@@ -13,8 +13,8 @@ const REACH: usize = 6;
 const PLACES: usize = 2 * REACH + 1;
 /// Part of itself by which an environment may change between two points that it lights alike.
 const ALIKE: f64 = 0.2;
-/// Largest such distance: the depth of a groove depends on how the viewer looks at it, whatever the environment.
-const ALIKE_MAX_RAD: f64 = 0.06;
+/// Largest such distance on bumps: the depth of a groove depends on how the viewer looks at it, whatever the environment.
+pub(crate) const ALIKE_ON_BUMPS_RAD: f64 = 0.06;
 
 /// The largest distance between the normals of two points that an environment lights alike: by its rms change over an angle, as narrow cells see it.
 pub(crate) fn alike_rad(environment: &Environment) -> f64 {
@@ -32,8 +32,7 @@ pub(crate) fn alike_rad(environment: &Environment) -> f64 {
             change2 += polar_sin * (across + (here - up).length_squared());
         }
     }
-    let alike_rad = ALIKE * step_rad * (light2 / change2.max(f64::MIN_POSITIVE)).sqrt();
-    alike_rad.min(ALIKE_MAX_RAD)
+    ALIKE * step_rad * (light2 / change2.max(f64::MIN_POSITIVE)).sqrt()
 }
 
 /// The places of a segment in a tile.

@@ -235,7 +235,7 @@ class Scene:
         """Writes the scene file. Files that it names are not copied: write it where they are."""
         write_whole(path, self.to_toml().encode())
 
-    def export(self, path: Path, *, laid: bool = True) -> list[str]:
+    def export(self, path: Path, *, laid: bool = False) -> list[str]:
         """Writes one glTF file (.glb) that other programs open, with its scratches by the extension HAIRLINE_scratches.
         :func:`hairline.load` opens it as the same scene. Arrays in memory are in it too; a mesh in memory is rounded to single precision.
 

@@ -15,6 +15,7 @@ use glam::{DMat4, DVec3};
 use hairline_model::gltf_file::GltfFile;
 use hairline_model::mesh_file::{self, quarter_turn};
 use hairline_model::reading::{self, FileKind};
+use hairline_optics::table::ScratchTable;
 use serde_json::{Map, Value, json};
 
 use super::extension::{EXTENSION, LAID, Named, VERSION, named};
@@ -29,16 +30,11 @@ use objects::Objects;
 const FILE_SHARE: f64 = 0.25;
 
 /// Contents of a glTF file of a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Export {
-    /// Whether scratches are in it as they lie too, for programs that lay none: 44 bytes a straight piece; and tables of gratings, 2 or 4 MiB each.
+    /// Whether scratches are in it as they lie too, for programs that lay none: 44 bytes a straight piece; and the tables of all gratings, 0.2 to 2 MiB
+    /// each. Those of fine gratings, 4 MiB each, always are: no other program solves Maxwell's equations.
     pub laid: bool,
-}
-
-impl Default for Export {
-    fn default() -> Self {
-        Self { laid: true }
-    }
 }
 
 /// A glTF file of a scene.
@@ -99,21 +95,24 @@ impl Loader<'_> {
         };
         packed.name(&mut tables, &names)?;
         let files = packed.files;
-        if export.laid {
-            let layers = tables.get_mut("scratches").and_then(Value::as_array_mut);
-            for (i, layer) in layers.into_iter().flatten().enumerate() {
-                if let Some(laid) = laid::write(&described, &scene, i, &mut file) {
-                    layer[LAID] = laid;
-                }
+        let layers = tables.get_mut("scratches").and_then(Value::as_array_mut);
+        let layers = layers.filter(|_| export.laid);
+        for (i, layer) in layers.into_iter().flatten().enumerate() {
+            if let Some(laid) = laid::write(&described, &scene, i, &mut file) {
+                layer[LAID] = laid;
             }
-            let gratings = tables.get_mut("grating").and_then(Value::as_array_mut);
-            let mut known = grooves::Known::new();
-            let spectra = LazyCell::new(|| ScratchTables::new(&scene));
-            for (i, grating) in gratings.into_iter().flatten().enumerate() {
-                let laid = grooves::write(&described, &scene, &spectra, i, &mut known, &mut file);
-                if let Some(laid) = laid {
-                    grating[LAID] = laid;
-                }
+        }
+        let gratings = tables.get_mut("grating").and_then(Value::as_array_mut);
+        let mut known = grooves::Known::new();
+        let spectra = LazyCell::new(|| ScratchTables::new(&scene));
+        for (i, grating) in gratings.into_iter().flatten().enumerate() {
+            let is_wanted = |table: &ScratchTable| export.laid || table.by_incidence;
+            let known = &mut known;
+            let laid = grooves::write(
+                &described, &scene, &spectra, i, &is_wanted, known, &mut file,
+            );
+            if let Some(laid) = laid {
+                grating[LAID] = laid;
             }
         }
         tables.insert("version".to_owned(), json!(VERSION));

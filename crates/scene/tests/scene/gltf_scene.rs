@@ -71,7 +71,8 @@ fn whole() -> (tempfile::TempDir, Description) {
 
 fn exported(description: &Description, dir: &Path) -> Exported {
     let loader = Loader::default();
-    loader.export(description, dir, Export::default()).unwrap()
+    let export = Export { laid: true };
+    loader.export(description, dir, export).unwrap()
 }
 
 /// Writes a scene beside its files, and opens the file.
@@ -348,7 +349,7 @@ fn scratches_as_they_lie_are_in_the_frame_of_their_object() {
     assert_eq!(extension["scratches"][4].get("laid"), None);
     let plain = Loader::default();
     let plain = plain
-        .export(&description, dir.path(), Export { laid: false })
+        .export(&description, dir.path(), Export::default())
         .unwrap();
     let (root, _) = taken_apart(&plain.bytes);
     let layers = &root["extensions"]["HAIRLINE_scratches"]["scratches"];

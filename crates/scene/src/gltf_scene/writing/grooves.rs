@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::ops::Deref;
 
 use hairline_model::gltf_file::GltfFile;
+use hairline_optics::table::ScratchTable;
 use serde_json::{Value, json};
 
 use crate::description::Description;
@@ -18,12 +19,13 @@ const FAR_M: f64 = 1e9;
 pub(super) type Known = HashMap<usize, usize>;
 
 /// Adds a grating; `tables` are made where they are asked for, which takes seconds. None where its grooves lie in spots or on several materials, or where its
-/// mask is laid on from three sides.
+/// mask is laid on from three sides, or where its table is not `is_wanted`.
 pub(super) fn write(
     described: &Description,
     scene: &Scene,
     tables: &dyn Deref<Target = ScratchTables>,
     number: usize,
+    is_wanted: &dyn Fn(&ScratchTable) -> bool,
     known: &mut Known,
     file: &mut GltfFile,
 ) -> Option<Value> {
@@ -44,6 +46,9 @@ pub(super) fn write(
     let field = grating.field.plain()?;
     let index = tables.grating_table(grating, material)?;
     let table = &tables.tables[index];
+    if !is_wanted(table) {
+        return None;
+    }
     let texels = *known.entry(index).or_insert_with(|| {
         file.push_wholes(table.for_engines(grating.row.depth_nm).as_flattened())
     });
