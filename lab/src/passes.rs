@@ -148,6 +148,9 @@ impl Passes {
                         drawn.await?;
                     }
                 }
+                renderer
+                    .settle(scene, uploaded, &mut canvas, options)
+                    .await?;
                 renderer.read_shown(&canvas, &display).await
             })?;
             anyhow::ensure!(shown.iter().any(|value| !matches!(value, 0 | 255)), "black");

@@ -4,10 +4,10 @@
 //! list begins.
 
 use crate::compute_pass::{ComputePass, Recording, in_a_row};
-use crate::error::Error;
 use crate::pipelines::Orders;
 use crate::scan::ScanPasses;
 use crate::shaders;
+use crate::sizes::ENTRIES;
 use crate::sort::SortPasses;
 use crate::strip::StripRoom;
 
@@ -42,29 +42,29 @@ impl BinPasses {
         segments: u32,
     ) {
         let workgroups = in_a_row((segments + 1).div_ceil(WORKGROUP));
-        self.project.run(recording, &room.resources(), workgroups);
+        self.project.run(recording, &room.resources(), &workgroups);
         let scan = &room.lists.entry_scan;
         scans.record(recording.encoder, scan, recording.timing);
     }
 
     /// Records the passes, and returns which of the two buffers holds the lists.
-    pub(crate) async fn record(
+    pub(crate) fn record(
         &self,
-        recording: &mut Recording<'_>,
+        recording: &mut Recording,
         scans: &ScanPasses,
         room: &StripRoom,
         tiles: u32,
-        [segments, entries]: [u32; 2],
-    ) -> Result<usize, Error> {
+        segments: u32,
+    ) -> usize {
         let resources = room.resources();
         let workgroups = in_a_row(segments.div_ceil(WORKGROUP));
-        self.bin.run(recording, &resources, workgroups);
+        self.bin.run(recording, &resources, &workgroups);
         let lists = &room.lists;
-        let sorted = self.sort.record(recording, scans, lists, tiles, entries);
-        let sorted = sorted.await?;
+        let blocks = room.sizes.workgroups(ENTRIES);
+        let sorted = self.sort.record(recording, scans, lists, tiles, &blocks);
         let resources = resources.buffer("entries", &lists.entries[sorted]);
-        let workgroups = [(tiles + 1).div_ceil(TILES_WORKGROUP), 1];
-        self.tile_lists.run(recording, &resources, workgroups);
-        Ok(sorted)
+        let workgroups = in_a_row((tiles + 1).div_ceil(TILES_WORKGROUP));
+        self.tile_lists.run(recording, &resources, &workgroups);
+        sorted
     }
 }

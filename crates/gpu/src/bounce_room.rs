@@ -5,6 +5,7 @@ use wgpu::BufferUsages;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{BounceRay, ShadowRound};
+use crate::passes::ScenePasses;
 use crate::scan::ScanPasses;
 use crate::strip::{BounceRoom, GROUP, StripRoom};
 
@@ -28,15 +29,17 @@ impl BounceRoom {
         })
     }
 
-    /// Makes room for so many samples in so many groups, and for the hits of so many rays of each, one after the other.
+    /// Makes room for so many samples of a strip, and for the hits of so many rays of each, one after the other.
     pub(crate) async fn make_room(
         &mut self,
         gpu: &Gpu,
         scans: &ScanPasses,
+        passes: &ScenePasses,
+        of: &StripRoom,
         points: u64,
-        groups: u32,
         bounces: u32,
     ) -> Result<(), Error> {
+        let groups = of.samples.groups_max;
         if self.points_max < points {
             // The old ones are given back first. An error on the way leaves none.
             self.points_max = 0;
@@ -49,19 +52,17 @@ impl BounceRoom {
         }
         if self.groups_max < groups {
             for hits in &mut self.hits {
+                let wanted = hits.sizes.wanted;
                 *hits = StripRoom::of_hits(gpu, scans, groups).await?;
+                hits.sizes.wanted = wanted;
             }
             self.groups_max = groups;
         }
         for hits in self.hits.iter_mut().take(bounces as usize) {
-            hits.samples.make_room(gpu, scans, points, groups).await?;
+            hits.most = of.most;
+            hits.make_room(gpu, scans, passes, groups, points).await?;
         }
         Ok(())
-    }
-
-    /// Whether the device can hold the arrays of so many samples.
-    pub(crate) fn fit(gpu: &Gpu, points: u64) -> bool {
-        points * RAY_BYTES <= gpu.largest_array()
     }
 
     /// Writes which round is next.
@@ -76,9 +77,9 @@ impl StripRoom {
     /// of each tile.
     async fn of_hits(gpu: &Gpu, scans: &ScanPasses, groups: u32) -> Result<Self, Error> {
         let starts = GROUP * groups + 1;
-        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
         let bytes = 4 * u64::from(starts);
-        let list_starts = gpu.buffer("lists of hits", bytes, usage).await?;
+        let storage = BufferUsages::STORAGE;
+        let list_starts = gpu.buffer("lists of hits", bytes, storage).await?;
         let group_scan = scans.of(gpu, &list_starts, starts).await?;
         Ok(Self {
             list_starts,

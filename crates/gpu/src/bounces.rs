@@ -5,7 +5,7 @@
 //! as well. Only their scratches have another list: of each sample its own, by the tree over the scratches of the scene.
 
 use crate::bindings::Layouts;
-use crate::compute_pass::{ComputePass, Recording, in_a_row};
+use crate::compute_pass::{ComputePass, Recording, Workgroups};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
@@ -20,6 +20,7 @@ use crate::shaders;
 use crate::shadow_picks::{Scratched, into_picks};
 use crate::shadow_room::ShadowRoom;
 use crate::shadows::Shadows;
+use crate::sizes::{self, ENTRIES};
 use crate::strip::{BounceRoom, StripRoom};
 use crate::transfer::Transfer;
 use crate::variant::{RayOrigin, ShadeVariant, Way};
@@ -47,6 +48,7 @@ pub(crate) struct BounceScratches {
     pick: [ComputePass; 2],
     rays: ComputePass,
     count: ComputePass,
+    pub size: ComputePass,
     list: ComputePass,
     pub shade: ShadeScratchesPass,
     tree: wgpu::TextureView,
@@ -117,7 +119,7 @@ impl Bounces {
 
     /// Draws a ray of each sample, and follows it to its hit.
     pub(crate) fn record_rays(&self, recording: &mut Recording, by: &Bounce) {
-        let groups = in_a_row(by.groups);
+        let groups = &by.groups;
         let resources = &by.resources;
         let is_seen = by.depth == 0;
         let goes = |way| !is_seen || by.way == way;
@@ -140,8 +142,7 @@ impl Bounces {
 
     /// Adds the light of the hits to that of the camera's samples.
     pub(crate) fn record_light(&self, recording: &mut Recording, by: &Bounce) {
-        self.light
-            .run(recording, &by.resources, in_a_row(by.groups));
+        self.light.run(recording, &by.resources, &by.groups);
     }
 }
 
@@ -150,7 +151,7 @@ pub(crate) struct Bounce<'a> {
     resources: Resources,
     /// Picks of the samples.
     picks: Option<&'a ShadowRoom>,
-    groups: u32,
+    groups: Workgroups,
     /// Number of objects on the path from the samples to the camera.
     depth: u32,
     /// Lobe by which the light leaves the camera's samples.
@@ -165,7 +166,7 @@ impl<'a> Bounce<'a> {
         film: &Film,
         shadows: &Shadows,
         (depth, way): (u32, Way),
-        groups: u32,
+        groups: &Workgroups,
     ) -> Option<Self> {
         let turn = depth as usize % 2;
         let to = &bounce_room.hits[turn];
@@ -194,7 +195,7 @@ impl<'a> Bounce<'a> {
         Some(Self {
             resources,
             picks: from.shadows.as_ref(),
-            groups,
+            groups: groups.clone(),
             depth,
             way,
         })
@@ -206,6 +207,7 @@ impl BounceScratches {
         let pick =
             [RayOrigin::ByCamera, RayOrigin::ByRays].map(|seen| picks_by_energy(orders, seen));
         let shade = ShadeScratchesPass::new(orders, RayOrigin::ByRays);
+        let size = sizes::pass(orders, ENTRIES, RayOrigin::ByRays);
         let module = (&shaders::SHADOW_PICKS, "shadow_picks");
         let begin = ComputePass::order(orders, "bounce picks", module, &[("BY_ENERGY", 1.0)]);
         let module = &shaders::BOUNCE_SCRATCH_RAYS;
@@ -218,6 +220,7 @@ impl BounceScratches {
             rays,
             count: gather("bounce_count"),
             list: gather("bounce_list"),
+            size,
             shade,
             tree,
         }
@@ -228,11 +231,10 @@ impl BounceScratches {
         let Some(shadow_room) = by.picks else {
             return;
         };
-        self.begin
-            .run(recording, &by.resources, in_a_row(by.groups));
+        self.begin.run(recording, &by.resources, &by.groups);
         let pick = &self.pick[usize::from(by.depth > 0)];
         let resources = into_picks(&by.resources, shadow_room);
-        pick.run(recording, &resources, in_a_row(on.chunks));
+        pick.run(recording, &resources, &on.chunks);
     }
 
     /// Counts the segments that each hit may see, and finds the start of the hit's list.
@@ -242,10 +244,10 @@ impl BounceScratches {
         scans: &ScanPasses,
         hits: &StripRoom,
         film: &Film,
-        groups: u32,
+        groups: &Workgroups,
     ) {
         let resources = self.gathered(hits, film);
-        self.count.run(recording, &resources, in_a_row(groups));
+        self.count.run(recording, &resources, groups);
         scans.record(recording.encoder, &hits.group_scan, recording.timing);
     }
 
@@ -255,10 +257,10 @@ impl BounceScratches {
         recording: &mut Recording,
         hits: &StripRoom,
         film: &Film,
-        groups: u32,
+        groups: &Workgroups,
     ) {
         let resources = self.gathered(hits, film);
-        self.list.run(recording, &resources, in_a_row(groups));
+        self.list.run(recording, &resources, groups);
     }
 
     fn gathered(&self, hits: &StripRoom, film: &Film) -> Resources {

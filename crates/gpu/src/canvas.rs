@@ -86,13 +86,27 @@ impl Canvas {
     /// All layers, each pixel's mean over the samples that it has; black where it has none. Waits for what was submitted.
     ///
     /// # Errors
-    /// [`Error::IterationBudget`] where the device cut loops short; [`Error::OutOfMemory`], [`Error::Lost`].
+    /// [`Error::IterationBudget`] where the device cut loops short; [`Error::Unsettled`], [`Error::OutOfMemory`], [`Error::Lost`].
     pub async fn image(&self) -> Result<Image, Error> {
         let mut image = Image::new(self.size_px);
         for (i, band) in self.bands.iter().enumerate() {
             band.film.read(&self.gpu, &mut image, &self.rows(i)).await?;
         }
         Ok(image)
+    }
+
+    /// Waits until all that was submitted is done. Returns the steps that are to be done again, band by band.
+    pub(crate) async fn settle(&mut self) -> Result<Vec<(usize, Range<u32>)>, Error> {
+        let films: Vec<&Film> = self.bands.iter().map(|band| &band.film).collect();
+        let short = self.room.settle(&self.gpu, &films).await?;
+        let mut again = Vec::new();
+        for (i, (band, short)) in self.bands.iter_mut().zip(short).enumerate() {
+            if let Some(from) = short.filter(|from| *from < band.steps) {
+                again.push((i, from..band.steps));
+                band.steps = from;
+            }
+        }
+        Ok(again)
     }
 
     /// Marks a band as being worked on; hands out its film, and the room to work in.

@@ -31,7 +31,15 @@ pub(crate) struct Recording<'a> {
     pub timing: &'a Timing,
 }
 
-/// Largest number of workgroups in one dimension on every WebGPU device.
+/// Workgroups of a dispatch.
+#[derive(Clone)]
+pub(crate) enum Workgroups {
+    Known([u32; 2]),
+    /// Counted on the device, at so many bytes of a buffer.
+    Counted(wgpu::Buffer, u64),
+}
+
+/// Largest number of workgroups in one dimension on every WebGPU device. Twin: sizes.wgsl.
 const WORKGROUPS_MAX: u32 = 65_535;
 
 impl ComputePass {
@@ -102,7 +110,7 @@ impl ComputePass {
         &self,
         recording: &mut Recording,
         resources: &Resources,
-        workgroups: [u32; 2],
+        workgroups: &Workgroups,
     ) {
         let group = self.bind(recording, resources);
         let has_ranges = self.bindings.iter().any(OwnBinding::is_dynamic);
@@ -116,7 +124,7 @@ impl ComputePass {
         recording: &mut Recording,
         group_3: &wgpu::BindGroup,
         offsets: &[u32],
-        [x, y]: [u32; 2],
+        workgroups: &Workgroups,
     ) {
         let Recording {
             encoder,
@@ -134,7 +142,10 @@ impl ComputePass {
         pass.set_bind_group(1, &scene.buffers.group, &[]);
         pass.set_bind_group(2, &scene.textures.group, &[]);
         pass.set_bind_group(3, group_3, offsets);
-        pass.dispatch_workgroups(x, y, 1);
+        match workgroups {
+            Workgroups::Known([x, y]) => pass.dispatch_workgroups(*x, *y, 1),
+            Workgroups::Counted(sizes, at) => pass.dispatch_workgroups_indirect(sizes, *at),
+        }
     }
 }
 
@@ -150,8 +161,8 @@ impl Orders<'_> {
     }
 }
 
-/// The dispatch of so many workgroups in a row, in two dimensions where one is not enough: a few more than asked for then.
-pub(crate) fn in_a_row(workgroups: u32) -> [u32; 2] {
+/// The dispatch of so many workgroups in a row, in two dimensions where one is not enough: a few more than asked for then. Twin: sizes.wgsl.
+pub(crate) fn in_a_row(workgroups: u32) -> Workgroups {
     let y = workgroups.div_ceil(WORKGROUPS_MAX).max(1);
-    [workgroups.div_ceil(y), y]
+    Workgroups::Known([workgroups.div_ceil(y), y])
 }

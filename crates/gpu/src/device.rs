@@ -4,6 +4,7 @@
 //! measurements miss where it is absent, and no limit above WebGPU's defaults is needed, except by scenes that outgrow one
 //! buffer.
 
+use std::sync::atomic::AtomicUsize;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use crate::error::Error;
@@ -78,6 +79,7 @@ pub struct Gpu {
     pub adapter: Adapter,
     /// Pipelines that were compiled on it, which its renderers share.
     pub(crate) pipelines: PipelineCache,
+    pub(crate) reads: Arc<AtomicUsize>,
     faults: Faults,
 }
 
@@ -178,10 +180,23 @@ impl Adapter {
 
     /// Opens a device.
     pub async fn open(self, default_limits: bool) -> Result<Gpu, Error> {
+        let descriptor = self.device_descriptor(default_limits);
+        self.open_by(descriptor).await
+    }
+
+    /// Opens a device whose shaders see arrays of at most so many bytes.
+    #[cfg(all(test, not(target_arch = "wasm32")))]
+    pub(crate) async fn open_with_arrays(self, bytes: u64) -> Result<Gpu, Error> {
+        let mut descriptor = self.device_descriptor(true);
+        descriptor.required_limits.max_storage_buffer_binding_size = bytes;
+        self.open_by(descriptor).await
+    }
+
+    async fn open_by(self, descriptor: wgpu::DeviceDescriptor<'static>) -> Result<Gpu, Error> {
         self.usable()?;
         let (device, queue) = self
             .handle
-            .request_device(&self.device_descriptor(default_limits))
+            .request_device(&descriptor)
             .await
             .map_err(|error| Error::Refused {
                 adapter: self.name.clone(),
@@ -309,6 +324,7 @@ impl Gpu {
             queue,
             adapter,
             pipelines: PipelineCache::default(),
+            reads: Arc::default(),
             faults,
         }
     }

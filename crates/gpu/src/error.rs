@@ -58,6 +58,9 @@ pub enum Error {
         /// Shader invocations that gave up.
         pixels: u32,
     },
+    /// A canvas lacks steps for which the device had too little memory: [`crate::Renderer::settle`] does them again.
+    #[error("the picture lacks steps, since it was read before it was settled")]
+    Unsettled,
     /// The graphics library refused a call: a mistake in this crate.
     #[error("the graphics library refused a call (a mistake in Hairline): {description}")]
     Validation {

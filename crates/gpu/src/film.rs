@@ -92,7 +92,18 @@ impl Film {
         self.pixels * (size_of::<FilmPixel>() + found) as u64
     }
 
-    /// Forgets that loops were cut short.
+    /// Place of the step from which on it has nothing, plus 1.
+    pub(crate) fn short(&self) -> (&wgpu::Buffer, Range<u64>) {
+        (&self.buffer, 4..8)
+    }
+
+    /// Lets steps add to it again.
+    pub(crate) fn forget_short(&self, gpu: &Gpu) {
+        let (buffer, Range { start, .. }) = self.short();
+        gpu.queue.write_buffer(buffer, start, &[0; 4]);
+    }
+
+    /// Forgets that loops were cut short, and that there was no room.
     pub(crate) fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.clear_buffer(&self.buffer, 0, Some(FILM_PIXELS_OFFSET));
     }
@@ -100,7 +111,7 @@ impl Film {
     /// Writes each pixel's mean over its samples to `rows` of `image`.
     ///
     /// # Errors
-    /// [`Error::IterationBudget`] if the device cut loops short.
+    /// [`Error::IterationBudget`] if the device cut loops short, [`Error::Unsettled`].
     pub(crate) async fn read(
         &self,
         gpu: &Gpu,
@@ -112,7 +123,11 @@ impl Film {
         let end = FILM_PIXELS_OFFSET + (count * size_of::<FilmPixel>()) as u64;
         let bytes = gpu.read(&self.buffer, 0..end).await?;
         let (head, pixels) = bytes.split_at(FILM_PIXELS_OFFSET as usize);
-        none_gave_up(gpu, bytemuck::pod_read_unaligned(&head[..4]))?;
+        let [gave_up, short, ..]: [u32; 4] = bytemuck::pod_read_unaligned(head);
+        none_gave_up(gpu, gave_up)?;
+        if short != 0 {
+            return Err(Error::Unsettled);
+        }
         let first = rows.start as usize * width;
         let pixels = pixels
             .chunks_exact(size_of::<FilmPixel>())

@@ -93,23 +93,8 @@ pub(crate) struct Rounds {
     pub seed: u32,
 }
 
-/// Numbers of a step that are counted on the device.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Counted {
-    /// Entries of all tile lists.
-    pub entries: u32,
-    /// Groups of samples that are shaded together.
-    pub groups: u32,
-}
-
-/// The uniform for sample `sample` of a strip of `rows`, whose film begins with `film_row`.
-pub(crate) fn frame(
-    view: &View,
-    rows: &Range<u32>,
-    film_row: u32,
-    sample: u32,
-    counted: Counted,
-) -> Frame {
+/// The uniform without what is counted on the device, for sample `sample` of a strip of `rows`, whose film begins with `film_row`.
+pub(crate) fn frame(view: &View, rows: &Range<u32>, film_row: u32, sample: u32) -> Frame {
     let View {
         scene,
         uploaded,
@@ -154,9 +139,7 @@ pub(crate) fn frame(
         },
         halo_rows: halo_rows(scene),
         is_edge_everywhere: scene.render.outline_reach_px().is_none().into(),
-        entry_count: counted.entries,
         object_count: scene.objects.len() as u32,
-        group_count: counted.groups,
         base_light_count: data.base_light_count,
         middle_px: camera.middle_px.as_vec2().to_array(),
         // A pixel of several samples counts as an edge where a surface covers only a part.

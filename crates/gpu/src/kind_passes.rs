@@ -1,6 +1,6 @@
 //! A pass for each kind of light that a scene has, which all write to the same sums.
 
-use crate::compute_pass::{ComputePass, Recording};
+use crate::compute_pass::{ComputePass, Recording, Workgroups};
 use crate::light_ranges::RANGE_STRIDE;
 use crate::lights::LightKind;
 use crate::pipelines::Orders;
@@ -32,7 +32,7 @@ impl KindPasses {
         &self,
         recording: &mut Recording,
         resources: &Resources,
-        workgroups: [u32; 2],
+        workgroups: &Workgroups,
     ) {
         let ranges = &recording.scene.light_ranges;
         for (kind, pass) in &self.0 {

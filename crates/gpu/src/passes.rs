@@ -8,12 +8,15 @@ use crate::error::Error;
 use crate::kind_passes::KindPasses;
 use crate::pipelines::Orders;
 use crate::shade_scratches::ShadeScratchesPass;
+use crate::sizes::{self, CHUNKS, ENTRIES, GROUPS};
 use crate::variant::{RayOrigin, ShadeVariant};
 use crate::{shade_gratings, shaders};
 
 /// Passes that are compiled for a method and a scene's contents.
 pub(crate) struct ScenePasses {
     pub edges: ComputePass,
+    /// Sizes by the number of entries, of groups and of chunks.
+    pub sizes: [ComputePass; 3],
     pub surface: ComputePass,
     pub shade: Shade,
     pub resolve: ComputePass,
@@ -85,6 +88,8 @@ impl ScenePasses {
             }
         };
         let passes = Self {
+            sizes: [ENTRIES, GROUPS, CHUNKS]
+                .map(|counted| sizes::pass(&mut orders, counted, RayOrigin::ByCamera)),
             edges: orders.pass("edges", &shaders::EDGES, "edges"),
             surface: orders.pass("surface", &shaders::SURFACE, "surface"),
             resolve: orders.pass("resolve", &shaders::RESOLVE, "resolve"),

@@ -3,6 +3,7 @@
 
 use std::future::poll_fn;
 use std::ops::Range;
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex};
 use std::task::{Poll, Waker};
 
@@ -57,6 +58,11 @@ impl<T> Arrival<T> {
 }
 
 impl Gpu {
+    /// Number of times that the host has waited for bytes of this device.
+    pub fn reads(&self) -> usize {
+        self.reads.load(Ordering::Relaxed)
+    }
+
     /// Waits until all that was submitted is done.
     pub async fn finished(&self) -> Result<(), Error> {
         let arrival = Arrival::new();
@@ -69,11 +75,23 @@ impl Gpu {
 
     /// The bytes of `range` in `buffer`, which must have the usage `COPY_SRC`. Submits a copy.
     pub async fn read(&self, buffer: &wgpu::Buffer, range: Range<u64>) -> Result<Vec<u8>, Error> {
-        let size = range.end - range.start;
+        self.read_parts(&[(buffer, range)]).await
+    }
+
+    /// As [`Self::read`], of several buffers, one part after the other.
+    pub(crate) async fn read_parts(
+        &self,
+        parts: &[(&wgpu::Buffer, Range<u64>)],
+    ) -> Result<Vec<u8>, Error> {
+        let size = parts.iter().map(|(_, range)| range.end - range.start).sum();
         let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
         let staging = self.buffer("the copy of a result", size, usage).await?;
         let mut encoder = self.device.create_command_encoder(&Default::default());
-        encoder.copy_buffer_to_buffer(buffer, range.start, &staging, 0, size);
+        let mut at = 0;
+        for (buffer, Range { start, end }) in parts {
+            encoder.copy_buffer_to_buffer(buffer, *start, &staging, at, end - start);
+            at += end - start;
+        }
         self.queue.submit([encoder.finish()]);
         self.map(&staging, |bytes| bytes.to_vec()).await
     }
@@ -115,6 +133,7 @@ impl Gpu {
         staging: &wgpu::Buffer,
         take: impl Fn(&[u8]) -> Vec<u8>,
     ) -> Result<Vec<u8>, Error> {
+        self.reads.fetch_add(1, Ordering::Relaxed);
         let arrival = Arrival::new();
         let callback = arrival.clone();
         staging.map_async(wgpu::MapMode::Read, .., move |result| {

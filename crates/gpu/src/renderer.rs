@@ -234,7 +234,8 @@ impl Renderer {
             let in_image = first..(first + band).min(height);
             let in_picture = rows.start + in_image.start..rows.start + in_image.end;
             let (mut room, mut film) = self.take_band(width, band).await?;
-            for step in 0..steps {
+            let mut step = 0;
+            while step < steps {
                 let view = View {
                     scene,
                     uploaded,
@@ -250,8 +251,13 @@ impl Renderer {
                 self.strips
                     .shade(&view, &film, &mut room, in_picture.clone())
                     .await?;
-                self.gpu.finished().await?;
-                let in_band = f64::from(step + 1) / f64::from(steps);
+                let settled = room.settle(&self.gpu, &[&film]).await?;
+                if let Some(again) = settled[0] {
+                    step = again;
+                    continue;
+                }
+                step += 1;
+                let in_band = f64::from(step) / f64::from(steps);
                 let done = f64::from(first) + f64::from(in_image.end - first) * in_band;
                 progress(done / f64::from(height));
             }
@@ -274,8 +280,8 @@ impl Renderer {
     /// many as [`Canvas::steps`] says that it has, which refines edges. A batch is a picture by itself. The picture has the canvas's size,
     /// whatever the scene says.
     ///
-    /// It submits the work and waits only until lists of scratches are counted; [`Gpu::finished`] waits for all. Dropped or failed,
-    /// it leaves the band to be begun anew.
+    /// It submits the work and waits for nothing but memory. How much of that is needed, it takes from the pictures before; a step without enough
+    /// adds nothing, nor do those after it, until [`Self::settle`] does them again. Dropped or failed, it leaves the band to be begun anew.
     ///
     /// # Errors
     /// [`Error::TooLarge`], [`Error::OutOfMemory`], [`Error::Lost`]. Reading tells of [`Error::IterationBudget`].
@@ -311,6 +317,33 @@ impl Renderer {
         self.gpu.check()?;
         canvas.finish(band, step + 1);
         Ok(())
+    }
+
+    /// Waits until all that was submitted for a canvas is done. Steps for which there was not enough memory are done again, with more: what is shown or
+    /// read then lacks nothing.
+    ///
+    /// # Errors
+    /// As [`Self::accumulate`].
+    pub async fn settle(
+        &mut self,
+        scene: &Scene,
+        uploaded: &GpuScene,
+        canvas: &mut Canvas,
+        options: &RenderOptions,
+    ) -> Result<(), Error> {
+        loop {
+            let mut is_whole = true;
+            for (band, steps) in canvas.settle().await? {
+                is_whole = false;
+                for step in steps {
+                    self.accumulate(scene, uploaded, canvas, band, step, options)
+                        .await?;
+                }
+            }
+            if is_whole {
+                return Ok(());
+            }
+        }
     }
 
     /// Draws the canvas, as far as it has come, to `target`, which has its size and `format` (8 bits a channel, not sRGB:

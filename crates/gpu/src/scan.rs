@@ -42,7 +42,7 @@ impl ScanPasses {
         }
     }
 
-    /// Makes a scan of `values`, an array of `u32` with room for `capacity` of them.
+    /// Makes a scan of `values`, an array of `u32` with room for `capacity` of them, which takes all.
     pub(crate) async fn of(
         &self,
         gpu: &Gpu,
@@ -51,9 +51,9 @@ impl ScanPasses {
     ) -> Result<Scan, Error> {
         let mut levels = Vec::new();
         let mut values = values.clone();
-        let mut count = capacity;
+        let mut left = capacity;
         loop {
-            let blocks = count.div_ceil(BLOCK).max(1);
+            let blocks = left.div_ceil(BLOCK).max(1);
             let totals = gpu
                 .buffer("sums", 4 * u64::from(blocks), BufferUsages::STORAGE)
                 .await?;
@@ -76,13 +76,15 @@ impl ScanPasses {
                 count: 0,
             });
             if blocks == 1 {
-                return Ok(Scan { levels });
+                let mut scan = Scan { levels };
+                scan.set_count(gpu, capacity);
+                return Ok(scan);
             }
-            (values, count) = (totals, blocks);
+            (values, left) = (totals, blocks);
         }
     }
 
-    /// Records the scan of as many elements as [`Scan::set_count`] said.
+    /// Records the scan of all elements, or of as many as [`Scan::set_count`] said.
     pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, scan: &Scan, timing: &Timing) {
         let mut dispatch = |pipeline: usize, level: &Level| {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {

@@ -3,7 +3,7 @@
 //! Inputs: frame, scene, tables, surface points, tile lists. Output: sums over each chunk of a list, for each sample. One workgroup a
 //! chunk; one dispatch for each kind of light, and for as many lights as there is room for.
 
-use crate::compute_pass::{ComputePass, Recording, in_a_row};
+use crate::compute_pass::{ComputePass, Recording, Workgroups, in_a_row};
 use crate::kind_passes::{KindPasses, LIGHTS_NONE, over_lights};
 use crate::pipelines::Orders;
 use crate::scan::ScanPasses;
@@ -36,20 +36,17 @@ impl ShadeScratchesPass {
         &self,
         recording: &mut Recording,
         scans: &ScanPasses,
-        room: &mut StripRoom,
-        groups: u32,
+        room: &StripRoom,
     ) {
-        let workgroups = in_a_row((groups + 1).div_ceil(CHUNKS_WORKGROUP));
-        self.chunks.run(recording, &room.resources(), workgroups);
-        let scan = &mut room.samples.chunk_scan;
-        scan.set_count(recording.gpu, groups + 1);
+        let workgroups = in_a_row((room.samples.groups_max + 1).div_ceil(CHUNKS_WORKGROUP));
+        self.chunks.run(recording, &room.resources(), &workgroups);
+        let scan = &room.samples.chunk_scan;
         scans.record(recording.encoder, scan, recording.timing);
     }
 
-    /// The sums of at most so many chunks.
-    pub(crate) fn record(&self, recording: &mut Recording, room: &StripRoom, chunks: u32) {
-        self.kinds
-            .run(recording, &room.resources(), in_a_row(chunks));
+    /// The sums of the chunks.
+    pub(crate) fn record(&self, recording: &mut Recording, room: &StripRoom, chunks: &Workgroups) {
+        self.kinds.run(recording, &room.resources(), chunks);
     }
 }
 

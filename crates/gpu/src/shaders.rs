@@ -203,6 +203,8 @@ modules! {
     AT_HITS = "scene/at_hits" needs [];
     /// Tile of a group of samples.
     GROUPS = "scene/groups" needs [FILM, AT_HITS];
+    /// Pass: sizes of dispatches.
+    SIZES = "passes/sizes" needs [FILM, AT_HITS, CONTENTS];
     /// Pass: into how many chunks each group's list is cut.
     GROUP_CHUNKS = "passes/group_chunks" needs [GROUPS];
     /// A pixel with a segment that it sees.

@@ -3,13 +3,12 @@
 //! Some pairs of a sample, each of a scratch or a grating with a light, stand for all. They are picked by lighting all of them once more; a round
 //! takes one of the picks.
 
-use crate::compute_pass::{ComputePass, Recording, in_a_row};
+use crate::compute_pass::{ComputePass, Recording, Workgroups};
 use crate::kind_passes::KindPasses;
 use crate::lights::LightKind;
 use crate::pipelines::Orders;
 use crate::resources::Resources;
 use crate::shadow_room::ShadowRoom;
-use crate::strip::GROUP;
 use crate::variant::{RayOrigin, Way};
 use crate::{shade_gratings, shade_scratches, shaders};
 
@@ -24,12 +23,11 @@ pub(crate) struct PickPasses {
     pub way: Way,
 }
 
-/// Groups and chunks of scratches to be picked from.
-#[derive(Clone, Copy)]
+/// Groups and chunks of scratches to be picked from, a workgroup each.
+#[derive(Clone)]
 pub(crate) struct Scratched {
-    pub groups: u32,
-    /// Number of chunks of scratches.
-    pub chunks: u32,
+    pub groups: Workgroups,
+    pub chunks: Workgroups,
 }
 
 impl PickPasses {
@@ -68,18 +66,6 @@ impl PickPasses {
         }
     }
 
-    /// Number of states of the picks so far.
-    pub(crate) fn lanes(&self, on: &Scratched) -> u64 {
-        u64::from(GROUP) * u64::from(self.workgroups(on))
-    }
-
-    fn workgroups(&self, on: &Scratched) -> u32 {
-        match self.way {
-            Way::Gratings => on.groups,
-            _ => on.chunks,
-        }
-    }
-
     /// Picks for each sample as many as the round that was written says.
     pub(crate) fn record_picks(
         &self,
@@ -88,9 +74,12 @@ impl PickPasses {
         shadow_room: &ShadowRoom,
         on: &Scratched,
     ) {
-        self.begin.run(recording, resources, in_a_row(on.groups));
+        self.begin.run(recording, resources, &on.groups);
         let into_picks = into_picks(resources, shadow_room);
-        let workgroups = in_a_row(self.workgroups(on));
+        let workgroups = match self.way {
+            Way::Gratings => &on.groups,
+            _ => &on.chunks,
+        };
         self.pick.run(recording, &into_picks, workgroups);
     }
 
@@ -99,10 +88,10 @@ impl PickPasses {
         &self,
         recording: &mut Recording,
         resources: &Resources,
-        groups: u32,
+        groups: &Workgroups,
     ) {
         for pass in &self.rays {
-            pass.run(recording, resources, in_a_row(groups));
+            pass.run(recording, resources, groups);
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{FoundRays, ShadowRay, ShadowRound};
 use crate::resources::Resources;
+use crate::sizes::Points;
 
 /// The arrays over samples. They grow to the size that is needed.
 pub(crate) struct ShadowRoom {
@@ -20,7 +21,7 @@ pub(crate) struct ShadowRoom {
 }
 
 /// Bytes of a layer of a sample.
-const FOUND_BYTES: u64 = size_of::<FoundRays>() as u64;
+pub(crate) const FOUND_BYTES: u64 = size_of::<FoundRays>() as u64;
 const RAY_BYTES: u64 = size_of::<ShadowRay>() as u64;
 const FOUND_USAGE: BufferUsages = BufferUsages::STORAGE.union(BufferUsages::COPY_DST);
 /// Bytes of a scratch that is picked, or of the state of a lane of a chunk.
@@ -57,11 +58,6 @@ impl ShadowRoom {
         })
     }
 
-    /// Whether the device can hold the arrays of so many samples of so many layers.
-    pub(crate) fn fit(gpu: &Gpu, points: u64, layers: u64) -> bool {
-        points * layers * FOUND_BYTES <= gpu.largest_array()
-    }
-
     /// Makes room for so many samples of so many layers.
     pub(crate) async fn make_room(
         &mut self,
@@ -89,22 +85,20 @@ impl ShadowRoom {
         Ok(())
     }
 
-    /// Makes room for picks of so many samples, and for the states of so many lanes of chunks; tells how many of each sample there is room for.
+    /// Makes room for picks of so many samples, and for the states of so many lanes of chunks; tells how many of each sample are made at once,
+    /// which hangs on the number of those of the first step alone, whatever room there is besides.
     pub(crate) async fn make_room_for_picks(
         &mut self,
         gpu: &Gpu,
-        points: u64,
+        points: Points,
         lanes: u64,
         wanted: u32,
     ) -> Result<u32, Error> {
-        let states = PICK_BYTES * lanes;
-        let left = PICKS_BYTES_MOST
-            .min(gpu.largest_array())
-            .saturating_sub(states);
-        let room = left / (PICK_BYTES * points.max(1));
-        // One pick always fits: there is more room than that for sums.
+        // States take at most half of an array: sums take twice as much. One pick always fits.
+        let most = PICKS_BYTES_MOST.min(gpu.largest_array()) / 2;
+        let room = most / (PICK_BYTES * points.first.max(1));
         let count = room.clamp(1, PICKS_MOST).min(u64::from(wanted.max(1)));
-        let bytes = states + PICK_BYTES * points * count;
+        let bytes = PICK_BYTES * (lanes + points.most.max(points.first * count));
         if self.picks_bytes < bytes {
             self.picks_bytes = 0;
             self.picks.destroy();

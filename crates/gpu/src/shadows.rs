@@ -7,7 +7,7 @@
 use hairline_scene::Scene;
 
 use crate::bindings::Layouts;
-use crate::compute_pass::{ComputePass, Recording, in_a_row};
+use crate::compute_pass::{ComputePass, Recording, Workgroups};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::lights::LightKind;
@@ -99,13 +99,13 @@ impl Shadows {
         kind: LightKind,
         recording: &mut Recording,
         resources: &Resources,
-        groups: u32,
+        groups: &Workgroups,
     ) {
         let own = self.base.iter().find(|(own, _)| *own == kind.of_rays());
         if let Some((_, rays)) = own {
-            rays.run(recording, resources, in_a_row(groups));
+            rays.run(recording, resources, groups);
         }
-        self.trace.run(recording, resources, in_a_row(groups));
+        self.trace.run(recording, resources, groups);
     }
 
     /// Draws a ray of each sample off its pick, and follows it.
@@ -114,9 +114,9 @@ impl Shadows {
         by: &PickPasses,
         recording: &mut Recording,
         resources: &Resources,
-        groups: u32,
+        groups: &Workgroups,
     ) {
         by.record_rays(recording, resources, groups);
-        self.trace.run(recording, resources, in_a_row(groups));
+        self.trace.run(recording, resources, groups);
     }
 }

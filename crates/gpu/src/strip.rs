@@ -2,43 +2,53 @@
 
 use std::ops::Range;
 
+use bytemuck::bytes_of;
 use hairline_scene::camera::OUTLINE_REACH_MAX_PX;
 use wgpu::{BufferUsages, TextureFormat, TextureUsages};
 
+use crate::compute_pass::Workgroups;
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::layout::{BaseLight, ChunkSum, PixelPaint, PixelPoint};
+use crate::layout::{BaseLight, ChunkSum, PixelPaint, PixelPoint, SortSettings};
+
 use crate::resources::Resources;
 use crate::scan::{Scan, ScanPasses};
 use crate::shadow_room::ShadowRoom;
+use crate::sizes::{Numbers, Sizes};
 
 /// Pixels to a side of a tile. Twin: film.wgsl.
 pub(crate) const TILE_PX: u32 = 8;
 /// Segments of a tile's list that one workgroup takes. Twin: groups.wgsl.
-const CHUNK_SEGMENTS: u32 = 512;
+pub(crate) const CHUNK_SEGMENTS: u32 = 512;
 /// Triangle + 1 and object.
 pub(crate) const VISIBILITY_FORMAT: TextureFormat = TextureFormat::Rg32Uint;
 /// Depth of the visibility pass.
 pub(crate) const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
 /// Bytes of a sample.
-const POINT_BYTES: u64 = size_of::<PixelPoint>() as u64;
+pub(crate) const POINT_BYTES: u64 = size_of::<PixelPoint>() as u64;
 const PAINT_BYTES: u64 = size_of::<PixelPaint>() as u64;
 const BASE_BYTES: u64 = size_of::<BaseLight>() as u64;
 /// Samples that are shaded together. Twin: film.wgsl.
 pub(crate) const GROUP: u32 = 64;
 /// Bytes of the sums of a chunk.
-const CHUNK_BYTES: u64 = GROUP as u64 * size_of::<ChunkSum>() as u64;
+pub(crate) const CHUNK_BYTES: u64 = GROUP as u64 * size_of::<ChunkSum>() as u64;
 /// Bytes of an entry of a tile list: tile, segment, and a bit for each pixel of the tile.
-const ENTRY_BYTES: u64 = 16;
-/// Values of a digit by which entries are sorted. Twin: sort.wgsl.
-pub(crate) const DIGITS: u32 = 256;
-/// Entries of a block that is sorted. Twin: sort.wgsl.
+pub(crate) const ENTRY_BYTES: u64 = 16;
+/// Bits of a digit by which entries are sorted. Twin: sort.wgsl.
+pub(crate) const DIGIT_BITS: u32 = 8;
+const DIGITS: u32 = 1 << DIGIT_BITS;
+/// Entries of a block that is sorted. Twins: sort.wgsl, sizes.wgsl.
 const SORT_BLOCK: u32 = 256 * 8;
 
 /// Arrays over the pixels and the tiles of a strip.
 pub(crate) struct StripRoom {
     pub width_px: u32,
     pub rows: u32,
+    /// Rows of a strip that fits the device, as far as is known.
+    pub strip_rows: u32,
+    pub sizes: Sizes,
+    /// Numbers that the device can hold, for what was shaded last.
+    pub most: Numbers,
     /// Object and triangle of each pixel, with rows more above and below, so that edges are found at the strip's border.
     pub visibility: wgpu::TextureView,
     pub depth: wgpu::TextureView,
@@ -76,12 +86,12 @@ pub(crate) struct Samples {
     /// Start of the chunks of each group; one more than groups.
     pub chunk_starts: wgpu::Buffer,
     pub chunk_scan: Scan,
-    groups_max: u32,
+    pub groups_max: u32,
     pub chunk_sums: wgpu::Buffer,
-    chunks_max: u32,
+    pub chunks_max: u32,
 }
 
-/// The lists of a strip's tiles. They grow to exactly the size that is needed.
+/// The lists of a strip's tiles. They grow to the size that is needed.
 pub(crate) struct Lists {
     /// Start of the entries of each segment; one more than segments.
     pub entry_starts: wgpu::Buffer,
@@ -89,17 +99,18 @@ pub(crate) struct Lists {
     segments: u32,
     /// Entries by turns: sorted from one into the other.
     pub entries: [wgpu::Buffer; 2],
-    entries_max: u32,
+    pub entries_max: u32,
     pub digit_starts: wgpu::Buffer,
     pub digit_scan: Scan,
+    /// Digits of a tile's number.
+    pub digits: [wgpu::Buffer; (u32::BITS / DIGIT_BITS) as usize],
     /// Rows of the lists; none before lists were made, and while they are.
     pub made: Option<MadeLists>,
 }
 
-/// Rows and numbers for which the lists were made.
+/// Rows for which the lists were made.
 pub(crate) struct MadeLists {
     pub rows: Range<u32>,
-    pub entries: u32,
     /// Index of the buffer that holds them.
     pub sorted: usize,
 }
@@ -126,16 +137,6 @@ pub(crate) fn tile_count(width_px: u32, rows: u32) -> u32 {
     width_px.div_ceil(TILE_PX) * rows.div_ceil(TILE_PX)
 }
 
-/// Largest number of chunks in so many tiles with so many entries.
-pub(crate) fn chunks_most(tiles: u32, entries: u32) -> u32 {
-    tiles.min(entries) + entries / CHUNK_SEGMENTS
-}
-
-/// Blocks of so many entries that are sorted.
-pub(crate) fn sort_blocks(entries: u32) -> u32 {
-    entries.div_ceil(SORT_BLOCK).max(1)
-}
-
 /// The points of a strip, with the rows beside it.
 pub(crate) fn strip_points(width_px: u32, rows: u32) -> u64 {
     u64::from(width_px) * u64::from(rows + 2 * OUTLINE_REACH_MAX_PX)
@@ -152,7 +153,7 @@ impl StripRoom {
         let size = [width_px, rows + 2 * OUTLINE_REACH_MAX_PX];
         let starts = tile_count(width_px, rows) + 1;
         let bytes = 4 * u64::from(starts);
-        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+        let usage = BufferUsages::STORAGE;
         let group_starts = gpu.buffer("groups of tiles", bytes, usage).await?;
         let target = async |format, usage| {
             let usage = TextureUsages::RENDER_ATTACHMENT | usage;
@@ -162,6 +163,9 @@ impl StripRoom {
         Ok(Self {
             width_px,
             rows,
+            strip_rows: rows.next_multiple_of(TILE_PX),
+            sizes: Sizes::new(gpu).await?,
+            most: [0; 3],
             visibility: target(VISIBILITY_FORMAT, TextureUsages::TEXTURE_BINDING).await?,
             depth: target(DEPTH_FORMAT, TextureUsages::empty()).await?,
             list_starts: gpu.buffer("tile lists", bytes, usage).await?,
@@ -196,18 +200,17 @@ impl StripRoom {
     }
 
     /// Workgroups of a tile each, over so many rows.
-    pub(crate) fn tiles(&self, rows: u32) -> [u32; 2] {
-        [self.width_px, rows].map(|n| n.div_ceil(TILE_PX))
+    pub(crate) fn tiles(&self, rows: u32) -> Workgroups {
+        Workgroups::Known([self.width_px, rows].map(|n| n.div_ceil(TILE_PX)))
     }
 }
 
 const POINTS_USAGE: BufferUsages = BufferUsages::STORAGE.union(BufferUsages::COPY_DST);
-const STARTS_USAGE: BufferUsages = POINTS_USAGE.union(BufferUsages::COPY_SRC);
 
 impl Samples {
     async fn new(gpu: &Gpu, scans: &ScanPasses) -> Result<Self, Error> {
         let storage = BufferUsages::STORAGE;
-        let chunk_starts = gpu.buffer("chunks of groups", 8, STARTS_USAGE).await?;
+        let chunk_starts = gpu.buffer("chunks of groups", 8, POINTS_USAGE).await?;
         Ok(Self {
             points: gpu
                 .buffer("surface points", POINT_BYTES, POINTS_USAGE)
@@ -225,19 +228,14 @@ impl Samples {
         })
     }
 
-    /// Whether the device can hold so many points, and sums of so many chunks.
-    pub(crate) fn fit(gpu: &Gpu, points: u64, chunks: u32) -> bool {
-        let bytes = gpu.largest_array();
-        points * POINT_BYTES <= bytes && u64::from(chunks) * CHUNK_BYTES <= bytes
-    }
-
-    /// Makes room for so many points in so many groups.
+    /// Makes room for so many points in so many groups, and for the sums of so many chunks.
     pub(crate) async fn make_room(
         &mut self,
         gpu: &Gpu,
         scans: &ScanPasses,
         points: u64,
         groups: u32,
+        chunks: u32,
     ) -> Result<(), Error> {
         let storage = BufferUsages::STORAGE;
         if self.points_max < points {
@@ -255,34 +253,23 @@ impl Samples {
         if self.groups_max < groups {
             self.groups_max = 0;
             let bytes = 4 * (u64::from(groups) + 1);
-            self.chunk_starts = gpu.buffer("chunks of groups", bytes, STARTS_USAGE).await?;
+            self.chunk_starts = gpu.buffer("chunks of groups", bytes, POINTS_USAGE).await?;
             self.chunk_scan = scans.of(gpu, &self.chunk_starts, groups + 1).await?;
             self.groups_max = groups;
         }
-        Ok(())
-    }
-
-    /// Makes room for the sums of so many chunks.
-    pub(crate) async fn make_room_for_chunks(
-        &mut self,
-        gpu: &Gpu,
-        chunks: u32,
-    ) -> Result<(), Error> {
         if self.chunks_max < chunks {
             self.chunks_max = 0;
             self.chunk_sums.destroy();
             let bytes = CHUNK_BYTES * u64::from(chunks);
-            self.chunk_sums = gpu
-                .buffer("sums of chunks", bytes, BufferUsages::STORAGE)
-                .await?;
+            self.chunk_sums = gpu.buffer("sums of chunks", bytes, storage).await?;
             self.chunks_max = chunks;
         }
         Ok(())
     }
 
     /// One chunk for each group: for passes that do without lists.
-    pub(crate) fn one_chunk_a_group(&self, gpu: &Gpu, groups: u32) {
-        let starts: Vec<u32> = (0..=groups).collect();
+    pub(crate) fn one_chunk_a_group(&self, gpu: &Gpu) {
+        let starts: Vec<u32> = (0..=self.groups_max).collect();
         gpu.queue
             .write_buffer(&self.chunk_starts, 0, bytemuck::cast_slice(&starts));
     }
@@ -291,8 +278,7 @@ impl Samples {
 impl Lists {
     async fn new(gpu: &Gpu, scans: &ScanPasses) -> Result<Self, Error> {
         let least = BufferUsages::STORAGE;
-        let readable = least | BufferUsages::COPY_SRC;
-        let entry_starts = gpu.buffer("entries of segments", 4, readable).await?;
+        let entry_starts = gpu.buffer("entries of segments", 4, least).await?;
         let digit_starts = gpu.buffer("digits of entries", 4, least).await?;
         Ok(Self {
             entry_scan: scans.of(gpu, &entry_starts, 1).await?,
@@ -305,6 +291,12 @@ impl Lists {
             entries_max: 1,
             digit_scan: scans.of(gpu, &digit_starts, 1).await?,
             digit_starts,
+            digits: [
+                digit(gpu, 0).await?,
+                digit(gpu, 1).await?,
+                digit(gpu, 2).await?,
+                digit(gpu, 3).await?,
+            ],
             made: None,
         })
     }
@@ -318,18 +310,13 @@ impl Lists {
     ) -> Result<(), Error> {
         if self.segments < segments {
             let bytes = 4 * (u64::from(segments) + 1);
-            let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+            let usage = BufferUsages::STORAGE;
             self.entry_starts = gpu.buffer("entries of segments", bytes, usage).await?;
             self.entry_scan = scans.of(gpu, &self.entry_starts, segments + 1).await?;
             self.segments = segments;
         }
         self.entry_scan.set_count(gpu, segments + 1);
         Ok(())
-    }
-
-    /// The most entries that the device can hold.
-    pub(crate) fn entries_most(gpu: &Gpu) -> u32 {
-        u32::try_from(gpu.largest_array() / ENTRY_BYTES).unwrap_or(u32::MAX)
     }
 
     /// Makes room for so many entries.
@@ -344,6 +331,7 @@ impl Lists {
             let bytes = ENTRY_BYTES * u64::from(entries);
             // The old ones are given back first. An error on the way leaves none.
             self.entries_max = 0;
+            self.made = None;
             for buffer in &self.entries {
                 buffer.destroy();
             }
@@ -351,14 +339,24 @@ impl Lists {
                 gpu.buffer("tile lists", bytes, storage).await?,
                 gpu.buffer("tile lists", bytes, storage).await?,
             ];
-            let digits = DIGITS * sort_blocks(entries);
+            let digits = DIGITS * entries.div_ceil(SORT_BLOCK);
             let bytes = 4 * u64::from(digits);
             self.digit_starts = gpu.buffer("digits of entries", bytes, storage).await?;
             self.digit_scan = scans.of(gpu, &self.digit_starts, digits).await?;
             self.entries_max = entries;
         }
-        let digits = DIGITS * sort_blocks(entries);
-        self.digit_scan.set_count(gpu, digits);
         Ok(())
     }
+}
+
+/// The uniform that names a digit of a tile's number.
+async fn digit(gpu: &Gpu, digit: u32) -> Result<wgpu::Buffer, Error> {
+    let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+    let settings = SortSettings {
+        shift: DIGIT_BITS * digit,
+    };
+    let bytes = bytes_of(&settings);
+    let buffer = gpu.buffer("digit", bytes.len() as u64, usage).await?;
+    gpu.queue.write_buffer(&buffer, 0, bytes);
+    Ok(buffer)
 }

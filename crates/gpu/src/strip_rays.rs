@@ -3,7 +3,7 @@
 use hairline_image::Batch;
 
 use crate::bounces::{Bounce, Bounces};
-use crate::compute_pass::in_a_row;
+use crate::compute_pass::Workgroups;
 use crate::error::Error;
 use crate::film::Film;
 use crate::frame::{Rounds, View};
@@ -14,7 +14,8 @@ use crate::resources::Resources;
 use crate::shadow_picks::Scratched;
 use crate::shadow_room::ShadowRoom;
 use crate::shadows::Shadows;
-use crate::strip::{BounceRoom, GROUP, Lists, Samples, StripRoom, chunks_most};
+use crate::sizes::{CHUNKS, Points};
+use crate::strip::{BounceRoom, StripRoom};
 use crate::strip_shader::StripShader;
 use crate::variant::Way;
 
@@ -27,16 +28,18 @@ impl StripShader {
         shadows: &Shadows,
         room: &mut StripRoom,
         film: &Film,
-        points: u64,
+        points: Points,
         on: &Scratched,
         rounds: Rounds,
     ) -> Result<(), Error> {
-        let (gpu, groups) = (&self.gpu, on.groups);
+        let (gpu, groups) = (&self.gpu, &on.groups);
         let mut shadow_room = match room.shadows.take() {
             Some(shadow_room) => shadow_room,
             None => ShadowRoom::new(gpu).await?,
         };
-        shadow_room.make_room(gpu, points, shadows.layers).await?;
+        let layers = shadows.layers;
+        shadow_room.make_room(gpu, points.most, layers).await?;
+        let lanes = room.lanes();
         self.submit(view, |recording| shadow_room.clear(recording.encoder));
         let light_count = view.uploaded.data.light_count;
         let environment = view.scene.environment.iter().map(|_| light_count);
@@ -67,7 +70,7 @@ impl StripShader {
         next.ends_round = 1;
         for (source, by) in (light_count + 1..).zip(&shadows.by_picks) {
             let most = shadow_room
-                .make_room_for_picks(gpu, points, by.lanes(on), next.rounds)
+                .make_room_for_picks(gpu, points, lanes, next.rounds)
                 .await?;
             next.source = source;
             next.way = by.way as u32;
@@ -98,7 +101,7 @@ impl StripShader {
         shadows: &Shadows,
         room: &StripRoom,
         film: &Film,
-        groups: u32,
+        groups: &Workgroups,
         rounds: u32,
     ) {
         let Some(shadow_room) = &room.shadows else {
@@ -111,40 +114,39 @@ impl StripShader {
         shadow_room.write(&self.gpu, &all);
         self.submit(view, |recording| {
             let resources = of_rays(room, shadow_room, film, shadows);
-            shadows.found.run(recording, &resources, in_a_row(groups));
+            shadows.found.run(recording, &resources, groups);
         });
     }
 
-    /// Finds the light of other objects that the samples send; false if the hits of their rays do not fit on the device.
+    /// Finds the light of other objects that the samples send.
     pub(crate) async fn shade_bounces(
         &self,
         view: &View<'_>,
         bounces: &Bounces,
         room: &mut StripRoom,
         film: &Film,
-        points: u64,
+        points: Points,
         on: &Scratched,
-    ) -> Result<bool, Error> {
-        let (gpu, scans, groups) = (&self.gpu, &self.scans, on.groups);
+    ) -> Result<(), Error> {
+        let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
         let mut bounce_room = match room.bounces.take() {
             Some(bounce_room) => bounce_room,
             None => Box::new(BounceRoom::new(gpu, scans).await?),
         };
-        let made = bounce_room.make_room(gpu, scans, points, groups, bounces.count);
+        let made = bounce_room.make_room(gpu, scans, passes, room, points.most, bounces.count);
         made.await?;
         let Batch {
             first: first_round,
             count: rounds,
         } = view.rounds();
         let mut most = rounds;
+        let lanes = room.lanes();
         if bounces.scratches.is_some()
             && let Some(shadow_room) = &mut room.shadows
         {
-            let lanes = u64::from(GROUP) * u64::from(on.chunks);
             let made = shadow_room.make_room_for_picks(gpu, points, lanes, rounds);
             most = made.await?;
         }
-        let mut fits = true;
         for way in Way::ALL {
             if !bounces.has(way) {
                 continue;
@@ -162,23 +164,13 @@ impl StripShader {
                     way: way as u32,
                     ..ShadowRound::default()
                 };
-                fits = fits
-                    && self
-                        .go_on(
-                            view,
-                            bounces,
-                            room,
-                            &mut bounce_room,
-                            film,
-                            points,
-                            on,
-                            first,
-                        )
-                        .await?;
+                let hits = &mut *bounce_room;
+                self.go_on(view, bounces, room, hits, film, points, on, first)
+                    .await?;
             }
         }
         room.bounces = Some(bounce_room);
-        Ok(fits)
+        Ok(())
     }
 
     /// Follows a ray of each sample, one from its hit, and so on.
@@ -190,12 +182,12 @@ impl StripShader {
         room: &StripRoom,
         bounce_room: &mut BounceRoom,
         film: &Film,
-        points: u64,
+        points: Points,
         on: &Scratched,
         first: ShadowRound,
-    ) -> Result<bool, Error> {
+    ) -> Result<(), Error> {
         let gpu = &self.gpu;
-        let mut on = *on;
+        let mut on = on.clone();
         for depth in 0..bounces.count {
             let round = match depth {
                 0 => first,
@@ -218,7 +210,7 @@ impl StripShader {
             bounce_room.write(gpu, &round);
             let to = depth as usize % 2;
             self.submit(view, |recording| {
-                let Some(by) = bounce(room, bounce_room, film, bounces, &round, on.groups) else {
+                let Some(by) = bounce(room, bounce_room, film, bounces, &round, &on.groups) else {
                     return;
                 };
                 if let Some(scratches) = &bounces.scratches
@@ -230,21 +222,18 @@ impl StripShader {
             });
             let hits = &mut bounce_room.hits[to];
             let next = seed(&first, depth + 1);
-            let shaded = self.shade_hits(view, bounces, hits, film, points, on.groups, next);
-            let Some(chunks) = shaded.await? else {
-                return Ok(false);
-            };
+            self.shade_hits(view, bounces, hits, film, points, &mut on, next)
+                .await?;
             self.submit(view, |recording| {
-                if let Some(by) = bounce(room, bounce_room, film, bounces, &round, on.groups) {
+                if let Some(by) = bounce(room, bounce_room, film, bounces, &round, &on.groups) {
                     bounces.record_light(recording, &by);
                 }
             });
-            on.chunks = chunks;
         }
-        Ok(true)
+        Ok(())
     }
 
-    /// Shades hits, with shadows. Returns the number of chunks of their scratches; nothing if these do not fit on the device.
+    /// Shades hits, with shadows; from now on the chunks are theirs.
     #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
     async fn shade_hits(
         &self,
@@ -252,57 +241,44 @@ impl StripShader {
         bounces: &Bounces,
         hits: &mut StripRoom,
         film: &Film,
-        points: u64,
-        groups: u32,
+        points: Points,
+        on: &mut Scratched,
         seed: u32,
-    ) -> Result<Option<u32>, Error> {
-        let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
-        let mut chunks = groups;
-        if let Some(scratches) = &bounces.scratches {
-            hits.group_scan.set_count(gpu, GROUP * groups + 1);
-            self.submit(view, |recording| {
-                scratches.record_count(recording, scans, hits, film, groups);
-            });
-            // The sum of all lies behind them.
-            let entries = self.read_u32(&hits.list_starts, GROUP * groups).await?;
-            chunks = chunks_most(groups, entries);
-            let all_chunks = chunks + passes.grating_chunks(groups);
-            if entries > Lists::entries_most(gpu) || !Samples::fit(gpu, points, all_chunks) {
-                return Ok(None);
-            }
-            hits.lists.make_room(gpu, scans, entries).await?;
-            self.submit(view, |recording| {
-                scratches.record_lists(recording, hits, film, groups);
-                let shade = &scratches.shade;
-                shade.record_chunks(recording, scans, hits, groups);
-            });
-        } else {
-            hits.samples.one_chunk_a_group(gpu, groups);
+    ) -> Result<(), Error> {
+        let (scans, passes) = (&self.scans, &view.uploaded.passes);
+        on.chunks = hits.sizes.workgroups(CHUNKS);
+        if bounces.scratches.is_none() {
+            hits.samples.one_chunk_a_group(&self.gpu);
         }
-        let all_chunks = chunks + passes.grating_chunks(groups);
-        hits.samples.make_room_for_chunks(gpu, all_chunks).await?;
         self.submit(view, |recording| {
             if let Some(scratches) = &bounces.scratches {
-                let shade = &scratches.shade;
-                shade.record(recording, hits, chunks);
+                scratches.record_count(recording, scans, hits, film, &on.groups);
+                let starts = &hits.list_starts;
+                self.size(recording, &scratches.size, starts, &hits.sizes, film);
+                scratches.record_lists(recording, hits, film, &on.groups);
+                scratches.shade.record_chunks(recording, scans, hits);
+            }
+            let (size, starts) = (&passes.sizes[CHUNKS], &hits.samples.chunk_starts);
+            self.size(recording, size, starts, &hits.sizes, film);
+            if let Some(scratches) = &bounces.scratches {
+                scratches.shade.record(recording, hits, &on.chunks);
             }
             if let Shade::Own { base, gratings, .. } = &passes.shade {
                 let resources = hits.resources().and(film.resources());
-                base.run(recording, &resources, in_a_row(groups));
+                base.run(recording, &resources, &on.groups);
                 if let Some(gratings) = gratings {
-                    gratings.run(recording, &resources, in_a_row(groups));
+                    gratings.run(recording, &resources, &on.groups);
                 }
             }
         });
-        let on = Scratched { groups, chunks };
         let rounds = Rounds {
             now: Batch::all(1),
             seed,
         };
-        let shaded = self.shade_shadows(view, &bounces.shadows, hits, film, points, &on, rounds);
-        shaded.await?;
-        self.finish_found(view, &bounces.shadows, hits, film, groups, 1);
-        Ok(Some(chunks))
+        self.shade_shadows(view, &bounces.shadows, hits, film, points, on, rounds)
+            .await?;
+        self.finish_found(view, &bounces.shadows, hits, film, &on.groups, 1);
+        Ok(())
     }
 }
 
@@ -324,7 +300,7 @@ fn bounce<'a>(
     film: &Film,
     bounces: &Bounces,
     round: &ShadowRound,
-    groups: u32,
+    groups: &Workgroups,
 ) -> Option<Bounce<'a>> {
     let way = Way::ALL[round.way as usize];
     let by = (round.depth, way);

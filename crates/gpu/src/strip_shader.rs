@@ -1,27 +1,30 @@
 //! A strip of a picture: its stages in their order, from the visibility to the film.
 
+use std::mem::offset_of;
 use std::ops::Range;
 
 use wgpu::BufferUsages;
 
 use crate::bindings::{Layouts, bind};
-use crate::compute_pass::{Recording, in_a_row};
+use crate::compute_pass::{ComputePass, Recording, in_a_row};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
-use crate::frame::{Counted, Rounds, View, frame, halo_rows};
-use crate::layout::{Frame, PixelPoint};
+use crate::frame::{Rounds, View, frame, halo_rows};
+use crate::layout::Frame;
 use crate::passes::{ScratchPasses, Shade};
 use crate::pipelines::compiled;
 use crate::scan::ScanPasses;
 use crate::shadow_picks::Scratched;
-use crate::shadow_room::ShadowRoom;
-use crate::strip::{
-    BounceRoom, GROUP, Lists, MadeLists, Samples, StripRoom, TILE_PX, chunks_most, strip_points,
-    tile_count,
-};
+use crate::sizes::{CHUNKS, ENTRIES, GROUPS, Points, Sizes};
+use crate::strip::{GROUP, MadeLists, StripRoom, TILE_PX, strip_points, tile_count};
+use crate::strip_sizes::{half, numbers_most};
 use crate::timing::Timing;
 use crate::visibility::VisibilityPass;
+
+/// Place in the frame of what is counted on the device, and its size: the numbers of entries and of groups.
+const COUNTED_OFFSET: u64 = offset_of!(Frame, entry_count) as u64;
+const COUNTED_BYTES: u64 = 8;
 
 /// The passes that every scene needs, and the frame that all passes read.
 pub(crate) struct StripShader {
@@ -51,7 +54,8 @@ impl StripShader {
         })
     }
 
-    /// One step of the rows of a film, in as many strips as the tile lists need.
+    /// One step of the rows of a film, in as many strips as the device needs. Nothing is waited for but memory: [`StripRoom::settle`] tells whether
+    /// there was room for all.
     pub(crate) async fn shade(
         &self,
         view: &View<'_>,
@@ -59,263 +63,193 @@ impl StripShader {
         room: &mut StripRoom,
         rows: Range<u32>,
     ) -> Result<(), Error> {
-        let film_row = rows.start;
-        let mut strips = vec![rows];
-        while let Some(strip) = strips.pop() {
-            let halves = self.shade_strip(view, film, film_row, room, &strip).await?;
-            strips.extend(halves.into_iter().flatten());
+        room.most = numbers_most(&self.gpu, view);
+        let points_most = u64::from(GROUP) * u64::from(room.most[GROUPS]);
+        while strip_points(room.width_px, room.strip_rows) > points_most
+            && room.strip_rows > TILE_PX
+        {
+            room.strip_rows = half(room.strip_rows);
+        }
+        let strip_rows = room.strip_rows;
+        for start in rows.clone().step_by(strip_rows as usize) {
+            let strip = start..(start + strip_rows).min(rows.end);
+            self.shade_strip(view, film, rows.start, room, strip)
+                .await?;
         }
         Ok(())
     }
 
-    /// One step of a strip; or, if the lists of its tiles do not fit on the device, the two halves to shade in its place, the lower
-    /// one first.
+    /// One step of a strip.
     async fn shade_strip(
         &self,
         view: &View<'_>,
         film: &Film,
         film_row: u32,
         room: &mut StripRoom,
-        strip: &Range<u32>,
-    ) -> Result<Option<[Range<u32>; 2]>, Error> {
+        strip: Range<u32>,
+    ) -> Result<(), Error> {
         let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
         let rows = strip.len() as u32;
         let tiles = tile_count(room.width_px, rows);
-        if let Some(scratches) = passes.scratches() {
-            // Lists of the first step serve the other steps.
-            let made = room.lists.made.as_ref();
-            let kept = view.step > 0 && made.is_some_and(|made| made.rows == *strip);
-            if !kept
-                && !self
-                    .make_lists(view, scratches, film_row, room, strip)
-                    .await?
-            {
-                return self.halves(strip).map(Some);
-            }
-        }
-        let lists = room.lists.made.as_ref();
-        let entries = lists.map_or(0, |made| made.entries);
-        let mut counted = Counted {
-            entries,
-            groups: tiles,
+        let first = strip_points(room.width_px, rows);
+        room.make_room(gpu, scans, passes, tiles, first).await?;
+        let most = u64::from(GROUP) * u64::from(room.sizes.room[GROUPS]);
+        let points = Points {
+            first,
+            most: most.max(first),
         };
-        let mut points = strip_points(room.width_px, rows);
-        if view.step > 0 {
-            counted.groups = self.count_groups(view, film, film_row, room, strip).await?;
-            points = u64::from(counted.groups) * u64::from(GROUP);
-        }
-        let groups = counted.groups;
-        if groups == 0 {
-            return Ok(None);
-        }
-        let mut chunks = match passes.scratches() {
-            None => groups,
-            Some(_) => chunks_most(tiles, entries),
-        };
-        let grating_chunks = passes.grating_chunks(groups);
-        if !Samples::fit(gpu, points, chunks + grating_chunks)
-            || view
-                .shadows()
-                .is_some_and(|shadows| !ShadowRoom::fit(gpu, points, shadows.layers))
-            || view.bounces().is_some() && !BounceRoom::fit(gpu, points)
-        {
-            return self.halves(strip).map(Some);
-        }
-        room.samples.make_room(gpu, scans, points, groups).await?;
-        if let Some(scratches) = passes.scratches() {
-            self.write_frame(view, strip, film_row, view.step_samples().start, counted);
-            self.submit(view, |recording| {
-                let shade = &scratches.shade;
-                shade.record_chunks(recording, scans, room, groups);
-            });
-            if view.step > 0 {
-                chunks = self.read_u32(&room.samples.chunk_starts, groups).await?;
-            }
-            if !Samples::fit(gpu, points, chunks + grating_chunks) {
-                return self.halves(strip).map(Some);
-            }
+        // Lists of the first step serve the other steps.
+        let made = room.lists.made.take();
+        room.lists.made = made.filter(|made| view.step > 0 && made.rows == strip);
+        let kept = room.lists.made.is_some();
+        if passes.scratches().is_some() {
+            let segments = view.uploaded.data.buffers.segment_count();
+            let lists = &mut room.lists;
+            lists.make_room_for_segments(gpu, scans, segments).await?;
         } else {
-            room.samples.one_chunk_a_group(gpu, groups);
+            room.samples.one_chunk_a_group(gpu);
         }
-        let all_chunks = chunks + grating_chunks;
-        room.samples.make_room_for_chunks(gpu, all_chunks).await?;
+        room.group_scan.set_count(gpu, tiles + 1);
+        self.write_frame(view, &strip, film_row, view.step_samples().start);
+        let mut sorted = None;
         self.submit(view, |recording| {
             if view.step == 0 && strip.start == film_row {
                 film.clear(recording.encoder);
             }
-            // Not every place of a group has a sample.
-            let bytes = points * size_of::<PixelPoint>() as u64;
-            (recording.encoder).clear_buffer(&room.samples.points, 0, Some(bytes));
+            if let Some(scratches) = passes.scratches().filter(|_| !kept) {
+                sorted = Some(self.make_lists(recording, view, scratches, film, room, tiles));
+            }
+            if view.step > 0 {
+                let resources = room.resources().and(film.resources());
+                passes.edges.run(recording, &resources, &in_a_row(tiles));
+                scans.record(recording.encoder, &room.group_scan, recording.timing);
+                // Not every place of a group has a sample.
+                let points = &room.samples.points;
+                recording.encoder.clear_buffer(points, 0, None);
+            }
+            let sizes = &room.sizes;
+            let starts = &room.group_starts;
+            self.size(recording, &passes.sizes[GROUPS], starts, sizes, film);
+            if let Some(scratches) = passes.scratches() {
+                scratches.shade.record_chunks(recording, scans, room);
+            }
+            let starts = &room.samples.chunk_starts;
+            self.size(recording, &passes.sizes[CHUNKS], starts, sizes, film);
         });
+        if let Some(sorted) = sorted {
+            let rows = strip.clone();
+            room.lists.made = Some(MadeLists { rows, sorted });
+        }
         for sample in view.step_samples() {
-            self.write_frame(view, strip, film_row, sample, counted);
+            self.write_frame(view, &strip, film_row, sample);
             self.submit(view, |recording| {
                 let rows = rows + 2 * halo_rows(view.scene);
                 self.visibility.record(recording, room, rows);
                 let resources = room.resources().and(film.resources());
-                passes.surface.run(recording, &resources, room.tiles(rows));
+                passes.surface.run(recording, &resources, &room.tiles(rows));
             });
         }
-        if let Some(ScratchPasses { share, .. }) = passes.scratches().filter(|_| view.step > 0) {
-            self.submit(view, |recording| {
-                let resources = room.resources().and(film.resources());
-                share.run(recording, &resources, room.tiles(rows));
-            });
-        }
+        let on = Scratched {
+            groups: room.groups(view.step, tiles),
+            chunks: room.sizes.workgroups(CHUNKS),
+        };
         let shadows = match &passes.shade {
             Shade::Own { .. } => view.shadows(),
             Shade::Other(_) => None,
         };
         self.submit(view, |recording| {
             let resources = room.resources().and(film.resources());
+            if let Some(ScratchPasses { share, .. }) = passes.scratches().filter(|_| view.step > 0)
+            {
+                share.run(recording, &resources, &room.tiles(rows));
+            }
             match &passes.shade {
                 Shade::Own {
                     base,
                     scratches,
                     gratings,
                 } => {
-                    base.run(recording, &resources, in_a_row(groups));
+                    base.run(recording, &resources, &on.groups);
                     if let Some(scratches) = scratches {
-                        scratches.shade.record(recording, room, chunks);
+                        scratches.shade.record(recording, room, &on.chunks);
                     }
                     if let Some(gratings) = gratings {
-                        gratings.run(recording, &resources, in_a_row(groups));
+                        gratings.run(recording, &resources, &on.groups);
                     }
                 }
-                Shade::Other(pass) => pass.run(recording, &resources, in_a_row(groups)),
+                Shade::Other(pass) => pass.run(recording, &resources, &on.groups),
             }
             if shadows.is_none() {
-                passes.resolve.run(recording, &resources, room.tiles(rows));
+                passes.resolve.run(recording, &resources, &room.tiles(rows));
             }
         });
         if let Some(shadows) = shadows {
-            let on = Scratched { groups, chunks };
             let rounds = Rounds {
                 now: view.rounds(),
                 seed: 0,
             };
             self.shade_shadows(view, shadows, room, film, points, &on, rounds)
                 .await?;
-            let bounces = view.bounces();
-            if let Some(bounces) = bounces
-                && !self
-                    .shade_bounces(view, bounces, room, film, points, &on)
-                    .await?
-            {
-                return self.halves(strip).map(Some);
+            if let Some(bounces) = view.bounces() {
+                self.shade_bounces(view, bounces, room, film, points, &on)
+                    .await?;
             }
-            self.finish_found(view, shadows, room, film, groups, rounds.now.count);
+            self.finish_found(view, shadows, room, film, &on.groups, rounds.now.count);
             self.submit(view, |recording| {
                 let resources = room.resources().and(film.resources());
                 let tiles = room.tiles(rows);
-                passes.resolve.run(recording, &resources, tiles);
+                passes.resolve.run(recording, &resources, &tiles);
                 if let (Some(shadow_room), Some(_)) = (&room.shadows, &film.found) {
                     let resources = resources.and(shadow_room.resources());
-                    shadows.film.run(recording, &resources, tiles);
+                    shadows.film.run(recording, &resources, &tiles);
                 }
             });
         }
-        Ok(None)
+        Ok(())
     }
 
-    /// Counts the groups of the samples on a strip's edges.
-    async fn count_groups(
+    /// Makes the tile lists of a strip. Returns which of the two buffers holds them.
+    fn make_lists(
         &self,
-        view: &View<'_>,
-        film: &Film,
-        film_row: u32,
-        room: &mut StripRoom,
-        strip: &Range<u32>,
-    ) -> Result<u32, Error> {
-        let tiles = tile_count(room.width_px, strip.len() as u32);
-        let first = view.step_samples().start;
-        self.write_frame(view, strip, film_row, first, Counted::default());
-        self.submit(view, |recording| {
-            let edges = &view.uploaded.passes.edges;
-            let resources = room.resources().and(film.resources());
-            edges.run(recording, &resources, in_a_row(tiles));
-            room.group_scan.set_count(&self.gpu, tiles + 1);
-            let scan = &room.group_scan;
-            self.scans.record(recording.encoder, scan, recording.timing);
-        });
-        self.read_u32(&room.group_starts, tiles).await
-    }
-
-    pub(crate) async fn read_u32(&self, buffer: &wgpu::Buffer, index: u32) -> Result<u32, Error> {
-        let at = 4 * u64::from(index);
-        let bytes = self.gpu.read(buffer, at..at + 4).await?;
-        Ok(bytemuck::pod_read_unaligned(&bytes))
-    }
-
-    /// Makes the tile lists of a strip; false if they do not fit on the device.
-    async fn make_lists(
-        &self,
-        view: &View<'_>,
-        passes: &ScratchPasses,
-        film_row: u32,
-        room: &mut StripRoom,
-        strip: &Range<u32>,
-    ) -> Result<bool, Error> {
-        let (gpu, scans) = (&self.gpu, &self.scans);
-        let tiles = tile_count(room.width_px, strip.len() as u32);
-        let segments = view.uploaded.data.buffers.segment_count();
-        room.lists.made = None;
-        room.lists
-            .make_room_for_segments(gpu, scans, segments)
-            .await?;
-        let sample = view.step_samples().start;
-        self.write_frame(view, strip, film_row, sample, Counted::default());
-        self.submit(view, |recording| {
-            passes.bin.record_count(recording, scans, room, segments);
-        });
-        // The sum of all lies behind them.
-        let starts = &room.lists.entry_starts;
-        let entries = self.read_u32(starts, segments).await?;
-        if entries > Lists::entries_most(gpu) {
-            return Ok(false);
-        }
-        room.lists.make_room(gpu, scans, entries).await?;
-        let groups = 0;
-        self.write_frame(view, strip, film_row, sample, Counted { entries, groups });
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut recording = self.recording(&mut encoder, view);
-        let counts = [segments, entries];
-        let sorted = passes
-            .bin
-            .record(&mut recording, scans, room, tiles, counts);
-        let sorted = sorted.await?;
-        gpu.queue.submit([encoder.finish()]);
-        room.lists.made = Some(MadeLists {
-            rows: strip.clone(),
-            entries,
-            sorted,
-        });
-        Ok(true)
-    }
-
-    /// The halves of a strip, of whole tiles.
-    fn halves(&self, strip: &Range<u32>) -> Result<[Range<u32>; 2], Error> {
-        let upper = (strip.len() as u32 / 2).next_multiple_of(TILE_PX);
-        let middle = strip.start + upper;
-        if middle >= strip.end {
-            let what = "tile lists of a row of tiles";
-            let allowed = u64::from(Lists::entries_most(&self.gpu));
-            return Err(self.gpu.too_large(what, allowed + 1, allowed, "entries"));
-        }
-        Ok([middle..strip.end, strip.start..middle])
-    }
-
-    fn write_frame(
-        &self,
+        recording: &mut Recording,
         view: &View,
-        strip: &Range<u32>,
-        film_row: u32,
-        sample: u32,
-        counted: Counted,
+        passes: &ScratchPasses,
+        film: &Film,
+        room: &StripRoom,
+        tiles: u32,
+    ) -> usize {
+        let (bin, scans) = (&passes.bin, &self.scans);
+        let segments = view.uploaded.data.buffers.segment_count();
+        bin.record_count(recording, scans, room, segments);
+        let size = &view.uploaded.passes.sizes[ENTRIES];
+        let starts = &room.lists.entry_starts;
+        self.size(recording, size, starts, &room.sizes, film);
+        bin.record(recording, scans, room, tiles, segments)
+    }
+
+    /// Sizes dispatches by prefix sums, and hands the numbers of entries and groups to the passes to come.
+    pub(crate) fn size(
+        &self,
+        recording: &mut Recording,
+        pass: &ComputePass,
+        totals: &wgpu::Buffer,
+        sizes: &Sizes,
+        film: &Film,
     ) {
-        let uniform = frame(view, strip, film_row, sample, counted);
-        let queue = &self.gpu.queue;
-        queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
+        let resources = film
+            .resources()
+            .buffer("totals", totals)
+            .buffer("sizes", &sizes.buffer);
+        pass.run(recording, &resources, &in_a_row(1));
+        let (from, to) = (&sizes.buffer, &self.frame);
+        (recording.encoder).copy_buffer_to_buffer(from, 0, to, COUNTED_OFFSET, COUNTED_BYTES);
+    }
+
+    /// Writes what the host knows of a frame.
+    fn write_frame(&self, view: &View, strip: &Range<u32>, film_row: u32, sample: u32) {
+        let uniform = frame(view, strip, film_row, sample);
+        let known = &bytemuck::bytes_of(&uniform)[..COUNTED_OFFSET as usize];
+        self.gpu.queue.write_buffer(&self.frame, 0, known);
     }
 
     /// Submits the commands that `record` records.

@@ -200,7 +200,7 @@ pub fn pipeline_variants(
                 if variants.iter().any(|(_, known)| *known == constants) {
                     continue;
                 }
-                let switches = ["PICKS", "BY_ENERGY", "AT_HITS", "OF_GRATINGS"];
+                let switches = ["PICKS", "BY_ENERGY", "AT_HITS", "OF_GRATINGS", "COUNTED"];
                 let has = |switch: &&str| text.contains(&format!("override {switch}:"));
                 for switch in switches.into_iter().filter(has) {
                     let mut constants = constants.clone();

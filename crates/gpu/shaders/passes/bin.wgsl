@@ -8,7 +8,8 @@
 @compute @workgroup_size(256)
 fn bin(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let index = 256u * (workgroup.y * workgroups.x + workgroup.x) + lane;
-    if index >= frame.segment_count {
+    // Without entries there are none, or there is no room for them.
+    if index >= frame.segment_count || frame.entry_count == 0u {
         return;
     }
     var at = entry_starts[index];

@@ -35,7 +35,7 @@ fn over_samples(before: FoundLight, first: u32, count: u32, layer: u32) -> Found
 @compute @workgroup_size(8, 8)
 fn found_film(@builtin(global_invocation_id) id: vec3u) {
     let pixel = id.xy + vec2u(0u, frame.rows.x);
-    if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
+    if film.short != 0u || pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
         return;
     }
     let at = film_index(pixel);

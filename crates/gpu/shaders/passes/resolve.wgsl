@@ -105,7 +105,7 @@ fn film_sum(a: FilmPixel, b: FilmPixel) -> FilmPixel {
 @compute @workgroup_size(8, 8)
 fn resolve(@builtin(global_invocation_id) id: vec3u) {
     let pixel = id.xy + vec2u(0u, frame.rows.x);
-    if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
+    if film.short != 0u || pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
         return;
     }
     let at = film_index(pixel);

@@ -20,7 +20,7 @@ fn is_like(a: u32, b: u32) -> bool {
 @compute @workgroup_size(8, 8)
 fn share_scratches(@builtin(global_invocation_id) id: vec3u) {
     let pixel = id.xy + vec2u(0u, frame.rows.x);
-    if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
+    if frame.group_count == 0u || pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
         return;
     }
     let edge = film.pixels[film_index(pixel)].edge;

@@ -26,6 +26,10 @@ fn sort_block(workgroup: vec3u, workgroups: vec3u) -> u32 {
     return workgroup.y * workgroups.x + workgroup.x;
 }
 
+fn sort_blocks() -> u32 {
+    return (frame.entry_count + SORT_LANES * SORT_ROUNDS - 1u) / (SORT_LANES * SORT_ROUNDS);
+}
+
 @compute @workgroup_size(SORT_LANES)
 fn sort_count(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let block = sort_block(workgroup, workgroups);
@@ -38,16 +42,16 @@ fn sort_count(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) 
         }
     }
     workgroupBarrier();
-    if block < settings.block_count {
-        digit_starts[lane * settings.block_count + block] = atomicLoad(&sort_counts[lane]);
+    if block < sort_blocks() {
+        digit_starts[lane * sort_blocks() + block] = atomicLoad(&sort_counts[lane]);
     }
 }
 
 @compute @workgroup_size(SORT_LANES)
 fn sort_scatter(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let block = min(sort_block(workgroup, workgroups), settings.block_count - 1u);
-    let is_mine = sort_block(workgroup, workgroups) < settings.block_count;
-    sort_next[lane] = digit_starts[lane * settings.block_count + block];
+    let block = min(sort_block(workgroup, workgroups), sort_blocks() - 1u);
+    let is_mine = sort_block(workgroup, workgroups) < sort_blocks();
+    sort_next[lane] = digit_starts[lane * sort_blocks() + block];
     for (var round = 0u; round < SORT_ROUNDS; round += 1u) {
         for (var word = 0u; word < SORT_WORDS; word += 1u) {
             atomicStore(&sort_masks[lane * SORT_WORDS + word], 0u);

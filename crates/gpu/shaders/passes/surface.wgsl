@@ -9,7 +9,7 @@
 
 @compute @workgroup_size(8, 8)
 fn surface(@builtin(global_invocation_id) id: vec3u) {
-    if id.x >= frame.size_px.x || id.y >= frame.rows.y - frame.rows.x + 2u * frame.halo_rows {
+    if frame.group_count == 0u || id.x >= frame.size_px.x || id.y >= frame.rows.y - frame.rows.x + 2u * frame.halo_rows {
         return;
     }
     // The first rows are those above the strip, which may lie outside the picture.

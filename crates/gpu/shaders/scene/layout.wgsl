@@ -26,14 +26,30 @@ struct Frame {
     list_jitter_px: f32,        // how far samples lie from the pixel's centre
     halo_rows: u32,             // of the strip's arrays, above it and below
     is_edge_everywhere: u32,    // 1: samples see so far that each pixel has all of them
-    entry_count: u32,           // of all tile lists of the strip; known once they are counted
     object_count: u32,
-    group_count: u32,           // of 64 samples that are shaded together; known once edges are counted
     base_light_count: u32,      // of the lights, those that do not shine on scratches alone: they come first
     middle_px: vec2f,           // where in the picture the ray along `forward` is
     coverage_round: u32,        // of all samples of a pixel, which one is looked at; COVERAGE_ANY: it stands for all
     sample_order: vec2u,        // the samples of the step from the one that is nearest to the pixel's middle, 4 bits each
+    entry_count: u32,           // this and what follows: what `Sizes` begins with, copied on the device
+    group_count: u32,
 }
+
+// What is counted on the device, and the dispatches that follow from it; all zeros once something had no room. See sizes.wgsl.
+struct Sizes {
+    entry_count: u32,           // of all tile lists of the strip
+    group_count: u32,           // of 64 samples that are shaded together
+    blocks: vec3u,              // workgroups for entries that are sorted
+    groups: vec3u,              // a workgroup for each group
+    chunks: vec3u,              // and for each chunk of a list
+    room: vec3u,                // for so many entries, groups and chunks; the host's
+    needed: vec3u,              // the most of each since the host asked
+}
+
+// Which number is counted: the place in `room` and `needed`.
+const COUNTED_ENTRIES: u32 = 0u;
+const COUNTED_GROUPS: u32 = 1u;
+const COUNTED_CHUNKS: u32 = 2u;
 
 // The sample sees any surface that covers something.
 const COVERAGE_ANY: u32 = 0xffffffffu;
@@ -320,13 +336,13 @@ struct FilmPixel {
 
 struct Film {
     gave_up: atomic<u32>,       // invocations whose loops the device cut short: the host discards the picture
+    short: u32,                 // 0; or the step + 1 from which on there was no room, where all later ones count as 1: these have added nothing
     pixels: array<FilmPixel>,
 }
 
 // Digit of a tile's number that a pass of the radix sort looks at.
 struct SortSettings {
     shift: u32,
-    block_count: u32,
 }
 
 // A scan of prefix sums.

@@ -133,7 +133,7 @@ impl Stage {
         self.gpu.block_on(canvas).unwrap()
     }
 
-    /// Adds one step to one band.
+    /// Adds one step to one band, and waits until it is there.
     pub fn accumulate(
         &mut self,
         canvas: &mut Canvas,
@@ -148,7 +148,13 @@ impl Stage {
             uploaded,
         } = self;
         let (scene, uploaded) = (&made.scene, &*uploaded);
-        gpu.block_on(renderer.accumulate(scene, uploaded, canvas, band, step, &options(samples)))
+        let options = options(samples);
+        gpu.block_on(async {
+            renderer
+                .accumulate(scene, uploaded, canvas, band, step, &options)
+                .await?;
+            renderer.settle(scene, uploaded, canvas, &options).await
+        })
     }
 
     /// Adds the steps up to `end` of those for `samples` to all bands.

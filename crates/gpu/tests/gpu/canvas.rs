@@ -90,6 +90,8 @@ fn a_canvas_holds_a_batch_of_samples_by_itself() {
                 gpu.block_on(added).unwrap();
             }
         }
+        let settled = renderer.settle(&made.scene, uploaded, &mut canvas, &options);
+        gpu.block_on(settled).unwrap();
         let part = renderer.render(&made.scene, uploaded, &options, &|_| {});
         let part = gpu.block_on(part).unwrap();
         assert_eq!(image(&canvas, gpu), part, "{batch:?}");
@@ -123,6 +125,8 @@ fn a_canvas_is_shown_as_the_host_filters_it() {
                 gpu.block_on(added).unwrap();
             }
         }
+        let settled = renderer.settle(&made.scene, uploaded, &mut canvas, &options);
+        gpu.block_on(settled).unwrap();
         let raw = image(&canvas, gpu);
         let mut filtered = raw.clone();
         filter_found(&mut filtered);
@@ -202,7 +206,7 @@ fn an_interrupted_view_leaves_nothing_behind() {
             stage.accumulate(&mut canvas, band, step, 32).unwrap();
         }
     }
-    // Dropped where it first waits: until edges are counted.
+    // Dropped where it first waits, if it waits for memory.
     {
         let (scene, uploaded) = (&stage.made.scene, &stage.uploaded);
         let renderer = &mut stage.renderer;

@@ -59,8 +59,15 @@ fn a_lost_device_is_an_error_everywhere() {
             _ => destroyed_within(&gpu, edited.update(renderer, uploaded)).map(is_lost),
         };
         assert!(lost.unwrap_or(true), "step {step}");
-        // Whatever comes next says the same.
-        let next = renderer.accumulate(scene, uploaded, &mut canvas, 0, 0, &options);
+        // Whatever waits next says the same.
+        let next = async {
+            renderer
+                .accumulate(scene, uploaded, &mut canvas, 0, 0, &options)
+                .await?;
+            renderer
+                .settle(scene, uploaded, &mut canvas, &options)
+                .await
+        };
         assert!(is_lost(gpu.block_on(next)), "after step {step}");
         let next = renderer.read_shown(&canvas, &DISPLAY);
         assert!(is_lost(gpu.block_on(next)), "after step {step}");

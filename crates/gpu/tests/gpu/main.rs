@@ -8,6 +8,7 @@ mod call;
 mod canvas;
 mod environment;
 mod lost;
+mod reads;
 mod renderer;
 mod timing;
 mod tone_map;

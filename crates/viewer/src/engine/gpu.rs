@@ -216,7 +216,9 @@ impl StepRenderer for GpuStepRenderer {
                 self.renderer
                     .accumulate(&scene, uploaded, &mut canvas, band, part, &options)
                     .await?;
-                gpu.finished().await?;
+                self.renderer
+                    .settle(&scene, uploaded, &mut canvas, &options)
+                    .await?;
             }
             // The first step shades every pixel once, each later one is a sample of the pixels on edges.
             let is_last = part + 1 == steps;
