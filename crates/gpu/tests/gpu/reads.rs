@@ -4,7 +4,7 @@ use crate::common::{Stage, default_limits, options, plates};
 use hairline_gpu::{Canvas, RenderOptions, steps};
 use hairline_image::Image;
 
-const SIZE_PX: [u32; 2] = [97, 64];
+const SIZE_PX: [u32; 2] = [48, 32];
 
 /// The plates, with shadows and a bounce, in two bands. Its device is its own: others would read, too.
 fn stage(filter_std_px: f64) -> Option<(Stage, Canvas)> {
@@ -15,7 +15,7 @@ fn stage(filter_std_px: f64) -> Option<(Stage, Canvas)> {
     let (renderer, scene) = (&mut stage.renderer, &stage.made.scene);
     let shadows = renderer.add_shadows(&mut stage.uploaded, scene, 1);
     gpu.block_on(shadows).unwrap();
-    let canvas = stage.canvas(SIZE_PX, 40 * SIZE_PX[0]);
+    let canvas = stage.canvas(SIZE_PX, 16 * SIZE_PX[0]);
     assert_eq!(canvas.bands(), 2);
     Some((stage, canvas))
 }
@@ -54,7 +54,7 @@ fn nothing_is_read_until_pixels_are_asked_for() {
         without_shadows: true,
         ..options(1)
     };
-    for (name, options) in [("moving", moving), ("still", options(8))] {
+    for (name, options) in [("moving", moving), ("still", options(4))] {
         let [drawn, _] = draw(&mut stage, &mut canvas, &options);
         assert_eq!(drawn, 0, "the first {name} picture");
         // One read tells that there was room for all.
@@ -69,11 +69,11 @@ fn a_picture_without_room_is_drawn_again() {
     let Some((mut stage, mut canvas)) = stage(3.0) else {
         return;
     };
-    let [drawn, until_settled] = draw(&mut stage, &mut canvas, &options(16));
+    let [drawn, until_settled] = draw(&mut stage, &mut canvas, &options(8));
     assert_eq!(drawn, 0);
     assert!(until_settled > 2, "{until_settled} reads");
     let first = image(&stage, &canvas);
-    let reads = draw(&mut stage, &mut canvas, &options(16));
+    let reads = draw(&mut stage, &mut canvas, &options(8));
     assert_eq!(reads, [0, 1]);
     assert!(image(&stage, &canvas) == first);
 }
@@ -89,7 +89,7 @@ fn a_picture_that_lacks_steps_is_not_handed_out() {
         made,
         uploaded,
     } = &mut stage;
-    let options = options(16);
+    let options = options(8);
     let drawn = renderer.accumulate(&made.scene, uploaded, &mut canvas, 0, 0, &options);
     gpu.block_on(drawn).unwrap();
     let unsettled = gpu.block_on(canvas.image());
