@@ -11,6 +11,7 @@ mod make_models;
 mod models;
 mod passes;
 mod plot;
+mod random;
 mod unbiased;
 mod wear;
 
@@ -35,6 +36,8 @@ enum Command {
     Models(models::Models),
     /// Measure the time of each pass on a graphics adapter, for pictures with default options.
     Passes(passes::Passes),
+    /// Judge random scenes of one body against the reference, and list the worst.
+    Random(random::Random),
     /// Measure shadows and bounces against the path tracer, and write docs/accuracy/shadows.md.
     Unbiased(unbiased::Unbiased),
     /// Measure how much of models shows their wear, in the light of `hairline render MODEL`.
@@ -51,6 +54,7 @@ fn main() -> anyhow::Result<()> {
         Command::MakeModels(command) => command.run(),
         Command::Models(command) => command.run(),
         Command::Passes(command) => command.run(),
+        Command::Random(command) => command.run(),
         Command::Unbiased(command) => command.run(),
         Command::Wear(command) => command.run(),
     }

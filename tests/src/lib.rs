@@ -1,5 +1,6 @@
 //! Scenes in code and comparisons that the conformance tests share.
 
+pub mod random;
 pub mod two_renderers;
 pub mod unbiased;
 

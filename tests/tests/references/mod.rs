@@ -21,6 +21,7 @@ mod penumbra;
 mod picture;
 mod pictures;
 mod published;
+mod random;
 mod scenes;
 mod shadowed;
 mod shadowed_on_gpu;
