@@ -1,6 +1,7 @@
-//! Random scenes of one body against the reference: a few small ones of those that `cargo lab random` judges.
+//! Random scenes of one body against the reference: the middles of a few of those that `cargo lab random` judges.
 
 use super::pictures::sampled;
+use conformance::middle_of;
 use conformance::random::{judge, scene_file};
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::Layers;
@@ -9,15 +10,18 @@ use hairline_scene::Scene;
 
 #[test]
 fn random_scenes_are_right() {
-    for seed in 5000..5012 {
-        let file = scene_file(seed, [33, 21]);
+    let seeds = 5000..5012;
+    let is_off = |seed: &u64| {
+        let file = scene_file(*seed, [96, 54]);
         let scene =
             Scene::from_toml(&file, "random", ".").unwrap_or_else(|e| panic!("{e}\n{file}"));
+        let scene = middle_of(scene, 96, [30, 21]);
         let right = sampled(&scene, Settings::default(), 2);
         let found = closed_form::render(&scene, &RenderOptions::default(), &|_| {});
-        for layer in judge(&Layers::from(&found), &Layers::from(&right)) {
-            println!("{seed}: {layer:?}");
-            assert!(layer.off() <= 1.0, "{seed}: {layer:?}\n{file}");
-        }
-    }
+        let layers = judge(&Layers::from(&found), &Layers::from(&right));
+        println!("{seed}: {layers:?}");
+        layers.iter().any(|layer| layer.off() > 1.0)
+    };
+    let off: Vec<u64> = seeds.filter(is_off).collect();
+    assert!(off.is_empty(), "{off:?}");
 }
