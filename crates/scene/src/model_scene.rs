@@ -24,7 +24,7 @@ mod lights;
 
 /// Sizes at which scratches can be seen; other models are shown [`SHOWN_M`] large.
 const SIZES_M: std::ops::RangeInclusive<f64> = 0.02..=1.0;
-const SHOWN_M: f64 = 0.2;
+const SHOWN_M: f64 = 0.05;
 /// The share of the picture that the model fills: the rest is for its shadow.
 const FILLED: f64 = 0.8;
 const FOV_Y_DEG: f64 = 28.0;

@@ -57,9 +57,9 @@ impl WearKind {
         match (wear, self) {
             (Wear::Used, Self::Hairlines) => 0.0035,
             (Wear::Used, Self::Swirls) => 0.0012,
-            (Wear::Worn, Self::Hairlines) => 0.012,
-            (Wear::Worn, Self::Swirls) => 0.006,
-            (Wear::Worn, Self::Marks) => 0.005,
+            (Wear::Worn, Self::Hairlines) => 0.016,
+            (Wear::Worn, Self::Swirls) => 0.008,
+            (Wear::Worn, Self::Marks) => 0.012,
             (Wear::Old, Self::Hairlines) => 0.028,
             (Wear::Old, Self::Swirls) => 0.012,
             (Wear::Old, Self::Marks) => 0.016,

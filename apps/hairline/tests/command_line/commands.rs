@@ -267,7 +267,7 @@ fn models_open_upright_in_a_lit_scene() {
     .success();
     let text = stderr_of(&assert);
     assert!(
-        text.contains("2.000 m large; it is shown 0.2 m large"),
+        text.contains("2.000 m large; it is shown 0.05 m large"),
         "{text}"
     );
     let image = exr_file::read_image(&folder.path().join("a.exr")).unwrap();
