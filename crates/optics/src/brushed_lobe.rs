@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use crate::facets::{FacetAxes, Facets};
-use crate::filtered_lobe::{SlopeSpread, excess_tails, filtered_facets, filtered_tails};
+use crate::filtered_lobe::{SlopeSpread, filtered_facets, filtered_tails};
 use crate::fresnel::FresnelRgb;
 use crate::ggx::GGX_MIN_ALPHA;
 use crate::ltc::{LtcLobe, ltc_lobe};
@@ -67,6 +67,8 @@ pub struct BrushedLobe {
     facets: [Facets; 3],
     /// [`crate::filtered_lobe::FilteredLobe::excess`].
     excess: f64,
+    /// Share of the sharp lobe's tails far from the core.
+    tails: f64,
     /// Slope at which places are spread out: half of all facets of this alpha lie at places from -1/2 to 1/2.
     unit: f64,
 }
@@ -175,7 +177,7 @@ impl SlicePart {
 impl BrushedLobe {
     /// The lobe of a surface for a viewer above the horizon, in the local frame. The pixel's slopes spread so about their mean.
     pub fn new(wo: DVec3, surface: FacetAxes, spread: SlopeSpread) -> Self {
-        let (axes, excess) = filtered_facets(surface, spread, wo.z);
+        let (axes, excess, tails) = filtered_facets(surface, spread, wo.z);
         let along = axes.along;
         let first = Facets::new(FacetAxes {
             along: DVec2::X,
@@ -194,6 +196,7 @@ impl BrushedLobe {
             along,
             facets: [first, second, own],
             excess,
+            tails,
             unit: first.alphas.x,
         }
     }
@@ -233,7 +236,7 @@ impl BrushedLobe {
     }
 
     fn parts(&self) -> usize {
-        if self.excess > 0.0 { 3 } else { 1 }
+        if self.tails > 0.0 { 3 } else { 1 }
     }
 
     fn slice(&self, place: f64) -> Option<Slice> {
@@ -313,13 +316,13 @@ impl BrushedLobe {
 
     /// Weight of facets of kind `k` at a slope.
     fn counts(&self, k: usize, slopes: DVec2) -> f64 {
-        if self.excess == 0.0 {
+        if self.tails == 0.0 {
             return 1.0;
         }
         let Facets { alphas, shear } = self.facets[0];
         let x = slopes.x / alphas.x;
         let widths = x.hypot(slopes.y / alphas.y - shear * x);
-        let tails = excess_tails(self.excess) * filtered_tails(widths);
+        let tails = self.tails * filtered_tails(widths);
         match k {
             0 => (1.0 + self.excess) * (1.0 - tails),
             1 => -self.excess * (1.0 - tails),

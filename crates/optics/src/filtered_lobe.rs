@@ -98,12 +98,12 @@ fn widening(variance: f64, alpha: f64) -> f64 {
     (2.6 + 2.5 / (1.0 + 1.5 * variance.sqrt() / alpha)) * variance
 }
 
-/// The facets of a [`FilteredLobe`]'s first lobe, and its excess, where the surface's are not round.
+/// The facets of a [`FilteredLobe`]'s first lobe, its excess, and the share of the sharp lobe's tails, where the surface's are not round.
 pub(crate) fn filtered_facets(
     surface: FacetAxes,
     spread: SlopeSpread,
     cos_o: f64,
-) -> (FacetAxes, f64) {
+) -> (FacetAxes, f64, f64) {
     let (variance, covariance) = spread.bounded(cos_o);
     let (mean, half) = (
         0.5 * (variance.x + variance.y),
@@ -111,7 +111,7 @@ pub(crate) fn filtered_facets(
     );
     let apart = half.hypot(covariance);
     if mean <= 0.0 {
-        return (surface, 0.0);
+        return (surface, 0.0, 0.0);
     }
     // Long axis of the spread.
     let axis = DVec2::from_angle(0.5 * covariance.atan2(half));
@@ -136,13 +136,14 @@ pub(crate) fn filtered_facets(
     let (mean, half) = (0.5 * (xx + yy), 0.5 * (xx - yy));
     let long2 = mean + half.hypot(xy);
     let turn = DVec2::from_angle(0.5 * xy.atan2(half));
+    let excess = 1.0 - (own.x + own.y) / (xx + yy);
     // Over the surface's own, as across a brushed surface a small spread is many times its alpha.
-    let excess = 1.0 - 2.0 / (xx / own.x + yy / own.y);
+    let widened = 1.0 - 2.0 / (xx / own.x + yy / own.y);
     let axes = FacetAxes {
         along: turn.rotate(surface.along),
         alphas: DVec2::new(long2.sqrt(), (product / long2).sqrt()),
     };
-    (axes, set_in(excess))
+    (axes, set_in(excess), excess_tails(set_in(widened)))
 }
 
 /// Share, 0 to 1, that the sharp lobe has taken over at so many widths from the first lobe's middle.
@@ -156,7 +157,7 @@ fn set_in(excess: f64) -> f64 {
 }
 
 /// Share, 0 to 1, of the sharp lobe's tails that are there at an excess as it counts.
-pub(crate) fn excess_tails(excess: f64) -> f64 {
+fn excess_tails(excess: f64) -> f64 {
     smoothstep([0.0, 2.0 * MIN_EXCESS], excess)
 }
 

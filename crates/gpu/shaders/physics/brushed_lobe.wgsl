@@ -32,6 +32,7 @@ const BRUSHED_CHORDS: f32 = 6.0;
 struct BrushedLobe {
     wo: vec3f,                  // the viewer, in a frame whose x axis is the longer one of the slopes
     excess: f32,
+    tails: f32,                 // share of the sharp lobe's far from the core
     along: vec2f,               // that axis in the local frame
     alphas: vec2f,              // of the pixel's facets; those of the second kind are wider by the root of 2
     shear: f32,
@@ -113,6 +114,7 @@ fn brushed_turned(along: vec2f, v: vec2f) -> vec2f {
 struct FilteredFacets {
     axes: FacetAxes,
     excess: f32,
+    tails: f32,
 }
 
 fn filtered_facets(surface: FacetAxes, spread: vec3f, cos_o: f32) -> FilteredFacets {
@@ -123,7 +125,7 @@ fn filtered_facets(surface: FacetAxes, spread: vec3f, cos_o: f32) -> FilteredFac
     let half = 0.5 * (variance.x - variance.y);
     let apart = length(vec2f(half, covariance));
     if mean <= 0.0 {
-        return FilteredFacets(surface, 0.0);
+        return FilteredFacets(surface, 0.0, 0.0);
     }
     // Long axis of the spread, as for a surface.
     let axis = brushed_half_turn(half, covariance);
@@ -140,9 +142,10 @@ fn filtered_facets(surface: FacetAxes, spread: vec3f, cos_o: f32) -> FilteredFac
     let half_apart = 0.5 * (xx - yy);
     let long2 = middle + length(vec2f(half_apart, xy));
     let turn = brushed_half_turn(half_apart, xy);
-    let excess = 1.0 - 2.0 / (xx / own.x + yy / own.y);
+    let excess = 1.0 - (own.x + own.y) / (xx + yy);
+    let widened = 1.0 - 2.0 / (xx / own.x + yy / own.y);
     let turned = vec2f(turn.x * surface.along.x - turn.y * surface.along.y, turn.y * surface.along.x + turn.x * surface.along.y);
-    return FilteredFacets(FacetAxes(turned, vec2f(sqrt(long2), sqrt(product / long2))), excess_set_in(excess));
+    return FilteredFacets(FacetAxes(turned, vec2f(sqrt(long2), sqrt(product / long2))), excess_set_in(excess), excess_tails(excess_set_in(widened)));
 }
 
 // The unit vector at half the angle of (x, y).
@@ -163,6 +166,7 @@ fn brushed_lobe(wo: vec3f, surface: FacetAxes, spread: vec3f) -> BrushedLobe {
     return BrushedLobe(
         vec3f(brushed_turned(along, wo.xy), wo.z),
         filtered.excess,
+        filtered.tails,
         along,
         filtered.axes.alphas,
         0.0,
@@ -227,7 +231,7 @@ fn brushed_slice(lobe: BrushedLobe, place: f32) -> BrushedSlice {
 }
 
 fn brushed_parts(lobe: BrushedLobe) -> u32 {
-    return select(1u, 3u, lobe.excess > 0.0);
+    return select(1u, 3u, lobe.tails > 0.0);
 }
 
 fn brushed_part(lobe: BrushedLobe, slice: BrushedSlice, k: u32) -> BrushedPart {
@@ -269,11 +273,11 @@ fn brushed_facet(lobe: BrushedLobe, slice: BrushedSlice, part: BrushedPart, tang
 
 // Weight of facets of kind `k` at slopes.
 fn brushed_counts(lobe: BrushedLobe, k: u32, slopes: vec2f) -> f32 {
-    if lobe.excess == 0.0 {
+    if lobe.tails == 0.0 {
         return 1.0;
     }
     let x = slopes.x / lobe.alphas.x;
-    let tails = excess_tails(lobe.excess) * smoothstep(1.5, 3.2, length(vec2f(x, slopes.y / lobe.alphas.y - lobe.shear * x)));
+    let tails = lobe.tails * smoothstep(1.5, 3.2, length(vec2f(x, slopes.y / lobe.alphas.y - lobe.shear * x)));
     if k == 2u {
         return tails;
     }
@@ -562,6 +566,7 @@ fn brushed_sliced(lobe: BrushedLobe, grain: BrushedGrain) -> BrushedLobe {
     return BrushedLobe(
         vec3f(brushed_turned(axis, lobe.wo.xy), lobe.wo.z),
         lobe.excess,
+        lobe.tails,
         lobe.along * axis.x + vec2f(-lobe.along.y, lobe.along.x) * axis.y,
         first.alphas,
         first.shear,
