@@ -99,6 +99,12 @@ impl<'a> Prepared<'a> {
         self
     }
 
+    /// Draws the scratches as they were laid, as the packages for other programs do, which know no arcs.
+    pub fn as_laid(mut self) -> Self {
+        self.scratches = Arc::clone(self.laid());
+        self
+    }
+
     /// The scene.
     pub fn scene(&self) -> &'a Scene {
         self.scene

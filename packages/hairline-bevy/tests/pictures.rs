@@ -216,7 +216,8 @@ fn compare(name: &str, what: &str, scene: &Scene, is_turned: bool) -> Pair {
 }
 
 fn compare_pictures(name: &str, what: &str, scene: &Scene, bevy: Vec<[f32; 3]>) -> Pair {
-    let film = Prepared::new(scene).render(&RenderOptions::default(), &|_| {});
+    let prepared = Prepared::new(scene).as_laid();
+    let film = prepared.render(&RenderOptions::default(), &|_| {});
     let hairline = film.layer(Layer::Beauty);
     let inner = inner_pixels(&film);
     let off = error(&bevy, &hairline, &inner);

@@ -174,7 +174,8 @@ pub(super) fn write_model(scene: &Path, model: &Path) -> anyhow::Result<()> {
 }
 
 fn render(scene: &Scene) -> Image {
-    Prepared::new(scene).render(&RenderOptions::default(), &|_| {})
+    let prepared = Prepared::new(scene).as_laid();
+    prepared.render(&RenderOptions::default(), &|_| {})
 }
 
 /// Writes the page's contents: the scene as JSON, its first object's mesh and scratches.

@@ -287,7 +287,7 @@ fn info_tells_what_is_in_a_model() {
     let object = &contents["objects"][0];
     assert_eq!(object["triangles"], 1);
     let most_m = [0, 1, 2].map(|axis| object["most_m"][axis].as_f64().unwrap() as f32);
-    assert_eq!(most_m, [0.2, 0.0, 0.1]);
+    assert_eq!(most_m, [0.05, 0.0, 0.025]);
     assert_eq!(contents["textures"], 1);
 }
 
