@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use hairline_optics::irradiance::irradiance_polygon;
-use hairline_optics::ltc::{LobeFresnel, LtcLobe, ltc_polygon, ltc_small_light};
+use hairline_optics::ltc::{LobeFresnel, LtcLobe, ltc_small_light, ltc_vector};
 use hairline_optics::picture::{
     PICTURE_PARTS, PictureLook, PicturePlane, picture_lod, picture_part_spread, picture_part_uv,
 };
@@ -49,7 +49,7 @@ impl<'a> PictureView<'a> {
     /// Mean of the picture in the reflection of a lobe.
     pub fn on_lobe(&self, lobe: &LtcLobe, of: &LobeFresnel) -> DVec3 {
         self.mean(|part| {
-            let vector = ltc_polygon(lobe, &part.corners()).vector;
+            let vector = ltc_vector(lobe, &part.corners());
             let reflected = ltc_small_light(lobe, of, vector);
             (reflected.into(), part.picture_on_lobe(lobe, vector))
         })

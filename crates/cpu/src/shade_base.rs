@@ -9,12 +9,14 @@ use hairline_optics::brushed_lobe::BrushedLobe;
 use hairline_optics::coat::CoatPart;
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
 use hairline_optics::facets::FacetAxes;
-use hairline_optics::filtered_lobe::{LobePart, PixelSlopes, filtered_lobe, filtered_lobe_around};
+use hairline_optics::filtered_lobe::{
+    LobePart, PixelSlopes, far_share, filtered_lobe, filtered_lobe_around,
+};
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
 use hairline_optics::ltc::{
-    LobeFresnel, LtcLight, LtcLobe, ltc_cap, ltc_lobe, ltc_polygon, ltc_reflected,
+    LobeFresnel, LtcLobe, ltc_lobe, ltc_reflected, ltc_sphere_vector, ltc_vector,
 };
 use hairline_optics::metal_mix::MetalMix;
 use hairline_scene::Environment;
@@ -141,18 +143,18 @@ impl<'a> Layer<'a> {
         let single = match &self.shape {
             Shape::Round(sharp) => {
                 let parts = self.parts(sharp, per_m);
-                let first = light_on_lobe(light, views, &parts[0].lobe);
-                let far = parts[0].far(first.vector);
+                let first = light_vector(light, views, &parts[0].lobe);
+                let far = far_share(first);
                 let part = |(i, part): (usize, &LobePart)| {
                     let weight = part.weight(far);
                     if weight == 0.0 {
                         return DVec3::ZERO;
                     }
-                    let on_lobe = match i {
+                    let vector = match i {
                         0 => first,
-                        _ => light_on_lobe(light, views, &part.lobe),
+                        _ => light_vector(light, views, &part.lobe),
                     };
-                    let even = reflected_light(light, &part.lobe, on_lobe, self, &sphere);
+                    let even = reflected_light(light, &part.lobe, vector, self, &sphere);
                     weight * pictured(even.into(), &part.lobe)
                 };
                 parts.iter().enumerate().map(part).sum()
@@ -419,7 +421,8 @@ pub struct SphereOnLobe {
     pub sin2: f64,
     /// Direction to the viewer, in the local frame.
     pub wo: DVec3,
-    on_lobe: LtcLight,
+    /// [`ltc_sphere_vector`].
+    vector: DVec3,
 }
 
 /// Light that a lobe reflects of a sphere, single scattering, over the sphere's radiance.
@@ -428,22 +431,22 @@ pub(crate) fn transformed_sphere(
     of: &LobeFresnel,
     sphere: &SphereOnLobe,
 ) -> [f64; 3] {
-    ltc_reflected(lobe, of, &sphere.on_lobe)
+    ltc_reflected(lobe, of, sphere.vector)
 }
 
-/// A light in the cosine space of a lobe.
-fn light_on_lobe(light: &LightView, views: &LightViews, lobe: &LtcLobe) -> LtcLight {
+/// The vector irradiance of a light in the cosine space of a lobe.
+fn light_vector(light: &LightView, views: &LightViews, lobe: &LtcLobe) -> DVec3 {
     match light {
-        LightView::Sphere { cap, .. } => ltc_cap(lobe, cap.axis, sphere_sin2(cap)),
-        LightView::Polygon { vertices, .. } => ltc_polygon(lobe, &views.vertices[vertices.clone()]),
+        LightView::Sphere { cap, .. } => ltc_sphere_vector(lobe, cap.axis, sphere_sin2(cap)),
+        LightView::Polygon { vertices, .. } => ltc_vector(lobe, &views.vertices[vertices.clone()]),
     }
 }
 
-/// Light that a lobe reflects of a light with this [`light_on_lobe`], single scattering, over the light's radiance.
+/// Light that a lobe reflects of a light with this [`light_vector`], single scattering, over the light's radiance.
 fn reflected_light(
     light: &LightView,
     lobe: &LtcLobe,
-    on_lobe: LtcLight,
+    vector: DVec3,
     layer: &Layer,
     sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
 ) -> [f64; 3] {
@@ -453,11 +456,11 @@ fn reflected_light(
                 axis: cap.axis,
                 sin2: sphere_sin2(cap),
                 wo: layer.wo,
-                on_lobe,
+                vector,
             };
             sphere(lobe, &layer.of, &seen)
         }
-        LightView::Polygon { .. } => ltc_reflected(lobe, &layer.of, &on_lobe),
+        LightView::Polygon { .. } => ltc_reflected(lobe, &layer.of, vector),
     }
 }
 

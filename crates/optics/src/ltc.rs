@@ -26,10 +26,6 @@ use crate::irradiance::{
 };
 use crate::lobe_table::{LOBE_MIN_COS, albedo_lookup, ltc_table};
 
-use light_shape::{Corners, LightShape, ltc_ring};
-
-mod light_shape;
-
 /// The fitted parameters of one (roughness, angle).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LtcShape {
@@ -144,6 +140,12 @@ impl LtcLobe {
         DVec3::new(x, w.y * per_width.y - self.shear * x, w.z)
     }
 
+    /// The transpose of [`LtcLobe::to_cosine`].
+    fn cosine_transposed(&self, w: DVec3) -> DVec3 {
+        let x = self.peak.y * (w.x - self.shear * w.y) / self.width.x;
+        DVec3::new(self.peak.y * x, w.y / self.width.y, w.z + self.peak.x * x)
+    }
+
     /// The inverse of [`LtcLobe::to_cosine`], times cos_peak^2, which keeps it finite for a peak on the horizon.
     fn undo_cosine(&self, w: DVec3) -> DVec3 {
         let (s, c) = (self.peak.x, self.peak.y);
@@ -202,61 +204,33 @@ pub fn viewer_frame(wo: DVec3) -> (DVec2, DVec2) {
     (x_axis, sin_cos / sin_cos.length())
 }
 
-/// A polygon in the cosine's space while its edges stream in.
-#[derive(Clone, Copy, Debug)]
-pub struct LtcPolygon {
-    irradiance: PolygonIrradiance,
-    corners: Corners,
-}
-
 /// Starts a polygon; see [`ltc_end`].
-pub fn ltc_begin() -> LtcPolygon {
-    LtcPolygon {
-        irradiance: irradiance_begin(),
-        corners: Corners::default(),
-    }
+pub fn ltc_begin() -> PolygonIrradiance {
+    irradiance_begin()
 }
 
 /// Adds the edge from `a` to `b`, positions relative to the point, in the local frame. Edges follow one another and close.
-pub fn ltc_edge(state: &mut LtcPolygon, lobe: &LtcLobe, a: DVec3, b: DVec3) {
-    let from = lobe.to_cosine(lobe.rotate(a));
-    state.corners.add(from);
+pub fn ltc_edge(state: &mut PolygonIrradiance, lobe: &LtcLobe, a: DVec3, b: DVec3) {
     irradiance_edge(
-        &mut state.irradiance,
-        from,
+        state,
+        lobe.to_cosine(lobe.rotate(a)),
         lobe.to_cosine(lobe.rotate(b)),
         lobe.to_cosine(lobe.rotate(b - a)),
     );
 }
 
-/// A light in the cosine's space of a lobe.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct LtcLight {
-    /// The vector irradiance.
-    pub vector: DVec3,
-    /// Which way it is how long.
-    pub shape: LightShape,
-}
-
-/// A polygon in the cosine's space.
-pub fn ltc_polygon(lobe: &LtcLobe, vertices: &[DVec3]) -> LtcLight {
+/// The vector irradiance of a polygon in the cosine's space.
+pub fn ltc_vector(lobe: &LtcLobe, vertices: &[DVec3]) -> DVec3 {
     let mut state = ltc_begin();
     for (i, &a) in vertices.iter().enumerate() {
         ltc_edge(&mut state, lobe, a, vertices[(i + 1) % vertices.len()]);
     }
-    ltc_light(&state)
-}
-
-fn ltc_light(state: &LtcPolygon) -> LtcLight {
-    LtcLight {
-        vector: irradiance_end(&state.irradiance),
-        shape: state.corners.shape(),
-    }
+    irradiance_end(&state)
 }
 
 /// Returns the light that the lobe reflects of the polygon, in either orientation, as [`polygon_light`].
-pub fn ltc_end(state: &LtcPolygon, lobe: &LtcLobe, of: &LobeFresnel) -> [f64; 3] {
-    ltc_reflected(lobe, of, &ltc_light(state))
+pub fn ltc_end(state: &PolygonIrradiance, lobe: &LtcLobe, of: &LobeFresnel) -> [f64; 3] {
+    ltc_reflected(lobe, of, irradiance_end(state))
 }
 
 /// The integral of the GGX lobe (the cosine inside) times Fresnel's reflectance at the half vector over a simple polygon,
@@ -291,32 +265,24 @@ pub fn sphere_light(
 
 /// [`sphere_light`] for a lobe at hand.
 pub fn ltc_sphere(lobe: &LtcLobe, of: &LobeFresnel, axis: DVec3, sin2: f64) -> [f64; 3] {
-    ltc_reflected(lobe, of, &ltc_cap(lobe, axis, sin2))
+    ltc_reflected(lobe, of, ltc_sphere_vector(lobe, axis, sin2))
 }
 
-/// A sphere in the cosine's space.
-pub fn ltc_cap(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> LtcLight {
+/// The vector irradiance of a sphere in the cosine's space.
+pub fn ltc_sphere_vector(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> DVec3 {
     if sin2 >= 1.0 {
-        return LtcLight {
-            vector: PI * DVec3::Z,
-            shape: LightShape::ROUND,
-        };
+        return PI * DVec3::Z;
     }
     // The horizon is the same here as in the cosine's space.
     if sin2 <= 0.0 || axis.z <= 0.0 && axis.z * axis.z >= sin2 {
-        return LtcLight::default();
+        return DVec3::ZERO;
     }
     let cone = ltc_cone(lobe, lobe.rotate(axis), sin2);
-    let vector = if axis.z * axis.z >= sin2 {
+    if axis.z * axis.z >= sin2 {
         ltc_cone_whole(&cone)
     } else {
         irradiance_cone(&ltc_cone_axes(&cone))
-    };
-    let [u, v, _] = cone.frame;
-    let size = (cone.size2 / cone.centre.length_squared()).max(DVec2::ZERO);
-    let mut shape = LightShape::square(size.x.sqrt() * u);
-    shape += LightShape::square(size.y.sqrt() * v);
-    LtcLight { vector, shape }
+    }
 }
 
 /// A cone of directions in the cosine's space, within the rim c + u cos t + v sin t. In the frame of u, v (perpendicular) and n, c is `centre`.
@@ -484,6 +450,11 @@ fn ltc_rotate_pair(u: DVec3, v: DVec3) -> (DVec3, DVec3) {
 const RING_RADIUS: f64 = 0.866_025_403_784_438_6;
 const RING_WEIGHT: f64 = 1.0 / 6.0;
 const CENTRE_WEIGHT: f64 = 1.0 / 3.0;
+/// Factor of the limit on how far the ring goes down from its centre: over the centre's height above the horizon it is 1 less this times the viewer's cosine.
+/// GGX rises steeply near the horizon, the more the flatter the view.
+const RING_LIFT: f64 = 0.12;
+/// The longest radius of the ring.
+const RING_MAX: f64 = 0.97;
 /// Squared sine of a light's angular radius at which a fully bent lobe ([`LtcLobe::bent`]) is corrected by half.
 const FIT_FROM: f64 = 0.0003;
 /// The share of the cosine from which on the rest of the hemisphere counts, more and more up to the whole.
@@ -495,26 +466,21 @@ const REST_FROM: f64 = 0.3;
 /// What is missing in E0 is the same integral over the part of the hemisphere that the light leaves free. Of a light and the rest the smaller is
 /// the better known, so with a growing share the result goes over from the one to the other. The means fade as the light comes to fill the
 /// hemisphere, where the albedos are exact. The numbers here are chosen by the measured errors of docs/lobes.md.
-pub fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, light: &LtcLight) -> [f64; 3] {
-    let vector = light.vector;
+pub fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3] {
     let share = (vector.z / PI).clamp(0.0, 1.0);
     if share <= 0.0 {
         return [0.0; 3];
     }
     let sin2 = (vector.length() / PI).min(1.0);
     let e0 = lobe.albedo;
-    let (mean, parts) = ltc_means(lobe, of, light);
+    let (light, parts) = ltc_means(lobe, of, vector);
     let fade = sin2.powf(2.0 + 12.0 * lobe.wo.z * lobe.wo.z);
     // A part returns no more than the whole.
-    let mut integral = (share * (mean + fade * (e0 - mean))).min(e0);
+    let mut integral = (share * (light + fade * (e0 - light))).min(e0);
     let x = ((share - REST_FROM) / (1.0 - REST_FROM)).max(0.0);
     let by_rest = x * x * (3.0 - 2.0 * x);
     if by_rest > 0.0 {
-        let rest = LtcLight {
-            vector: PI * DVec3::Z - vector,
-            shape: LightShape::ROUND,
-        };
-        let (rest, _) = ltc_means(lobe, of, &rest);
+        let (rest, _) = ltc_means(lobe, of, PI * DVec3::Z - vector);
         let missing = ((1.0 - share) * rest).min(e0);
         integral += by_rest * (e0 - missing - integral);
     }
@@ -538,17 +504,11 @@ pub fn ltc_small_light(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64;
 
 /// The mean of GGX over the fit, times E0; and the means of the parts of a reflectance over GGX. From the vector irradiance of what they are
 /// taken over: at five directions of a cap that has the same irradiance ([`ltc_ring`]).
-fn ltc_means(lobe: &LtcLobe, of: &LobeFresnel, light: &LtcLight) -> (f64, [f64; 4]) {
-    let length = light.vector.length().max(1e-30);
-    let centre = light.vector / length;
+fn ltc_means(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> (f64, [f64; 4]) {
+    let length = vector.length().max(1e-30);
+    let centre = vector / length;
     let sin2 = (length / PI).min(1.0);
-    let [u, v] = ltc_ring(
-        lobe.wo.z,
-        lobe.bent,
-        centre,
-        RING_RADIUS * RING_RADIUS * sin2,
-        &light.shape,
-    );
+    let [u, v] = ltc_ring(lobe, centre, RING_RADIUS * RING_RADIUS * sin2);
     let (at_u, at_v) = (
         (1.0 - u.length_squared()).sqrt() * centre,
         (1.0 - v.length_squared()).sqrt() * centre,
@@ -577,6 +537,28 @@ fn ltc_means(lobe: &LtcLobe, of: &LobeFresnel, light: &LtcLight) -> (f64, [f64; 
         mean + by_fit * (lobe.albedo - mean),
         parts.map(|part| part / exact.max(1e-30)),
     )
+}
+
+/// Two radii of the ring about `centre`, conjugate to each other, with a product of the ellipse's half-axes of `radius2`. A light that is
+/// round for the point is as long in the cosine's space as the lobe is narrow; the lobe of a surface does well with a circle. Where
+/// the ring would go below the horizon it is flattened to an ellipse of the same area above it.
+fn ltc_ring(lobe: &LtcLobe, centre: DVec3, radius2: f64) -> [DVec3; 2] {
+    let (u, v) = irradiance_basis(centre);
+    let (to_u, to_v) = (lobe.cosine_transposed(u), lobe.cosine_transposed(v));
+    let (uu, uv, vv) = (to_u.length_squared(), to_u.dot(to_v), to_v.length_squared());
+    let stretched = lobe.turned / (uu * vv - uv * uv).max(1e-30).sqrt();
+    let round = 1.0 - lobe.turned;
+    let (uu, uv, vv) = (
+        round + stretched * uu,
+        stretched * uv,
+        round + stretched * vv,
+    );
+    let per_area = 1.0 / (uu * vv - uv * uv).max(1e-30).sqrt();
+    let depth = (1.0 - RING_LIFT * lobe.wo.z) * centre.z;
+    let down = (radius2 * uu * per_area).sqrt().min(depth).max(1e-15);
+    let along = radius2 / down;
+    let ends_early = |radius: DVec3| radius * (RING_MAX / radius.length().max(RING_MAX));
+    [ends_early(down * (u + uv / uu * v)), ends_early(along * v)]
 }
 
 /// GGX of the lobe's normals at the directions that each `w` stands for, times the solid angle there per solid angle at w; and the cosine at the half vector.

@@ -37,7 +37,7 @@ fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
         let source = light_at(l);
         let radiance = published_light_radiance(source, point.position_m);
         let filtered = layer_filtered(point, layer, light_per_m(source, point.position_m));
-        var far = FilteredLobeFar(0.0, 1.0);
+        var far = 0.0;
         for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
             let part = filtered_lobe_part(layer.sharp, filtered, p);
             if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
@@ -50,15 +50,15 @@ fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
                 let alphas = part.lobe.alphas;
                 let pivot = sptd_lobe(point.wo, min(sqrt(sqrt(alphas.x * alphas.y)), 1.0), lobe_sptd, lobe_albedo);
                 share = published_base_sphere(point, part.lobe, layer.reflecting, pivot, source);
-                vector = base_sphere(point, part.lobe, source).light.vector;
+                vector = base_sphere(point, part.lobe, source).vector;
             }
             if BASE_HAS_POLYGONS && source.kind != LIGHT_SPHERE {
                 let seen = base_polygon(point, part.lobe, source);
-                vector = seen.light.vector;
-                share = vec4f(ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.light), seen.form_factor);
+                vector = seen.vector;
+                share = vec4f(ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector), seen.form_factor);
             }
             if p == 0u {
-                far = filtered_lobe_far(filtered, vector);
+                far = filtered_lobe_far(vector);
             }
             sum.specular += filtered_lobe_weight(part, far) * radiance * share.xyz;
             sum.diffuse += select(vec3f(0.0), radiance * share.w, p == 0u);

@@ -68,17 +68,17 @@ fn lit_base_sphere(base: LitBase, curves: texture_2d<f32>, center_m: vec3f, radi
     let sin_sq = cap_sin_sq(cap);
     let filtered = lit_base_filtered(base, light_per_distance(center_m, radius_m));
     var specular = vec3f(0.0);
-    var far = FilteredLobeFar(0.0, 1.0);
+    var far = 0.0;
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, filtered, p);
         if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
             continue;
         }
-        let seen = ltc_cap(part.lobe, cap.axis, sin_sq);
+        let vector = ltc_sphere_vector(part.lobe, cap.axis, sin_sq);
         if p == 0u {
-            far = filtered_lobe_far(filtered, seen.vector);
+            far = filtered_lobe_far(vector);
         }
-        specular += filtered_lobe_weight(part, far) * ltc_reflected(part.lobe, base.reflecting, curves, seen);
+        specular += filtered_lobe_weight(part, far) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
     }
     return BaseLit(specular, lambert_sphere(cap.axis, sin_sq));
 }
@@ -91,7 +91,7 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
     let filtered = lit_base_filtered(base, light_per_distance(light.center_m, light.radius_m));
     var specular = vec3f(0.0);
     var form_factor = 0.0;
-    var far = FilteredLobeFar(0.0, 1.0);
+    var far = 0.0;
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, filtered, p);
         if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
@@ -109,11 +109,11 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
             lambert_edge(&body, corners[0], to);
             corners = mat4x3f(corners[1], corners[2], corners[3], corners[0]);
         }
-        let seen = ltc_light(reflected);
+        let vector = irradiance_end(reflected);
         if p == 0u {
-            far = filtered_lobe_far(filtered, seen.vector);
+            far = filtered_lobe_far(vector);
         }
-        specular += filtered_lobe_weight(part, far) * ltc_reflected(part.lobe, base.reflecting, curves, seen);
+        specular += filtered_lobe_weight(part, far) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
         form_factor = lambert_end(body);
     }
     return BaseLit(specular, form_factor);
@@ -126,7 +126,7 @@ fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d
     }
     let filtered = lit_base_filtered(base, per_m);
     var specular = vec3f(0.0);
-    var far = FilteredLobeFar(0.0, 1.0);
+    var far = 0.0;
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, filtered, p);
         if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
@@ -139,11 +139,11 @@ fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d
             ltc_edge(&reflected, part.lobe, a, b);
             a = b;
         }
-        let seen = ltc_light(reflected);
+        let vector = irradiance_end(reflected);
         if p == 0u {
-            far = filtered_lobe_far(filtered, seen.vector);
+            far = filtered_lobe_far(vector);
         }
-        specular += filtered_lobe_weight(part, far) * ltc_reflected(part.lobe, base.reflecting, curves, seen);
+        specular += filtered_lobe_weight(part, far) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
     }
     return BaseLit(specular, lambert_outline(vertices, view));
 }

@@ -79,6 +79,11 @@ fn ltc_to_cosine(lobe: LtcLobe, w: vec3f) -> vec3f {
     return vec3f(x, w.y * per_width.y - lobe.shear * x, w.z);
 }
 
+fn ltc_cosine_transposed(lobe: LtcLobe, w: vec3f) -> vec3f {
+    let x = lobe.peak.y * (w.x - lobe.shear * w.y) / lobe.width.x;
+    return vec3f(lobe.peak.y * x, w.y / lobe.width.y, w.z + lobe.peak.x * x);
+}
+
 // The inverse, times cos_peak^2.
 fn ltc_undo_cosine(lobe: LtcLobe, w: vec3f) -> vec3f {
     let s = lobe.peak.x;
@@ -86,121 +91,49 @@ fn ltc_undo_cosine(lobe: LtcLobe, w: vec3f) -> vec3f {
     return vec3f(lobe.width.x * w.x - s * c * w.z, c * c * lobe.width.y * (w.y + lobe.shear * w.x), c * c * w.z);
 }
 
-// Squares of a light's length each way: a symmetric tensor.
-struct LightShape {
-    diagonal: vec3f,            // xx, yy, zz
-    mixed: vec3f,               // yz, zx, xy
-}
-
-fn light_shape_round() -> LightShape {
-    return LightShape(vec3f(1.0), vec3f(0.0));
-}
-
-fn light_shape_square(w: vec3f) -> LightShape {
-    return LightShape(w * w, w.yzx * w.zxy);
-}
-
-fn light_shape_of(shape: LightShape, u: vec3f, v: vec3f) -> f32 {
-    return dot(shape.diagonal, u * v) + dot(shape.mixed, u.yzx * v.zxy + u.zxy * v.yzx);
-}
-
-// Unit vectors to the corners of a polygon, those below the horizon raised to it, from the first one.
-struct LightCorners {
-    first: vec3f,
-    count: f32,
-    sum: vec3f,
-    diagonal: vec3f,
-    mixed: vec3f,
-}
-
-fn light_corners_add(corners: ptr<function, LightCorners>, w: vec3f) {
-    let raised = vec3f(w.xy, max(w.z, 0.0));
-    let unit = raised * (1.0 / max(length(raised), 1e-15));
-    if (*corners).count == 0.0 {
-        (*corners).first = unit;
-    }
-    let off = unit - (*corners).first;
-    (*corners).count += 1.0;
-    (*corners).sum += off;
-    (*corners).diagonal += off * off;
-    (*corners).mixed += off.yzx * off.zxy;
-}
-
-// Their covariances.
-fn light_corners_shape(corners: LightCorners) -> LightShape {
-    let per_corner = 1.0 / max(corners.count, 1.0);
-    let mean = light_shape_square(per_corner * corners.sum);
-    return LightShape(per_corner * corners.diagonal - mean.diagonal, per_corner * corners.mixed - mean.mixed);
-}
-
-// A light in the cosine's space.
-struct LtcLight {
-    vector: vec3f,              // the vector irradiance
-    shape: LightShape,
-}
-
-struct LtcPolygon {
-    irradiance: PolygonIrradiance,
-    corners: LightCorners,
-}
-
-fn ltc_begin() -> LtcPolygon {
-    return LtcPolygon(irradiance_begin(), LightCorners());
+fn ltc_begin() -> PolygonIrradiance {
+    return irradiance_begin();
 }
 
 // Positions relative to the point, in the local frame.
-fn ltc_edge(state: ptr<function, LtcPolygon>, lobe: LtcLobe, a: vec3f, b: vec3f) {
-    let seen = ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, a));
-    var corners = (*state).corners;
-    light_corners_add(&corners, seen);
-    (*state).corners = corners;
-    var irradiance = (*state).irradiance;
+fn ltc_edge(state: ptr<function, PolygonIrradiance>, lobe: LtcLobe, a: vec3f, b: vec3f) {
     irradiance_edge(
-        &irradiance,
-        seen,
+        state,
+        ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, a)),
         ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, b)),
         ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, b - a)),
     );
-    (*state).irradiance = irradiance;
 }
 
-fn ltc_light(state: LtcPolygon) -> LtcLight {
-    return LtcLight(irradiance_end(state.irradiance), light_corners_shape(state.corners));
-}
-
-fn ltc_end(state: LtcPolygon, lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>) -> vec3f {
-    return ltc_reflected(lobe, reflecting, curves, ltc_light(state));
+fn ltc_end(state: PolygonIrradiance, lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>) -> vec3f {
+    return ltc_reflected(lobe, reflecting, curves, irradiance_end(state));
 }
 
 fn ltc_sphere(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>, axis: vec3f, sin2: f32) -> vec3f {
-    return ltc_reflected(lobe, reflecting, curves, ltc_cap(lobe, axis, sin2));
+    return ltc_reflected(lobe, reflecting, curves, ltc_sphere_vector(lobe, axis, sin2));
 }
 
-// A sphere in the cosine's space.
-fn ltc_cap(lobe: LtcLobe, axis: vec3f, sin2: f32) -> LtcLight {
-    var light = LtcLight(vec3f(0.0), light_shape_round());
+// The vector irradiance of a sphere in the cosine's space.
+fn ltc_sphere_vector(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
     if (sin2 >= 1.0) {
-        light.vector.z = GGX_PI;
-        return light;
+        return vec3f(0.0, 0.0, GGX_PI);
     }
     if (sin2 <= 0.0) {
-        return light;
+        return vec3f(0.0);
     }
     // The horizon is the same here as in the cosine's space.
     let whole = axis.z * axis.z >= sin2;
     if (whole && axis.z <= 0.0) {
-        return light;
+        return vec3f(0.0);
     }
     let cone = ltc_cone(lobe, lobe_rotate(lobe.x_axis, axis), sin2);
+    var vector: vec3f;
     if (whole) {
-        light.vector = ltc_cone_whole(cone);
+        vector = ltc_cone_whole(cone);
     } else {
-        light.vector = irradiance_cone(ltc_cone_axes(cone));
+        vector = irradiance_cone(ltc_cone_axes(cone));
     }
-    let size_sq = cone.size_sq / dot(cone.centre, cone.centre);
-    light.shape.diagonal = size_sq.x * cone.u * cone.u + size_sq.y * cone.v * cone.v;
-    light.shape.mixed = size_sq.x * cone.u.yzx * cone.u.zxy + size_sq.y * cone.v.yzx * cone.v.zxy;
-    return light;
+    return vector;
 }
 
 // The cone within the rim c + u cos t + v sin t in the cosine's space; in the frame of u, v and n, c is `centre`.
@@ -315,13 +248,10 @@ fn ltc_rotate_pair(u: vec3f, v: vec3f) -> LtcPair {
 const LTC_RING_RADIUS: f32 = 0.8660254;
 const LTC_RING_LIFT: f32 = 0.12;
 const LTC_RING_MAX: f32 = 0.97;
-const LTC_LEAST_AREA: f32 = 0.6666667;
-const LTC_LEAST_WIDTH: f32 = 1e-7;
 const LTC_FIT_FROM: f32 = 0.0003;
 const LTC_REST_FROM: f32 = 0.3;
 
-fn ltc_reflected(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>, light: LtcLight) -> vec3f {
-    let vector = light.vector;
+fn ltc_reflected(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>, vector: vec3f) -> vec3f {
     let share = clamp(vector.z / GGX_PI, 0.0, 1.0);
     if (share <= 0.0) {
         return vec3f(0.0);
@@ -335,12 +265,9 @@ fn ltc_reflected(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>
     // The light, then the rest of the hemisphere: one copy of the code.
     for (var round = 0; round < select(1, 2, by_rest > 0.0); round += 1) {
         let of_light = round == 0;
-        var over = light;
-        if (!of_light) {
-            over = LtcLight(vec3f(-vector.xy, GGX_PI - vector.z), light_shape_round());
-        }
+        let over = select(vec3f(-vector.xy, GGX_PI - vector.z), vector, of_light);
         let means = ltc_means(lobe, reflecting.fresnel.curve, curves, over);
-        let means_sin2 = min(length(over.vector) / GGX_PI, 1.0);
+        let means_sin2 = min(length(over) / GGX_PI, 1.0);
         let by_fit = lobe.bent * means_sin2 / (means_sin2 + LTC_FIT_FROM);
         let mean = mix(GGX_PI * means.exact / max(means.cosine, 1e-30), lobe.albedo, by_fit);
         if (of_light) {
@@ -371,10 +298,10 @@ struct LtcMeans {
     cosine: f32,
 }
 
-fn ltc_means(lobe: LtcLobe, curve: u32, curves: texture_2d<f32>, light: LtcLight) -> LtcMeans {
-    let magnitude = max(length(light.vector), 1e-30);
-    let centre = light.vector * (1.0 / magnitude);
-    let ring = ltc_ring(lobe.wo.z, lobe.bent, centre, LTC_RING_RADIUS * LTC_RING_RADIUS * min(magnitude / GGX_PI, 1.0), light.shape);
+fn ltc_means(lobe: LtcLobe, curve: u32, curves: texture_2d<f32>, vector: vec3f) -> LtcMeans {
+    let magnitude = max(length(vector), 1e-30);
+    let centre = vector * (1.0 / magnitude);
+    let ring = ltc_ring(lobe, centre, LTC_RING_RADIUS * LTC_RING_RADIUS * min(magnitude / GGX_PI, 1.0));
 
     var sums = LtcMeans(vec4f(0.0), 0.0, 0.0);
     // The centre, and opposite points of the ring.
@@ -387,18 +314,19 @@ fn ltc_means(lobe: LtcLobe, curve: u32, curves: texture_2d<f32>, light: LtcLight
 }
 
 // Two conjugate radii of the ring about the centre.
-fn ltc_ring(cos_o: f32, bent: f32, centre: vec3f, radius2: f32, shape: LightShape) -> LtcPair {
+fn ltc_ring(lobe: LtcLobe, centre: vec3f, radius2: f32) -> LtcPair {
     let sides = irradiance_basis(centre);
-    // uu, uv and vv.
-    let own = vec3f(light_shape_of(shape, sides.u, sides.u), light_shape_of(shape, sides.u, sides.v), light_shape_of(shape, sides.v, sides.v));
-    let area = sqrt(max(own.x * own.z - own.y * own.y, 0.0));
-    let ring = vec3f(bent, 0.0, bent) + (1.0 - bent) / max(max(area, LTC_LEAST_AREA * radius2), 1e-30) * own;
-    let per_area = inverseSqrt(max(ring.x * ring.z - ring.y * ring.y, 1e-2));
-    let uu = max(ring.x, LTC_LEAST_WIDTH * ring.z);
-    let most = sqrt(uu * max(ring.z, LTC_LEAST_WIDTH * ring.x));
-    let along_v = clamp(ring.y, -most, most) / max(uu, 1e-30);
-    let down = max(min(sqrt(radius2 * uu * per_area), (1.0 - LTC_RING_LIFT * cos_o) * centre.z), 1e-15);
-    let a = down * (sides.u + along_v * sides.v);
+    let to_u = ltc_cosine_transposed(lobe, sides.u);
+    let to_v = ltc_cosine_transposed(lobe, sides.v);
+    let across = cross(to_u, to_v);
+    let stretched = lobe.turned / sqrt(max(dot(across, across), 1e-30));
+    let round = 1.0 - lobe.turned;
+    let uu = round + stretched * dot(to_u, to_u);
+    let uv = stretched * dot(to_u, to_v);
+    let vv = round + stretched * dot(to_v, to_v);
+    let per_area = 1.0 / sqrt(max(uu * vv - uv * uv, 1e-30));
+    let down = max(min(sqrt(radius2 * uu * per_area), (1.0 - LTC_RING_LIFT * lobe.wo.z) * centre.z), 1e-15);
+    let a = down * (sides.u + uv / uu * sides.v);
     let b = radius2 / down * sides.v;
     return LtcPair(a * (LTC_RING_MAX / max(length(a), LTC_RING_MAX)), b * (LTC_RING_MAX / max(length(b), LTC_RING_MAX)));
 }

@@ -7,24 +7,20 @@ struct BaseRadiance {
     diffuse: vec3f,             // from the body under it
 }
 
-// Light that falls on a lobe, in the cosine's space, and on the body, as a form factor.
+// Light that falls on a lobe, as its vector irradiance in the cosine's space, and on the body, as a form factor.
 struct LightOnBase {
-    light: LtcLight,
+    vector: vec3f,
     form_factor: f32,
-}
-
-fn base_unlit() -> LightOnBase {
-    return LightOnBase(LtcLight(vec3f(0.0), light_shape_round()), 0.0);
 }
 
 fn base_sphere(point: SurfacePoint, lobe: LtcLobe, light: Light) -> LightOnBase {
     let center = surface_from_world(point, light.center_m - point.position_m);
     if center.z <= -light.radius_m {
-        return base_unlit();
+        return LightOnBase(vec3f(0.0), 0.0);
     }
     let cap = sphere_cap(center, light.radius_m);
     let sin2 = cap_sin_sq(cap);
-    return LightOnBase(ltc_cap(lobe, cap.axis, sin2), base_lambert_sphere(cap.axis, sin2));
+    return LightOnBase(ltc_sphere_vector(lobe, cap.axis, sin2), base_lambert_sphere(cap.axis, sin2));
 }
 
 fn base_lambert_sphere(axis: vec3f, sin2: f32) -> f32 {
@@ -38,7 +34,7 @@ fn base_lambert_sphere(axis: vec3f, sin2: f32) -> f32 {
 fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> LightOnBase {
     let outline = surface_outline(point, light);
     if outline.facing == 0.0 {
-        return base_unlit();
+        return LightOnBase(vec3f(0.0), 0.0);
     }
     var specular = ltc_begin();
     var diffuse = lambert_begin();
@@ -54,9 +50,9 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> LightOnBase
         a = b;
     }
     if highest_z <= 0.0 {
-        return base_unlit();
+        return LightOnBase(vec3f(0.0), 0.0);
     }
-    return LightOnBase(ltc_light(specular), lambert_end(diffuse));
+    return LightOnBase(irradiance_end(specular), lambert_end(diffuse));
 }
 
 // Light of a light with a picture on a lobe and the body.
@@ -74,7 +70,6 @@ fn base_picture(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, lig
     let picture = light_picture(light);
     let axes = mat3x3f(point.axis_x, point.axis_y, point.normal);
     let plane = light_picture_plane(light, point.position_m, axes);
-    on.seen.light.shape = base_picture_shape(lobe, plane);
     var on_lobes = vec3f(0.0);
     for (var i = 0u; i < PICTURE_PARTS * PICTURE_PARTS; i += 1u) {
         let part = picture_part(plane, i);
@@ -96,7 +91,7 @@ fn base_picture(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, lig
             if k == 0u {
                 let reflected = ltc_small_light(lobe, reflecting, fresnel_curves, vector);
                 on_lobes += reflected;
-                on.seen.light.vector += vector;
+                on.seen.vector += vector;
                 on.mean.specular += (radiance - on.mean.specular) * (reflected / max(on_lobes, vec3f(1e-30)));
             } else {
                 let form_factor = vector.z / GGX_PI;
@@ -106,16 +101,6 @@ fn base_picture(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, lig
         }
     }
     return on;
-}
-
-// The shape of a parallelogram in the cosine's space.
-fn base_picture_shape(lobe: LtcLobe, plane: PicturePlane) -> LightShape {
-    var corners = LightCorners();
-    for (var i = 0u; i < 4u; i += 1u) {
-        let w = plane.corner + select(vec3f(0.0), plane.right, (i & 1u) != 0u) + select(vec3f(0.0), plane.up, i > 1u);
-        light_corners_add(&corners, ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, w)));
-    }
-    return light_corners_shape(corners);
 }
 
 // The vector irradiance of a parallelogram.
@@ -290,7 +275,7 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
         let source = light_at(l);
         let radiance = light_radiance(source, point.position_m);
         let filtered = layer_filtered(point, layer, light_per_m(source, point.position_m));
-        var far = FilteredLobeFar(0.0, 1.0);
+        var far = 0.0;
         for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
             let part = filtered_lobe_part(layer.sharp, filtered, p);
             if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
@@ -310,11 +295,11 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
                 seen = base_polygon(point, part.lobe, source);
             }
             if p == 0u {
-                far = filtered_lobe_far(filtered, seen.light.vector);
+                far = filtered_lobe_far(seen.vector);
             }
             let weight = filtered_lobe_weight(part, far);
             if weight != 0.0 {
-                sum.specular += weight * on_lobe * ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.light);
+                sum.specular += weight * on_lobe * ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector);
             }
             sum.diffuse += select(vec3f(0.0), on_body * seen.form_factor, p == 0u);
         }
