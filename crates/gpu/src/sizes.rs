@@ -79,9 +79,9 @@ impl Sizes {
 
     /// Takes note of what was needed of strips that will have `1 / parts` of the rows.
     pub(crate) fn want(&mut self, gpu: &Gpu, needed: Numbers, parts: u32) {
-        for i in 0..needed.len() {
-            if needed[i] > self.room[i] {
-                self.wanted[i] = (needed[i] / parts).saturating_add(needed[i] / 4);
+        for ((wanted, needed), room) in self.wanted.iter_mut().zip(needed).zip(self.room) {
+            if needed > room {
+                *wanted = (needed / parts).saturating_add(needed / 4);
             }
         }
         let at = offset_of!(layout::Sizes, needed) as u64;
