@@ -10,7 +10,6 @@ use crate::compute_pass::Workgroups;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{BaseLight, ChunkSum, PixelPaint, PixelPoint, SortSettings};
-
 use crate::resources::Resources;
 use crate::scan::{Scan, ScanPasses};
 use crate::shadow_room::ShadowRoom;

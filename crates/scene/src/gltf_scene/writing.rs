@@ -15,7 +15,6 @@ use glam::{DMat4, DVec3};
 use hairline_model::gltf_file::GltfFile;
 use hairline_model::mesh_file::{self, quarter_turn};
 use hairline_model::reading::{self, FileKind};
-use hairline_optics::table::ScratchTable;
 use serde_json::{Map, Value, json};
 
 use super::extension::{EXTENSION, LAID, Named, VERSION, named};
@@ -106,10 +105,15 @@ impl Loader<'_> {
         let mut known = grooves::Known::new();
         let spectra = LazyCell::new(|| ScratchTables::new(&scene));
         for (i, grating) in gratings.into_iter().flatten().enumerate() {
-            let is_wanted = |table: &ScratchTable| export.laid || table.by_incidence;
             let known = &mut known;
             let laid = grooves::write(
-                &described, &scene, &spectra, i, &is_wanted, known, &mut file,
+                &described,
+                &scene,
+                &spectra,
+                i,
+                export.laid,
+                known,
+                &mut file,
             );
             if let Some(laid) = laid {
                 grating[LAID] = laid;

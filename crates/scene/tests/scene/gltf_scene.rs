@@ -388,6 +388,11 @@ fn a_grating_as_it_lies_is_in_the_frame_of_its_object_and_has_its_table() {
     let (root, chunk) = taken_apart(&exported(&description, dir.path()).bytes);
     let gratings = &root["extensions"]["HAIRLINE_scratches"]["grating"];
     assert_eq!(gratings[0].get("laid"), None);
+    // Whoever opens the file makes the table of one that is not fine.
+    let plain = Loader::default().export(&description, dir.path(), Export::default());
+    let (plain, _) = taken_apart(&plain.unwrap().bytes);
+    let rows = &plain["extensions"]["HAIRLINE_scratches"]["grating"];
+    assert_eq!(rows[1].get("laid"), None);
     let laid = &gratings[1]["laid"];
     let near = |key: &str, expected: [f64; 3]| {
         for (i, expected) in expected.into_iter().enumerate() {

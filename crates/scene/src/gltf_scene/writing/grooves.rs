@@ -4,10 +4,10 @@ use std::collections::HashMap;
 use std::ops::Deref;
 
 use hairline_model::gltf_file::GltfFile;
-use hairline_optics::table::ScratchTable;
 use serde_json::{Value, json};
 
 use crate::description::Description;
+use crate::fine_gratings::fine_grooves;
 use crate::material_optics::ScratchTables;
 use crate::picture_lie::PictureLie;
 use crate::scene::Scene;
@@ -19,13 +19,13 @@ const FAR_M: f64 = 1e9;
 pub(super) type Known = HashMap<usize, usize>;
 
 /// Adds a grating; `tables` are made where they are asked for, which takes seconds. None where its grooves lie in spots or on several materials, or where its
-/// mask is laid on from three sides, or where its table is not `is_wanted`.
+/// mask is laid on from three sides, nor of one that is not fine unless `lays_all`.
 pub(super) fn write(
     described: &Description,
     scene: &Scene,
     tables: &dyn Deref<Target = ScratchTables>,
     number: usize,
-    is_wanted: &dyn Fn(&ScratchTable) -> bool,
+    lays_all: bool,
     known: &mut Known,
     file: &mut GltfFile,
 ) -> Option<Value> {
@@ -44,11 +44,11 @@ pub(super) fn write(
         return None;
     }
     let field = grating.field.plain()?;
-    let index = tables.grating_table(grating, material)?;
-    let table = &tables.tables[index];
-    if !is_wanted(table) {
+    if !lays_all && fine_grooves(grating, &scene.materials[material]).is_none() {
         return None;
     }
+    let index = tables.grating_table(grating, material)?;
+    let table = &tables.tables[index];
     let texels = *known.entry(index).or_insert_with(|| {
         file.push_wholes(table.for_engines(grating.row.depth_nm).as_flattened())
     });
