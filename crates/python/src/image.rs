@@ -341,7 +341,7 @@ impl Image {
         tone_map: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let pillow = py.import("PIL.Image").map_err(|missing| {
-            let needed = "to_pil needs Pillow: pip install 'hairline[pil]'";
+            let needed = "to_pil needs Pillow: pip install 'hairline-render[pil]'";
             let error = PyImportError::new_err(needed);
             error.set_cause(py, Some(missing));
             error

@@ -1,4 +1,4 @@
-"""Work on many machines, by Dask (``pip install 'hairline[cluster]'``).
+"""Work on many machines, by Dask (``pip install 'hairline-render[cluster]'``).
 
 A :class:`dask.distributed.Client`, or the address of a scheduler, is all that it needs; without either the cores of this machine work.
 The scene is built here before anything is sent, so that what is wrong with it is told once. Its files travel to each worker once. A
@@ -31,7 +31,7 @@ try:
     from distributed import Client, Future, LocalCluster, as_completed
     from distributed.scheduler import KilledWorker
 except ImportError as missing:  # pragma: no cover
-    raise ImportError("hairline.cluster needs Dask: pip install 'hairline[cluster]'") from missing
+    raise ImportError("hairline.cluster needs Dask: pip install 'hairline-render[cluster]'") from missing
 
 from . import _hairline as core
 from ._errors import WorkError, argument_error

@@ -1,4 +1,4 @@
-"""Scratched metal as a BSDF of Mitsuba 3 (``pip install 'hairline[mitsuba]'``).
+"""Scratched metal as a BSDF of Mitsuba 3 (``pip install 'hairline-render[mitsuba]'``).
 
     import mitsuba as mi
     mi.set_variant("llvm_ad_rgb")
@@ -27,7 +27,7 @@ try:
     import drjit as dr
     import mitsuba as mi
 except ImportError as missing:  # pragma: no cover
-    raise ImportError("hairline.mitsuba needs Mitsuba 3: pip install 'hairline[mitsuba]'") from missing
+    raise ImportError("hairline.mitsuba needs Mitsuba 3: pip install 'hairline-render[mitsuba]'") from missing
 
 from ._arrays import Floats
 from ._errors import WorkError, argument_error

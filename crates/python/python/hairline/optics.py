@@ -123,7 +123,7 @@ def n_k_rows(key: str, rows: Any) -> Floats:
 def read_n_k(path: Path) -> Floats:
     """The refractive index in a file: rows of a wavelength in nm, n and k, shape (m, 3), as :class:`hairline.Material` takes them for ``n_k``.
 
-    Reads the records of refractiveindex.info (.yml, tabulated; ``pip install 'hairline[nk]'``), and tables (.csv) whose first line names
+    Reads the records of refractiveindex.info (.yml, tabulated; ``pip install 'hairline-render[nk]'``), and tables (.csv) whose first line names
     the columns ``wavelength_nm`` or ``wavelength_um`` (or ``wl``, in um), ``n`` and ``k``.
     """
     file = FilePath(path)
@@ -162,7 +162,7 @@ def _of_yaml(file: FilePath, text: str) -> Floats:
     try:
         import yaml
     except ImportError as missing:  # pragma: no cover
-        raise ImportError("records of refractiveindex.info need PyYAML: pip install 'hairline[nk]'") from missing
+        raise ImportError("records of refractiveindex.info need PyYAML: pip install 'hairline-render[nk]'") from missing
     try:
         record = yaml.safe_load(text)
     except yaml.YAMLError as error:

@@ -6,7 +6,7 @@
     found = plate.scratches()
     scene.scratches.extend(found.layers("plate"))
 
-The functions need SciPy and scikit-image, and SurfaceTopography for the files of instruments: ``pip install 'hairline[measured]'``.
+The functions need SciPy and scikit-image, and SurfaceTopography for the files of instruments: ``pip install 'hairline-render[measured]'``.
 """
 
 from ._brdf import Brdf

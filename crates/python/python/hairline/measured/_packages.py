@@ -13,7 +13,7 @@ def needed(module: str, package: str) -> Any:
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        raise WorkError(f"measured surfaces need the package {package} ({error}): pip install 'hairline[measured]'") from None
+        raise WorkError(f"measured surfaces need the package {package} ({error}): pip install 'hairline-render[measured]'") from None
 
 
 def scipy(part: str) -> Any:
