@@ -2,14 +2,18 @@
 """Makes the extension's zip of `addon` and a wheel, and tests it in Blender as a module. `cargo xtask blender` calls it with a wheel that it has built."""
 
 import argparse
+import os
 import re
 import subprocess
 import sys
+import time
 import venv
 import zipfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+# The first time that a zip can tell, in seconds.
+FIRST = 315_532_800
 LICENCES = ("LICENSE-MIT", "LICENSE-APACHE")
 # Version of Python that Blender as a module needs.
 PYTHON = (3, 11)
@@ -21,14 +25,16 @@ def zipped(wheel, output):
     version = re.search(r'^version = "(.+)"', manifest, re.M)[1]
     manifest = manifest.replace("wheels = []", f'wheels = ["./wheels/{wheel.name}"]')
     path = output / f"hairline-blender-{version}-linux-x64.zip"
+    files = {"blender_manifest.toml": manifest.encode(), f"wheels/{wheel.name}": wheel.read_bytes(), "LICENSE": (HERE / "LICENSE").read_bytes()}
+    files |= {f"wheels/{name}": (HERE.parents[1] / name).read_bytes() for name in LICENCES}
+    files |= {file.name: file.read_bytes() for file in sorted((HERE / "addon").glob("*.py"))}
+    # The same bytes whenever it is made.
+    date = time.gmtime(int(os.environ.get("SOURCE_DATE_EPOCH", FIRST)))[:6]
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("blender_manifest.toml", manifest)
-        archive.write(wheel, f"wheels/{wheel.name}")
-        archive.write(HERE / "LICENSE", "LICENSE")
-        for name in LICENCES:
-            archive.write(HERE.parents[1] / name, f"wheels/{name}")
-        for file in sorted((HERE / "addon").glob("*.py")):
-            archive.write(file, file.name)
+        for name, content in files.items():
+            entry = zipfile.ZipInfo(name, date)
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, content, zipfile.ZIP_DEFLATED)
     return path
 
 

@@ -27,21 +27,31 @@ pub struct Blender {
     pictures: bool,
 }
 
+/// Whether the zip can be made here.
+pub const IS_FOR_THIS_MACHINE: bool = cfg!(all(target_os = "linux", target_arch = "x86_64"));
+pub const ELSEWHERE: &str = "made on Linux, x86-64, alone";
+
+/// What makes the zip of a wheel.
+pub fn make(python: &Path, root: &Path, wheel: &Path, output: &Path) -> Command {
+    let mut make = Command::new(python);
+    make.arg(root.join("packages/hairline-blender/make.py"))
+        .arg(wheel)
+        .arg("--output")
+        .arg(output);
+    make
+}
+
 impl Blender {
     pub fn run(self) -> anyhow::Result<()> {
-        ensure!(cfg!(target_os = "linux"), "made on Linux alone");
+        ensure!(IS_FOR_THIS_MACHINE, "{ELSEWHERE}");
         let root = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("..")
             .canonicalize()?;
         std::fs::create_dir_all(&self.output)?;
         let output = self.output.canonicalize()?;
         let programs = wheel::environment(&self.python, &output, &[MATURIN])?;
-        let wheel = wheel::build(&root.join("crates/python"), &programs, &output)?;
-        let mut make = Command::new(&self.python);
-        make.arg(root.join("packages/hairline-blender/make.py"))
-            .arg(&wheel)
-            .arg("--output")
-            .arg(&output);
+        let wheel = wheel::build(&root.join("crates/python"), &programs, &output, |_| Ok(()))?;
+        let mut make = make(&self.python, &root, &wheel, &output);
         for version in &self.blender {
             make.args(["--blender", version]);
         }

@@ -1,178 +1,344 @@
-//! A release: an archive that is unpacked and run, without Rust and without this repository.
+//! What is handed out, for the machine that it is made on: programs, packages, the page; with their sums, sizes and the crates that are in them.
 
-use std::collections::BTreeSet;
+mod crates;
+mod old_machines;
+mod target;
+
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use anyhow::{Context, bail, ensure};
-use clap::Args;
-use serde_json::Value;
+use anyhow::{Context, ensure};
+use clap::{Args, ValueEnum};
+use sha2::{Digest, Sha256};
 
-use crate::program;
+use crate::archive::{self, copy};
+use crate::wheel::{self, MATURIN};
+use crate::{blender, package, wasm, web};
+use target::{Place, Target};
 
 #[derive(Args)]
 pub struct Dist {
-    /// Path of the archive.
+    /// Folder for all files.
     #[arg(short, long, default_value = "target/dist")]
     output: PathBuf,
+    /// The interpreter, with venv, whose pip brings what builds programs for old machines, the wheel and Blender's zip.
+    #[arg(long, default_value = "python3")]
+    python: PathBuf,
+    /// Make these parts alone, with commas between.
+    #[arg(long, value_enum, value_delimiter = ',')]
+    only: Vec<Part>,
+}
+
+/// A part of what is handed out.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, ValueEnum)]
+enum Part {
+    /// The archive with both programs.
+    Programs,
+    /// The package for Python.
+    Wheel,
+    /// The extension for Blender.
+    Blender,
+    /// The packages for npm.
+    Npm,
+    /// The viewer for browsers.
+    Page,
 }
 
 const PROGRAMS: [&str; 2] = ["hairline", "hairline-viewer"];
 
 /// Files of the repository that are copied beside the programs.
-const COPIED: [&str; 8] = [
-    "README.md",
-    "ARCHITECTURE.md",
-    "CONTRIBUTING.md",
-    "CHANGELOG.md",
-    "LICENSE-MIT",
-    "LICENSE-APACHE",
-    "scenes",
-    "docs",
+const COPIED: [(&str, &str); 7] = [
+    ("README.md", "README.md"),
+    ("CHANGELOG.md", "CHANGELOG.md"),
+    ("LICENSE-MIT", "LICENSE-MIT"),
+    ("LICENSE-APACHE", "LICENSE-APACHE"),
+    ("scenes", "scenes"),
+    ("docs", "docs"),
+    // The icon, and the file that lists the program in menus.
+    ("crates/viewer/assets", "desktop"),
 ];
+
+const COMPLETIONS: [(&str, &str); 5] = [
+    ("bash", "hairline.bash"),
+    ("zsh", "_hairline"),
+    ("fish", "hairline.fish"),
+    ("elvish", "hairline.elv"),
+    ("powershell", "_hairline.ps1"),
+];
+
+/// What was made, and what is needed to make it.
+struct Release {
+    at: Place,
+    output: PathBuf,
+    python: PathBuf,
+    target: Target,
+    wheel: Option<PathBuf>,
+    /// Names of files, with what each asks of a machine.
+    files: BTreeMap<String, String>,
+    left_out: BTreeMap<Part, String>,
+    crates: crates::Crates,
+}
 
 impl Dist {
     pub fn run(self) -> anyhow::Result<()> {
-        ensure!(
-            cfg!(target_os = "linux"),
-            "archives are made on Linux alone so far; elsewhere: cargo install --path apps/hairline, and apps/hairline-viewer"
-        );
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        let name = format!(
-            "hairline-{}-{}-linux",
-            env!("CARGO_PKG_VERSION"),
-            std::env::consts::ARCH
-        );
-        fs::create_dir_all(&self.output)?;
-        let output = self.output.canonicalize()?;
-        let folder = output.join(&name);
-        if folder.exists() {
-            fs::remove_dir_all(&folder)?;
-        }
-        fs::create_dir(&folder)?;
-
-        let metadata = metadata(&root)?;
-        // The first one starts the second, which lies beside it.
-        for name in PROGRAMS {
-            let program = folder.join(name);
-            fs::copy(program::build(&root, name)?, &program)?;
-            run(Command::new("strip").arg(&program))?;
-        }
-        for name in COPIED {
-            copy(&root.join(name), &folder.join(name))?;
-        }
-        // The icon, and the file that lists the program in menus.
-        copy(&root.join("crates/viewer/assets"), &folder.join("desktop"))?;
-        let licences = folder.join("licences");
-        copy_licences(&root, &metadata, &licences)?;
-        copy(
-            &root.join("crates/scene/assets/text.txt"),
-            &licences.join("text.ttf.txt"),
-        )?;
-
-        let archive = output.join(format!("{name}.tar.gz"));
-        run(Command::new("tar")
-            .args(["--owner=0", "--group=0", "--sort=name", "-czf"])
-            .arg(&archive)
-            .arg("-C")
-            .arg(&output)
-            .arg(&name))?;
-        println!("{}", archive.display());
-        Ok(())
-    }
-}
-
-fn run(command: &mut Command) -> anyhow::Result<()> {
-    let status = command.status().with_context(|| format!("{command:?}"))?;
-    ensure!(status.success(), "{command:?}: {status}");
-    Ok(())
-}
-
-fn metadata(root: &Path) -> anyhow::Result<Value> {
-    let output = Command::new("cargo")
-        .current_dir(root)
-        .args(["metadata", "--format-version", "1", "--locked"])
-        .output()?;
-    ensure!(
-        output.status.success(),
-        "cargo metadata: {}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    Ok(serde_json::from_slice(&output.stdout)?)
-}
-
-/// Copies a file, or a folder with all its contents.
-fn copy(from: &Path, to: &Path) -> anyhow::Result<()> {
-    if !from.is_dir() {
-        fs::create_dir_all(to.parent().context("a file without a folder")?)?;
-        fs::copy(from, to).with_context(|| from.display().to_string())?;
-        return Ok(());
-    }
-    for entry in fs::read_dir(from)? {
-        let entry = entry?;
-        copy(&entry.path(), &to.join(entry.file_name()))?;
-    }
-    Ok(())
-}
-
-/// Copies the licence files of the crates that are linked into the program, a folder for each crate, and a list of all with the names
-/// of their licences.
-fn copy_licences(root: &Path, metadata: &Value, to: &Path) -> anyhow::Result<()> {
-    let linked = linked(root)?;
-    let mut list = String::new();
-    let packages = metadata["packages"].as_array().context("no packages")?;
-    for package in packages {
-        let text = |key: &str| package[key].as_str().unwrap_or_default();
-        let name = format!("{} {}", text("name"), text("version"));
-        // Packages without a source are Hairline's own.
-        if package["source"].is_null() || !linked.contains(&name) {
-            continue;
-        }
-        list += &format!("{name}: {}\n", text("license"));
-        let manifest = Path::new(text("manifest_path"));
-        let folder = manifest.parent().context("a manifest without a folder")?;
-        for entry in fs::read_dir(folder)? {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let root = folder.parent().context("no repository")?.to_owned();
+        let output = std::path::absolute(&self.output)?;
+        let work = output.join("work");
+        fs::create_dir_all(&work)?;
+        for entry in fs::read_dir(&output)? {
             let entry = entry?;
-            let file = entry.file_name().to_string_lossy().to_uppercase();
-            let is_licence = ["LICENSE", "LICENCE", "COPYING", "NOTICE"]
-                .iter()
-                .any(|start| file.starts_with(start));
-            if is_licence && entry.path().is_file() {
-                let crate_folder = to.join(name.replace(' ', "-"));
-                copy(&entry.path(), &crate_folder.join(entry.file_name()))?;
+            let name = entry.file_name().to_string_lossy().into_owned();
+            if entry.path().is_file() && (name.starts_with("hairline") || LISTS.contains(&&*name)) {
+                fs::remove_file(entry.path())?;
+            }
+        }
+        let target = Target::of_this_machine()?;
+        let packages = [&[MATURIN], target.packages()].concat();
+        let tools = wheel::environment(&self.python, &work, &packages)
+            .map_err(|error| format!("no Python with venv and {}: {error}", packages.join(", ")));
+        let mut release = Release {
+            crates: crates::Crates::of(&root)?,
+            at: Place {
+                time: archive::time(&root)?,
+                root,
+                work,
+                tools,
+            },
+            python: self.python,
+            wheel: None,
+            files: BTreeMap::new(),
+            left_out: BTreeMap::new(),
+            output,
+            target,
+        };
+        for part in Part::value_variants() {
+            if !self.only.is_empty() && !self.only.contains(part) {
+                release.left_out.insert(*part, "not asked for".to_owned());
+                continue;
+            }
+            match release.missing(*part) {
+                Some(reason) => drop(release.left_out.insert(*part, reason)),
+                None => release.make(*part)?,
+            }
+        }
+        release.list()
+    }
+}
+
+/// Lists that are made last.
+const LISTS: [&str; 2] = ["CONTENTS.txt", "SHA256SUMS"];
+
+impl Release {
+    /// Why a part cannot be made here.
+    fn missing(&self, part: Part) -> Option<String> {
+        let no_tools = || self.at.tools.as_ref().err().cloned();
+        let no_wasm = || {
+            wasm::toolchain(&self.at.root)
+                .err()
+                .map(|it| it.to_string())
+        };
+        let has_npm = || Command::new("npm").arg("--version").output().is_ok();
+        match part {
+            Part::Programs if !cfg!(target_os = "linux") => None,
+            Part::Programs | Part::Wheel => no_tools(),
+            Part::Blender if !blender::IS_FOR_THIS_MACHINE => Some(blender::ELSEWHERE.to_owned()),
+            Part::Blender => no_tools(),
+            Part::Npm if !has_npm() => Some("no npm".to_owned()),
+            Part::Npm | Part::Page => no_wasm(),
+        }
+    }
+
+    fn make(&mut self, part: Part) -> anyhow::Result<()> {
+        println!("== {part:?}");
+        match part {
+            Part::Programs => self.programs(),
+            Part::Wheel => {
+                let (wheel, asks) = self.wheel()?;
+                self.hand_out(&wheel, format!("{asks}, Python 3.9 or later with numpy"))
+            }
+            Part::Blender => {
+                let (wheel, asks) = self.wheel()?;
+                let folder = self.at.work.join("blender");
+                fs::create_dir_all(&folder)?;
+                let time = self.at.time.to_string();
+                let mut make = blender::make(&self.python, &self.at.root, &wheel, &folder);
+                wheel::run(make.env("SOURCE_DATE_EPOCH", time))?;
+                self.hand_out_all(&folder, "zip", &format!("{asks}, Blender 4.5 or 5.0"))
+            }
+            Part::Npm => {
+                self.crates
+                    .link(&["hairline-engine-web"], &[wasm::TARGET], "npm")?;
+                self.crates.add_three("npm")?;
+                let folder = self.at.work.join("npm");
+                package::for_npm(&self.at.root, &folder)?;
+                self.hand_out_all(&folder, "tgz", "a browser with WebGPU")
+            }
+            Part::Page => {
+                self.crates
+                    .link(&["hairline-web"], &[wasm::TARGET], "page")?;
+                let folder = self.at.work.join(self.versioned("hairline-page"));
+                web::make(&folder)?;
+                self.crates
+                    .copy_licences("page", &folder.join("licences"))?;
+                let asks = "a web server, and a browser with WebGPU (https, or localhost)";
+                self.pack(&folder, asks.to_owned())
             }
         }
     }
-    if list.is_empty() {
-        bail!("cargo metadata names no dependency");
+
+    fn versioned(&self, name: &str) -> String {
+        format!("{name}-{}", env!("CARGO_PKG_VERSION"))
     }
-    fs::write(to.join("LIST.txt"), list)?;
-    Ok(())
+
+    /// The archive that is unpacked and run, without Rust and without this repository.
+    fn programs(&mut self) -> anyhow::Result<()> {
+        let triples = self.target.triples();
+        self.crates.link(&PROGRAMS, &triples, "programs")?;
+        let name = format!("{}-{}", self.versioned("hairline"), self.target.name());
+        let folder = self.at.work.join(name);
+        if folder.exists() {
+            fs::remove_dir_all(&folder)?;
+        }
+        fs::create_dir_all(&folder)?;
+        // The first one starts the second, which lies beside it.
+        let built = self.target.build(&self.at, &PROGRAMS, &folder)?;
+        let asks = built.iter().map(|it| old_machines::asks(it));
+        let asks = asks.collect::<anyhow::Result<Vec<_>>>()?;
+        for (from, to) in COPIED {
+            copy(&self.at.root.join(from), &folder.join(to))?;
+        }
+        let say = |arguments: &[&str], file: PathBuf| -> anyhow::Result<()> {
+            let said = Command::new(&built[0]).args(arguments).output()?;
+            ensure!(said.status.success(), "hairline {arguments:?} failed");
+            fs::create_dir_all(file.parent().context("a file without a folder")?)?;
+            Ok(fs::write(file, said.stdout)?)
+        };
+        for (shell, file) in COMPLETIONS {
+            say(
+                &["completions", shell],
+                folder.join("completions").join(file),
+            )?;
+        }
+        say(&["man"], folder.join("man/hairline.1"))?;
+        let licences = folder.join("licences");
+        self.crates.copy_licences("programs", &licences)?;
+        copy(
+            &self.at.root.join("crates/scene/assets/text.txt"),
+            &licences.join("text.ttf.txt"),
+        )?;
+        let viewer = "the viewer: a display (X11 or Wayland), its libraries, a graphics driver";
+        let asks = asks.into_iter().max().unwrap_or_default();
+        self.pack(&folder, format!("{asks}; {viewer}"))
+    }
+
+    /// The wheel, which is made once, and what it asks of a machine.
+    fn wheel(&mut self) -> anyhow::Result<(PathBuf, String)> {
+        let tools = self.at.tools.clone().map_err(anyhow::Error::msg)?;
+        if self.wheel.is_none() {
+            let triples = self.target.triples();
+            self.crates.link(&["hairline-python"], &triples, "wheel")?;
+            let folder = self.at.work.join("wheel");
+            fs::create_dir_all(&folder)?;
+            let set = |maturin: &mut Command| self.target.set_wheel(maturin, &self.at);
+            let package = self.at.root.join("crates/python");
+            self.wheel = Some(wheel::build(&package, &tools, &folder, set)?);
+        }
+        let wheel = self.wheel.clone().context("no wheel")?;
+        let asks =
+            old_machines::asks_of_wheel(&wheel, &self.python, &self.at.work.join("unpacked"))?;
+        Ok((wheel, asks))
+    }
+
+    fn pack(&mut self, folder: &Path, asks: String) -> anyhow::Result<()> {
+        let name = folder.file_name().context("a folder without a name")?;
+        let file = format!("{}.tar.gz", name.to_string_lossy());
+        let count = archive::pack(folder, &self.output.join(&file), self.at.time)?;
+        println!("{file}: {count} files");
+        self.files.insert(file, asks);
+        Ok(())
+    }
+
+    fn hand_out_all(&mut self, folder: &Path, ending: &str, asks: &str) -> anyhow::Result<()> {
+        for entry in fs::read_dir(folder)? {
+            let path = entry?.path();
+            if path.extension().is_some_and(|it| it == ending) {
+                self.hand_out(&path, asks.to_owned())?;
+            }
+        }
+        Ok(())
+    }
+
+    fn hand_out(&mut self, file: &Path, asks: String) -> anyhow::Result<()> {
+        let name = file.file_name().context("a file without a name")?;
+        copy(file, &self.output.join(name))?;
+        self.files.insert(name.to_string_lossy().into_owned(), asks);
+        Ok(())
+    }
+
+    /// Writes the bill of materials, the list of all files, and their sums.
+    fn list(mut self) -> anyhow::Result<()> {
+        ensure!(
+            !self.files.is_empty(),
+            "nothing can be made: {:?}",
+            self.left_out
+        );
+        let bill = format!(
+            "{}-{}.cdx.json",
+            self.versioned("hairline"),
+            self.target.name()
+        );
+        fs::write(self.output.join(&bill), self.crates.bill()?)?;
+        let meaning = "software bill of materials, CycloneDX";
+        self.files.insert(bill, meaning.to_owned());
+        let (mut contents, mut sums) = (String::new(), String::new());
+        for (name, asks) in &self.files {
+            let bytes = fs::read(self.output.join(name))?;
+            contents += &format!("{:>11}  {name}\n{:13}{asks}\n", bytes.len(), "");
+            sums += &format!("{}  {name}\n", sum(&bytes));
+        }
+        for (part, reason) in &self.left_out {
+            contents += &format!("{:>11}  {part:?}: {reason}\n", "left out");
+        }
+        print!("{contents}");
+        let [list, of_sums] = LISTS;
+        sums += &format!("{}  {list}\n", sum(contents.as_bytes()));
+        fs::write(self.output.join(list), contents)?;
+        Ok(fs::write(self.output.join(of_sums), sums)?)
+    }
 }
 
-/// "NAME VERSION" of all crates that are linked into the program on this machine.
-fn linked(root: &Path) -> anyhow::Result<BTreeSet<String>> {
-    let output = Command::new("cargo")
-        .current_dir(root)
-        .args([
-            "tree",
-            "--locked",
-            "-p",
-            "hairline",
-            "-p",
-            "hairline-viewer",
-            "-e",
-            "normal",
-        ])
-        .args(["--prefix", "none", "--format", "{p}"])
-        .output()?;
-    ensure!(output.status.success(), "cargo tree failed");
-    let text = String::from_utf8(output.stdout)?;
-    let names = text.lines().filter_map(|line| {
-        let mut words = line.split_whitespace();
-        let (name, version) = (words.next()?, words.next()?);
-        Some(format!("{name} {}", version.strip_prefix('v')?))
-    });
-    Ok(names.collect())
+fn sum(bytes: &[u8]) -> String {
+    let sum = Sha256::digest(bytes);
+    sum.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_that_is_handed_out_has_one_version() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let version = env!("CARGO_PKG_VERSION");
+        for (file, line) in [
+            (
+                "packages/hairline-shaders/package.json",
+                "\"version\": \"VERSION\"",
+            ),
+            (
+                "packages/hairline-viewer/package.json",
+                "\"version\": \"VERSION\"",
+            ),
+            (
+                "packages/hairline-blender/addon/blender_manifest.toml",
+                "\nversion = \"VERSION\"",
+            ),
+        ] {
+            let text = fs::read_to_string(root.join(file)).unwrap();
+            assert!(text.contains(&line.replace("VERSION", version)), "{file}");
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Tasks that cargo does not do itself. `cargo xtask COMMAND`; each command is one file.
 
+mod archive;
 mod blender;
 mod dist;
 mod mutate;
@@ -20,7 +21,7 @@ use clap::Parser;
 enum Command {
     /// Make the extension for Blender, a zip for Linux.
     Blender(blender::Blender),
-    /// Make an archive of the program with scenes, docs and licences, for Linux.
+    /// Make all that is handed out for the machine that it runs on: an archive of the programs, the packages for Python, Blender and npm, the page.
     Dist(dist::Dist),
     /// Make each fault of tests/mutants.toml, which a test must find.
     Mutate(mutate::Mutate),

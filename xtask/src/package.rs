@@ -18,11 +18,11 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use hairline_gpu::shaders::{FOR_ENGINES, with_needs};
 
-use crate::wasm;
+use crate::{archive, wasm};
 use files::{copy, install, node, pack, write};
 
 /// The command's arguments.
-#[derive(clap::Args)]
+#[derive(clap::Args, Default)]
 pub struct Package {
     /// The folder that the package is made in.
     #[arg(short, long, default_value = "target/package")]
@@ -45,6 +45,10 @@ pub struct Package {
     /// Leave out what the package computes on the processor, the one part that is compiled.
     #[arg(long, conflicts_with_all = ["pictures", "viewer", "examples", "serve"])]
     shaders_alone: bool,
+    /// Try the files that npm installs as they lie in this folder, in the place of making them: in the examples for Vite and react-three-fiber, and on
+    /// plain pages. Needs Node and Chromium.
+    #[arg(long, value_name = "FOLDER")]
+    packed: Option<PathBuf>,
     /// Serve the example for three.js on this port of this machine, until it is ended.
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8080")]
     serve: Option<u16>,
@@ -53,12 +57,31 @@ pub struct Package {
 /// Files that are written by hand, beside the folder `src`.
 const FILES: [&str; 2] = ["package.json", "README.md"];
 
+/// Makes the files that npm installs: the package for engines and the element for pages.
+pub fn for_npm(root: &Path, output: &Path) -> anyhow::Result<()> {
+    let package = Package {
+        output: output.to_owned(),
+        ..Package::default()
+    };
+    package.run()?;
+    element::make(root, output)?;
+    Ok(())
+}
+
 impl Package {
     /// Makes the package.
     pub fn run(self) -> anyhow::Result<()> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("..")
             .canonicalize()?;
+        if let Some(folder) = &self.packed {
+            let [shaders, element] = ["hairline-shaders", "hairline-viewer"]
+                .map(|name| folder.join(format!("{name}-{}.tgz", env!("CARGO_PKG_VERSION"))));
+            archive::unpack(&shaders, &self.output)?;
+            archive::unpack(&element, &self.output)?;
+            examples::look(&root, &self.output, &shaders)?;
+            return element::look(&root, &self.output);
+        }
         let by_hand = root.join("packages/hairline-shaders");
         let package = self.output.join("hairline-shaders");
         if package.exists() {
@@ -100,7 +123,6 @@ impl Package {
             wasm::write(&root, "hairline-engine-web", self.quick, "engine", &engine)?;
             print_sizes(&package)?;
             let packed = pack(&package)?;
-            println!("{}: what npm installs", packed.display());
             if self.test {
                 node(&tests, &["check.mjs"], &self.output)?;
             }

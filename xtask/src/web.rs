@@ -8,17 +8,17 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use anyhow::{Context, ensure};
 use clap::Args;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use hairline_scene::Description;
 use serde_json::json;
 
+use crate::program::run;
 use crate::wasm;
 use thumbnail::thumbnail;
 
-#[derive(Args)]
+#[derive(Args, Default)]
 pub struct Web {
     /// Folder for the files.
     #[arg(short, long, default_value = "target/web")]
@@ -35,6 +35,15 @@ pub struct Web {
     /// Compile for tests: little is optimised, and warnings are errors.
     #[arg(long)]
     quick: bool,
+}
+
+/// Makes the folder as it is handed out.
+pub fn make(output: &Path) -> anyhow::Result<()> {
+    Web {
+        output: output.to_owned(),
+        ..Web::default()
+    }
+    .run()
 }
 
 impl Web {
@@ -144,10 +153,4 @@ fn about(text: &str) -> String {
     let whole = comment.map(str::trim).collect::<Vec<_>>().join(" ");
     let end = whole.find(". ").map_or(whole.len(), |end| end + 1);
     whole[..end].to_owned()
-}
-
-fn run(command: &mut Command) -> anyhow::Result<()> {
-    let status = command.status().with_context(|| format!("{command:?}"))?;
-    ensure!(status.success(), "{command:?}: {status}");
-    Ok(())
 }

@@ -54,23 +54,32 @@ pub fn environment(python: &Path, folder: &Path, packages: &[&str]) -> anyhow::R
     run(Command::new(python)
         .args(["-m", "venv", "--clear"])
         .arg(&environment))?;
-    let programs = environment.join("bin");
+    let programs = environment.join(if cfg!(windows) { "Scripts" } else { "bin" });
     run(Command::new(programs.join("python"))
         .args(QUIETLY)
         .args(packages))?;
     Ok(programs)
 }
 
-/// Builds the wheel of `package` into `output` by the maturin of `programs`, in the place of those that were there.
-pub fn build(package: &Path, programs: &Path, output: &Path) -> anyhow::Result<PathBuf> {
+/// Builds the wheel of `package` into `output` by the maturin of `programs`, in the place of those that were there. `set` says what it is compiled for,
+/// if not for this machine.
+pub fn build(
+    package: &Path,
+    programs: &Path,
+    output: &Path,
+    set: impl FnOnce(&mut Command) -> anyhow::Result<()>,
+) -> anyhow::Result<PathBuf> {
     for old in wheels(output)? {
         std::fs::remove_file(old)?;
     }
-    run(Command::new(programs.join("maturin"))
+    let mut maturin = Command::new(programs.join("maturin"));
+    maturin
         .args(["build", "--release", "--quiet", "--out"])
         .arg(output)
         .arg("--manifest-path")
-        .arg(package.join("Cargo.toml")))?;
+        .arg(package.join("Cargo.toml"));
+    set(&mut maturin)?;
+    run(&mut maturin)?;
     wheels(output)?.pop().context("maturin made no wheel")
 }
 
@@ -93,7 +102,7 @@ impl Wheel {
         }
 
         let make = || -> anyhow::Result<PathBuf> {
-            let wheel = build(&package, &programs, &output)?;
+            let wheel = build(&package, &programs, &output, |_| Ok(()))?;
             run(python().args(QUIETLY).arg("--no-deps").arg(&wheel))?;
             Ok(wheel)
         };

@@ -7,7 +7,7 @@ use std::process::Command;
 use anyhow::{Context, ensure};
 
 use super::browser::{Folders, answers};
-use super::files::{copy, install};
+use super::files::{copy, install, pack};
 use super::pictures::write_model;
 
 /// The least share of the picture's pixels in which scratches have a colour: with grey lamps nothing else has one.
@@ -69,6 +69,10 @@ pub(super) fn make(root: &Path, output: &Path) -> anyhow::Result<u64> {
         &shaders.join("engine").join(program),
         &element.join(program),
     )?;
+    for licence in ["LICENSE-MIT", "LICENSE-APACHE"] {
+        copy(&root.join(licence), &element.join(licence))?;
+    }
+    pack(&element)?;
     Ok(script.metadata()?.len())
 }
 

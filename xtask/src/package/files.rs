@@ -6,6 +6,8 @@ use std::process::Command;
 use anyhow::{Context, ensure};
 use serde_json::Value;
 
+use crate::archive;
+
 /// Runs a test in its folder, with its npm packages installed there.
 pub(super) fn node(folder: &Path, script: &[&str], output: &Path) -> anyhow::Result<()> {
     install(folder)?;
@@ -43,15 +45,8 @@ pub(super) fn pack(package: &Path) -> anyhow::Result<PathBuf> {
     let [name, version] = ["name", "version"].map(|key| described[key].as_str().unwrap_or(""));
     let packed = output.join(format!("{name}-{version}.tgz"));
     // npm leaves out the first folder of paths, whatever its name.
-    let status = Command::new("tar")
-        .arg("-czf")
-        .arg(&packed)
-        .arg("-C")
-        .arg(output)
-        .arg(name)
-        .status()
-        .context("tar cannot be run")?;
-    ensure!(status.success(), "tar failed");
+    archive::pack(package, &packed, archive::time(package)?)?;
+    println!("{}: what npm installs", packed.display());
     Ok(packed)
 }
 
