@@ -57,7 +57,7 @@ pub fn failure(reason: &str) -> Failure {
     } else if mentions(&["adapter", "wgpu", "surface", "vulkan"]) {
         format!(
             "no window could be opened: no graphics driver can draw it; install one (on Debian and Ubuntu \
-             `apt install mesa-vulkan-drivers libgl1-mesa-dri`); {else_render}"
+             `apt install mesa-vulkan-drivers libegl1 libgl1-mesa-dri`); {else_render}"
         )
     } else {
         format!(
@@ -154,7 +154,7 @@ mod tests {
             ),
             (
                 "No suitable graphics adapter found",
-                "apt install mesa-vulkan-drivers",
+                "apt install mesa-vulkan-drivers libegl1 libgl1-mesa-dri",
             ),
             ("the moon is full.", "(the moon is full)"),
         ] {

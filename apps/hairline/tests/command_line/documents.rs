@@ -16,7 +16,7 @@ use hairline_fixtures::documents::{Block, documents, root};
 use crate::common::{SCRATCHED, command, stderr_of};
 
 /// Programs of which nothing is tested but the files that they get.
-const OTHERS: [&str; 5] = ["npm", "pip", "python3", "python3.11", "cd"];
+const OTHERS: [&str; 6] = ["npm", "pip", "python3", "python3.11", "cd", "tar"];
 /// In which a part of a scene stands. Its objects are disks of the last material.
 const AROUND: &str = "[camera]\nposition_m = [0, -0.2, 0.3]\ntarget_m = [0, 0, 0]\n\n[[material]]\nname = \"base\"\nkind = \"metal\"\nmetal = \"steel\"\nroughness = 0.1\n";
 /// What cargo was asked already.
@@ -73,6 +73,12 @@ fn code_of(text: &str) -> String {
     code.replace(",)", ")")
         .replace(",}", "}")
         .replace(",]", "]")
+}
+
+/// Whether a file is handed out: its name has the version.
+fn is_package(file: &str) -> bool {
+    let endings = [".tgz", ".whl", ".tar.gz"];
+    endings.iter().any(|ending| file.ends_with(ending))
 }
 
 /// Where the commands of a document are typed.
@@ -180,14 +186,16 @@ impl Folder {
                 let words = &words[words.iter().take_while(is_before).count()..];
                 match words {
                     [] => {}
-                    ["hairline", arguments @ ..] => all_run &= self.run(block, arguments),
+                    ["hairline" | "./hairline", arguments @ ..] => {
+                        all_run &= self.run(block, arguments)
+                    }
                     // What follows is typed in a project of the reader's.
                     ["cargo", "init", ..] => break,
                     ["cargo", arguments @ ..] => all_run &= self.cargo(block, arguments),
                     [program, ..] => {
                         let is_known = OTHERS.contains(program) || program.contains('/');
                         assert!(is_known, "{}: {program} is not known", block.place);
-                        let is_file = |word: &&&str| word.contains('/') || word.ends_with(".whl");
+                        let is_file = |word: &&&str| word.contains('/') || is_package(word);
                         let files = words.iter().filter(is_file);
                         files.for_each(|file| self.must_exist(block, file));
                     }
@@ -309,8 +317,7 @@ impl Folder {
 
     /// A file that is there or was made, unless it stands for one of the reader's, or is built.
     fn must_exist(&self, block: &Block, file: &str) {
-        let is_package = file.ends_with(".tgz") || file.ends_with(".whl");
-        let is_there = if is_package {
+        let is_there = if is_package(file) {
             file.contains(concat!("-", env!("CARGO_PKG_VERSION")))
         } else {
             let is_built =
