@@ -5,10 +5,11 @@ use std::process::Command;
 
 use anyhow::{Context, ensure};
 
-const DOCUMENTS: [&str; 4] = [
+const DOCUMENTS: [&str; 5] = [
     "README.md",
     "ARCHITECTURE.md",
     "CONTRIBUTING.md",
+    "RELEASING.md",
     "docs/model.md",
 ];
 
