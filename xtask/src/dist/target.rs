@@ -27,9 +27,10 @@ pub struct Place {
 }
 
 impl Place {
-    /// The folder that is compiled in. Nothing in it is what builds for tests make, which have no target.
+    /// The folder that is compiled in: its own, since build scripts and macros are linked by zig too, and compiling them anew has all compiled anew
+    /// that builds for tests made.
     fn build(&self) -> PathBuf {
-        env::var_os("CARGO_TARGET_DIR").map_or(self.root.join("target"), PathBuf::from)
+        self.root.join("target/for-release")
     }
 }
 
@@ -118,6 +119,7 @@ impl Target {
         command
             .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\x1f"))
             .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
+            .env("CARGO_TARGET_DIR", at.build())
             .env("SOURCE_DATE_EPOCH", at.time.to_string());
         let triple = self.0.to_uppercase().replace('-', "_");
         let linker = format!("CARGO_TARGET_{triple}_LINKER");
@@ -140,6 +142,7 @@ impl Target {
             zigbuild.display()
         );
         let path = at.build().join("zig-linker");
+        std::fs::create_dir_all(at.build())?;
         std::fs::write(&path, script)?;
         run(Command::new("chmod").arg("+x").arg(&path))?;
         Ok(path)
