@@ -99,9 +99,10 @@ impl<'a> Prepared<'a> {
         self
     }
 
-    /// Draws the scratches as they were laid, as the packages for other programs do, which know no arcs.
+    /// Draws the scratches as they were laid, and lights each at each pixel, as the packages for other programs do: they know no arcs and no places.
     pub fn as_laid(mut self) -> Self {
         self.scratches = Arc::clone(self.laid());
+        self.alike_rad = OnceLock::from(0.0);
         self
     }
 
