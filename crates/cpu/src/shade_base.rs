@@ -9,9 +9,7 @@ use hairline_optics::brushed_lobe::BrushedLobe;
 use hairline_optics::coat::CoatPart;
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
 use hairline_optics::facets::FacetAxes;
-use hairline_optics::filtered_lobe::{
-    LobePart, PixelSlopes, far_share, filtered_lobe, filtered_lobe_around,
-};
+use hairline_optics::filtered_lobe::{LobePart, PixelSlopes, filtered_lobe, filtered_lobe_around};
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
@@ -144,7 +142,7 @@ impl<'a> Layer<'a> {
             Shape::Round(sharp) => {
                 let parts = self.parts(sharp, per_m);
                 let first = light_vector(light, views, &parts[0].lobe);
-                let far = far_share(first);
+                let far = parts[0].far(first);
                 let part = |(i, part): (usize, &LobePart)| {
                     let weight = part.weight(far);
                     if weight == 0.0 {

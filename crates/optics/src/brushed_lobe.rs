@@ -15,10 +15,12 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use crate::facets::{FacetAxes, Facets};
-use crate::filtered_lobe::{SlopeSpread, excess_tails, filtered_facets, filtered_tails};
+use crate::filtered_lobe::{SlopeSpread, filtered_facets, filtered_tails};
 use crate::fresnel::FresnelRgb;
 use crate::ggx::GGX_MIN_ALPHA;
 use crate::ltc::{LtcLobe, ltc_lobe};
+
+mod outline;
 
 /// Fejer's first rule: Chebyshev's nodes in (0, 1), and weights by which polynomials are exact; the same in (-1, 0).
 const RULE: [[f64; 2]; 8] = [
@@ -65,6 +67,10 @@ pub struct BrushedLobe {
     facets: [Facets; 3],
     /// [`crate::filtered_lobe::FilteredLobe::excess`].
     excess: f64,
+    /// Share of the sharp lobe's tails far from the core.
+    tails: f64,
+    /// Slope at which places are spread out: half of all facets of this alpha lie at places from -1/2 to 1/2.
+    unit: f64,
 }
 
 /// Facets of one slope along the axis.
@@ -171,7 +177,7 @@ impl SlicePart {
 impl BrushedLobe {
     /// The lobe of a surface for a viewer above the horizon, in the local frame. The pixel's slopes spread so about their mean.
     pub fn new(wo: DVec3, surface: FacetAxes, spread: SlopeSpread) -> Self {
-        let (axes, excess) = filtered_facets(surface, spread, wo.z);
+        let (axes, excess, tails) = filtered_facets(surface, spread, wo.z);
         let along = axes.along;
         let first = Facets::new(FacetAxes {
             along: DVec2::X,
@@ -190,6 +196,8 @@ impl BrushedLobe {
             along,
             facets: [first, second, own],
             excess,
+            tails,
+            unit: first.alphas.x,
         }
     }
 
@@ -210,14 +218,14 @@ impl BrushedLobe {
     /// Returns the place of a direction's slice, from -1 to 1, such that facets are evenly spread over places.
     fn place(&self, w: DVec3) -> f64 {
         let length = w.length();
-        let x = -(w.x + self.wo.x * length) / self.facets[0].alphas.x;
+        let x = -(w.x + self.wo.x * length) / self.unit;
         let z = w.z + self.wo.z * length;
         x / (x * x + z * z).max(1e-30).sqrt()
     }
 
     /// [`Self::place`] of a slope along the axis.
     fn place_of_slope(&self, slope: f64) -> f64 {
-        let x = slope / self.facets[0].alphas.x;
+        let x = slope / self.unit;
         x / (1.0 + x * x).sqrt()
     }
 
@@ -228,13 +236,13 @@ impl BrushedLobe {
     }
 
     fn parts(&self) -> usize {
-        if self.excess > 0.0 { 3 } else { 1 }
+        if self.tails > 0.0 { 3 } else { 1 }
     }
 
     fn slice(&self, place: f64) -> Option<Slice> {
         let wo = self.wo;
         let root = ((1.0 - place) * (1.0 + place)).sqrt();
-        let slope = self.facets[0].alphas.x * place / root;
+        let slope = self.unit * place / root;
         let inside = wo.y * wo.y - wo.z * (2.0 * slope * wo.x - wo.z * (1.0 - slope * slope));
         if inside <= 0.0 {
             return None;
@@ -248,7 +256,7 @@ impl BrushedLobe {
             let x = slope / facets.alphas.x;
             let stretch = (1.0 + x * x).sqrt();
             let mut part = SlicePart {
-                weight: self.facets[0].alphas.x / (facets.alphas.x * (stretch * root).powi(3)),
+                weight: self.unit / (facets.alphas.x * (stretch * root).powi(3)),
                 middle: facets.alphas.y * facets.shear * x,
                 alpha: facets.alphas.y * stretch,
                 from: -FAR,
@@ -308,11 +316,13 @@ impl BrushedLobe {
 
     /// Weight of facets of kind `k` at a slope.
     fn counts(&self, k: usize, slopes: DVec2) -> f64 {
-        if self.excess == 0.0 {
+        if self.tails == 0.0 {
             return 1.0;
         }
-        let widths = (slopes / self.facets[0].alphas).length();
-        let tails = excess_tails(self.excess) * filtered_tails(widths);
+        let Facets { alphas, shear } = self.facets[0];
+        let x = slopes.x / alphas.x;
+        let widths = x.hypot(slopes.y / alphas.y - shear * x);
+        let tails = self.tails * filtered_tails(widths);
         match k {
             0 => (1.0 + self.excess) * (1.0 - tails),
             1 => -self.excess * (1.0 - tails),
@@ -478,100 +488,8 @@ impl BrushedLobe {
             }
         })
     }
-
-    /// Computes the same for a plane polygon, convex or not, in either orientation. The vertices are relative to the point, in the local frame.
-    pub fn polygon(&self, vertices: &[DVec3], of: &FresnelRgb) -> [f64; 3] {
-        let edges = |visit: &mut dyn FnMut(DVec3, DVec3)| {
-            for (i, &a) in vertices.iter().enumerate() {
-                let b = vertices[(i + 1) % vertices.len()];
-                for_each_raised(self.turned(a), self.turned(b), visit);
-            }
-        };
-        if vertices.iter().all(|vertex| vertex.z <= 0.0) {
-            return [0.0; 3];
-        }
-        let mut range = [1.0_f64, -1.0_f64];
-        let mut area = DVec3::ZERO;
-        for (i, &a) in vertices.iter().enumerate() {
-            area += a.cross(vertices[(i + 1) % vertices.len()]);
-        }
-        let orientation = if area.dot(vertices[0]) < 0.0 {
-            -1.0
-        } else {
-            1.0
-        };
-        edges(&mut |a, b| {
-            let (at_a, at_b) = (self.place(a), self.place(b));
-            let middle = self.place(a.normalize_or(DVec3::Z) + b.normalize_or(DVec3::Z));
-            // The parabola through the three.
-            let bend = at_a + at_b - 2.0 * middle;
-            let turn = 0.25 * (at_b - at_a) / bend;
-            let extreme = if turn.abs() < 0.5 {
-                middle - 0.5 * bend * (turn * turn) * 4.0
-            } else {
-                at_a
-            };
-            for place in [at_a, at_b, extreme] {
-                range = [range[0].min(place), range[1].max(place)];
-            }
-        });
-        let range = range.map(|place| place.clamp(-1.0, 1.0));
-        self.over(range, of, |x, add| {
-            edges(&mut |a, b| self.crossings(x, a, b, &mut |y, sign| add(y, sign * orientation)));
-        })
-    }
-
-    /// Finds the points where an edge crosses the circle of a slope: zeros of w.x + x w.z + k |w|, which along the edge is convex for k above zero and
-    /// concave below.
-    fn crossings(&self, x: f64, a: DVec3, b: DVec3, add: &mut dyn FnMut(f64, f64)) {
-        let wo = self.wo;
-        let k = wo.x + x * wo.z;
-        let d = b - a;
-        let (at_a, step) = (a.x + x * a.z, d.x + x * d.z);
-        let value = |s: f64| at_a + s * step + k * (a + s * d).length();
-        let (value_a, value_b) = (value(0.0), value(1.0));
-        let mut crossed = |mut s: f64, sign: f64| {
-            for _ in 0..NEWTON_ROUNDS {
-                let w = a + s * d;
-                let length = w.length().max(1e-30);
-                let slope = step + k * w.dot(d) / length;
-                let moved = (at_a + s * step + k * length) / slope;
-                s = if moved.is_finite() {
-                    (s - moved).clamp(0.0, 1.0)
-                } else {
-                    s
-                };
-            }
-            let w = a + s * d;
-            let length = w.length();
-            let y = -(w.y + wo.y * length) / (w.z + wo.z * length).max(1e-30);
-            add(y.clamp(-FAR, FAR), sign);
-        };
-        let curved = if k > 0.0 { 1.0 } else { -1.0 };
-        if (value_a > 0.0) != (value_b > 0.0) {
-            // Newton's steps start on the side where they do not overshoot.
-            let from = if value_a * curved > 0.0 { 0.0 } else { 1.0 };
-            crossed(from, if value_b > value_a { 1.0 } else { -1.0 });
-        } else if value_a * curved > 0.0 {
-            // The edge may cross twice, on both sides of its turning point.
-            let d2 = d.length_squared().max(1e-30);
-            let sine = -step / (k * d2.sqrt());
-            if sine * sine >= 1.0 {
-                return;
-            }
-            let foot = a.cross(d).length() / d2.sqrt();
-            let turn =
-                (foot * sine / (1.0 - sine * sine).sqrt() - a.dot(d) / d2.sqrt()) / d2.sqrt();
-            if turn > 0.0 && turn < 1.0 && value(turn) * curved < 0.0 {
-                crossed(0.0, -curved);
-                crossed(1.0, curved);
-            }
-        }
-    }
 }
 
-/// Newton's steps: each doubles the digits.
-const NEWTON_ROUNDS: usize = 5;
 /// A slope beyond all that reflect to above the horizon.
 const FAR: f64 = 1e9;
 
@@ -583,17 +501,4 @@ fn both_ways(rule: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]> {
 
 fn turned(along: DVec2, v: DVec2) -> DVec2 {
     DVec2::new(v.dot(along), along.perp_dot(v))
-}
-
-/// Visits an edge in two parts, with the points below the horizon raised to it.
-fn for_each_raised(a: DVec3, b: DVec3, visit: &mut dyn FnMut(DVec3, DVec3)) {
-    let raised = |w: DVec3| DVec3::new(w.x, w.y, w.z.max(0.0));
-    if (a.z > 0.0) == (b.z > 0.0) {
-        visit(raised(a), raised(b));
-        return;
-    }
-    let cut = a + a.z / (a.z - b.z) * (b - a);
-    let cut = DVec3::new(cut.x, cut.y, 0.0);
-    visit(raised(a), cut);
-    visit(cut, raised(b));
 }

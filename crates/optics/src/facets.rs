@@ -66,6 +66,18 @@ impl Facets {
         }
     }
 
+    /// The same facets in a frame whose x axis is the unit vector `axis` of this one.
+    pub(crate) fn turned(&self, axis: DVec2) -> Self {
+        let along = self.stretched(axis.extend(0.0));
+        let across = self.stretched(axis.perp().extend(0.0));
+        let alpha_x = along.length();
+        let alpha_y = self.alphas.x * self.alphas.y / alpha_x;
+        Self {
+            alphas: DVec2::new(alpha_x, alpha_y),
+            shear: along.dot(across) / (alpha_x * alpha_y),
+        }
+    }
+
     /// Squares of alpha: along x, both, along y.
     pub fn squares(&self) -> [f64; 3] {
         let (x, y) = (self.alphas.x, self.alphas.y * DVec2::new(self.shear, 1.0));

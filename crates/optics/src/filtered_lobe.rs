@@ -31,6 +31,9 @@ const MIN_EXCESS: f64 = 0.02;
 const TAILS: [f64; 2] = [1.3, 2.6];
 /// The same for facets that are not round.
 const FACETS_TAILS: [f64; 2] = [1.5, 3.2];
+/// Ratio of the second term to the first, in the square of it, of the series of blurred tails; and the least denominator.
+const BLUR_SERIES: f64 = 1.125;
+const BLUR_LEAST: f64 = 0.4;
 /// Increase of a squared alpha over a variance of slopes, for lights.
 const LIGHT_WIDENING: f64 = 3.3;
 /// Increase of both squared alphas, over that of the surface, for each logarithm of what a lobe's peak loses.
@@ -95,12 +98,12 @@ fn widening(variance: f64, alpha: f64) -> f64 {
     (2.6 + 2.5 / (1.0 + 1.5 * variance.sqrt() / alpha)) * variance
 }
 
-/// The facets of a [`FilteredLobe`]'s first lobe, and its excess, where the surface's are not round.
+/// The facets of a [`FilteredLobe`]'s first lobe, its excess, and the share of the sharp lobe's tails, where the surface's are not round.
 pub(crate) fn filtered_facets(
     surface: FacetAxes,
     spread: SlopeSpread,
     cos_o: f64,
-) -> (FacetAxes, f64) {
+) -> (FacetAxes, f64, f64) {
     let (variance, covariance) = spread.bounded(cos_o);
     let (mean, half) = (
         0.5 * (variance.x + variance.y),
@@ -108,7 +111,7 @@ pub(crate) fn filtered_facets(
     );
     let apart = half.hypot(covariance);
     if mean <= 0.0 {
-        return (surface, 0.0);
+        return (surface, 0.0, 0.0);
     }
     // Long axis of the spread.
     let axis = DVec2::from_angle(0.5 * covariance.atan2(half));
@@ -134,11 +137,13 @@ pub(crate) fn filtered_facets(
     let long2 = mean + half.hypot(xy);
     let turn = DVec2::from_angle(0.5 * xy.atan2(half));
     let excess = 1.0 - (own.x + own.y) / (xx + yy);
+    // Over the surface's own, as across a brushed surface a small spread is many times its alpha.
+    let widened = 1.0 - 2.0 / (xx / own.x + yy / own.y);
     let axes = FacetAxes {
         along: turn.rotate(surface.along),
         alphas: DVec2::new(long2.sqrt(), (product / long2).sqrt()),
     };
-    (axes, set_in(excess))
+    (axes, set_in(excess), excess_tails(set_in(widened)))
 }
 
 /// Share, 0 to 1, that the sharp lobe has taken over at so many widths from the first lobe's middle.
@@ -152,7 +157,7 @@ fn set_in(excess: f64) -> f64 {
 }
 
 /// Share, 0 to 1, of the sharp lobe's tails that are there at an excess as it counts.
-pub(crate) fn excess_tails(excess: f64) -> f64 {
+fn excess_tails(excess: f64) -> f64 {
     smoothstep([0.0, 2.0 * MIN_EXCESS], excess)
 }
 
@@ -172,14 +177,16 @@ pub struct FilteredLobe {
     pub bent: f64,
     /// [`LtcLobe::turned`] of both.
     pub turned: f64,
+    /// Spread of the slopes, within the limits.
+    pub spread: SlopeSpread,
     /// The second's weight. The first has 1 and this.
     pub excess: f64,
 }
 
 /// The lobe of GGX alpha `alpha` over normals whose slopes spread, for a light; the mean normal is seen at the cosine `cos_o`.
 ///
-/// The tails are the sharp lobe's ([`far_share`]), so the difference is free to be right near the core. Its numbers were fitted to GGX convolved
-/// with Gaussians of all sizes and shapes: lamps of all sizes keep their light within 1.6 % (test `lamps_of_all_sizes_keep_their_light`).
+/// The tails are the sharp lobe's ([`LobePart::far`]), so the difference is free to be right near the core. Its numbers were fitted to GGX convolved
+/// with Gaussians of all sizes and shapes: lamps of all sizes keep their light within 1.9 % (test `lamps_of_all_sizes_keep_their_light`).
 pub fn filtered_lobe(alpha: f64, spread: SlopeSpread, cos_o: f64) -> FilteredLobe {
     with_widths(alpha, spread, cos_o, |variances| {
         let growth = DVec2::ONE + LIGHT_WIDENING / (alpha * alpha) * variances;
@@ -234,6 +241,10 @@ fn with_widths(
         shear: turn.y / (alpha_x * alpha_y),
         bent: bend2 / (bend2 + BEND2),
         turned: set_in(excess_of_tails(alpha, wide2)),
+        spread: SlopeSpread {
+            variance,
+            covariance,
+        },
         excess: set_in(excess),
     }
 }
@@ -247,19 +258,51 @@ pub struct LobePart {
     pub core: f64,
     /// Weight of the lobe for light far from the middle.
     pub tails: f64,
+    /// [`FilteredLobe::spread`].
+    pub spread: SlopeSpread,
 }
 
 impl LobePart {
-    /// Weight of the lobe for a light so far from the core ([`far_share`]).
-    pub fn weight(&self, far: f64) -> f64 {
-        self.core + far * (self.tails - self.core)
+    /// Weight of the lobe for a light so far from the core.
+    pub fn weight(&self, far: Far) -> f64 {
+        self.core + far.share * (self.tails * far.blurred - self.core)
+    }
+
+    /// How far a light is from the core, by its vector irradiance in the cosine space of this part, which is the first.
+    pub fn far(&self, first: DVec3) -> Far {
+        let widths = first.truncate() / first.z.max(1e-30);
+        let share = smoothstep(TAILS, widths.length());
+        if share <= 0.0 {
+            return Far {
+                share,
+                blurred: 1.0,
+            };
+        }
+        // The mean of r^-4 about r, by the first terms of its series. Where the difference still has a share, it has blurred tails by itself.
+        let slope = self.lobe.alphas * DVec2::new(widths.x, widths.y + self.lobe.shear * widths.x);
+        let SlopeSpread {
+            variance,
+            covariance,
+        } = self.spread;
+        let square = slope.length_squared();
+        let towards = (variance.dot(slope * slope) + 2.0 * covariance * slope.x * slope.y) / square;
+        let across = variance.x + variance.y - towards;
+        let first = (10.0 * towards - 2.0 * across) / square;
+        Far {
+            share,
+            blurred: 1.0 + share * first / (1.0 - BLUR_SERIES * first).max(BLUR_LEAST),
+        }
     }
 }
 
-/// Share, 0 to 1, of the tails in a light, by its vector irradiance in the cosine space of the first part. It is one for all parts: by shares of their own
-/// the second, which is wider, would lose more than the first, and lamps as wide as the lobe be up to 4 % too bright.
-pub fn far_share(first: DVec3) -> f64 {
-    smoothstep(TAILS, first.x.hypot(first.y) / first.z.max(1e-30))
+/// How far a light is from the core.
+#[derive(Clone, Copy, Debug)]
+pub struct Far {
+    /// Share, 0 to 1, of the tails in the light. It is one for all parts: by shares of their own the second, which is wider, would lose more than the
+    /// first, and lamps as wide as the lobe be up to 4 % too bright.
+    pub share: f64,
+    /// The tails over those of the sharp lobe, which is steeper nearer to the core than further out.
+    pub blurred: f64,
 }
 
 impl FilteredLobe {
@@ -267,7 +310,12 @@ impl FilteredLobe {
     pub fn parts(&self, sharp: &LtcLobe) -> [LobePart; 3] {
         let wide =
             |width: f64| sharp.widened(width * self.alphas, self.shear, self.bent, self.turned);
-        let part = |lobe, core, tails| LobePart { lobe, core, tails };
+        let part = |lobe, core, tails| LobePart {
+            lobe,
+            core,
+            tails,
+            spread: self.spread,
+        };
         let tails = excess_tails(self.excess);
         [
             part(wide(1.0), 1.0 + self.excess, 1.0 - tails),

@@ -37,7 +37,7 @@ fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
         let source = light_at(l);
         let radiance = published_light_radiance(source, point.position_m);
         let filtered = layer_filtered(point, layer, light_per_m(source, point.position_m));
-        var far = 0.0;
+        var far = FilteredLobeFar(0.0, 1.0);
         for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
             let part = filtered_lobe_part(layer.sharp, filtered, p);
             if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
@@ -58,7 +58,7 @@ fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
                 share = vec4f(ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector), seen.form_factor);
             }
             if p == 0u {
-                far = filtered_lobe_far(vector);
+                far = filtered_lobe_far(filtered, vector);
             }
             sum.specular += filtered_lobe_weight(part, far) * radiance * share.xyz;
             sum.diffuse += select(vec3f(0.0), radiance * share.w, p == 0u);

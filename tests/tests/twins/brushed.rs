@@ -187,11 +187,13 @@ fn polygons_on_brushed_lobes() {
             let axis = vec3f(x[4], x[5], x[6]);
             let sides = irradiance_basis(axis);
             var corners: array<vec3f, 4>;
-            corners[0] = axis - x[7] * sides.u - 0.6 * x[7] * sides.v;
-            corners[1] = axis + x[7] * sides.u - 0.6 * x[7] * sides.v;
-            corners[2] = axis + x[7] * sides.u + 0.6 * x[7] * sides.v;
-            corners[3] = axis - 0.5 * x[7] * sides.u + 0.6 * x[7] * sides.v;
-            var range = vec2f(1.0, -1.0);
+            // Every other one is thin.
+            let thin = select(0.6, 0.02, x[10] < 0.0);
+            corners[0] = axis - x[7] * sides.u - thin * x[7] * sides.v;
+            corners[1] = axis + x[7] * sides.u - thin * x[7] * sides.v;
+            corners[2] = axis + x[7] * sides.u + thin * x[7] * sides.v;
+            corners[3] = axis - 0.5 * x[7] * sides.u + thin * x[7] * sides.v;
+            var grain = brushed_no_grain();
             var area = vec3f(0.0);
             var highest = 0.0;
             for (var i = 0u; i < 4u; i += 1u) {{
@@ -199,27 +201,34 @@ fn polygons_on_brushed_lobes() {
                 let b = brushed_from_local(lobe, corners[(i + 1u) % 4u]);
                 area += cross(a, b);
                 highest = max(highest, b.z);
-                range = brushed_range(lobe, range, brushed_edge(a, b, false));
-                range = brushed_range(lobe, range, brushed_edge(a, b, true));
+                brushed_add_grain(&grain, lobe, brushed_edge(a, b, false));
+                brushed_add_grain(&grain, lobe, brushed_edge(a, b, true));
             }}
-            let visible = brushed_visible(lobe, range);
+            let sliced = brushed_sliced(lobe, grain);
+            var range = vec2f(1.0, -1.0);
+            for (var i = 0u; i < 8u; i += 1u) {{
+                let a = brushed_from_local(sliced, corners[i / 2u]);
+                let b = brushed_from_local(sliced, corners[(i / 2u + 1u) % 4u]);
+                range = brushed_range(sliced, range, brushed_edge(a, b, (i & 1u) == 1u));
+            }}
+            let visible = brushed_visible(sliced, range);
             var r = vec3f(0.0);
             let orientation = select(1.0, -1.0, dot(area, brushed_from_local(lobe, corners[0])) < 0.0);
             if highest > 0.0 && visible.y > visible.x {{
                 for (var n = 0u; n < BRUSHED_NODES; n += 1u) {{
                     let node = brushed_node(n, visible);
-                    let slice = brushed_slice(lobe, node.x);
+                    let slice = brushed_slice(sliced, node.x);
                     if !slice.is_seen {{ continue; }}
-                    for (var k = 0u; k < brushed_parts(lobe); k += 1u) {{
-                        let part = brushed_part(lobe, slice, k);
+                    for (var k = 0u; k < brushed_parts(sliced); k += 1u) {{
+                        let part = brushed_part(sliced, slice, k);
                         var moments = brushed_none();
                         for (var i = 0u; i < 8u; i += 1u) {{
-                            let a = brushed_from_local(lobe, corners[i / 2u]);
-                            let b = brushed_from_local(lobe, corners[(i / 2u + 1u) % 4u]);
+                            let a = brushed_from_local(sliced, corners[i / 2u]);
+                            let b = brushed_from_local(sliced, corners[(i / 2u + 1u) % 4u]);
                             let edge = brushed_edge(a, b, (i & 1u) == 1u);
-                            brushed_add_crossings(&moments, part, brushed_crossings(lobe, slice.slope, edge), orientation);
+                            brushed_add_crossings(&moments, part, brushed_crossings(sliced, slice.slope, edge), orientation);
                         }}
-                        r += node.y * brushed_reflected(lobe, slice, k, moments, gold, table_0);
+                        r += node.y * brushed_reflected(sliced, slice, k, moments, gold, table_0);
                     }}
                 }}
             }}
@@ -232,7 +241,8 @@ fn polygons_on_brushed_lobes() {
             let lobe = lobe(surface, [p, q, r]);
             let axis = DVec3::new(x, y, z);
             let (u, v) = hairline_optics::irradiance::irradiance_basis(axis);
-            let corners = [(-1.0, -0.6), (1.0, -0.6), (1.0, 0.6), (-0.5, 0.6)]
+            let thin = if r < 0.0 { 0.02 } else { 0.6 };
+            let corners = [(-1.0, -thin), (1.0, -thin), (1.0, thin), (-0.5, thin)]
                 .map(|(right, up)| axis + size * (right * u + up * v));
             let reflected = lobe.polygon(&corners, &gold());
             reflected.map(|channel| channel * per_brightest(surface, size))

@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::{headless, shaders};
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
-use hairline_optics::filtered_lobe::{SlopeSpread, far_share, filtered_lobe, filtered_lobe_around};
+use hairline_optics::filtered_lobe::{SlopeSpread, filtered_lobe, filtered_lobe_around};
 use hairline_optics::fresnel::{FRESNEL_NODES, FresnelCurve, FresnelRgb, half_vector_cos};
 use hairline_optics::ggx::*;
 use hairline_optics::irradiance::*;
@@ -481,7 +481,7 @@ fn filtered_lobes() {
                 y[10u + p] = tap.weight;
             }
             for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
-                y[12u + p] = filtered_lobe_weight(filtered_lobe_part(sharp, filtered, p), filtered_lobe_far(axis));
+                y[12u + p] = filtered_lobe_weight(filtered_lobe_part(sharp, filtered, p), filtered_lobe_far(filtered, axis));
             }",
         tables: &tables,
         expected: &|row| {
@@ -491,7 +491,7 @@ fn filtered_lobes() {
             let filtered = filtered_lobe(sharp.alpha, slope_spread(axis), wo.z);
             let parts = filtered.parts(&sharp);
             let [first, second] = [0, 1].map(|p| parts[p].lobe);
-            let weights = parts.map(|part| part.weight(far_share(axis)));
+            let weights = parts.map(|part| part.weight(parts[0].far(axis)));
             let [i0, i1] =
                 [first, second].map(|lobe| ltc_sphere(&lobe, &of, axis, sin2)[1] / brightest);
             let around = filtered_lobe_around(sharp.alpha, slope_spread(axis), wo.z).parts(&sharp);

@@ -51,18 +51,28 @@ fn brushed_base_quad(base: BrushedBase, curves: texture_2d<f32>, light: QuadLigh
     if polygon_facing(light.normal, light.a_m, light.two_sided) == 0.0 || highest_m <= 0.0 {
         return BaseLit(vec3f(0.0), 0.0);
     }
-    let lobe = brushed_base_lobe(base, light_per_distance(light.center_m, light.radius_m));
+    let axial = brushed_base_lobe(base, light_per_distance(light.center_m, light.radius_m));
     var body = lambert_begin();
-    var range = vec2f(1.0, -1.0);
+    var grain = brushed_no_grain();
     var area = vec3f(0.0);
     var corners = mat4x3f(light.a_m, light.b_m, light.c_m, light.d_m);
-    let first = brushed_from_local(lobe, light.a_m);
     for (var i = 0u; i < light.corner_count; i += 1u) {
         let to = select(corners[1], light.a_m, i + 1u == light.corner_count);
         lambert_edge(&body, corners[0], to);
-        let a = brushed_from_local(lobe, corners[0]);
-        let b = brushed_from_local(lobe, to);
+        let a = brushed_from_local(axial, corners[0]);
+        let b = brushed_from_local(axial, to);
         area += cross(a, b);
+        brushed_add_grain(&grain, axial, brushed_edge(a, b, false));
+        brushed_add_grain(&grain, axial, brushed_edge(a, b, true));
+        corners = mat4x3f(corners[1], corners[2], corners[3], corners[0]);
+    }
+    let lobe = brushed_sliced(axial, grain);
+    let first = brushed_from_local(axial, light.a_m);
+    var range = vec2f(1.0, -1.0);
+    corners = mat4x3f(light.a_m, light.b_m, light.c_m, light.d_m);
+    for (var i = 0u; i < light.corner_count; i += 1u) {
+        let a = brushed_from_local(lobe, corners[0]);
+        let b = brushed_from_local(lobe, select(corners[1], light.a_m, i + 1u == light.corner_count));
         range = brushed_range(lobe, range, brushed_edge(a, b, false));
         range = brushed_range(lobe, range, brushed_edge(a, b, true));
         corners = mat4x3f(corners[1], corners[2], corners[3], corners[0]);

@@ -68,7 +68,7 @@ fn lit_base_sphere(base: LitBase, curves: texture_2d<f32>, center_m: vec3f, radi
     let sin_sq = cap_sin_sq(cap);
     let filtered = lit_base_filtered(base, light_per_distance(center_m, radius_m));
     var specular = vec3f(0.0);
-    var far = 0.0;
+    var far = FilteredLobeFar(0.0, 1.0);
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, filtered, p);
         if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
@@ -76,7 +76,7 @@ fn lit_base_sphere(base: LitBase, curves: texture_2d<f32>, center_m: vec3f, radi
         }
         let vector = ltc_sphere_vector(part.lobe, cap.axis, sin_sq);
         if p == 0u {
-            far = filtered_lobe_far(vector);
+            far = filtered_lobe_far(filtered, vector);
         }
         specular += filtered_lobe_weight(part, far) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
     }
@@ -91,7 +91,7 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
     let filtered = lit_base_filtered(base, light_per_distance(light.center_m, light.radius_m));
     var specular = vec3f(0.0);
     var form_factor = 0.0;
-    var far = 0.0;
+    var far = FilteredLobeFar(0.0, 1.0);
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, filtered, p);
         if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
@@ -111,7 +111,7 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
         }
         let vector = irradiance_end(reflected);
         if p == 0u {
-            far = filtered_lobe_far(vector);
+            far = filtered_lobe_far(filtered, vector);
         }
         specular += filtered_lobe_weight(part, far) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
         form_factor = lambert_end(body);
@@ -126,7 +126,7 @@ fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d
     }
     let filtered = lit_base_filtered(base, per_m);
     var specular = vec3f(0.0);
-    var far = 0.0;
+    var far = FilteredLobeFar(0.0, 1.0);
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, filtered, p);
         if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
@@ -141,7 +141,7 @@ fn lit_base_outline(base: LitBase, curves: texture_2d<f32>, vertices: texture_2d
         }
         let vector = irradiance_end(reflected);
         if p == 0u {
-            far = filtered_lobe_far(vector);
+            far = filtered_lobe_far(filtered, vector);
         }
         specular += filtered_lobe_weight(part, far) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
     }

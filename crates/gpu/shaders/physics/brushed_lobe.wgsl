@@ -26,12 +26,17 @@ const BRUSHED_LEAST_SHARE: f32 = 1e-9;
 // Rounding error of a sum that is nothing.
 const BRUSHED_ROUNDING: f32 = 1e-5;
 const BRUSHED_NEWTON_ROUNDS: i32 = 5;
+// Chords that stand for an edge of a unit's length as seen from the point.
+const BRUSHED_CHORDS: f32 = 6.0;
 
 struct BrushedLobe {
     wo: vec3f,                  // the viewer, in a frame whose x axis is the longer one of the slopes
     excess: f32,
+    tails: f32,                 // share of the sharp lobe's far from the core
     along: vec2f,               // that axis in the local frame
     alphas: vec2f,              // of the pixel's facets; those of the second kind are wider by the root of 2
+    shear: f32,
+    unit: f32,                  // slope at which places are spread out
     surface: Facets,
 }
 
@@ -109,6 +114,7 @@ fn brushed_turned(along: vec2f, v: vec2f) -> vec2f {
 struct FilteredFacets {
     axes: FacetAxes,
     excess: f32,
+    tails: f32,
 }
 
 fn filtered_facets(surface: FacetAxes, spread: vec3f, cos_o: f32) -> FilteredFacets {
@@ -119,7 +125,7 @@ fn filtered_facets(surface: FacetAxes, spread: vec3f, cos_o: f32) -> FilteredFac
     let half = 0.5 * (variance.x - variance.y);
     let apart = length(vec2f(half, covariance));
     if mean <= 0.0 {
-        return FilteredFacets(surface, 0.0);
+        return FilteredFacets(surface, 0.0, 0.0);
     }
     // Long axis of the spread, as for a surface.
     let axis = brushed_half_turn(half, covariance);
@@ -137,8 +143,9 @@ fn filtered_facets(surface: FacetAxes, spread: vec3f, cos_o: f32) -> FilteredFac
     let long2 = middle + length(vec2f(half_apart, xy));
     let turn = brushed_half_turn(half_apart, xy);
     let excess = 1.0 - (own.x + own.y) / (xx + yy);
+    let widened = 1.0 - 2.0 / (xx / own.x + yy / own.y);
     let turned = vec2f(turn.x * surface.along.x - turn.y * surface.along.y, turn.y * surface.along.x + turn.x * surface.along.y);
-    return FilteredFacets(FacetAxes(turned, vec2f(sqrt(long2), sqrt(product / long2))), excess_set_in(excess));
+    return FilteredFacets(FacetAxes(turned, vec2f(sqrt(long2), sqrt(product / long2))), excess_set_in(excess), excess_tails(excess_set_in(widened)));
 }
 
 // The unit vector at half the angle of (x, y).
@@ -159,8 +166,11 @@ fn brushed_lobe(wo: vec3f, surface: FacetAxes, spread: vec3f) -> BrushedLobe {
     return BrushedLobe(
         vec3f(brushed_turned(along, wo.xy), wo.z),
         filtered.excess,
+        filtered.tails,
         along,
         filtered.axes.alphas,
+        0.0,
+        filtered.axes.alphas.x,
         facets_of(FacetAxes(brushed_turned(along, surface.along), surface.alphas)),
     );
 }
@@ -186,13 +196,13 @@ fn brushed_to_local(lobe: BrushedLobe, w: vec3f) -> vec3f {
 // Place of a direction's slice, from -1 to 1, such that facets are evenly spread over places.
 fn brushed_place(lobe: BrushedLobe, w: vec3f) -> f32 {
     let magnitude = length(w);
-    let x = -(w.x + lobe.wo.x * magnitude) / lobe.alphas.x;
+    let x = -(w.x + lobe.wo.x * magnitude) / lobe.unit;
     let z = w.z + lobe.wo.z * magnitude;
     return x * inverseSqrt(max(x * x + z * z, 1e-30));
 }
 
 fn brushed_place_of_slope(lobe: BrushedLobe, slope: f32) -> f32 {
-    let x = slope / lobe.alphas.x;
+    let x = slope / lobe.unit;
     return x * inverseSqrt(1.0 + x * x);
 }
 
@@ -214,20 +224,20 @@ fn brushed_node(i: u32, range: vec2f) -> vec2f {
 fn brushed_slice(lobe: BrushedLobe, place: f32) -> BrushedSlice {
     let wo = lobe.wo;
     let root = sqrt(max((1.0 - place) * (1.0 + place), 1e-12));
-    let slope = lobe.alphas.x * place / root;
+    let slope = lobe.unit * place / root;
     let inside = wo.y * wo.y - wo.z * (2.0 * slope * wo.x - wo.z * (1.0 - slope * slope));
     let reach = sqrt(max(inside, 0.0));
     return BrushedSlice(inside > 0.0, slope, vec2f(-wo.y - reach, -wo.y + reach) / wo.z, root);
 }
 
 fn brushed_parts(lobe: BrushedLobe) -> u32 {
-    return select(1u, 3u, lobe.excess > 0.0);
+    return select(1u, 3u, lobe.tails > 0.0);
 }
 
 fn brushed_part(lobe: BrushedLobe, slice: BrushedSlice, k: u32) -> BrushedPart {
     var facets = lobe.surface;
     if k < 2u {
-        facets = Facets(lobe.alphas * select(1.0, 1.41421356, k == 1u), 0.0);
+        facets = Facets(lobe.alphas * select(1.0, 1.41421356, k == 1u), lobe.shear);
     }
     let x = slice.slope / facets.alphas.x;
     let stretch = sqrt(1.0 + x * x);
@@ -235,7 +245,7 @@ fn brushed_part(lobe: BrushedLobe, slice: BrushedSlice, k: u32) -> BrushedPart {
     let middle = facets.alphas.y * facets.shear * x;
     let alpha = facets.alphas.y * stretch;
     let ends = clamp((slice.ends - middle) / alpha, vec2f(-BRUSHED_FAR), vec2f(BRUSHED_FAR));
-    return BrushedPart(lobe.alphas.x / (facets.alphas.x * over * over * over), middle, alpha, ends.x, ends.y);
+    return BrushedPart(lobe.unit / (facets.alphas.x * over * over * over), middle, alpha, ends.x, ends.y);
 }
 
 fn brushed_tan(part: BrushedPart, slope: f32) -> f32 {
@@ -263,10 +273,11 @@ fn brushed_facet(lobe: BrushedLobe, slice: BrushedSlice, part: BrushedPart, tang
 
 // Weight of facets of kind `k` at slopes.
 fn brushed_counts(lobe: BrushedLobe, k: u32, slopes: vec2f) -> f32 {
-    if lobe.excess == 0.0 {
+    if lobe.tails == 0.0 {
         return 1.0;
     }
-    let tails = excess_tails(lobe.excess) * smoothstep(1.5, 3.2, length(slopes / lobe.alphas));
+    let x = slopes.x / lobe.alphas.x;
+    let tails = lobe.tails * smoothstep(1.5, 3.2, length(vec2f(x, slopes.y / lobe.alphas.y - lobe.shear * x)));
     if k == 2u {
         return tails;
     }
@@ -495,20 +506,100 @@ fn brushed_edge(a: vec3f, b: vec3f, second: bool) -> BrushedEdge {
     return BrushedEdge(select(brushed_raised(a), cut, second), select(cut, brushed_raised(b), second));
 }
 
-// A range of places with those of an edge, in the lobe's frame.
+// Which way an outline runs where most facets are, and how near it gets to them; in slopes over their alphas.
+struct BrushedGrain {
+    doubled: vec2f,             // sum of the facets' density times the length: cosine and sine of twice the angle
+    nearest_squared: f32,              // square of the outline's distance from the middle
+    is_around: bool,            // whether the outline is around the middle
+}
+
+fn brushed_no_grain() -> BrushedGrain {
+    return BrushedGrain(vec2f(0.0), BRUSHED_FAR, false);
+}
+
+fn brushed_add_chord(grain: ptr<function, BrushedGrain>, a: vec2f, b: vec2f) {
+    let magnitude = length(b - a);
+    if magnitude <= 0.0 {
+        return;
+    }
+    let along = (b - a) / magnitude;
+    let start = dot(a, along);
+    let off = a.x * along.y - a.y * along.x;
+    let end = start + magnitude;
+    // The integral of (1 + r^2)^(-3/2).
+    let wide2 = 1.0 + off * off;
+    let weight = (end * inverseSqrt(wide2 + end * end) - start * inverseSqrt(wide2 + start * start)) * inverseSqrt(wide2);
+    (*grain).doubled += weight * vec2f((along.x - along.y) * (along.x + along.y), 2.0 * along.x * along.y);
+    let beside = max(max(start, -end), 0.0);
+    (*grain).nearest_squared = min((*grain).nearest_squared, off * off + beside * beside);
+    if (a.y > 0.0) != (b.y > 0.0) && (a.x * b.y - b.x * a.y > 0.0) == (b.y > 0.0) {
+        (*grain).is_around = !(*grain).is_around;
+    }
+}
+
+// Slope that reflects the viewer to a unit vector, over the alphas.
+fn brushed_stretched(lobe: BrushedLobe, w: vec3f) -> vec2f {
+    let h = w + lobe.wo;
+    return -h.xy / (max(h.z, 1e-12) * lobe.alphas);
+}
+
+fn brushed_add_grain(grain: ptr<function, BrushedGrain>, lobe: BrushedLobe, edge: BrushedEdge) {
+    let a = edge.a / max(length(edge.a), 1e-15);
+    let b = edge.b / max(length(edge.b), 1e-15);
+    let chords = 1.0 + floor(BRUSHED_CHORDS * length(b - a));
+    var before = brushed_stretched(lobe, a);
+    for (var i = 1.0; i <= chords; i += 1.0) {
+        let w = mix(a, b, i / chords);
+        let after = brushed_stretched(lobe, w / max(length(w), 1e-15));
+        brushed_add_chord(grain, before, after);
+        before = after;
+    }
+}
+
+// The lobe in slices across an outline. `lobe` has its slices across the longer axis.
+fn brushed_sliced(lobe: BrushedLobe, grain: BrushedGrain) -> BrushedLobe {
+    let along = brushed_half_turn(grain.doubled.x, grain.doubled.y);
+    let scale = select(sqrt(1.0 + grain.nearest_squared), 1.0, grain.is_around);
+    let wide = along * lobe.alphas.yx;
+    let axis = wide / length(wide);
+    let first = facets_turned(Facets(lobe.alphas, lobe.shear), axis);
+    return BrushedLobe(
+        vec3f(brushed_turned(axis, lobe.wo.xy), lobe.wo.z),
+        lobe.excess,
+        lobe.tails,
+        lobe.along * axis.x + vec2f(-lobe.along.y, lobe.along.x) * axis.y,
+        first.alphas,
+        first.shear,
+        scale * first.alphas.x,
+        facets_turned(lobe.surface, axis),
+    );
+}
+
+// A range of places with those of an edge, in the lobe's frame: of its ends, and of where slices touch it.
 fn brushed_range(lobe: BrushedLobe, before: vec2f, edge: BrushedEdge) -> vec2f {
     let at_a = brushed_place(lobe, edge.a);
     let at_b = brushed_place(lobe, edge.b);
-    let unit_a = edge.a / max(length(edge.a), 1e-15);
-    let unit_b = edge.b / max(length(edge.b), 1e-15);
-    let middle = brushed_place(lobe, unit_a + unit_b);
-    // The parabola through the three.
-    let bend = at_a + at_b - 2.0 * middle;
-    let turn = 0.25 * (at_b - at_a) / select(bend, 1e-15, abs(bend) < 1e-15);
-    let extreme = select(at_a, middle - 2.0 * bend * turn * turn, abs(turn) < 0.5);
-    let low = min(min(at_a, at_b), extreme);
-    let high = max(max(at_a, at_b), extreme);
-    return clamp(vec2f(min(before.x, low), max(before.y, high)), vec2f(-1.0), vec2f(1.0));
+    var range = vec2f(min(before.x, min(at_a, at_b)), max(before.y, max(at_a, at_b)));
+    let area = cross(edge.a, edge.b);
+    let m = area / max(length(area), 1e-30);
+    let wo = lobe.wo;
+    let second = 1.0 - m.z * m.z - wo.z * wo.z;
+    let half_first = -(m.x * m.z + wo.x * wo.z);
+    let zeroth = 1.0 - m.x * m.x - wo.x * wo.x;
+    let inside = half_first * half_first - second * zeroth;
+    if inside > 0.0 {
+        let q = -(half_first + select(sqrt(inside), -sqrt(inside), half_first < 0.0));
+        for (var i = 0; i < 2; i += 1) {
+            let x = select(q, zeroth, i == 1) / select(second, q, i == 1);
+            let c = vec3f(1.0, 0.0, x);
+            let touching = -(wo.x + x * wo.z) * (c - dot(c, m) * m);
+            if dot(cross(edge.a, touching), m) > 0.0 && dot(cross(touching, edge.b), m) > 0.0 {
+                let place = brushed_place_of_slope(lobe, x);
+                range = vec2f(min(range.x, place), max(range.y, place));
+            }
+        }
+    }
+    return clamp(range, vec2f(-1.0), vec2f(1.0));
 }
 
 // The crossings of an edge with the circle of a slope.

@@ -42,6 +42,15 @@ fn facets_stretched(facets: Facets, w: vec3f) -> vec3f {
     return vec3f(facets.alphas.x * w.x + facets.shear * y, y, w.z);
 }
 
+// The same facets in a frame whose x axis is the unit vector `axis` of this one.
+fn facets_turned(facets: Facets, axis: vec2f) -> Facets {
+    let along = facets_stretched(facets, vec3f(axis, 0.0));
+    let across = facets_stretched(facets, vec3f(-axis.y, axis.x, 0.0));
+    let alpha_x = length(along);
+    let alpha_y = facets.alphas.x * facets.alphas.y / alpha_x;
+    return Facets(vec2f(alpha_x, alpha_y), dot(along, across) / (alpha_x * alpha_y));
+}
+
 fn facets_projected_roughness(facets: Facets, w: vec3f) -> f32 {
     return length(facets_stretched(facets, w));
 }

@@ -6,6 +6,7 @@ struct FilteredLobe {
     bent: f32,                  // of both
     turned: f32,                // of both
     excess: f32,                // the weight of the second; the first has 1 and this
+    spread: vec3f,              // of the slopes, within the limits
 }
 
 // Variances and covariance of a pixel's slopes, no more than the limits.
@@ -69,6 +70,7 @@ fn filtered_lobe_of(alpha: f32, bounded: vec3f, cos_o: f32, squared: vec2f, exce
         bend2 / (bend2 + 0.25),
         excess_set_in(filtered_lobe_excess(alpha, wide2)),
         excess_set_in(excess),
+        bounded,
     );
 }
 
@@ -106,12 +108,31 @@ fn filtered_lobe_part(sharp: LtcLobe, filtered: FilteredLobe, i: u32) -> Filtere
     );
 }
 
-// Share of the tails in a light, by its vector irradiance in the cosine space of the first part.
-fn filtered_lobe_far(first: vec3f) -> f32 {
-    return smoothstep(1.3, 2.6, length(first.xy) / max(first.z, 1e-30));
+// How far a light is from the core.
+struct FilteredLobeFar {
+    share: f32,                 // of the tails in the light
+    blurred: f32,               // the tails over those of the sharp lobe
+}
+
+// By the vector irradiance in the cosine space of the first part.
+fn filtered_lobe_far(filtered: FilteredLobe, first: vec3f) -> FilteredLobeFar {
+    let widths = first.xy / max(first.z, 1e-15);
+    let share = smoothstep(1.3, 2.6, length(widths));
+    if share <= 0.0 {
+        return FilteredLobeFar(0.0, 1.0);
+    }
+    // The mean of r^-4 about r, by the first terms of its series.
+    let off = filtered.alphas * vec2f(widths.x, widths.y + filtered.shear * widths.x);
+    let square = dot(off, off);
+    let slope = off * inverseSqrt(square);
+    let variance = filtered.spread.xy;
+    let towards = dot(variance, slope * slope) + 2.0 * filtered.spread.z * slope.x * slope.y;
+    let across = variance.x + variance.y - towards;
+    let term = (10.0 * towards - 2.0 * across) / square;
+    return FilteredLobeFar(share, 1.0 + share * term / max(1.0 - 1.125 * term, 0.4));
 }
 
 // A part's weight for a light so far from the core.
-fn filtered_lobe_weight(part: FilteredLobePart, far: f32) -> f32 {
-    return mix(part.core, part.tails, far);
+fn filtered_lobe_weight(part: FilteredLobePart, far: FilteredLobeFar) -> f32 {
+    return mix(part.core, part.tails * far.blurred, far.share);
 }

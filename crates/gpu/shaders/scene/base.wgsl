@@ -275,7 +275,7 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
         let source = light_at(l);
         let radiance = light_radiance(source, point.position_m);
         let filtered = layer_filtered(point, layer, light_per_m(source, point.position_m));
-        var far = 0.0;
+        var far = FilteredLobeFar(0.0, 1.0);
         for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
             let part = filtered_lobe_part(layer.sharp, filtered, p);
             if p > 0u && filtered_lobe_weight(part, far) == 0.0 {
@@ -295,7 +295,7 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
                 seen = base_polygon(point, part.lobe, source);
             }
             if p == 0u {
-                far = filtered_lobe_far(seen.vector);
+                far = filtered_lobe_far(filtered, seen.vector);
             }
             let weight = filtered_lobe_weight(part, far);
             if weight != 0.0 {

@@ -5,7 +5,7 @@ use hairline_optics::brushed_lobe::BrushedLobe;
 use hairline_optics::facets::{FacetAxes, Facets, anisotropic_alpha};
 use hairline_optics::filtered_lobe::SlopeSpread;
 use hairline_optics::fresnel::FresnelRgb;
-use hairline_optics::ltc::ltc_lobe;
+use hairline_optics::ltc::{ltc_lobe, polygon_light};
 use rayon::prelude::*;
 
 use super::cubature::{Cap, Cell, Patch, Triangle, integrate_by};
@@ -196,4 +196,125 @@ fn albedos_match_quadrature() {
     );
     assert!(worst[0] < 0.015, "{}", worst[0]);
     assert!(worst[1] > 0.2, "{}", worst[1]);
+}
+
+/// Strips of all lengths and directions across the lobe, however narrow that is: each by itself, and not over the brightest.
+#[test]
+fn strips_match_elliptic_ggx() {
+    let mut cases = Vec::new();
+    for (roughness, strength) in [(0.055, 0.6), (0.1, 0.3), (0.15, 0.9)] {
+        for (angle_deg, turn_deg) in [(0.0, 20.0), (40.0, 45.0), (60.0, 0.0), (60.0, 90.0)] {
+            for (length, width) in [(0.1, 0.01), (1.5, 0.02)] {
+                for strip_deg in [0.0, 8.0, 50.0, 90.0] {
+                    let axes = surface(roughness, strength, turn_deg);
+                    cases.push((axes, angle_deg, length, width, strip_deg, 0.3));
+                }
+            }
+        }
+    }
+    let mut off: Vec<f64> = cases
+        .into_par_iter()
+        .filter_map(|(axes, angle_deg, length, width, strip_deg, place)| {
+            let wo = viewer(angle_deg);
+            let middle = reflected(wo, axes, place, place);
+            let side = DVec2::from_angle(f64::to_radians(strip_deg)).rotate(axes.along);
+            let u = (side.extend(0.0) - middle * side.dot(middle.truncate())).normalize();
+            let (u, v) = (0.5 * length * u, 0.5 * width * middle.cross(u));
+            let [a, b, c, d] = [-u - v, u - v, u + v, v - u].map(|corner| middle + corner);
+            let is_up = [a, b, c, d].iter().all(|corner| corner.z > 0.0);
+            is_up.then(|| {
+                let lobe = BrushedLobe::new(wo, axes, SlopeSpread::default());
+                let found = lobe.polygon(&[a, b, c, d], &white())[0];
+                let exact: f64 = [[a, b, c], [a, c, d]]
+                    .map(|part| integrate(Triangle(part), wo, axes))
+                    .iter()
+                    .sum();
+                (found / exact.abs() - 1.0).abs()
+            })
+        })
+        .collect();
+    off.sort_by(f64::total_cmp);
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    let worst = off[off.len() - 1];
+    println!("{} strips: mean {mean:.5}, worst {worst:.4}", off.len());
+    assert!(off.len() > 80, "{}", off.len());
+    assert!(mean < 0.005, "mean {mean}");
+    assert!(worst < 0.05, "worst {worst}");
+}
+
+/// A pixel's normals hardly change the tails of a brushed lobe, neither along its arc nor across it, where a small spread is many times its alpha.
+#[test]
+fn a_pixel_leaves_the_tails_of_a_brushed_lobe() {
+    let axes = surface(0.05, 0.6, 30.0);
+    let variance = DVec2::new(1e-5, 4e-6);
+    let spread = SlopeSpread {
+        variance,
+        covariance: 0.0,
+    };
+    let mut worst = [1.0_f64; 2];
+    for angle_deg in [0.0, 40.0] {
+        let wo = viewer(angle_deg);
+        let sharp = BrushedLobe::new(wo, axes, SlopeSpread::default());
+        let lobe = BrushedLobe::new(wo, axes, spread);
+        for (along, across) in [
+            (0.0, 20.0),
+            (0.3, -30.0),
+            (0.0, 60.0),
+            (-0.3, 100.0),
+            (0.5, 30.0),
+        ] {
+            let axis = reflected(wo, axes, along, across);
+            assert!(axis.z > 0.1);
+            let [sharp, found] = [sharp, lobe].map(|lobe| lobe.sphere(axis, 1e-5, &white())[0]);
+            let ratio = found / sharp;
+            println!("{angle_deg} {along} {across}: {ratio:.3}");
+            worst = [worst[0].min(ratio), worst[1].max(ratio)];
+        }
+    }
+    assert!(worst[0] > 0.9 && worst[1] < 1.15, "{worst:?}");
+}
+
+/// Lights far from the mirror direction: each by itself, in the tails of a lobe that is hardly there.
+#[test]
+fn tails_match_ggx() {
+    let mut off = Vec::new();
+    for roughness in [0.09, 0.25] {
+        let axes = surface(roughness, 0.0, 0.0);
+        for angle_deg in [0.0, 40.0, 60.0] {
+            let wo = viewer(angle_deg);
+            for widths in [3.0, 8.0, 20.0] {
+                for turn in [0.0, 1.0, 2.2, 3.1, 4.5] {
+                    let place = widths * DVec2::from_angle(turn);
+                    let middle = reflected(wo, axes, place.x, place.y);
+                    for (length, width) in [(1.2, 0.01), (0.3, 0.01), (0.4, 0.3)] {
+                        for strip_deg in [0.0, 50.0, 90.0] {
+                            let side = DVec2::from_angle(f64::to_radians(strip_deg)).extend(0.0);
+                            let u = (side - middle * side.dot(middle)).normalize();
+                            let (u, v) = (0.5 * length * u, 0.5 * width * middle.cross(u));
+                            let [a, b, c, d] = [-u - v, u - v, u + v, v - u].map(|to| middle + to);
+                            if [a, b, c, d].iter().any(|corner| corner.z < 0.05) {
+                                continue;
+                            }
+                            let found = polygon_light(wo, roughness, white(), &[a, b, c, d])[0];
+                            let exact: f64 = [[a, b, c], [a, c, d]]
+                                .map(|part| integrate(Triangle(part), wo, axes))
+                                .iter()
+                                .sum();
+                            off.push((found / exact.abs() - 1.0).abs());
+                        }
+                    }
+                }
+            }
+        }
+    }
+    off.sort_by(f64::total_cmp);
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    let most = off[off.len() * 95 / 100];
+    println!(
+        "{} lights: mean {mean:.5}, 95th percentile {most:.4}",
+        off.len()
+    );
+    assert!(off.len() > 400, "{}", off.len());
+    assert!(mean < 0.02, "mean {mean}");
+    assert!(most < 0.11, "95th percentile {most}");
 }
