@@ -50,7 +50,7 @@ const VIEWS: [View; 7] = [
     View {
         name: "hairline",
         file: "crates/console/src/built_in_scene.toml",
-        middle: DVec2::new(0.394, 0.529),
+        middle: DVec2::new(0.62, 0.68),
         shows: "the fan of a turned pan",
         full_samples: 4096,
     },

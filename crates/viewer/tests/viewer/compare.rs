@@ -100,7 +100,7 @@ fn agrees_and_another_does_not(text: &'static str) {
     // Grooves half as deep scatter less.
     let shallow = text
         .replace("depth_nm = { mean = 180.0", "depth_nm = { mean = 90.0")
-        .replace("depth_nm = { mean = 195.0", "depth_nm = { mean = 97.5");
+        .replace("depth_nm = { mean = 95.0", "depth_nm = { mean = 47.5");
     assert_ne!(shallow, text);
     let wrong = mean(&rendered(&shallow, figures.size_px), Layer::Scratches);
     assert!(!agrees(&scratches, wrong, 0.03), "{wrong} {figures:?}");
