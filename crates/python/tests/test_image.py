@@ -81,7 +81,7 @@ def test_pillow_shows_what_a_png_holds(image):
 def test_without_pillow_it_is_asked_for(image, monkeypatch):
     monkeypatch.setitem(sys.modules, "PIL.Image", None)
     monkeypatch.setitem(sys.modules, "PIL", None)
-    with pytest.raises(ImportError, match=r"to_pil needs Pillow: pip install 'hairline\[pil\]'"):
+    with pytest.raises(ImportError, match=r"to_pil needs Pillow: pip install 'hairline-render\[pil\]'"):
         image.to_pil()
 
 

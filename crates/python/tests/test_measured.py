@@ -365,5 +365,5 @@ def test_a_missing_package_is_named(monkeypatch):
     import sys
 
     monkeypatch.setitem(sys.modules, "skimage.filters", None)
-    with pytest.raises(hairline.WorkError, match=r"need the package scikit-image .*pip install 'hairline\[measured\]'"):
+    with pytest.raises(hairline.WorkError, match=r"need the package scikit-image .*pip install 'hairline-render\[measured\]'"):
         measured.HeightMap(np.zeros((64, 64)), 1e-6).scratches()
