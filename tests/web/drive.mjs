@@ -173,7 +173,7 @@ try {
   assert.deepEqual(first.messages, []);
   await keep(page, 'start');
   const shown = await page.screenshot({ encoding: 'base64' });
-  for (const word of ['Tools', 'Objects']) {
+  for (const word of ['Tools', 'Objects', 'circular']) {
     const { correlation, off } = await fit(page, shown, word);
     assert(correlation > 0.9 && off < 0.5, `the word ${word} is not as the browser draws it: a pixel is ${off.toFixed(2)} off, correlation ${correlation.toFixed(3)}`);
   }

@@ -74,7 +74,8 @@ struct Release {
     output: PathBuf,
     python: PathBuf,
     target: Target,
-    wheel: Option<PathBuf>,
+    /// The wheel, and what it asks of a machine.
+    wheel: Option<(PathBuf, String)>,
     /// Names of files, with what each asks of a machine.
     files: BTreeMap<String, String>,
     left_out: BTreeMap<Part, String>,
@@ -236,20 +237,20 @@ impl Release {
 
     /// The wheel, which is made once, and what it asks of a machine.
     fn wheel(&mut self) -> anyhow::Result<(PathBuf, String)> {
-        let tools = self.at.tools.clone().map_err(anyhow::Error::msg)?;
-        if self.wheel.is_none() {
-            let triples = self.target.triples();
-            self.crates.link(&["hairline-python"], &triples, "wheel")?;
-            let folder = self.at.work.join("wheel");
-            fs::create_dir_all(&folder)?;
-            let set = |maturin: &mut Command| self.target.set_wheel(maturin, &self.at);
-            let package = self.at.root.join("crates/python");
-            self.wheel = Some(wheel::build(&package, &tools, &folder, set)?);
+        if let Some(made) = &self.wheel {
+            return Ok(made.clone());
         }
-        let wheel = self.wheel.clone().context("no wheel")?;
-        let asks =
-            old_machines::asks_of_wheel(&wheel, &self.python, &self.at.work.join("unpacked"))?;
-        Ok((wheel, asks))
+        let tools = self.at.tools.clone().map_err(anyhow::Error::msg)?;
+        let triples = self.target.triples();
+        self.crates.link(&["hairline-python"], &triples, "wheel")?;
+        let folder = self.at.work.join("wheel");
+        fs::create_dir_all(&folder)?;
+        let set = |maturin: &mut Command| self.target.set_wheel(maturin, &self.at);
+        let package = self.at.root.join("crates/python");
+        let wheel = wheel::build(&package, &tools, &folder, set)?;
+        let unpacked = self.at.work.join("unpacked");
+        let asks = old_machines::asks_of_wheel(&wheel, &self.python, &unpacked)?;
+        Ok(self.wheel.insert((wheel, asks)).clone())
     }
 
     fn pack(&mut self, folder: &Path, asks: String) -> anyhow::Result<()> {

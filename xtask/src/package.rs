@@ -18,8 +18,9 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use hairline_gpu::shaders::{FOR_ENGINES, with_needs};
 
-use crate::{archive, wasm};
-use files::{copy, install, node, pack, write};
+use crate::archive::{self, copy};
+use crate::wasm;
+use files::{install, node, pack, write};
 
 /// The command's arguments.
 #[derive(clap::Args, Default)]

@@ -9,7 +9,9 @@ use hairline_optics::brushed_lobe::BrushedLobe;
 use hairline_optics::coat::CoatPart;
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
 use hairline_optics::facets::FacetAxes;
-use hairline_optics::filtered_lobe::{LobePart, PixelSlopes, filtered_lobe, filtered_lobe_around};
+use hairline_optics::filtered_lobe::{
+    FilteredLobe, LobePart, PixelSlopes, filtered_lobe, filtered_lobe_around,
+};
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
@@ -119,9 +121,9 @@ impl<'a> Layer<'a> {
         }
     }
 
-    /// The lobes whose weighted sum a round lobe is over a pixel, for a light at 1 / `per_m` metres.
-    fn parts(&self, sharp: &LtcLobe, per_m: f64) -> [LobePart; 3] {
-        filtered_lobe(sharp.alpha, self.slopes.towards(per_m), self.wo.z).parts(sharp)
+    /// What a round lobe is over a pixel, for a light at 1 / `per_m` metres.
+    fn filtered(&self, sharp: &LtcLobe, per_m: f64) -> FilteredLobe {
+        filtered_lobe(sharp.alpha, self.slopes.towards(per_m), self.wo.z)
     }
 
     /// Light that the layer reflects of one of the views, over the light's radiance. `sphere` is what a lobe reflects of a sphere.
@@ -140,9 +142,10 @@ impl<'a> Layer<'a> {
         };
         let single = match &self.shape {
             Shape::Round(sharp) => {
-                let parts = self.parts(sharp, per_m);
+                let filtered = self.filtered(sharp, per_m);
+                let parts = filtered.parts(sharp);
                 let first = light_vector(light, views, &parts[0].lobe);
-                let far = parts[0].far(first);
+                let far = filtered.far(first);
                 let part = |(i, part): (usize, &LobePart)| {
                     let weight = part.weight(far);
                     if weight == 0.0 {

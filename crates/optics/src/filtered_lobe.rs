@@ -185,7 +185,7 @@ pub struct FilteredLobe {
 
 /// The lobe of GGX alpha `alpha` over normals whose slopes spread, for a light; the mean normal is seen at the cosine `cos_o`.
 ///
-/// The tails are the sharp lobe's ([`LobePart::far`]), so the difference is free to be right near the core. Its numbers were fitted to GGX convolved
+/// The tails are the sharp lobe's ([`FilteredLobe::far`]), so the difference is free to be right near the core. Its numbers were fitted to GGX convolved
 /// with Gaussians of all sizes and shapes: lamps of all sizes keep their light within 1.9 % (test `lamps_of_all_sizes_keep_their_light`).
 pub fn filtered_lobe(alpha: f64, spread: SlopeSpread, cos_o: f64) -> FilteredLobe {
     with_widths(alpha, spread, cos_o, |variances| {
@@ -258,40 +258,12 @@ pub struct LobePart {
     pub core: f64,
     /// Weight of the lobe for light far from the middle.
     pub tails: f64,
-    /// [`FilteredLobe::spread`].
-    pub spread: SlopeSpread,
 }
 
 impl LobePart {
     /// Weight of the lobe for a light so far from the core.
     pub fn weight(&self, far: Far) -> f64 {
         self.core + far.share * (self.tails * far.blurred - self.core)
-    }
-
-    /// How far a light is from the core, by its vector irradiance in the cosine space of this part, which is the first.
-    pub fn far(&self, first: DVec3) -> Far {
-        let widths = first.truncate() / first.z.max(1e-30);
-        let share = smoothstep(TAILS, widths.length());
-        if share <= 0.0 {
-            return Far {
-                share,
-                blurred: 1.0,
-            };
-        }
-        // The mean of r^-4 about r, by the first terms of its series. Where the difference still has a share, it has blurred tails by itself.
-        let slope = self.lobe.alphas * DVec2::new(widths.x, widths.y + self.lobe.shear * widths.x);
-        let SlopeSpread {
-            variance,
-            covariance,
-        } = self.spread;
-        let square = slope.length_squared();
-        let towards = (variance.dot(slope * slope) + 2.0 * covariance * slope.x * slope.y) / square;
-        let across = variance.x + variance.y - towards;
-        let first = (10.0 * towards - 2.0 * across) / square;
-        Far {
-            share,
-            blurred: 1.0 + share * first / (1.0 - BLUR_SERIES * first).max(BLUR_LEAST),
-        }
     }
 }
 
@@ -310,17 +282,38 @@ impl FilteredLobe {
     pub fn parts(&self, sharp: &LtcLobe) -> [LobePart; 3] {
         let wide =
             |width: f64| sharp.widened(width * self.alphas, self.shear, self.bent, self.turned);
-        let part = |lobe, core, tails| LobePart {
-            lobe,
-            core,
-            tails,
-            spread: self.spread,
-        };
+        let part = |lobe, core, tails| LobePart { lobe, core, tails };
         let tails = excess_tails(self.excess);
         [
             part(wide(1.0), 1.0 + self.excess, 1.0 - tails),
             part(wide(SQRT_2), -self.excess, 0.0),
             part(*sharp, 0.0, tails),
         ]
+    }
+
+    /// How far a light is from the core, by its vector irradiance in the cosine space of the first lobe.
+    pub fn far(&self, first: DVec3) -> Far {
+        let widths = first.truncate() / first.z.max(1e-30);
+        let share = smoothstep(TAILS, widths.length());
+        if share <= 0.0 {
+            return Far {
+                share,
+                blurred: 1.0,
+            };
+        }
+        // The mean of r^-4 about r, by the first terms of its series. Where the difference still has a share, it has blurred tails by itself.
+        let slope = self.alphas * DVec2::new(widths.x, widths.y + self.shear * widths.x);
+        let SlopeSpread {
+            variance,
+            covariance,
+        } = self.spread;
+        let square = slope.length_squared();
+        let towards = (variance.dot(slope * slope) + 2.0 * covariance * slope.x * slope.y) / square;
+        let across = variance.x + variance.y - towards;
+        let first = (10.0 * towards - 2.0 * across) / square;
+        Far {
+            share,
+            blurred: 1.0 + share * first / (1.0 - BLUR_SERIES * first).max(BLUR_LEAST),
+        }
     }
 }

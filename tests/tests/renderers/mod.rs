@@ -1,5 +1,6 @@
 //! Whole pictures: the GPU against the CPU, and both against physics.
 
+mod arcs;
 mod assets;
 mod blends;
 mod dense;

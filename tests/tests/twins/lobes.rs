@@ -491,7 +491,7 @@ fn filtered_lobes() {
             let filtered = filtered_lobe(sharp.alpha, slope_spread(axis), wo.z);
             let parts = filtered.parts(&sharp);
             let [first, second] = [0, 1].map(|p| parts[p].lobe);
-            let weights = parts.map(|part| part.weight(parts[0].far(axis)));
+            let weights = parts.map(|part| part.weight(filtered.far(axis)));
             let [i0, i1] =
                 [first, second].map(|lobe| ltc_sphere(&lobe, &of, axis, sin2)[1] / brightest);
             let around = filtered_lobe_around(sharp.alpha, slope_spread(axis), wo.z).parts(&sharp);

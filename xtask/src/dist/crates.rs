@@ -154,14 +154,10 @@ impl Crates {
             let (name, version) = id;
             let of = &self.known[id];
             list += &format!("{name} {version}: {}\n", of.licence);
-            for entry in of
-                .folder
-                .iter()
-                .map(fs::read_dir)
-                .collect::<Result<Vec<_>, _>>()?
-                .into_iter()
-                .flatten()
-            {
+            let Some(folder) = &of.folder else {
+                continue;
+            };
+            for entry in fs::read_dir(folder)? {
                 let entry = entry?;
                 let file = entry.file_name().to_string_lossy().to_uppercase();
                 let is_licence = LICENCES.iter().any(|start| file.starts_with(start));

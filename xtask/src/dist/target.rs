@@ -97,11 +97,9 @@ impl Target {
 
     /// Has maturin compile as [`Target::build`] does.
     pub fn set_wheel(&self, maturin: &mut Command, at: &Place) -> anyhow::Result<()> {
-        let all = "universal2-apple-darwin";
-        let target = if cfg!(target_os = "macos") {
-            all
-        } else {
-            &self.0
+        let target = match cfg!(target_os = "macos") {
+            true => "universal2-apple-darwin",
+            false => &self.0,
         };
         maturin.args(["--locked", "--target", target]);
         if cfg!(target_os = "linux") {

@@ -7,8 +7,9 @@ use std::process::Command;
 use anyhow::{Context, ensure};
 
 use super::browser::{Folders, answers};
-use super::files::{copy, install, pack};
+use super::files::{install, pack};
 use super::pictures::write_model;
+use crate::archive::copy;
 
 /// The least share of the picture's pixels in which scratches have a colour: with grey lamps nothing else has one.
 const COLOURED: f64 = 0.005;

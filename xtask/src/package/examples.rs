@@ -7,7 +7,7 @@ use anyhow::{Context, ensure};
 
 use super::browser::{Folders, answers};
 use super::element::coloured;
-use super::files::copy;
+use crate::archive::copy;
 
 const EXAMPLES: [&str; 2] = ["vite", "react"];
 

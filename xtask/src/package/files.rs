@@ -50,12 +50,6 @@ pub(super) fn pack(package: &Path) -> anyhow::Result<PathBuf> {
     Ok(packed)
 }
 
-pub(super) fn copy(from: &Path, to: &Path) -> anyhow::Result<()> {
-    let bytes =
-        std::fs::read(from).with_context(|| format!("{} cannot be read", from.display()))?;
-    write(to, &bytes)
-}
-
 pub(super) fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)?;

@@ -157,6 +157,7 @@ impl Group {
             return false;
         }
         let blur_um = f64::from(segment.blur_um);
+        let half_turn = 0.5 * f64::from(segment.turn_rad);
         let mut count = 0;
         for i in 0..LANES {
             let per_length2 = 1.0 / length2[i];
@@ -165,7 +166,10 @@ impl Group {
             let (xx, xy, yy) = (tx * tx, tx * ty, ty * ty);
             let along_um2 = (c[0][i] * xx + 2.0 * c[1][i] * xy + c[2][i] * yy).max(0.0);
             let cross_um2 = (c[2][i] - c[0][i]) * xy + c[1][i] * (xx - yy);
-            let offset = area[i] * per_length;
+            let at = start[0][i] * tx + start[1][i] * ty;
+            let end = at + length2[i] * per_length;
+            // An arc lies to the right of its chord where it turns to the left.
+            let offset = (area[i] + half_turn * (at * end).min(0.0)) * per_length;
             let variance = variance[i] * per_length2;
             let per_variance = 1.0 / variance;
             let far2 = offset * offset * per_variance;
@@ -174,9 +178,8 @@ impl Group {
             let shift = offset * slant;
             let left = (along_um2 - cross_um2 * slant + blur_um * blur_um).max(1e-12);
             let per_std = 1.0 / left.sqrt();
-            let at = start[0][i] * tx + start[1][i] * ty;
             let low = (at - shift) * per_std;
-            let high = (at + length2[i] * per_length - shift) * per_std;
+            let high = (end - shift) * per_std;
             let beyond = low.max(-high).max(0.0);
             // The segment's point that is nearest to the point, off the plane of shading.
             let nearest = (-at * per_length).clamp(0.0, 1.0);

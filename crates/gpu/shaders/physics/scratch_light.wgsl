@@ -53,6 +53,15 @@ fn scratch_seen(point: LitPoint, start_um: vec2f, end_um: vec2f, profile: Profil
     return SeenScratch(share, t, offset, across, variance, profile, false, false, vec2f(0.0), 0.0, -1.0);
 }
 
+// By how far an arc lies beside its chord where it is nearest to the point: to the right where it turns to the left. Twin: Group::see() in
+// cpu/src/shade_scratches/lanes.rs.
+fn arc_beside_um(start_um: vec2f, end_um: vec2f, turn_rad: f32) -> vec2f {
+    let chord = end_um - start_um;
+    let length2 = max(dot(chord, chord), 1e-30);
+    let ends = min(dot(start_um, chord) * (dot(end_um, chord) / length2), 0.0);
+    return 0.5 * turn_rad * ends / length2 * vec2f(-chord.y, chord.x);
+}
+
 // The scratch where it is an arc over the segment, which turns to the left by `turn_rad` from the start to the end: its tangent is right at the
 // mean place of the part that the footprint sees, and turns from there as far as that part goes. Twin: cpu/src/shade_scratches/course.rs.
 fn scratch_turned(point: LitPoint, straight: SeenScratch, start_um: vec2f, end_um: vec2f, blur_um: f32, turn_rad: f32) -> SeenScratch {

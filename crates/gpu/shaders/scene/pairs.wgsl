@@ -43,8 +43,11 @@ fn pair_of(sample: PixelPoint, segment: Segment) -> Pair {
     let a = (segment.start_m - pixel.position_m) * 1e6;
     let b = (segment.end_m - pixel.position_m) * 1e6;
     let point = pair_point(pixel, pixel_table(pixel));
-    let start = vec2f(dot(a, pixel.axis_x), dot(a, axis_y));
-    let end = vec2f(dot(b, pixel.axis_x), dot(b, axis_y));
+    var start = vec2f(dot(a, pixel.axis_x), dot(a, axis_y));
+    var end = vec2f(dot(b, pixel.axis_x), dot(b, axis_y));
+    let beside = arc_beside_um(start, end, segment.turn_rad);
+    start += beside;
+    end += beside;
     let chord = scratch_seen(point, start, end, segment.profile, segment.blur_um);
     let seen = scratch_turned(point, chord, start, end, segment.blur_um, segment.turn_rad);
     return Pair(point, seen, pixel.position_m, mat3x3f(pixel.axis_x, axis_y, pixel.normal));

@@ -11,11 +11,11 @@ use crate::fresnel::FresnelRgb;
 
 /// Newton's steps: each doubles the digits.
 const NEWTON_ROUNDS: usize = 5;
-/// Chords that stand for an edge of a unit's length as seen from the point, in [`Grain`].
+/// Chords that stand for an edge of a unit's length as seen from the point, in [`OutlineAxis`].
 const CHORDS: f64 = 6.0;
 
 /// Which way an outline runs where most facets are, and how near it gets to them; in slopes over their alphas.
-struct Grain {
+struct OutlineAxis {
     /// Sum over chords of the facets' density times the length: cosine and sine of twice the angle.
     doubled: DVec2,
     /// Square of the outline's distance from the middle.
@@ -24,7 +24,7 @@ struct Grain {
     is_around: bool,
 }
 
-impl Grain {
+impl OutlineAxis {
     const NONE: Self = Self {
         doubled: DVec2::ZERO,
         nearest_squared: FAR,
@@ -85,9 +85,9 @@ impl BrushedLobe {
         } else {
             1.0
         };
-        let mut grain = Grain::NONE;
-        self.for_each_edge(vertices, &mut |a, b| self.add_grain(&mut grain, a, b));
-        let sliced = self.sliced(grain.along(), grain.scale());
+        let mut axis = OutlineAxis::NONE;
+        self.for_each_edge(vertices, &mut |a, b| self.add_to_axis(&mut axis, a, b));
+        let sliced = self.sliced(axis.along(), axis.scale());
         let mut range = [1.0_f64, -1.0_f64];
         sliced.for_each_edge(vertices, &mut |a, b| sliced.add_range(&mut range, a, b));
         let range = range.map(|place| place.clamp(-1.0, 1.0));
@@ -111,13 +111,13 @@ impl BrushedLobe {
         -h.truncate() / (h.z.max(1e-12) * self.facets[0].alphas)
     }
 
-    fn add_grain(&self, grain: &mut Grain, a: DVec3, b: DVec3) {
+    fn add_to_axis(&self, axis: &mut OutlineAxis, a: DVec3, b: DVec3) {
         let (a, b) = (a.normalize_or(DVec3::Z), b.normalize_or(DVec3::Z));
         let chords = 1.0 + (CHORDS * (b - a).length()).floor();
         let mut from = self.stretched(a);
         for i in 1..=chords as usize {
             let to = self.stretched(a.lerp(b, i as f64 / chords).normalize_or(DVec3::Z));
-            grain.add_chord(from, to);
+            axis.add_chord(from, to);
             from = to;
         }
     }

@@ -4,25 +4,35 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
-use hairline_optics::filtered_lobe::{LobePart, SlopeSpread, filtered_lobe, filtered_lobe_around};
+use hairline_optics::filtered_lobe::{
+    FilteredLobe, SlopeSpread, filtered_lobe, filtered_lobe_around,
+};
 use hairline_optics::fresnel::{FresnelCurve, FresnelRgb};
 use hairline_optics::ggx::{ggx_alpha, ggx_eval};
 use hairline_optics::ltc::{
     LobeFresnel, LtcLobe, ltc_lobe, ltc_reflected, ltc_sphere_vector, ltc_vector,
 };
 
-/// Light that the parts reflect of a light, given its vector irradiance in the cosine space of a lobe.
-fn light_of_parts(parts: &[LobePart], of: &LobeFresnel, vector: impl Fn(&LtcLobe) -> DVec3) -> f64 {
-    let far = parts[0].far(vector(&parts[0].lobe));
+/// A lobe over a pixel, and the sharp one.
+type Blurred<'a> = (&'a FilteredLobe, &'a LtcLobe);
+
+/// Light that a lobe reflects of a light, given its vector irradiance in the cosine space of a part.
+fn light_of_parts(
+    (filtered, sharp): Blurred,
+    of: &LobeFresnel,
+    vector: impl Fn(&LtcLobe) -> DVec3,
+) -> f64 {
+    let parts = filtered.parts(sharp);
+    let far = filtered.far(vector(&parts[0].lobe));
     let reflected = parts
         .iter()
         .map(|part| part.weight(far) * ltc_reflected(&part.lobe, of, vector(&part.lobe))[0]);
     reflected.sum()
 }
 
-/// Light that the parts reflect of a sphere.
-fn sphere_of_parts(parts: &[LobePart], of: &LobeFresnel, axis: DVec3, sin2: f64) -> f64 {
-    light_of_parts(parts, of, |lobe| ltc_sphere_vector(lobe, axis, sin2))
+/// Light that a lobe reflects of a sphere.
+fn sphere_of_parts(blurred: Blurred, of: &LobeFresnel, axis: DVec3, sin2: f64) -> f64 {
+    light_of_parts(blurred, of, |lobe| ltc_sphere_vector(lobe, axis, sin2))
 }
 
 /// The density of slopes of GGX.
@@ -125,16 +135,16 @@ fn white() -> FresnelRgb<'static> {
 
 /// Light that a pixel reflects of a lamp on which a facet of slope `m` mirrors the viewer, over what it reflects from all around. The lamp has the angular
 /// radius `2 radius`.
-fn lamp_at(m: DVec2, radius: f64, wo: DVec3, parts: &[LobePart], of: &LobeFresnel) -> f64 {
+fn lamp_at(m: DVec2, radius: f64, wo: DVec3, blurred: Blurred, of: &LobeFresnel) -> f64 {
     let half = m.extend(1.0).normalize();
     let axis = 2.0 * half.dot(wo) * half - wo;
     let sin2 = (2.0 * radius).sin().powi(2);
-    sphere_of_parts(parts, of, axis, sin2) / of.albedo[0]
+    sphere_of_parts(blurred, of, axis, sin2) / of.albedo[0]
 }
 
-/// The mean over all places of what the parts reflect of a lamp, over what they reflect from all around: 1 if no light is lost. `scale` is about as wide as
+/// The mean over all places of what a lobe reflects of a lamp, over what it reflects from all around: 1 if no light is lost. `scale` is about as wide as
 /// the lobe, in slopes.
-fn kept_light(parts: &[LobePart], of: &LobeFresnel, wo: DVec3, scale: DVec2, radius: f64) -> f64 {
+fn kept_light(blurred: Blurred, of: &LobeFresnel, wo: DVec3, scale: DVec2, radius: f64) -> f64 {
     const RINGS: i32 = 130;
     const TURNS: u32 = 32;
     // Each ring is further than the one before.
@@ -150,7 +160,7 @@ fn kept_light(parts: &[LobePart], of: &LobeFresnel, wo: DVec3, scale: DVec2, rad
             let half = m.extend(1.0).normalize();
             // Solid angle of the directions that facets of these slopes reflect to.
             let around = 4.0 * area * half.dot(wo) * half.z.powi(3);
-            sum += lamp_at(m, radius, wo, parts, of) * around / solid_angle;
+            sum += lamp_at(m, radius, wo, blurred, of) * around / solid_angle;
         }
         ring = next;
     }
@@ -180,10 +190,10 @@ fn lamps_of_all_sizes_keep_their_light() {
             let wo = DVec3::new(sin, 0.0, cos);
             let sharp = ltc_lobe(wo, alpha.sqrt());
             let of = LobeFresnel::new(white(), wo, alpha.sqrt());
-            let parts = filtered_lobe(alpha, spread, cos).parts(&sharp);
+            let filtered = filtered_lobe(alpha, spread, cos);
             let scale = (DVec2::splat(alpha * alpha) + variance).map(f64::sqrt);
             for size in [1e-3, 1.0, 2.0, 4.0] {
-                let kept = kept_light(&parts, &of, wo, scale, size * scale.y);
+                let kept = kept_light((&filtered, &sharp), &of, wo, scale, size * scale.y);
                 println!(
                     "variances {along} and {across} alpha^2, {angle_deg} degrees, radius {size}: {kept:.3}"
                 );
@@ -200,7 +210,7 @@ fn lamps_as_wide_as_the_lobe_are_right() {
         let spread = even(DVec2::splat(t * alpha * alpha));
         let sharp = ltc_lobe(DVec3::Z, alpha.sqrt());
         let of = LobeFresnel::new(white(), DVec3::Z, alpha.sqrt());
-        let parts = filtered_lobe(alpha, spread, 1.0).parts(&sharp);
+        let filtered = filtered_lobe(alpha, spread, 1.0);
         let width = (1.0 + t).sqrt();
         let step = 0.02 * width;
         let mut exact = 0.0;
@@ -209,7 +219,13 @@ fn lamps_as_wide_as_the_lobe_are_right() {
             exact += blurred(m, t) * TAU * m * step;
             if i % 25 == 24 {
                 let radius = f64::from(i + 1) * step;
-                let ours = lamp_at(DVec2::ZERO, radius * alpha, DVec3::Z, &parts, &of);
+                let ours = lamp_at(
+                    DVec2::ZERO,
+                    radius * alpha,
+                    DVec3::Z,
+                    (&filtered, &sharp),
+                    &of,
+                );
                 println!("variance {t} alpha^2, radius {radius:.2} alpha: {ours:.3}, {exact:.3}");
                 assert!((ours - exact).abs() < 0.05, "{t} {radius}: {ours} {exact}");
             }
@@ -234,7 +250,7 @@ fn curved_surfaces_keep_their_energy() {
                 let filtered = filtered_lobe(ggx_alpha(roughness), spread, cos);
                 // A sphere around the point, and one that leaves a hundredth of a degree at the horizon.
                 for sin2 in [1.0, 0.999_999_97] {
-                    let reflected = sphere_of_parts(&filtered.parts(&sharp), &of, DVec3::Z, sin2);
+                    let reflected = sphere_of_parts((&filtered, &sharp), &of, DVec3::Z, sin2);
                     let error = reflected / of.albedo[0] - 1.0;
                     assert!(
                         error.abs() < 0.01,
@@ -328,7 +344,7 @@ fn tubes_keep_their_light() {
             let of = LobeFresnel::new(white(), wo, 0.06);
             let filtered = filtered_lobe(sharp.alpha, one_way(variance, angle), cos);
             // Light from a tube across the plane of view and normal, summed over its places.
-            let sum = |parts: &[LobePart]| -> f64 {
+            let sum = |filtered: &FilteredLobe| -> f64 {
                 let at = |x: f64, y: f64| {
                     DVec3::new(-sin, 0.0, cos) + x * DVec3::new(cos, 0.0, sin) + y * DVec3::Y
                 };
@@ -337,14 +353,14 @@ fn tubes_keep_their_light() {
                         .map(|(dx, y)| at(x + dx, y))
                 };
                 let reflected = |vertices: [DVec3; 4]| {
-                    light_of_parts(parts, &of, |lobe| ltc_vector(lobe, &vertices))
+                    light_of_parts((filtered, &sharp), &of, |lobe| ltc_vector(lobe, &vertices))
                 };
                 (-200..=200)
                     .map(|i| reflected(tube(f64::from(i) * 0.01)))
                     .sum()
             };
-            let kept = sum(&filtered.parts(&sharp))
-                / sum(&filtered_lobe(sharp.alpha, SlopeSpread::default(), cos).parts(&sharp));
+            let kept =
+                sum(&filtered) / sum(&filtered_lobe(sharp.alpha, SlopeSpread::default(), cos));
             println!("{angle_deg} degrees, variance {variance} at {angle}: {kept:.3}");
             assert!((kept - 1.0).abs() < 0.08, "{angle_deg} {angle}: {kept}");
         }
@@ -395,7 +411,7 @@ fn small_lamps_have_the_tails_of_a_sharp_lobe() {
             let wo = DVec3::new(sin, 0.0, cos);
             let sharp = ltc_lobe(wo, roughness);
             let of = LobeFresnel::new(white(), wo, roughness);
-            let parts = filtered_lobe(alpha, spread, cos).parts(&sharp);
+            let filtered = filtered_lobe(alpha, spread, cos);
             for k in [0.0, 2.0, 5.0, 10.0, 20.0] {
                 for turn in [0.0f64, 0.8, 1.57, 2.4] {
                     let tilt: f64 = k * alpha;
@@ -403,8 +419,8 @@ fn small_lamps_have_the_tails_of_a_sharp_lobe() {
                     let wi = half * (2.0 * half.dot(wo)) - wo;
                     let sin2 = 1e-8;
                     let exact = mean_of_normals(wo, alpha, spread, wi) * PI * sin2;
-                    let ours = sphere_of_parts(&parts, &of, wi, sin2);
-                    let by_two: f64 = parts[..2]
+                    let ours = sphere_of_parts((&filtered, &sharp), &of, wi, sin2);
+                    let by_two: f64 = filtered.parts(&sharp)[..2]
                         .iter()
                         .map(|part| {
                             let vector = ltc_sphere_vector(&part.lobe, wi, sin2);
