@@ -193,7 +193,7 @@ fn polygons_on_brushed_lobes() {
             corners[1] = axis + x[7] * sides.u - thin * x[7] * sides.v;
             corners[2] = axis + x[7] * sides.u + thin * x[7] * sides.v;
             corners[3] = axis - 0.5 * x[7] * sides.u + thin * x[7] * sides.v;
-            var axis = brushed_outline_axis();
+            var outline = brushed_outline_axis();
             var area = vec3f(0.0);
             var highest = 0.0;
             for (var i = 0u; i < 4u; i += 1u) {{
@@ -201,10 +201,10 @@ fn polygons_on_brushed_lobes() {
                 let b = brushed_from_local(lobe, corners[(i + 1u) % 4u]);
                 area += cross(a, b);
                 highest = max(highest, b.z);
-                brushed_add_to_axis(&axis, lobe, brushed_edge(a, b, false));
-                brushed_add_to_axis(&axis, lobe, brushed_edge(a, b, true));
+                brushed_add_to_axis(&outline, lobe, brushed_edge(a, b, false));
+                brushed_add_to_axis(&outline, lobe, brushed_edge(a, b, true));
             }}
-            let sliced = brushed_sliced(lobe, axis);
+            let sliced = brushed_sliced(lobe, outline);
             var range = vec2f(1.0, -1.0);
             for (var i = 0u; i < 8u; i += 1u) {{
                 let a = brushed_from_local(sliced, corners[i / 2u]);

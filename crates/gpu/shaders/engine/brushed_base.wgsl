@@ -53,7 +53,7 @@ fn brushed_base_quad(base: BrushedBase, curves: texture_2d<f32>, light: QuadLigh
     }
     let axial = brushed_base_lobe(base, light_per_distance(light.center_m, light.radius_m));
     var body = lambert_begin();
-    var axis = brushed_outline_axis();
+    var outline = brushed_outline_axis();
     var area = vec3f(0.0);
     var corners = mat4x3f(light.a_m, light.b_m, light.c_m, light.d_m);
     for (var i = 0u; i < light.corner_count; i += 1u) {
@@ -62,11 +62,11 @@ fn brushed_base_quad(base: BrushedBase, curves: texture_2d<f32>, light: QuadLigh
         let a = brushed_from_local(axial, corners[0]);
         let b = brushed_from_local(axial, to);
         area += cross(a, b);
-        brushed_add_to_axis(&axis, axial, brushed_edge(a, b, false));
-        brushed_add_to_axis(&axis, axial, brushed_edge(a, b, true));
+        brushed_add_to_axis(&outline, axial, brushed_edge(a, b, false));
+        brushed_add_to_axis(&outline, axial, brushed_edge(a, b, true));
         corners = mat4x3f(corners[1], corners[2], corners[3], corners[0]);
     }
-    let lobe = brushed_sliced(axial, axis);
+    let lobe = brushed_sliced(axial, outline);
     let first = brushed_from_local(axial, light.a_m);
     var range = vec2f(1.0, -1.0);
     corners = mat4x3f(light.a_m, light.b_m, light.c_m, light.d_m);

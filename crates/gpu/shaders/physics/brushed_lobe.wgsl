@@ -509,7 +509,7 @@ fn brushed_edge(a: vec3f, b: vec3f, second: bool) -> BrushedEdge {
 // Which way an outline runs where most facets are, and how near it gets to them; in slopes over their alphas.
 struct BrushedOutlineAxis {
     doubled: vec2f,             // sum of the facets' density times the length: cosine and sine of twice the angle
-    nearest_squared: f32,              // square of the outline's distance from the middle
+    nearest_squared: f32,       // square of the outline's distance from the middle
     is_around: bool,            // whether the outline is around the middle
 }
 
@@ -517,7 +517,7 @@ fn brushed_outline_axis() -> BrushedOutlineAxis {
     return BrushedOutlineAxis(vec2f(0.0), BRUSHED_FAR, false);
 }
 
-fn brushed_add_chord(axis: ptr<function, BrushedOutlineAxis>, a: vec2f, b: vec2f) {
+fn brushed_add_chord(outline: ptr<function, BrushedOutlineAxis>, a: vec2f, b: vec2f) {
     let magnitude = length(b - a);
     if magnitude <= 0.0 {
         return;
@@ -529,11 +529,11 @@ fn brushed_add_chord(axis: ptr<function, BrushedOutlineAxis>, a: vec2f, b: vec2f
     // The integral of (1 + r^2)^(-3/2).
     let wide2 = 1.0 + off * off;
     let weight = (end * inverseSqrt(wide2 + end * end) - start * inverseSqrt(wide2 + start * start)) * inverseSqrt(wide2);
-    (*axis).doubled += weight * vec2f((along.x - along.y) * (along.x + along.y), 2.0 * along.x * along.y);
+    (*outline).doubled += weight * vec2f((along.x - along.y) * (along.x + along.y), 2.0 * along.x * along.y);
     let beside = max(max(start, -end), 0.0);
-    (*axis).nearest_squared = min((*axis).nearest_squared, off * off + beside * beside);
+    (*outline).nearest_squared = min((*outline).nearest_squared, off * off + beside * beside);
     if (a.y > 0.0) != (b.y > 0.0) && (a.x * b.y - b.x * a.y > 0.0) == (b.y > 0.0) {
-        (*axis).is_around = !(*axis).is_around;
+        (*outline).is_around = !(*outline).is_around;
     }
 }
 
@@ -543,7 +543,7 @@ fn brushed_stretched(lobe: BrushedLobe, w: vec3f) -> vec2f {
     return -h.xy / (max(h.z, 1e-12) * lobe.alphas);
 }
 
-fn brushed_add_to_axis(axis: ptr<function, BrushedOutlineAxis>, lobe: BrushedLobe, edge: BrushedEdge) {
+fn brushed_add_to_axis(outline: ptr<function, BrushedOutlineAxis>, lobe: BrushedLobe, edge: BrushedEdge) {
     let a = edge.a / max(length(edge.a), 1e-15);
     let b = edge.b / max(length(edge.b), 1e-15);
     let chords = 1.0 + floor(BRUSHED_CHORDS * length(b - a));
@@ -551,15 +551,15 @@ fn brushed_add_to_axis(axis: ptr<function, BrushedOutlineAxis>, lobe: BrushedLob
     for (var i = 1.0; i <= chords; i += 1.0) {
         let w = mix(a, b, i / chords);
         let after = brushed_stretched(lobe, w / max(length(w), 1e-15));
-        brushed_add_chord(axis, before, after);
+        brushed_add_chord(outline, before, after);
         before = after;
     }
 }
 
 // The lobe in slices across an outline. `lobe` has its slices across the longer axis.
-fn brushed_sliced(lobe: BrushedLobe, axis: BrushedOutlineAxis) -> BrushedLobe {
-    let along = brushed_half_turn(axis.doubled.x, axis.doubled.y);
-    let scale = select(sqrt(1.0 + axis.nearest_squared), 1.0, axis.is_around);
+fn brushed_sliced(lobe: BrushedLobe, outline: BrushedOutlineAxis) -> BrushedLobe {
+    let along = brushed_half_turn(outline.doubled.x, outline.doubled.y);
+    let scale = select(sqrt(1.0 + outline.nearest_squared), 1.0, outline.is_around);
     let wide = along * lobe.alphas.yx;
     let axis = wide / length(wide);
     let first = facets_turned(Facets(lobe.alphas, lobe.shear), axis);

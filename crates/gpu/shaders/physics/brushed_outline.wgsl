@@ -7,7 +7,7 @@ fn brushed_outline(axial: BrushedLobe, fresnel: FresnelRgb, curves: texture_2d<f
     if view.facing == 0.0 {
         return sum;
     }
-    var axis = brushed_outline_axis();
+    var outline = brushed_outline_axis();
     var area = vec3f(0.0);
     var highest_z = 0.0;
     let first_m = outline_corner_m(vertices, view, 0u);
@@ -16,12 +16,12 @@ fn brushed_outline(axial: BrushedLobe, fresnel: FresnelRgb, curves: texture_2d<f
         let b = brushed_from_local(axial, outline_corner_m(vertices, view, i + 1u));
         area += cross(a, b);
         highest_z = max(highest_z, b.z);
-        brushed_add_to_axis(&axis, axial, brushed_edge(a, b, false));
-        brushed_add_to_axis(&axis, axial, brushed_edge(a, b, true));
+        brushed_add_to_axis(&outline, axial, brushed_edge(a, b, false));
+        brushed_add_to_axis(&outline, axial, brushed_edge(a, b, true));
         a = b;
     }
     let orientation = select(1.0, -1.0, dot(area, brushed_from_local(axial, first_m)) < 0.0);
-    let lobe = brushed_sliced(axial, axis);
+    let lobe = brushed_sliced(axial, outline);
     let first = brushed_from_local(lobe, first_m);
     var range = vec2f(1.0, -1.0);
     a = first;
