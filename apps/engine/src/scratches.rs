@@ -160,13 +160,12 @@ impl Tree {
         let Value::Array(profiles) = parsed(profiles)? else {
             return Err(JsError::new("profiles: must be a list"));
         };
-        let sections = profiles.into_iter().map(|profile| {
-            Ok(SectionId::new(&Scratches::section_from_json(Some(
-                profile,
-            ))?))
-        });
-        let sections: Result<Vec<SectionId>, _> = sections.collect();
+        let sections = profiles
+            .into_iter()
+            .map(|profile| Scratches::section_from_json(Some(profile)));
+        let sections: Result<Vec<_>, _> = sections.collect();
         let sections = sections.map_err(thrown)?;
+        let sections: Vec<_> = sections.iter().map(SectionId::new).collect();
         let rows = |numbers: &[f32]| numbers.as_chunks::<3>().0.to_vec();
         let count = widths_um.len();
         let pieces = Pieces {

@@ -5,7 +5,6 @@
 //!
 //! ```
 //! use hairline_cpu::closed_form::{Prepared, RenderOptions};
-//! use hairline_scene::Scene;
 //!
 //! let text = r#"
 //! camera = { position_m = [0.0, -0.2, 0.3], target_m = [0.0, 0.0, 0.0], up = [0.0, 0.0, 1.0] }

@@ -2,7 +2,6 @@
 //!
 //! ```no_run
 //! use hairline_gpu::{AdapterRequest, RenderOptions, headless};
-//! use hairline_scene::Scene;
 //!
 //! let scene = hairline_document::load("scenes/plate.toml")?;
 //! let gpu = headless::open(&AdapterRequest::default())?;

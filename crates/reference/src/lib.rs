@@ -10,7 +10,6 @@
 //!
 //! ```
 //! use hairline_reference::{BATCH_SAMPLES, Integrator, Settings};
-//! use hairline_scene::Scene;
 //! use std::ops::ControlFlow;
 //!
 //! let text = r#"

@@ -1,4 +1,4 @@
-//! The validated [`Scene`] in canonical units, which every renderer reads, and what is looked up in it: no file, no key, no default, no message.
+//! The validated [`Scene`] in canonical units, which every renderer reads, and what is looked up in it: no key, no default, no message.
 //! `hairline-document` makes one of a scene file.
 
 #![warn(unreachable_pub)]
