@@ -6,7 +6,7 @@ use hairline_scene::{Light, Scene};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args().nth(1);
-    let mut scene = Scene::load(file.unwrap_or("scenes/plate.toml".into()))?;
+    let mut scene = hairline_document::load(file.unwrap_or("scenes/plate.toml".into()))?;
     scene.render.size_px = [160, 90];
     let before = mean_of_scratches(&scene);
 

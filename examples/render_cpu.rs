@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_document::DEFAULT_SAMPLES;
 use hairline_image::{Display, Output};
-use hairline_scene::{DEFAULT_SAMPLES, Scene};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let file = arguments.next().unwrap_or("scenes/plate.toml".into());
     let picture = arguments.next().unwrap_or("render_cpu.png".into());
-    let mut scene = Scene::load(&file)?;
+    let mut scene = hairline_document::load(&file)?;
     if let Some(width) = arguments.next() {
         let [full_width, full_height] = scene.render.size_px;
         let width: u32 = width.parse()?;

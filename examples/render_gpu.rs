@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
+use hairline_document::DEFAULT_SAMPLES;
 use hairline_gpu::{AdapterRequest, RenderOptions, headless};
 use hairline_image::{Display, Output};
-use hairline_scene::{DEFAULT_SAMPLES, Scene};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let file = arguments.next().unwrap_or("scenes/plate.toml".into());
     let picture = arguments.next().unwrap_or("render_gpu.png".into());
-    let mut scene = Scene::load(&file)?;
+    let mut scene = hairline_document::load(&file)?;
     if let Some(width) = arguments.next() {
         let [full_width, full_height] = scene.render.size_px;
         let width: u32 = width.parse()?;

@@ -12,9 +12,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
+use hairline_document::SceneBuilder;
+use hairline_document::description::Description;
 use hairline_image::output::write_atomically;
-use hairline_scene::SceneBuilder;
-use hairline_scene::description::Description;
 use opened::{Opened, Outcome, Source};
 
 /// Options of `models`.

@@ -6,13 +6,12 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
+use hairline_document::description::Description;
+use hairline_document::{DEFAULT_SAMPLES, DEFAULT_TRANSPORT, Loader, SceneBuilder};
 use hairline_gpu::{Gpu, GpuScene, Method, RenderOptions, Renderer, headless, steps};
 use hairline_image::Display;
 use hairline_index::ScratchIndex;
-use hairline_scene::description::Description;
-use hairline_scene::{
-    DEFAULT_SAMPLES, DEFAULT_TRANSPORT, Loader, Scene, SceneBuilder, ScratchTables,
-};
+use hairline_scene::{Scene, ScratchTables};
 use serde::Serialize;
 
 /// Pixels of a submission, those of the viewer on a GPU.
@@ -177,7 +176,7 @@ impl Passes {
 /// Reads a scene file, or a model in the scene that `hairline render` shows it in.
 fn load(path: &Path) -> Result<Scene> {
     if !Description::is_model(path) {
-        return Ok(Scene::load(path)?);
+        return Ok(hairline_document::load(path)?);
     }
     let description = Description::for_model(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));

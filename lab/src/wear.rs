@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_document::description::{Description, Material, Studio};
+use hairline_document::wear::Wear;
+use hairline_document::{DEFAULT_SAMPLES, Loader, SceneBuilder};
 use hairline_editor::presets::MaterialPreset;
 use hairline_image::{Display, Image, Output, filter_found};
 use hairline_optics::metal::Metal;
-use hairline_scene::description::{Description, Material, Studio};
-use hairline_scene::wear::Wear;
-use hairline_scene::{DEFAULT_SAMPLES, Loader, SceneBuilder};
 
 /// Options of `wear`.
 #[derive(clap::Args)]

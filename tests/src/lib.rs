@@ -19,7 +19,7 @@ use std::sync::Arc;
 pub fn middle(name: &str, of_px: u32, size_px: [u32; 2]) -> Scene {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let path = root.join("scenes").join(name);
-    let scene = Scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+    let scene = hairline_document::load(&path).unwrap_or_else(|error| panic!("{error}"));
     middle_of(scene, of_px, size_px)
 }
 
@@ -84,7 +84,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
 
 /// Light of radiance one from everywhere.
 pub fn furnace() -> Option<Environment> {
-    Some(Environment::uniform([1.0; 3]))
+    Some(hairline_sky::uniform([1.0; 3]))
 }
 
 /// A sphere that the square's camera sees mirrored near the middle.

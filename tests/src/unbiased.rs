@@ -65,7 +65,8 @@ fn read(name: &str, changed: impl Fn(String) -> String) -> Scene {
     let path = folder.join(format!("{name}.toml"));
     let text = std::fs::read_to_string(&path)
         .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    Scene::from_toml(&changed(text), name, &folder).unwrap_or_else(|error| panic!("{error}"))
+    hairline_document::from_toml(&changed(text), name, &folder)
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Renders as `hairline render` does, except that fireflies stay.

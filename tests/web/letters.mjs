@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-const FONT = readFileSync(join(import.meta.dirname, '../../crates/scene/assets/text.ttf')).toString('base64');
+const FONT = readFileSync(join(import.meta.dirname, '../../crates/document/assets/text.ttf')).toString('base64');
 /** Of the page's text, in pixels. */
 const SIZE = 13;
 

@@ -227,7 +227,7 @@ impl Release {
         let licences = folder.join("licences");
         self.crates.copy_licences("programs", &licences)?;
         copy(
-            &self.at.root.join("crates/scene/assets/text.txt"),
+            &self.at.root.join("crates/document/assets/text.txt"),
             &licences.join("text.ttf.txt"),
         )?;
         let viewer = "the viewer: a display (X11 or Wayland), its libraries, a graphics driver";

@@ -1,5 +1,7 @@
 //! Tasks that cargo does not do itself. `cargo xtask COMMAND`; each command is one file.
 
+#[cfg(test)]
+mod architecture;
 mod archive;
 mod blender;
 mod dist;

@@ -11,7 +11,7 @@ use std::process::Command;
 use clap::Args;
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use hairline_scene::Description;
+use hairline_document::Description;
 use serde_json::json;
 
 use crate::program::run;

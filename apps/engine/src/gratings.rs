@@ -1,7 +1,7 @@
 //! Rows of grooves, and the tables of what they send.
 
+use hairline_document::{description, object_of_gratings};
 use hairline_engine::LaidGrating;
-use hairline_scene::description;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -44,7 +44,7 @@ pub fn lay_gratings(
 ) -> Result<Vec<Grooves>, JsError> {
     let metal = metal.map(|name| metal_of(&name)).transpose()?;
     let rows = description::Grating::from_json(parsed(rows)?).map_err(thrown)?;
-    let laid = LaidGrating::lay(&rows, metal, coherence_um);
+    let laid = LaidGrating::of_object(object_of_gratings(&rows), metal, coherence_um);
     let laid = (0..).zip(laid).map(|(i, grating)| {
         let made = grating.map(Grooves);
         made.ok_or_else(|| {

@@ -8,12 +8,11 @@ mod maps;
 mod metals;
 mod scratches;
 
-use hairline_scene::Error;
 use serde_json::Value;
 use wasm_bindgen::JsError;
 
 /// An error as JavaScript throws it.
-fn thrown(error: Error) -> JsError {
+fn thrown(error: impl std::error::Error) -> JsError {
     JsError::new(&error.to_string())
 }
 

@@ -1,9 +1,9 @@
 //! Metals, and the spectra of their scratches.
 
-use hairline_engine::{base_tables, scratch_table as table, section};
+use hairline_document::description::{Scratches, metal_names};
+use hairline_engine::{base_tables, scratch_table as table};
 use hairline_optics::metal::Metal;
 use hairline_optics::section::GrooveShape;
-use hairline_scene::description::metal_names;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -50,7 +50,7 @@ pub fn scratch_table(
 ) -> Result<Vec<u32>, JsError> {
     let metal = metal.map(|name| metal_of(&name)).transpose()?;
     let shape = GrooveShape {
-        section: section(Some(parsed(profile)?)).map_err(thrown)?,
+        section: Scratches::section_from_json(Some(parsed(profile)?)).map_err(thrown)?,
         width_class,
     };
     Ok(table(metal, &shape, rows).into_flattened())

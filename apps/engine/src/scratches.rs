@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use hairline_engine::{Pieces, ScratchTexels, section};
-use hairline_scene::description::Scratches;
-use hairline_scene::{Arrays, MeshArrays, ScratchArrays, SectionId};
+use hairline_document::description::Scratches;
+use hairline_document::{Arrays, MeshArrays, ScratchArrays, lay_on_mesh};
+use hairline_engine::{Pieces, ScratchTexels};
+use hairline_scene::SectionId;
 use serde_json::Value;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -82,8 +83,11 @@ impl Laid {
             uvs,
         );
         let layers = Scratches::from_json(parsed(layers)?).map_err(thrown)?;
-        let laid = Pieces::lay(&mesh.map_err(thrown)?, &layers, &files.0, metres_per_unit);
-        Ok(Self(laid.map_err(thrown)?))
+        let laid = lay_on_mesh(&mesh.map_err(thrown)?, &layers, &files.0, metres_per_unit);
+        Ok(Self(Pieces::of_object(
+            &laid.map_err(thrown)?,
+            metres_per_unit,
+        )))
     }
 
     /// Three numbers a piece.
@@ -158,9 +162,10 @@ impl Tree {
         };
         let sections = profiles
             .into_iter()
-            .map(|profile| Ok(SectionId::new(&section(Some(profile))?)));
-        let sections: Result<Vec<SectionId>, _> = sections.collect();
+            .map(|profile| Scratches::section_from_json(Some(profile)));
+        let sections: Result<Vec<_>, _> = sections.collect();
         let sections = sections.map_err(thrown)?;
+        let sections: Vec<_> = sections.iter().map(SectionId::new).collect();
         let rows = |numbers: &[f32]| numbers.as_chunks::<3>().0.to_vec();
         let count = widths_um.len();
         let pieces = Pieces {

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use anyhow::anyhow;
 use clap::Parser;
 use hairline_console::{Backend, EXIT_CODES, View, tell};
-use hairline_scene::{Description, probe};
+use hairline_document::{Description, probe};
 use hairline_viewer::window::{Error, Renderer};
 use hairline_viewer::{Options, engine, open};
 use hairline_work::failure::Failure;
@@ -72,7 +72,7 @@ fn run(arguments: &View) -> Result<(), Failure> {
 }
 
 /// Checks a scene, or a model that is shown in a scene of its own.
-fn check(path: &Path) -> Result<(), hairline_scene::Error> {
+fn check(path: &Path) -> Result<(), hairline_document::Error> {
     match Description::is_model(path) {
         true => probe::mesh(path).map(drop),
         false => probe::scene(path).map(drop),

@@ -6,11 +6,11 @@ use std::time::Duration;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairline_console::{Backend, EXIT_CODES, Switch, View};
+use hairline_document::DEFAULT_SAMPLES;
+use hairline_document::schema::camera::EXPOSURE_EV;
+use hairline_document::schema::object::TIME_S;
 use hairline_editor::wear::Wear;
 use hairline_image::{FPS_MAX, Layer, ToneMap};
-use hairline_scene::DEFAULT_SAMPLES;
-use hairline_scene::schema::camera::EXPOSURE_EV;
-use hairline_scene::schema::object::TIME_S;
 
 use crate::compare::limits::{self, Limit};
 use crate::highlight;

@@ -10,9 +10,9 @@ use std::path::Path;
 
 use anyhow::anyhow;
 use hairline_console::{print, tell};
+use hairline_document::inputs::Input;
 use hairline_image::metrics::{self, Comparison, Problem};
 use hairline_image::{Display, Layers};
-use hairline_scene::inputs::Input;
 
 use self::limits::Finding;
 use crate::cli;

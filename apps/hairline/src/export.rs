@@ -2,10 +2,10 @@
 
 use anyhow::anyhow;
 use hairline_console::{Switch, tell};
+use hairline_document::Loader;
+use hairline_document::gltf_scene::Export;
 use hairline_image::output::{check_writable, write_atomically};
 use hairline_memory::in_words;
-use hairline_scene::Loader;
-use hairline_scene::gltf_scene::Export;
 use hairline_work::failure::Failure;
 
 use crate::cli;

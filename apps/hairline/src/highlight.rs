@@ -2,11 +2,11 @@
 
 use anyhow::anyhow;
 use glam::{DVec2, DVec3};
+use hairline_document::description::Description;
+use hairline_document::text::shown;
 use hairline_editor::place_light::place_highlight;
 use hairline_index::TriangleIndex;
 use hairline_scene::Scene;
-use hairline_scene::description::Description;
-use hairline_scene::text::shown;
 
 use crate::size_limit::SIDE_MAX_PX;
 use hairline_work::failure::Failure;

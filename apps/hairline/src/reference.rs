@@ -4,10 +4,10 @@ use std::time::Duration;
 
 use anyhow::anyhow;
 use hairline_console::{Switch, tell};
+use hairline_document::Arrays;
 use hairline_image::{Display, Format, Output};
 use hairline_optics::mask::Mask;
 use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
-use hairline_scene::Arrays;
 use hairline_work::reference::{self, Count, End, Limits, identity};
 
 use crate::cli;

@@ -10,11 +10,11 @@ use std::path::Path;
 
 use anyhow::anyhow;
 use hairline_console::{Switch, tell};
+use hairline_document::inputs::is_same_file;
 use hairline_editor::shown::{LITTLE, Shown};
 use hairline_image::exr_file::Notes;
 use hairline_image::{Animation, Display, Format, Image, Output};
 use hairline_published::Method;
-use hairline_scene::inputs::is_same_file;
 use hairline_scene::{Scene, Transport};
 
 use crate::interrupt::{Interrupt, cannot_listen};

@@ -5,14 +5,15 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use glam::Vec3;
 use hairline_console::{BUILT_IN, refuse_other_files, tell};
+use hairline_document::description::{Description, Object, Surface};
+use hairline_document::estimate::Estimate;
+use hairline_document::inputs::{Input, is_same_file};
+use hairline_document::{Loader, SceneBuilder, Stage, reading};
 use hairline_editor::subject;
 use hairline_editor::wear::{Wear, set_wear};
 use hairline_image::ToneMap;
 use hairline_memory::budget_bytes;
-use hairline_scene::description::{Description, Object, Surface};
-use hairline_scene::estimate::Estimate;
-use hairline_scene::inputs::{Input, is_same_file};
-use hairline_scene::{Loader, Scene, SceneBuilder, Stage, reading};
+use hairline_scene::Scene;
 
 use crate::highlight::{self, Highlight};
 use crate::interrupt::Interrupt;
@@ -143,7 +144,7 @@ pub fn load(
         cancelled: &|| overrides.interrupt.is_some_and(Interrupt::is_asked),
         ..Loader::default()
     };
-    let wrong = |error: hairline_scene::Error| error.in_scene_file(&source.text, &source.name);
+    let wrong = |error: hairline_document::Error| error.in_scene_file(&source.text, &source.name);
     let mut builder = SceneBuilder::new();
     let built = builder.build(&loader, &description, &source.folder);
     let mut scene = built.map_err(wrong)?;

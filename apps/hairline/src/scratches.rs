@@ -5,8 +5,9 @@ use std::io::{BufWriter, Write};
 
 use anyhow::{Context, anyhow};
 use hairline_console::tell;
-use hairline_scene::text::shown;
-use hairline_scene::{Object, write_scratches};
+use hairline_document::text::shown;
+use hairline_document::write_scratches;
+use hairline_scene::Object;
 
 use crate::cli;
 use crate::scene_file::{self, Overrides};

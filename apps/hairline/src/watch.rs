@@ -5,7 +5,7 @@ use std::time::{Duration, SystemTime};
 
 use anyhow::anyhow;
 use hairline_console::tell;
-use hairline_scene::Description;
+use hairline_document::Description;
 
 use crate::cli;
 use crate::interrupt::{Interrupt, cannot_listen};
@@ -59,7 +59,7 @@ struct Stamps(Vec<(PathBuf, Option<(SystemTime, u64)>)>);
 impl Stamps {
     fn of(scene: &Path) -> Self {
         let folder = scene.parent().unwrap_or(Path::new(""));
-        let text = hairline_scene::reading::scene_text(scene).ok();
+        let text = hairline_document::reading::scene_text(scene).ok();
         let description = text.and_then(|text| Description::from_toml(&text, scene).ok());
         let inputs = description.map(|it| it.inputs(folder)).unwrap_or_default();
         let paths = std::iter::once(scene.to_owned()).chain(inputs.into_iter().map(|it| it.path));

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use hairline_scene::{DEFAULT_TRANSPORT, Description};
+use hairline_document::{DEFAULT_TRANSPORT, Description};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Renderer, page};
 use js_sys::{Array, Object, Reflect, Uint8Array};

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::panic::PanicHookInfo;
 
 use anyhow::anyhow;
-use hairline_scene::text::printable;
+use hairline_document::text::printable;
 
 use hairline_work::failure::Failure;
 
@@ -45,7 +45,7 @@ fn sentence(panic: &PanicHookInfo) -> String {
     format!("internal error{place}: {what}; please report it with the command and its files")
 }
 
-/// `crates/scene/src/load.rs` of a path in the workspace, `gltf-1.4.1/src/lib.rs` of one in a registry.
+/// `crates/document/src/load.rs` of a path in the workspace, `gltf-1.4.1/src/lib.rs` of one in a registry.
 fn without_folders(file: &str) -> String {
     let parts: Vec<&str> = file.split(['/', '\\']).collect();
     let source = parts.iter().rposition(|part| *part == "src");
@@ -66,8 +66,8 @@ mod tests {
     #[test]
     fn places_are_told_without_the_folders_of_a_machine() {
         assert_eq!(
-            without_folders("crates/scene/src/load.rs"),
-            "crates/scene/src/load.rs"
+            without_folders("crates/document/src/load.rs"),
+            "crates/document/src/load.rs"
         );
         assert_eq!(
             without_folders("/home/x/.cargo/registry/src/index-1/gltf-1.4.1/src/lib.rs"),

@@ -13,7 +13,8 @@ const ROWS: std::ops::Range<u32> = 140..142;
 
 fn plate() -> Scene {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    let mut scene = Scene::load(scenes.join("plate.toml")).expect("the scene of the plate");
+    let mut scene =
+        hairline_document::load(scenes.join("plate.toml")).expect("the scene of the plate");
     scene.render.size_px = SIZE_PX;
     scene
 }

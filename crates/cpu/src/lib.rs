@@ -5,7 +5,6 @@
 //!
 //! ```
 //! use hairline_cpu::closed_form::{Prepared, RenderOptions};
-//! use hairline_scene::Scene;
 //!
 //! let text = r#"
 //! camera = { position_m = [0.0, -0.2, 0.3], target_m = [0.0, 0.0, 0.0], up = [0.0, 0.0, 1.0] }
@@ -15,10 +14,10 @@
 //! scratches = [{ object = "plate", pattern = "random", count = 100 }]
 //! light = [{ kind = "sphere", center_m = [0.0, 0.2, 0.3], radius_m = 0.05, radiance = 9.0 }]
 //! "#;
-//! let scene = Scene::from_toml(text, "plate.toml", ".")?;
+//! let scene = hairline_document::from_toml(text, "plate.toml", ".")?;
 //! let image = Prepared::new(&scene).render(&RenderOptions::default(), &|_| {});
 //! assert!(image.scratches.iter().any(|rgb| rgb[1] > 0.0));
-//! # Ok::<(), hairline_scene::Error>(())
+//! # Ok::<(), hairline_document::Error>(())
 //! ```
 
 mod alpha;

@@ -16,8 +16,8 @@ mod list;
 
 use std::path::Path;
 
-use hairline_scene::Description;
-use hairline_scene::description::{Environment, Map};
+use hairline_document::Description;
+use hairline_document::description::{Environment, Map};
 
 use crate::{Selection, paths};
 

@@ -7,8 +7,8 @@ use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
+use hairline_document::{Description, Error};
 use hairline_image::output::write_atomically;
-use hairline_scene::{Description, Error};
 
 use crate::document::SaveError;
 use crate::{Document, paths};

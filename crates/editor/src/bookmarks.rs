@@ -4,8 +4,8 @@
 
 use std::path::{Path, PathBuf};
 
+use hairline_document::description::Camera;
 use hairline_image::output::write_atomically;
-use hairline_scene::description::Camera;
 use toml::{Table, Value};
 
 /// Largest number of scenes that are remembered, the latest first.

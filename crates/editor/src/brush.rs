@@ -4,10 +4,10 @@
 //! to represent a digitized line or its caricature* (1973), so that a scene file stays small.
 
 use glam::{DMat4, DVec3};
-use hairline_scene::Description;
-use hairline_scene::description::STROKE_POINTS;
-use hairline_scene::description::{Brush, Layer, Stroke};
-use hairline_scene::schema::{LARGEST_M, SMALLEST_M, stroke};
+use hairline_document::Description;
+use hairline_document::description::STROKE_POINTS;
+use hairline_document::description::{Brush, Layer, Stroke};
+use hairline_document::schema::{LARGEST_M, SMALLEST_M, stroke};
 
 use crate::actions::{layers, objects};
 use crate::{ActionError, Selection, presets};
@@ -71,7 +71,7 @@ pub struct Recorder {
 
 impl Recorder {
     /// Begins a stroke on an object. `world_from_object` places it; see
-    /// [`Object::world_from_object`](hairline_scene::description::Object::world_from_object).
+    /// [`Object::world_from_object`](hairline_document::description::Object::world_from_object).
     pub fn new(settings: BrushSettings, world_from_object: DMat4) -> Self {
         let axes = [
             world_from_object.x_axis,

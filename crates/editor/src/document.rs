@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use hairline_scene::Description;
+use hairline_document::Description;
 
 use crate::history::{DragKey, History, State};
 use crate::{ActionError, Selection};

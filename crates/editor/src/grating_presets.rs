@@ -1,6 +1,6 @@
 //! Gratings to start from: things that everybody knows.
 
-use hairline_scene::description::{Around, Distribution, Grating, GroovePattern};
+use hairline_document::description::{Around, Distribution, Grating, GroovePattern};
 
 hairline_image::listed! {
     /// A grating with all its numbers.
@@ -73,7 +73,7 @@ impl GratingPreset {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hairline_scene::Description;
+    use hairline_document::Description;
 
     #[test]
     fn presets_are_scenes_and_come_back_from_their_files() {

@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
-use hairline_scene::Description;
-use hairline_scene::description::Stroke;
+use hairline_document::Description;
+use hairline_document::description::Stroke;
 
 use crate::Selection;
 

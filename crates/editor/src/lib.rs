@@ -15,10 +15,10 @@
 //! assert!(document.is_modified());
 //! document.undo();
 //! assert_eq!(document.description().camera.exposure_ev, 0.0);
-//! # Ok::<(), hairline_scene::Error>(())
+//! # Ok::<(), hairline_document::Error>(())
 //! ```
 //!
-//! The document is a [`Description`](hairline_scene::Description), the scene file itself, so what is edited is what is
+//! The document is a [`Description`](hairline_document::Description), the scene file itself, so what is edited is what is
 //! saved. Nothing here draws, waits or starts a thread; only opening and saving of a [`Document`], [`autosave`],
 //! [`recent`] and [`settings`] touch files.
 

@@ -1,6 +1,6 @@
 //! Names of the built-in maps in menus, and their tooltips.
 
-use hairline_scene::environment::BuiltInMap;
+use hairline_sky::BuiltInMap;
 
 /// Name in a menu.
 pub fn name(map: BuiltInMap) -> &'static str {

@@ -3,9 +3,9 @@
 //! Pixels count to the right and down, as a pointer moves; `size_px` is the size of the view.
 
 use glam::{DQuat, DVec2, DVec3};
-use hairline_scene::camera::framing;
-use hairline_scene::description::{Camera, Description};
-use hairline_scene::schema::{LARGEST_M, SMALLEST_M};
+use hairline_document::description::{Camera, Description};
+use hairline_document::framing;
+use hairline_document::schema::{LARGEST_M, SMALLEST_M};
 
 use crate::place_light::turn_about;
 

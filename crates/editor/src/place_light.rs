@@ -1,8 +1,8 @@
 //! Lights that are moved, turned, sized and reshaped by hand, or placed so that their highlight lies at a given point.
 
 use glam::{DQuat, DVec3};
-use hairline_scene::description::{Light, LightKind};
-use hairline_scene::schema::{LARGEST_M, SMALLEST_M};
+use hairline_document::description::{Light, LightKind};
+use hairline_document::schema::{LARGEST_M, SMALLEST_M};
 use hairline_scene::vector_area_m2;
 
 use crate::ActionError;

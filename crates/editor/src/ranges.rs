@@ -3,7 +3,7 @@
 
 use std::ops::RangeInclusive;
 
-use hairline_scene::schema::{Control, Form, Key};
+use hairline_document::schema::{Control, Form, Key};
 
 use crate::quantity::Unit;
 
@@ -78,7 +78,7 @@ fn of(key: &Key, control: Option<&Control>, diagonal_m: f64) -> Range {
 
 #[cfg(test)]
 mod tests {
-    use hairline_scene::schema::SECTIONS;
+    use hairline_document::schema::SECTIONS;
 
     use super::*;
 

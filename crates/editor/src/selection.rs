@@ -1,6 +1,6 @@
 //! The part of a scene that the panel shows.
 
-use hairline_scene::Description;
+use hairline_document::Description;
 
 /// One part of a scene, or none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -1,7 +1,7 @@
 //! Subject of a scene: the objects that a view of the whole scene frames.
 
 use glam::DVec3;
-use hairline_scene::Description;
+use hairline_document::Description;
 
 use crate::actions::objects;
 

@@ -1,10 +1,10 @@
 //! Wear of an object, as one choice that lays and removes several layers of scratches.
 
-use hairline_scene::Description;
-use hairline_scene::description::{Distribution, Layer, Object, Pattern, Scratches};
-use hairline_scene::wear::is_wear;
+use hairline_document::Description;
+use hairline_document::description::{Distribution, Layer, Object, Pattern, Scratches};
+use hairline_document::wear::is_wear;
 
-pub use hairline_scene::wear::Wear;
+pub use hairline_document::wear::Wear;
 
 use crate::actions::ActionError;
 use crate::selection::Selection;
@@ -102,7 +102,7 @@ pub fn set_wear(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hairline_scene::description::{Amount, Laid};
+    use hairline_document::description::{Amount, Laid};
     use std::path::Path;
 
     const SCENE: &str = "[camera]\nposition_m = [0.0, -1.0, 1.0]\ntarget_m = [0.0, 0.0, 0.0]\n\

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use hairline_optics::metal::Metal;
 use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_GRATING_ROWS, ROWS, last_depth_nm};
-use hairline_scene::{Base, Scene, ScratchTables, description, object_of_gratings};
+use hairline_scene::{Base, Object, Scene, ScratchTables};
+
+use crate::one_object::scene_of;
 
 /// Fields of grooves, in the order of the constants of groove_field.wgsl.
 const KINDS: [&str; 4] = ["along", "circular", "radial", "spun"];
@@ -89,25 +91,14 @@ impl GratingTexels {
 }
 
 impl LaidGrating {
-    /// Rows of grooves in a metal, or in a colour of metal, in the frame of a mesh whose unit is the metre, as
-    /// [`Pieces::lay`](crate::Pieces::lay) lays scratches. `coherence_um` is the width of the material's coherence window. Fine rows take seconds. None in
-    /// the place of those in spots.
-    pub fn lay(
-        rows: &[description::Grating],
-        metal: Option<Metal>,
-        coherence_um: f64,
-    ) -> Vec<Option<Self>> {
-        let mut scene = Scene::of_object(object_of_gratings(rows), coherence_um);
+    /// The gratings of an object by itself, in a metal, or in a colour of metal. `coherence_um` is the width of the material's coherence window. Fine rows
+    /// take seconds. None in the place of those in spots.
+    pub fn of_object(object: Object, metal: Option<Metal>, coherence_um: f64) -> Vec<Option<Self>> {
+        let mut scene = scene_of(object, coherence_um);
         if let Some(metal) = metal {
             scene.materials[0].base = Base::Metal(metal);
         }
-        let mut laid = Self::of_scene(&scene, 0);
-        for (grating, row) in laid.iter_mut().zip(rows) {
-            if let Some(grating) = grating {
-                grating.has_mask = row.mask.is_some();
-            }
-        }
-        laid
+        Self::of_scene(&scene, 0)
     }
 
     /// The gratings of one of a scene's objects, in world space. None in the place of those in spots.

@@ -3,15 +3,12 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use hairline_optics::section::Section;
-use hairline_scene::description::Scratches;
 use hairline_scene::{
-    Arrays, Error, GrooveShapes, LISTED_RANGES, MOST_SHAPES, Mesh, MeshArrays, Object, Profile,
-    Scene, Scratch, SectionId, Segment, lay_on_mesh,
+    GrooveShapes, MOST_SHAPES, Mesh, Object, Profile, Scratch, SectionId, Segment,
 };
 
-use serde_json::{Value, json};
-
+use crate::error::Error;
+use crate::one_object::scene_of;
 use crate::scratch_tree::{ScratchTexels, WIDTH};
 
 /// Longer pieces are cut: the box of a long slanting one is mostly empty.
@@ -40,31 +37,9 @@ pub struct Pieces {
     pub layers: Vec<u32>,
 }
 
-/// Reads the cross section that a layer has as `profile`; a rectangle without one.
-///
-/// # Errors
-/// What is no cross section, by the key of a layer.
-pub fn section(profile: Option<Value>) -> Result<Section, Error> {
-    let mut layer = json!({ "object": "mesh", "pattern": "random", "count": 1 });
-    if let Some(profile) = profile {
-        layer["profile"] = profile;
-    }
-    let mut layers = Scratches::from_json(json!([layer]))?;
-    Ok(layers.remove(0).profile)
-}
-
 impl Pieces {
-    /// Lays layers on a mesh whose unit is `metres_per_unit` long: see [`lay_on_mesh`].
-    ///
-    /// # Errors
-    /// What is wrong with the mesh or a layer, by its key.
-    pub fn lay(
-        mesh: &MeshArrays,
-        layers: &[Scratches],
-        arrays: &Arrays,
-        metres_per_unit: f64,
-    ) -> Result<Self, Error> {
-        let object = lay_on_mesh(mesh, layers, arrays, metres_per_unit)?;
+    /// The pieces of an object in world space, for a mesh whose unit is `metres_per_unit` long.
+    pub fn of_object(object: &Object, metres_per_unit: f64) -> Self {
         let in_mesh = |at: Vec3| (at.as_dvec3() / metres_per_unit).as_vec3().to_array();
         let mut pieces = Self::default();
         for (number, scratch) in (0..).zip(object.scratches.iter()) {
@@ -85,7 +60,7 @@ impl Pieces {
                 pieces.layers.push(scratch.layer);
             }
         }
-        Ok(pieces)
+        pieces
     }
 
     /// Makes the textures, for a mesh whose unit is `metres_per_unit` long. `coherence_um` is the width of the material's coherence window.
@@ -95,7 +70,7 @@ impl Pieces {
     /// texture holds.
     pub fn texels(&self, coherence_um: f64, metres_per_unit: f64) -> Result<ScratchTexels, Error> {
         self.check()?;
-        let scene = Scene::of_object(self.object(metres_per_unit as f32), coherence_um);
+        let scene = scene_of(self.object(metres_per_unit as f32), coherence_um);
         let shapes = GrooveShapes::new(&scene);
         if shapes.count() > MOST_SHAPES {
             let found = format!(
@@ -137,7 +112,7 @@ impl Pieces {
         ];
         if let Some((key, length)) = lengths.iter().find(|(_, length)| *length != count) {
             let found = format!("found {length} for {count} pieces");
-            return Err(Error::new(*key, found, "must be one for each"));
+            return Err(Error::new(key, found, "must be one for each"));
         }
         for (key, rows) in [
             ("starts", &self.starts),
@@ -148,16 +123,17 @@ impl Pieces {
                 return Err(Error::new(key, format!("found {x}"), "must be finite"));
             }
         }
-        for ((key, (least, most)), sizes) in
-            LISTED_RANGES.iter().zip([&self.widths_um, &self.depths_nm])
-        {
+        for (key, (least, most), sizes) in [
+            ("width_um", Profile::WIDTHS_UM, &self.widths_um),
+            ("depth_nm", Profile::DEPTHS_NM, &self.depths_nm),
+        ] {
             // Written so that NaN is out of range.
             if let Some(x) = sizes
                 .iter()
-                .find(|x| !(*least..=*most).contains(&f64::from(**x)))
+                .find(|x| !(least..=most).contains(&f64::from(**x)))
             {
                 let right = format!("must be from {least} to {most}");
-                return Err(Error::new(*key, format!("found {x}"), right));
+                return Err(Error::new(key, format!("found {x}"), right));
             }
         }
         Ok(())
@@ -219,9 +195,10 @@ impl Pieces {
 mod tests {
     use super::*;
     use crate::scratch_table;
+    use hairline_document::description::Scratches;
+    use hairline_document::{Arrays, Description, Loader, MeshArrays, SceneBuilder, lay_on_mesh};
     use hairline_optics::metal::Metal;
     use hairline_optics::table::{ROWS, last_depth_nm};
-    use hairline_scene::{Description, Loader, SceneBuilder};
     use std::path::Path;
 
     const LAYERS: &str = "
@@ -263,6 +240,16 @@ mod tests {
         Scratches::from_toml(text, Path::new("layers")).unwrap()
     }
 
+    fn laid(metres_per_unit: f64) -> Pieces {
+        let object = lay_on_mesh(
+            &mesh(),
+            &layers(LAYERS),
+            &Arrays::default(),
+            metres_per_unit,
+        );
+        Pieces::of_object(&object.unwrap(), metres_per_unit)
+    }
+
     #[test]
     fn a_seed_means_the_scratches_of_a_scene() {
         let text = format!(
@@ -282,7 +269,7 @@ mod tests {
             .build(&loader, &description, Path::new("."))
             .unwrap();
         let object = &scene.objects[0];
-        let pieces = Pieces::lay(&mesh(), &layers(LAYERS), &Arrays::default(), 0.5).unwrap();
+        let pieces = laid(0.5);
         assert_eq!(pieces.starts.len(), object.segments.len());
         assert_eq!(
             pieces.scratch.last().copied(),
@@ -363,7 +350,7 @@ mod tests {
 
     #[test]
     fn what_is_wrong_is_told_by_its_key() {
-        let laid = Pieces::lay(&mesh(), &layers(LAYERS), &Arrays::default(), 1.0).unwrap();
+        let laid = laid(1.0);
         let told = |change: fn(&mut Pieces)| {
             let mut pieces = laid.clone();
             change(&mut pieces);
@@ -372,8 +359,5 @@ mod tests {
         assert!(told(|it| it.ends.truncate(1)).starts_with("ends: found 1 for "));
         assert!(told(|it| it.starts[3][1] = f32::NAN).starts_with("starts: found NaN"));
         assert!(told(|it| it.widths_um[0] = 400.0).starts_with("width_um: found 400"));
-        let mask = LAYERS.replace("radius_m = [0.01, 0.04]", "mask = 'a.png', tile_m = 0.1");
-        let error = Pieces::lay(&mesh(), &layers(&mask), &Arrays::default(), 1.0).unwrap_err();
-        assert_eq!(error.key(), "scratches[2].where.mask");
     }
 }

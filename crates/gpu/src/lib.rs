@@ -2,9 +2,8 @@
 //!
 //! ```no_run
 //! use hairline_gpu::{AdapterRequest, RenderOptions, headless};
-//! use hairline_scene::Scene;
 //!
-//! let scene = Scene::load("scenes/plate.toml")?;
+//! let scene = hairline_document::load("scenes/plate.toml")?;
 //! let gpu = headless::open(&AdapterRequest::default())?;
 //! let options = RenderOptions::default();
 //! let image = headless::render(&gpu, &scene, &Default::default(), &options, &|_| {})?;

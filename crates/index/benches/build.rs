@@ -13,7 +13,7 @@ fn scene(shape: &str, count: u32) -> Scene {
          length_m = {{ mean = 0.01, spread = 0.5 }}\nwidth_um = 2.0\ndepth_nm = 200.0\n\
          curvature_per_m = {{ mean = 0.0, spread = 4.0 }}\n"
     );
-    Scene::from_toml(&text, "bench", ".").expect("a scene that can be built")
+    hairline_document::from_toml(&text, "bench", ".").expect("a scene that can be built")
 }
 
 fn build(c: &mut Criterion) {

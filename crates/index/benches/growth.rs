@@ -8,8 +8,9 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+use hairline_document::Loader;
 use hairline_index::ScratchIndex;
-use hairline_scene::{Loader, Scene};
+use hairline_scene::Scene;
 
 /// The system's allocator with a count of the bytes in use.
 struct Counting;

@@ -66,7 +66,6 @@ fn of_strips(object: &Object) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hairline_scene::Scene;
 
     #[test]
     fn depths_in_bins_are_as_alike_as_they_are_one_by_one() {
@@ -77,7 +76,8 @@ mod tests {
             scratches = [{ object = \"o\", pattern = \"random\", count = 20000, seed = 1, length_m = 0.002, \
                 width_um = { mean = 2.0, spread = 0.5 }, depth_nm = { mean = 150.0, spread = 0.6 } }]
         ";
-        let scene = Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"));
+        let scene = hairline_document::from_toml(text, "test", ".")
+            .unwrap_or_else(|error| panic!("{error}"));
         let object = &scene.objects[0];
         let one_by_one = object.scratches.iter().map(|s| {
             let pieces = &object.segments[s.segments.start as usize..s.segments.end as usize];

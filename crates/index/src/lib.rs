@@ -3,7 +3,6 @@
 //!
 //! ```
 //! use hairline_index::TriangleIndex;
-//! use hairline_scene::Scene;
 //!
 //! let text = r#"
 //! camera = { position_m = [0.0, -0.2, 0.3], target_m = [0.0, 0.0, 0.0], up = [0.0, 0.0, 1.0] }
@@ -13,12 +12,12 @@
 //! scratches = [{ object = "plate", pattern = "random", count = 100 }]
 //! light = [{ kind = "sphere", center_m = [0.0, 0.2, 0.3], radius_m = 0.05, radiance = 9.0 }]
 //! "#;
-//! let scene = Scene::from_toml(text, "plate.toml", ".")?;
+//! let scene = hairline_document::from_toml(text, "plate.toml", ".")?;
 //! let triangles = TriangleIndex::build(&scene);
 //! let origin = scene.camera.position_m;
 //! let hit = triangles.intersect(origin, (scene.camera.target_m - origin).normalize());
 //! assert!((hit.unwrap().distance_m - origin.length()).abs() < 1e-6);
-//! # Ok::<(), hairline_scene::Error>(())
+//! # Ok::<(), hairline_document::Error>(())
 //! ```
 
 #![warn(unreachable_pub)]

@@ -8,8 +8,7 @@ use crate::indexed_segment::IndexedSegment;
 use crate::layer_runs::{LayerRun, groups};
 use crate::segment_tree::{Plot, SegmentTree, Tree, plant};
 use crate::watch::Watch;
-use hairline_scene::scene::Camera;
-use hairline_scene::{GrooveShapes, Object, Scene, Scratch};
+use hairline_scene::{Camera, GrooveShapes, Object, Scene, Scratch};
 use std::ops::Range;
 
 /// The scratches of a scene under footprints. Each large layer on an object has a tree of its own, so that those that an edit

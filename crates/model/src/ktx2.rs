@@ -135,8 +135,8 @@ mod tests {
         ($($name:literal)*) => {
             [$((
                 $name,
-                include_bytes!(concat!("../../scene/tests/scene/images/", $name, ".ktx2")).as_slice(),
-                include_bytes!(concat!("../../scene/tests/scene/images/", $name, ".png")).as_slice(),
+                include_bytes!(concat!("../../document/tests/document/images/", $name, ".ktx2")).as_slice(),
+                include_bytes!(concat!("../../document/tests/document/images/", $name, ".png")).as_slice(),
             )),*]
         };
     }

@@ -1,4 +1,4 @@
-//! Turns a glTF file into triangles, materials and textures, and tells what of it is left out. Nothing here knows of scratches: `hairline-scene` lays
+//! Turns a glTF file into triangles, materials and textures, and tells what of it is left out. Nothing here knows of scratches: `hairline-document` lays
 //! them on what a file gives.
 
 #![warn(unreachable_pub)]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hairline_scene::{Error, MeshArrays, ScratchArrays};
+use hairline_document::{Error, MeshArrays, ScratchArrays};
 use numpy::{
     IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3,
     PyUntypedArrayMethods, ToPyArray,

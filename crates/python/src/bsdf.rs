@@ -1,6 +1,8 @@
 //! The reflection of a scratched metal by itself, over arrays of directions.
 
 use glam::{DMat2, DVec2, DVec3};
+use hairline_document::description;
+use hairline_document::schema::scratches::PROFILE;
 use hairline_optics::bsdf::{
     CoatLobe, Conductor, FineGrating, GratingLobe, Groove, LayerLobe, Overlay, PointScratch,
     Profile, Reflected, ScratchedBsdf, SpectralMode,
@@ -12,8 +14,6 @@ use hairline_optics::mask::depth_coherence;
 use hairline_optics::metal::Metal;
 use hairline_optics::rigorous::Medium;
 use hairline_optics::section::Section;
-use hairline_scene::description;
-use hairline_scene::schema::scratches::PROFILE;
 use hairline_scene::{efficiencies, fine_row};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;

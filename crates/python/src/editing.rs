@@ -4,9 +4,9 @@ use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::LayerPreset;
 use hairline_editor::quantity::Unit;
 
+use hairline_document::schema::{Form, Key, SECTIONS};
+use hairline_document::wear::Wear;
 use hairline_editor::ranges::{Range, range, second_range};
-use hairline_scene::schema::{Form, Key, SECTIONS};
-use hairline_scene::wear::Wear;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

@@ -22,7 +22,7 @@ fn made(py: Python<'_>, made: PyResult<Bound<'_, PyAny>>) -> PyErr {
 }
 
 /// Converts an error of a scene to `SceneError`.
-pub(crate) fn of_scene(py: Python<'_>, error: &hairline_scene::Error) -> PyErr {
+pub(crate) fn of_scene(py: Python<'_>, error: &hairline_document::Error) -> PyErr {
     let file = error.file().map(|file| file.display().to_string());
     let arguments = (
         error.to_string(),
@@ -40,14 +40,14 @@ pub(crate) fn of_scene(py: Python<'_>, error: &hairline_scene::Error) -> PyErr {
 
 /// Makes a `SceneError` without a file for an argument.
 pub(crate) fn of_argument(key: &str, found: impl Into<String>, right: impl Into<String>) -> PyErr {
-    let error = hairline_scene::Error::new(key, found, right);
+    let error = hairline_document::Error::new(key, found, right);
     Python::attach(|py| of_scene(py, &error))
 }
 
 /// Why work was not done: `SceneError` where a scene is wrong, else `WorkError`.
 pub(crate) fn of_failure(py: Python<'_>, failure: &Failure) -> PyErr {
     let (Failure::Input(error) | Failure::Work(error)) = failure;
-    match error.downcast_ref::<hairline_scene::Error>() {
+    match error.downcast_ref::<hairline_document::Error>() {
         Some(error) => of_scene(py, error),
         None => of_work(py, &format!("{error:#}")),
     }

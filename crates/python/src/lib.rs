@@ -17,10 +17,10 @@ mod strips;
 mod values;
 mod watched;
 
+use hairline_document::schema::scratches::WIDTH_UM;
 use hairline_optics::scratch::DEPTH_MAX_NM;
 use hairline_optics::section::NARROW;
 use hairline_optics::spectrum::{WAVELENGTH_MAX_NM, WAVELENGTH_MIN_NM};
-use hairline_scene::schema::scratches::WIDTH_UM;
 use pyo3::prelude::*;
 
 /// Has all that follows run on so many threads. It must come before any work.
@@ -45,7 +45,7 @@ fn threads() -> usize {
 #[pymodule]
 fn _hairline(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add("DEFAULT_SAMPLES", hairline_scene::DEFAULT_SAMPLES)?;
+    module.add("DEFAULT_SAMPLES", hairline_document::DEFAULT_SAMPLES)?;
     module.add("WIDEST_UM", WIDTH_UM.bounds.ends().end())?;
     module.add("DEEPEST_NM", DEPTH_MAX_NM)?;
     module.add("NARROW", NARROW)?;

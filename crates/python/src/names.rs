@@ -1,7 +1,7 @@
 //! Values that have names, stops, and notes.
 
+use hairline_document::schema::camera::EXPOSURE_EV;
 use hairline_image::{Notes, ToneMap};
-use hairline_scene::schema::camera::EXPOSURE_EV;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

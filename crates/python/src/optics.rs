@@ -1,12 +1,12 @@
 //! The physics over arrays: one number of each argument at a time. Shapes are matched in Python.
 
+use hairline_document::description;
 use hairline_optics::coherent::{self, GroovePiece};
 use hairline_optics::footprint::ScratchShare;
 use hairline_optics::mask::{self, Mask, ScratchSums};
 use hairline_optics::metal::Metal;
 use hairline_optics::table;
 use hairline_optics::{diffraction, fresnel, scratch, spectrum};
-use hairline_scene::description;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use rayon::prelude::*;

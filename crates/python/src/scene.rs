@@ -6,17 +6,16 @@ use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 use hairline_cpu::unrounded_light;
+use hairline_document::estimate::{Estimate, scratches_bytes, textures_bytes};
+use hairline_document::gltf_scene::Export;
+use hairline_document::inputs::is_same_file;
+use hairline_document::{Description, Error, Loader, SceneBuilder, Stage, reading};
 use hairline_image::Display;
 use hairline_image::output::write_atomically;
 use hairline_memory::{available_bytes, budget_bytes};
 use hairline_optics::mask::Mask;
 use hairline_reference::{Integrator, Model, SceneIndex, Settings};
-use hairline_scene::estimate::{Estimate, scratches_bytes, textures_bytes};
-use hairline_scene::gltf_scene::Export;
-use hairline_scene::inputs::is_same_file;
-use hairline_scene::{
-    Description, Error, Loader, Scene, SceneBuilder, ScratchTables, Stage, reading,
-};
+use hairline_scene::{Scene, ScratchTables};
 use hairline_work::Listener;
 use hairline_work::backend::{self, Backend, BouncesWithoutShadows, Painter, Rendered, Task};
 use hairline_work::failure::Failure;
@@ -372,7 +371,7 @@ impl Built {
 
     /// The scene in bands of the spectrum, three at a time.
     fn in_bands(&self, py: Python<'_>, bands_nm: Vec<[f64; 2]>) -> PyResult<Vec<Self>> {
-        let scenes = self.scene.in_bands(&bands_nm);
+        let scenes = hairline_document::in_bands(&self.scene, &bands_nm);
         let scenes = scenes.map_err(|error| errors::of_scene(py, &error))?;
         let built = |scene| Self {
             scene,

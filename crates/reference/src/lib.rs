@@ -10,7 +10,6 @@
 //!
 //! ```
 //! use hairline_reference::{BATCH_SAMPLES, Integrator, Settings};
-//! use hairline_scene::Scene;
 //! use std::ops::ControlFlow;
 //!
 //! let text = r#"
@@ -21,12 +20,12 @@
 //! scratches = [{ object = "plate", pattern = "random", count = 100 }]
 //! light = [{ kind = "sphere", center_m = [0.0, 0.2, 0.3], radius_m = 0.05, radiance = 9.0 }]
 //! "#;
-//! let scene = Scene::from_toml(text, "plate.toml", ".")?;
+//! let scene = hairline_document::from_toml(text, "plate.toml", ".")?;
 //! let integrator = Integrator::new(&scene, Settings::default());
 //! let mut image = integrator.start();
 //! let end = integrator.run(&mut image, BATCH_SAMPLES, &|_| ControlFlow::Continue(()));
 //! assert!(end.is_continue() && image.base.iter().any(|rgb| rgb[1] > 0.0));
-//! # Ok::<(), hairline_scene::Error>(())
+//! # Ok::<(), hairline_document::Error>(())
 //! ```
 
 #![warn(unreachable_pub)]

@@ -2,39 +2,24 @@
 //!
 //! Shading follows the split sum: a reflection off a rough surface is the map blurred by the surface's lobe, put together from round ones
 //! ([`Environment::prefiltered`], `hairline_optics::environment_lobe`), times the lobe's directional albedo; diffuse light is the map blurred by the cosine
-//! ([`Environment::irradiance`]). Suns ([`Environment::load`]) are lights of their own; for scratches windows are, too.
+//! ([`Environment::irradiance`]). [Suns](Environment::suns) are lights of their own; for scratches [windows](Environment::windows) are, too.
 //!
 //! The map's top is at +Y, as in glTF, and its centre column at -Z, where a glTF camera looks by default; +X is to the
 //! right of it. [`Environment::with_up`] turns all of that to another axis.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec3};
 use hairline_image::Picture;
 
 use crate::light::{Light, SUN_DISTANCE_M};
-use half_texels::{HALF_MAX, fit_half, round_to_half};
-use suns::Sun;
-use windows::Window;
 
-mod built_in;
-mod file;
-mod half_texels;
-mod irradiance;
+mod levels;
 pub mod lookup;
-mod mip;
-mod prefilter;
-mod radiance_header;
-mod resample;
-mod suns;
-mod windows;
+mod outline;
 
-pub use built_in::BuiltInMap;
-pub(crate) use built_in::SIZE_PX as BUILT_IN_SIZE_PX;
-pub use file::Error;
-pub(crate) use file::{read, read_picture, size_px};
-pub use prefilter::{LEVEL_HALVINGS, LEVEL_ROUGHNESS, level_place};
+pub use levels::{LEVEL_HALVINGS, LEVEL_ROUGHNESS, level_place};
+pub use outline::{Outline, Window};
 
 use lookup::{
     environment_irradiance, environment_lod, environment_prefiltered_all,
@@ -48,7 +33,7 @@ use lookup::{
 /// multiplies what is looked up ([`Environment::texel_radiance`]). Radiances above 6.9e10 (forty times those of the sun's disk in cd/m2) are cut there.
 #[derive(Clone, Debug)]
 pub struct Environment {
-    maps: Arc<Maps>,
+    maps: Arc<EnvironmentMaps>,
     intensity: f64,
     map_from_world: DMat3,
     visible: bool,
@@ -58,72 +43,44 @@ pub struct Environment {
     windows: Vec<Light>,
 }
 
+/// A disc of even radiance, infinitely far away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sun {
+    /// Unit vector to its middle.
+    pub direction: DVec3,
+    /// Angular radius of the disc.
+    pub radius_rad: f64,
+    /// Radiance of the disc, the same at all its points.
+    pub radiance: [f64; 3],
+}
+
+/// An equirectangular map and what is made from it, in the map's frame and in texel units.
 #[derive(Debug)]
-struct Maps {
-    /// Suns taken out of the levels and of the irradiance, in the map's frame and in texel units.
-    suns: Vec<Sun>,
-    background: Picture,
-    levels: Vec<Picture>,
-    /// Windows, which are lights for scratches as suns are, and the levels without them; none where there is no window.
-    windows: Vec<Window>,
-    levels_beside_windows: Option<Vec<Picture>>,
-    irradiance: Picture,
-    texel_scale: f64,
-    repaired_texels: usize,
+pub struct EnvironmentMaps {
+    /// Suns, which the levels and the irradiance lack.
+    pub suns: Vec<Sun>,
+    /// The map in full resolution.
+    pub background: Picture,
+    /// The prefiltered maps, one for each of [`LEVEL_ROUGHNESS`].
+    pub levels: Vec<Picture>,
+    /// Windows, which are lights for scratches as suns are.
+    pub windows: Vec<Window>,
+    /// The levels without the windows; none where there is no window.
+    pub levels_beside_windows: Option<Vec<Picture>>,
+    /// The map blurred by the cosine.
+    pub irradiance: Picture,
+    /// Radiance of a texel of value 1.
+    pub texel_scale: f64,
+    /// Number of texels whose radiance was none and was replaced.
+    pub repaired_texels: usize,
     /// Notes on the file for the scene's author.
-    notes: Vec<String>,
+    pub notes: Vec<String>,
 }
 
 impl Environment {
-    /// Reads a Radiance (.hdr) or OpenEXR (.exr) file that holds an equirectangular map, twice as wide as high.
-    ///
-    /// `rotation_rad` turns the map about the up axis, counter-clockwise seen from above; `intensity` multiplies its
-    /// radiance; `visible` says whether the camera sees it.
-    ///
-    /// What is small and bright in it, the disc of the sun above all, becomes a light: [`Environment::suns`]. The camera sees it
-    /// where it was. What is larger and has a sharp outline becomes a light for scratches alone: [`Environment::windows`].
-    ///
-    /// Negative and NaN components count as 0, infinite ones as 65504, the largest half float: what files of half floats had no number for;
-    /// [`Environment::repaired_texels`] counts them. Maps wider than 8192 pixels are halved until they are not.
-    ///
-    /// # Errors
-    /// [`Error`] names the file and what is wrong with it.
-    pub fn load(
-        path: &Path,
-        rotation_rad: f64,
-        intensity: f64,
-        visible: bool,
-    ) -> Result<Self, Error> {
-        let mut maps = Maps::new(file::read(path)?, true);
-        maps.notes = file::notes(path);
-        Ok(Self::of_maps(maps, rotation_rad, intensity, visible))
-    }
-
-    /// Makes an environment of an equirectangular map in memory, rows from the top; see [`Environment::load`] for the rest. The map stays whole: no sun or
-    /// window becomes a light of its own.
-    ///
-    /// # Panics
-    /// If the map is empty.
-    pub fn from_map(map: Picture, rotation_rad: f64, intensity: f64, visible: bool) -> Self {
-        let maps = Maps::new(map, false);
-        Self::of_maps(maps, rotation_rad, intensity, visible)
-    }
-
-    /// Makes the environment as [`Environment::from_map`] does, with suns and windows parted from the map as [`Environment::load`] does.
-    ///
-    /// # Panics
-    /// If the map is empty.
-    pub fn with_lamps_parted(
-        map: Picture,
-        rotation_rad: f64,
-        intensity: f64,
-        visible: bool,
-    ) -> Self {
-        let maps = Maps::new(map, true);
-        Self::of_maps(maps, rotation_rad, intensity, visible)
-    }
-
-    fn of_maps(maps: Maps, rotation_rad: f64, intensity: f64, visible: bool) -> Self {
+    /// Puts the map's top at +Y and turns it by `rotation_rad` about that axis, counter-clockwise seen from above. `intensity` multiplies its radiance;
+    /// `visible` says whether the camera sees it.
+    pub fn new(maps: EnvironmentMaps, rotation_rad: f64, intensity: f64, visible: bool) -> Self {
         Self {
             maps: Arc::new(maps),
             intensity,
@@ -153,15 +110,6 @@ impl Environment {
         self.suns = self.maps.suns.iter().map(sun).collect();
         self.windows = self.maps.windows.iter().map(window).collect();
         self
-    }
-
-    /// An environment of the same radiance from everywhere, visible. Exact if half floats hold the radiance, else within 0.05 %.
-    pub fn uniform(radiance: [f32; 3]) -> Self {
-        let map = Picture {
-            size_px: [2, 1],
-            rgb: vec![radiance; 2],
-        };
-        Self::from_map(map, 0.0, 1.0, true)
     }
 
     /// Puts the map's top at the direction `up` (need not be a unit vector) instead of +Y, by the shortest turn from
@@ -308,65 +256,9 @@ impl Environment {
     }
 }
 
-impl Maps {
-    /// Makes the maps; `parts` tells whether suns and windows are taken out.
-    fn new(mut map: Picture, parts: bool) -> Self {
-        assert!(!map.rgb.is_empty(), "an empty environment map");
-        let mut repaired_texels = repair(&mut map);
-        while map.size_px[0] > MAP_WIDTH_MAX {
-            map = resample::resample(&map, map.size_px.map(|n| n / 2));
-        }
-        let (texel_scale, cut_texels) = fit_half(&mut map);
-        repaired_texels += cut_texels;
-        let parted = if parts {
-            suns::part(&mut map)
-        } else {
-            suns::Parted::default()
-        };
-        let windows = parts.then(|| windows::part(&map)).flatten();
-        let (windows, beside) = windows.unzip();
-        let maps: Vec<&Picture> = std::iter::once(&map).chain(&beside).collect();
-        let mut levels = prefilter::prefilter(&maps).into_iter();
-        let (levels, levels_beside_windows) =
-            (levels.next().expect("as many as maps"), levels.next());
-        let irradiance = irradiance::blur(&levels[0]);
-        parted.put_back(&mut map);
-        round_to_half(&mut map);
-        Self {
-            windows: windows.unwrap_or_default(),
-            levels_beside_windows,
-            suns: parted.suns,
-            background: map,
-            levels,
-            irradiance,
-            texel_scale,
-            repaired_texels,
-            notes: Vec::new(),
-        }
-    }
-}
-
-/// Largest width: every WebGPU device holds it in one texture.
-const MAP_WIDTH_MAX: u32 = 8192;
-
 fn map_from_world(up: DVec3, rotation_rad: f64) -> DMat3 {
     let up = up.normalize();
     let world_from_map =
         DQuat::from_axis_angle(up, rotation_rad) * DQuat::from_rotation_arc(DVec3::Y, up);
     DMat3::from_quat(world_from_map).transpose()
-}
-
-/// Replaces components that are no radiance; returns how many texels had one.
-fn repair(map: &mut Picture) -> usize {
-    let mut repaired = 0;
-    for texel in &mut map.rgb {
-        let whole = texel.map(|c| match c {
-            _ if c.is_nan() => 0.0,
-            f32::INFINITY => HALF_MAX,
-            _ => c.max(0.0),
-        });
-        repaired += usize::from(whole != *texel);
-        *texel = whole;
-    }
-    repaired
 }

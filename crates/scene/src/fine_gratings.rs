@@ -24,7 +24,7 @@ const MOST_FILES: usize = 200;
 const MOST_KEPT: usize = 32;
 
 /// The grooves of a grating in a material, if they are fine and the material has an index. Of a metal that is given by a colour it is aluminium's.
-pub(crate) fn fine_grooves(grating: &Grating, material: &Material) -> Option<FineGrooves> {
+pub fn fine_grooves(grating: &Grating, material: &Material) -> Option<FineGrooves> {
     let medium = match material.base {
         _ if material.coat.is_some() => None,
         Base::Mirror => None,

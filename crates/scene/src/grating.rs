@@ -216,7 +216,7 @@ impl GrooveField {
         }
     }
 
-    /// `direction` is that of the course there. As for scratches (`scratches/guide.rs`).
+    /// `direction` is that of the course there. As for scratches (`document/src/scratches/guide.rs`).
     fn tangent_by(&self, direction: DVec3, point_m: DVec3, normal: DVec3) -> Option<DVec3> {
         let in_plane = |v: DVec3| v - normal * normal.dot(v);
         match *self {

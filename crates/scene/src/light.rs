@@ -196,3 +196,14 @@ impl Light {
         }
     }
 }
+
+/// The vector area: half the sum of cross products; its direction is the side that sees the vertices counter-clockwise.
+pub fn vector_area_m2(vertices_m: &[DVec3]) -> DVec3 {
+    let Some(&origin) = vertices_m.first() else {
+        return DVec3::ZERO;
+    };
+    vertices_m
+        .windows(2)
+        .map(|edge| (edge[0] - origin).cross(edge[1] - origin) / 2.0)
+        .sum()
+}

@@ -17,7 +17,7 @@ pub enum PictureLie {
 impl PictureLie {
     /// Mapping for an object with this transform: repeated at a width in the object's own frame, or by texture
     /// coordinates without a width.
-    pub(crate) fn new(tile_m: Option<f64>, world_from_object: &DMat4) -> Self {
+    pub fn new(tile_m: Option<f64>, world_from_object: &DMat4) -> Self {
         tile_m.map_or(Self::ByUv, |tile_m| Self::FromThreeSides {
             tiles_from_world: DMat4::from_scale(DVec3::splat(1.0 / tile_m))
                 * world_from_object.inverse(),

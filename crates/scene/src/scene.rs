@@ -6,6 +6,7 @@
 
 use glam::{DVec2, DVec3, Vec3};
 use hairline_image::Batches;
+use hairline_optics::scratch::DEPTH_MAX_NM;
 use hairline_optics::spectrum::Observer;
 use std::ops::Range;
 use std::sync::Arc;
@@ -18,10 +19,6 @@ pub use crate::light::{Cone, Doors, Light, LightShape};
 pub use hairline_model::material::*;
 pub use hairline_model::mesh::{Mesh, NodeTriangles};
 pub use hairline_model::texture::{Sampling, Texture, Wrap};
-
-/// Number of samples of a pixel with an edge or a crease, in a finished picture: of the window, of an export and of `hairline render`, by every
-/// renderer.
-pub const DEFAULT_SAMPLES: u32 = 8;
 
 /// The ways that light may take besides the direct one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,12 +48,6 @@ impl Transport {
 
 /// Least number of samples with a lens: fewer points of it would be seen one by one.
 const LENS_SAMPLES: u32 = 64;
-
-/// Default of `hairline render`.
-pub const DEFAULT_TRANSPORT: Transport = Transport {
-    shadows: true,
-    bounces: 1,
-};
 
 /// Everything that a picture depends on.
 ///
@@ -199,6 +190,13 @@ pub struct Profile {
     pub depth_nm: f32,
     /// Shape of the cross section.
     pub section: SectionId,
+}
+
+impl Profile {
+    /// Least and greatest width: the spectral table's, and below the coherence windows of scenes.
+    pub const WIDTHS_UM: (f64, f64) = (0.05, 100.0);
+    /// Least and greatest depth: the spectral table's.
+    pub const DEPTHS_NM: (f64, f64) = (0.0, DEPTH_MAX_NM);
 }
 
 /// One scratch: one groove, one wave. Where two of its segments meet, the end is joined; its own two ends are free,

@@ -7,10 +7,10 @@
 use std::time::{Duration, Instant};
 
 use egui_kittest::Harness;
+use hairline_document::description::{Amount, Layer};
 use hairline_editor::DragKey;
 use hairline_editor::presets::LayerPreset;
 use hairline_gpu::{AdapterRequest, headless};
-use hairline_scene::description::{Amount, Layer};
 use hairline_viewer::engine::{Backend, Latency};
 use hairline_viewer::{Options, Viewer};
 

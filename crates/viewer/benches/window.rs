@@ -10,9 +10,9 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use egui::{ViewportCommand, vec2};
+use hairline_document::description::{Amount, Layer};
 use hairline_editor::presets::LayerPreset;
 use hairline_editor::{DragKey, navigate};
-use hairline_scene::description::{Amount, Layer};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::window::{Renderer, open_as};
 use hairline_viewer::{Options, Viewer};
@@ -159,7 +159,7 @@ impl Probe {
             laid.length_m.mean = LENGTH_M;
             laid.seed = 3;
         }
-        let add = |d: &mut hairline_scene::Description| d.scratches.push(layer);
+        let add = |d: &mut hairline_document::Description| d.scratches.push(layer);
         self.viewer.document_mut().edit("Add a layer", add);
     }
 

@@ -11,11 +11,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use eframe::egui_wgpu::RenderState;
+use hairline_document::Description;
+use hairline_document::description::Camera;
 use hairline_editor::Document;
 use hairline_editor::bookmarks::Bookmarks;
 use hairline_editor::settings::Settings;
-use hairline_scene::description::Camera;
-use hairline_scene::{Description, Transport};
+use hairline_scene::Transport;
 use web_time::Instant;
 
 use crate::command::Command;
@@ -101,7 +102,7 @@ impl Viewer {
         ctx: &egui::Context,
         render_state: Option<RenderState>,
         options: Options,
-    ) -> Result<Self, hairline_scene::Error> {
+    ) -> Result<Self, hairline_document::Error> {
         let mut notices = Notices::default();
         let document = match options.scene.as_deref().map(open) {
             Some(Ok(document)) => document,
@@ -396,7 +397,7 @@ impl eframe::App for Viewer {
 }
 
 /// Opens a scene file, or a model in a scene of its own.
-fn open(path: &Path) -> Result<Document, hairline_scene::Error> {
+fn open(path: &Path) -> Result<Document, hairline_document::Error> {
     match Description::is_model(path) {
         true => {
             let folder = path.parent().unwrap_or(Path::new(""));
@@ -406,7 +407,7 @@ fn open(path: &Path) -> Result<Document, hairline_scene::Error> {
     }
 }
 
-fn built_in(text: &str) -> Result<Document, hairline_scene::Error> {
+fn built_in(text: &str) -> Result<Document, hairline_document::Error> {
     let description = Document::read(text, Path::new("built-in scene"))?;
     Ok(Document::untitled(description, PathBuf::new()))
 }

@@ -40,7 +40,7 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use hairline_scene::description::Description;
+use hairline_document::description::Description;
 
 pub use backend::Backend;
 pub use build::{BuildStages, Built};

@@ -12,8 +12,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{Align2, Id, ProgressBar, Rect};
+use hairline_document::{DEFAULT_SAMPLES, Description};
 use hairline_image::{Animation, Output};
-use hairline_scene::{DEFAULT_SAMPLES, Description};
 use web_time::Instant;
 
 use crate::engine::SHADOW_SAMPLES;

@@ -9,12 +9,12 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
+use hairline_document::description::FileUse;
+use hairline_document::probe::{self, MeshSummary};
 use hairline_editor::Document;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::autosave::{self, Autosave, Pending};
 use hairline_editor::recent::Recent;
-use hairline_scene::description::FileUse;
-use hairline_scene::probe::{self, MeshSummary};
 use web_time::Instant;
 
 use crate::platform::HAS_THREADS;
@@ -106,7 +106,7 @@ pub(crate) enum Choice {
     Probed(
         Purpose,
         PathBuf,
-        Result<Option<MeshSummary>, hairline_scene::Error>,
+        Result<Option<MeshSummary>, hairline_document::Error>,
     ),
 }
 

@@ -4,7 +4,7 @@
 //! free view has the camera's up and exposure.
 
 use glam::DVec3;
-use hairline_scene::description::Camera;
+use hairline_document::description::Camera;
 
 /// The view, if it is not that of the scene's camera.
 #[derive(Default)]

@@ -9,7 +9,7 @@
 //!     backend: Backend::Cpu,
 //!     state_dir: hairline_viewer::state_dir(),
 //!     native_dialogs: true,
-//!     transport: hairline_scene::DEFAULT_TRANSPORT,
+//!     transport: hairline_document::DEFAULT_TRANSPORT,
 //! };
 //! hairline_viewer::open(options, Renderer::default()).unwrap();
 //! ```

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use egui::{Align2, Area, Context, Frame, Id, Order, Rect, RichText, vec2};
-use hairline_scene::Description;
-use hairline_scene::description::{FileUse, GroovePattern};
+use hairline_document::Description;
+use hairline_document::description::{FileUse, GroovePattern};
 
 use crate::workspace::Workspace;
 

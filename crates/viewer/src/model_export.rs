@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 
+use hairline_document::gltf_scene::Export;
+use hairline_document::{Description, Loader};
 use hairline_image::output::write_atomically;
-use hairline_scene::gltf_scene::Export;
-use hairline_scene::{Description, Loader};
 
 use crate::jobs::Job;
 use crate::notices::Notices;

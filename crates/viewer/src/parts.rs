@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use hairline_document::description::Object;
 use hairline_scene::Scene;
-use hairline_scene::description::Object;
 
 use crate::workspace::Workspace;
 

@@ -5,8 +5,8 @@
 
 use std::sync::Arc;
 
+use hairline_document::Description;
 use hairline_editor::shown::Shown;
-use hairline_scene::Description;
 
 mod command;
 mod develop;

@@ -1,7 +1,7 @@
 //! Part of a description that is seen: the rest may change without a new scene.
 
-use hairline_scene::Description;
-use hairline_scene::description::{Grating, Light, Material, Object, Scratches};
+use hairline_document::Description;
+use hairline_document::description::{Grating, Light, Material, Object, Scratches};
 
 /// Whether two descriptions make the same scene: they differ only in the view, the exposure and the display, of which the
 /// painter is told; in names; and in materials that no object has. The camera's up is left to the builder: it turns the

@@ -11,8 +11,8 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
 use egui::ColorImage;
+use hairline_document::Description;
 use hairline_editor::Document;
-use hairline_scene::Description;
 
 use crate::engine::{Frame, Picture, View};
 use crate::notices::Notices;

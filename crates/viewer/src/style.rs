@@ -93,7 +93,7 @@ fn fonts() -> egui::FontDefinitions {
     use egui::{FontData, FontFamily, FontTweak};
     let mut fonts = egui::FontDefinitions::empty();
     let files: [(&str, &'static [u8]); 2] = [
-        ("text", hairline_scene::FONT),
+        ("text", hairline_document::FONT),
         ("signs", include_bytes!("../assets/signs.ttf")),
     ];
     for (name, bytes) in files {

@@ -1,7 +1,7 @@
 //! Tools of the left mouse button in the picture.
 
+use hairline_document::description::Camera;
 use hairline_editor::brush::BrushSettings;
-use hairline_scene::description::Camera;
 
 hairline_image::listed! {
     /// A tool.

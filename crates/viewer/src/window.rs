@@ -29,7 +29,7 @@ pub enum Error {
     Lost(String),
     /// The built-in scene is wrong.
     #[error(transparent)]
-    Scene(#[from] hairline_scene::Error),
+    Scene(#[from] hairline_document::Error),
 }
 
 /// Size of the window: with a title and a panel beside it, it fits a screen of 1440 x 900.

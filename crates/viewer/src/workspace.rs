@@ -6,12 +6,13 @@ mod view;
 
 use std::path::{Path, PathBuf};
 
+use hairline_document::description::{FileUse, Map};
+use hairline_document::{Description, Error};
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::bookmarks::Bookmarks;
 use hairline_editor::settings::Settings;
 use hairline_editor::{ActionError, Document, DragKey, Selection, actions};
-use hairline_scene::description::{FileUse, Map};
-use hairline_scene::{Description, Error, Transport};
+use hairline_scene::Transport;
 
 use crate::command::Command;
 use crate::engine::{Backend, Engine};

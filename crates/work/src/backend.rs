@@ -9,11 +9,12 @@ use std::sync::Arc;
 
 use anyhow::anyhow;
 use hairline_cpu::closed_form::{self, Prepared};
+use hairline_document::DEFAULT_TRANSPORT;
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
 use hairline_image::{Batch, Image, Notes, filter_found};
 use hairline_index::{Pieces, ScratchIndex, TriangleIndex, Watch};
 use hairline_optics::mask::Mask;
-use hairline_scene::{DEFAULT_TRANSPORT, Scene, ScratchTables, Transport};
+use hairline_scene::{Scene, ScratchTables, Transport};
 
 use crate::failure::Failure;
 use crate::listener::Listener;

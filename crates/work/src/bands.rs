@@ -25,7 +25,7 @@ pub fn render(
             "bands of the spectrum are drawn by Hairline's own method on the CPU; leave out --backend gpu and --method"
         )));
     }
-    let scenes = scene.in_bands(bands_nm)?;
+    let scenes = hairline_document::in_bands(scene, bands_nm)?;
     let task = Task {
         backend: Backend::Cpu,
         ..task

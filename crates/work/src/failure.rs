@@ -29,8 +29,8 @@ impl fmt::Display for Failure {
     }
 }
 
-impl From<hairline_scene::Error> for Failure {
-    fn from(error: hairline_scene::Error) -> Self {
+impl From<hairline_document::Error> for Failure {
+    fn from(error: hairline_document::Error) -> Self {
         Self::Input(error.into())
     }
 }

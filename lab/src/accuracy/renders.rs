@@ -17,10 +17,12 @@ use hairline_scene::Scene;
 use super::compared::uncertainty;
 
 /// Paths whose contents a reference depends on besides the scene and the settings.
-const SOURCES: [&str; 7] = [
+const SOURCES: [&str; 9] = [
     "crates/optics/data",
     "crates/optics/src",
     "crates/scene/src",
+    "crates/sky/src",
+    "crates/document/src",
     "crates/index/src",
     "crates/image/src/film.rs",
     "crates/reference/src",

@@ -139,7 +139,8 @@ pub fn measure(renders: &Renders, root: &Path) -> Result<Vec<SceneFigures>> {
 }
 
 fn measure_view(renders: &Renders, root: &Path, view: &View) -> Result<SceneFigures> {
-    let scene = Scene::load(root.join(view.file)).map_err(|error| anyhow!("{error}"))?;
+    let scene =
+        hairline_document::load(root.join(view.file)).map_err(|error| anyhow!("{error}"))?;
     let large = crop(&scene, view.middle, CROP_PX);
     let small = crop(&scene, view.middle, renders.pick(FULL_PX, FULL_QUICK_PX));
     let display = Display {

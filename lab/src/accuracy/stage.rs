@@ -6,7 +6,7 @@ use std::sync::Arc;
 use anyhow::{Result, anyhow};
 use glam::{DVec2, DVec3, Vec3};
 use hairline_optics::section::Section;
-use hairline_scene::{Environment, Light, Profile, Scene, Scratch, SectionId, Segment};
+use hairline_scene::{Light, Profile, Scene, Scratch, SectionId, Segment};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -97,10 +97,11 @@ impl Stage {
             self.coherence_um,
             size = self.size_px,
         );
-        let mut scene = Scene::from_toml(&text, "the stage", ".").map_err(|e| anyhow!("{e}"))?;
+        let mut scene =
+            hairline_document::from_toml(&text, "the stage", ".").map_err(|e| anyhow!("{e}"))?;
         match self.light() {
             Some(light) => scene.lights.push(light),
-            None => scene.environment = Some(Environment::uniform([1.0; 3])),
+            None => scene.environment = Some(hairline_sky::uniform([1.0; 3])),
         }
         self.scratch(&mut scene);
         Ok(scene)

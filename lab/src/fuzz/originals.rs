@@ -84,7 +84,10 @@ const CSV: &str = "x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm\n-0.04,0.01,0
 
 macro_rules! image {
     ($name:literal) => {
-        include_bytes!(concat!("../../../crates/scene/tests/scene/images/", $name))
+        include_bytes!(concat!(
+            "../../../crates/document/tests/document/images/",
+            $name
+        ))
     };
 }
 

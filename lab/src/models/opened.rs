@@ -8,9 +8,9 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_document::description::Description;
+use hairline_document::{Error, Loader, SceneBuilder};
 use hairline_image::{Display, Output};
-use hairline_scene::description::Description;
-use hairline_scene::{Error, Loader, SceneBuilder};
 use serde_json::Value;
 
 const SIZE_PX: [u32; 2] = [96, 54];

@@ -6,9 +6,10 @@ use std::path::Path;
 use bevy::log::warn;
 use bevy::mesh::{Indices, Mesh, PrimitiveTopology, VertexAttributeValues};
 use bevy::prelude::BevyError;
+use hairline_document::{Arrays, MeshArrays, description, lay_on_mesh, object_of_gratings};
 use hairline_engine::{GratingTexels, LaidGrating, Pieces, ScratchTexels};
 use hairline_optics::metal::Metal;
-use hairline_scene::{Arrays, DEFAULT_COHERENCE_UM, MeshArrays, Scene, description};
+use hairline_scene::{DEFAULT_COHERENCE_UM, Scene};
 
 /// Name of the mesh where a scene has a file.
 const NAME: &str = "mesh";
@@ -32,7 +33,7 @@ impl Scratches {
         let layers = description::Scratches::from_toml(&text, Path::new("layers of scratches"))?;
         let mut files = Arrays::default();
         files.read_pictures(&layers, Path::new("."))?;
-        let pieces = Pieces::lay(&arrays_of(mesh)?, &layers, &files, 1.0)?;
+        let pieces = Pieces::of_object(&lay_on_mesh(&arrays_of(mesh)?, &layers, &files, 1.0)?, 1.0);
         Ok(Self::of_pieces(&pieces, DEFAULT_COHERENCE_UM, 1.0)?)
     }
 
@@ -40,7 +41,7 @@ impl Scratches {
         pieces: &Pieces,
         coherence_um: f64,
         metres_per_unit: f64,
-    ) -> Result<Self, hairline_scene::Error> {
+    ) -> Result<Self, hairline_engine::Error> {
         Ok(Self {
             texels: pieces.texels(coherence_um, metres_per_unit)?,
             gratings: Vec::new(),
@@ -59,7 +60,7 @@ impl Scratches {
     ) -> Result<Self, BevyError> {
         let text = tables("grating", gratings)?;
         let rows = description::Grating::from_toml(&text, Path::new("gratings"))?;
-        let laid = LaidGrating::lay(&rows, metal, DEFAULT_COHERENCE_UM);
+        let laid = LaidGrating::of_object(object_of_gratings(&rows), metal, DEFAULT_COHERENCE_UM);
         self.gratings.extend(drawn(laid));
         Ok(self)
     }

@@ -6,9 +6,9 @@ use bevy::log::warn;
 use bevy::math::{Mat3, Mat4, Vec3};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
+use hairline_document::description::Scratches;
+use hairline_document::{Arrays, Error, MeshArrays, ScratchArrays, lay_on_mesh};
 use hairline_engine::Pieces;
-use hairline_scene::description::Scratches;
-use hairline_scene::{Arrays, Error, MeshArrays, ScratchArrays};
 use serde_json::{Value, json};
 
 use crate::worn_object::{NAME, accessor};
@@ -104,7 +104,8 @@ impl UnlaidLayers {
     pub fn lay(&self, metres_per_unit: f32) -> Result<Pieces, Error> {
         let mut all = Pieces::default();
         for (mesh, layers) in &self.parts {
-            let own = Pieces::lay(mesh, layers, &self.lists, metres_per_unit.into())?;
+            let object = lay_on_mesh(mesh, layers, &self.lists, metres_per_unit.into())?;
+            let own = Pieces::of_object(&object, metres_per_unit.into());
             let first = all.scratch.last().map_or(0, |last| last + 1);
             all.starts.extend(own.starts);
             all.ends.extend(own.ends);

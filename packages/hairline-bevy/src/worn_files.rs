@@ -11,7 +11,7 @@ use bevy::light::RectLight;
 use bevy::mesh::morph::MeshMorphWeights;
 use bevy::mesh::skinning::SkinnedMesh;
 use bevy::prelude::*;
-use hairline_scene::gltf_scene::VERSION;
+use hairline_document::gltf_scene::VERSION;
 use serde_json::{Value, json};
 
 use crate::textures::of_metal;

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use bevy::log::warn;
 use gltf::accessor::{DataType, Dimensions, Item, Iter};
-use hairline_engine::{GratingField, GratingTexels, LaidGrating, Pieces, section};
+use hairline_document::description::{Grating, Scratches as Layer, metal_names};
+use hairline_document::{Error, object_of_gratings};
+use hairline_engine::{GratingField, GratingTexels, LaidGrating, Pieces};
 use hairline_optics::metal::Metal;
 use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_GRATING_ROWS, ROWS};
-use hairline_scene::description::{Grating, metal_names};
-use hairline_scene::{DEFAULT_COHERENCE_UM, Error, SectionId};
+use hairline_scene::{DEFAULT_COHERENCE_UM, SectionId};
 use serde_json::{Value, json};
 
 use crate::Scratches;
@@ -41,17 +42,20 @@ impl WornObject {
     ///
     /// # Errors
     /// What is wrong with its scratches.
-    pub(crate) fn scratches(&self, metres: f32) -> Result<Scratches, Error> {
+    pub(crate) fn scratches(&self, metres: f32) -> Result<Scratches, String> {
         let mut pieces = match &self.scratches {
             ScratchSource::Laid(pieces) => pieces.clone(),
-            ScratchSource::Unlaid(layers) => layers.lay(metres)?,
+            ScratchSource::Unlaid(layers) => {
+                layers.lay(metres).map_err(|error| error.to_string())?
+            }
         };
         for rows in [&mut pieces.starts, &mut pieces.ends] {
             for x in rows.as_flattened_mut() {
                 *x *= metres;
             }
         }
-        let mut scratches = Scratches::of_pieces(&pieces, self.coherence_um, 1.0)?;
+        let scratches = Scratches::of_pieces(&pieces, self.coherence_um, 1.0);
+        let mut scratches = scratches.map_err(|error| error.to_string())?;
         scratches.gratings = self.gratings.clone();
         for grating in &mut scratches.gratings {
             for x in &mut grating.numbers[4..7] {
@@ -91,7 +95,11 @@ impl WornObject {
                 None => {
                     let told = |error: Error| format!("grating[{i}]: {error}");
                     let row = Grating::from_json(json!([row])).map_err(told)?;
-                    gratings.extend(drawn(LaidGrating::lay(&row, metal, coherence_um)));
+                    gratings.extend(drawn(LaidGrating::of_object(
+                        object_of_gratings(&row),
+                        metal,
+                        coherence_um,
+                    )));
                 }
             }
         }
@@ -105,7 +113,7 @@ impl WornObject {
             Some(layers) => {
                 let mut pieces = Pieces::default();
                 for (i, row, laid) in layers {
-                    let section = section(row.get("profile").cloned());
+                    let section = Layer::section_from_json(row.get("profile").cloned());
                     let section = SectionId::new(&section.map_err(|error| error.to_string())?);
                     let way = format!("scratches[{i}].laid");
                     read_layer(gltf, laid, &way, (i as u32, section), &mut pieces)?;

@@ -19,9 +19,10 @@ use bevy::window::ExitCondition;
 use bevy::winit::WinitPlugin;
 use hairline_bevy::{ScratchedMaterial, ScratchedPlugin, ScratchedTextures, Scratches};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_document::gltf_scene::Export;
+use hairline_document::{Description, Loader};
 use hairline_image::{Image as Film, Layer};
-use hairline_scene::gltf_scene::Export;
-use hairline_scene::{Base, Description, LightShape, Loader, Scene};
+use hairline_scene::{Base, LightShape, Scene};
 
 /// The most that a picture may be off, as rms over that of the picture.
 const LIMIT: f64 = 0.005;
@@ -40,7 +41,8 @@ struct Seen(Vec<[f32; 3]>);
 fn bevy_draws_what_hairline_renders() {
     for name in ["plate", "dome"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
-        let mut scene = Scene::load(path.join(format!("{name}.toml"))).expect("a scene");
+        let mut scene =
+            hairline_document::load(path.join(format!("{name}.toml"))).expect("a scene");
         let worn = compare(name, "with scratches", &scene, false);
         compare(name, "turned, under spots", &scene, true);
         scene.objects[0].scratches = Default::default();
@@ -80,14 +82,14 @@ fn a_file_shows_what_hairline_renders() {
     for (name, wrong) in FILES {
         let text = std::fs::read_to_string(scenes().join(format!("{name}.toml"))).expect("a scene");
         let described = described(&text);
-        let mut scene = Scene::build(&described, scenes()).expect("a scene");
+        let mut scene = hairline_document::build(&described, scenes()).expect("a scene");
         let worn = compare_pictures(name, "a file", &scene, draw_file(&scene, &glb(&described)));
         let as_it_lies = draw_file(&scene, &exported(&described, true));
         compare_pictures(name, "a file as it lies", &scene, as_it_lies);
         // Of a file without any scratch Bevy draws the standard material.
         let mut bare = self::described(&with_one_scratch(&text));
         bare.gratings.clear();
-        scene = Scene::build(&bare, scenes()).expect("a scene");
+        scene = hairline_document::build(&bare, scenes()).expect("a scene");
         let bare = compare_pictures(name, "one scratch", &scene, draw_file(&scene, &glb(&bare)));
         compare_change(name, &worn, &bare);
         for [right, wrong] in wrong {

@@ -9,12 +9,13 @@ use super::shadowed::{
 };
 use glam::{DVec3, Vec3};
 use hairline_cpu::closed_form::Prepared;
+use hairline_document::DEFAULT_SAMPLES;
 use hairline_fixtures::SceneFile;
 use hairline_image::{Image, Layer};
 use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
-use hairline_scene::environment::BuiltInMap;
-use hairline_scene::{Base, DEFAULT_SAMPLES, Environment, Scene};
+use hairline_scene::{Base, Scene};
+use hairline_sky::BuiltInMap;
 use std::sync::Arc;
 
 /// A scratched plate and a wall on it, both lit from before the wall: all that the camera sees mirrored is the wall.
@@ -182,7 +183,7 @@ fn light_of_a_sky_by_way_of_a_wall() {
     let mut scene = before_a_wall(WHITE, WHITE);
     scene.lights.clear();
     let sky = BuiltInMap::Overcast.picture([256, 128]);
-    scene.environment = Some(over(Environment::from_map(sky, 0.0, 1.0, false)));
+    scene.environment = Some(over(hairline_sky::from_map(sky, 0.0, 1.0, false)));
     let sum = |image: &Image| luminance(image, Layer::Base).iter().sum::<f64>();
     let by_wall = |of: &dyn Fn(u32) -> Image| sum(&of(1)) - sum(&of(0));
     let expected = by_wall(&|bounces| sampled(&scene, settings(bounces), 16));

@@ -8,7 +8,7 @@ use std::path::Path;
 
 fn bumpy_ball() -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("peers/scenes/bumpy-ball-lamps.toml");
-    at_width(Scene::load(path).unwrap(), 96)
+    at_width(hairline_document::load(path).unwrap(), 96)
 }
 
 /// Paths see one normal each. One wider lobe for the whole pixel is 33 % off.

@@ -424,7 +424,7 @@ fn crops_of_more_scenes() {
 fn check_crops(crops: &[(&str, [f64; 2], f64)]) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     for &(name, place, limit) in crops {
-        let scene = Scene::load(root.join(format!("scenes/{name}.toml"))).unwrap();
+        let scene = hairline_document::load(root.join(format!("scenes/{name}.toml"))).unwrap();
         let scene = crop(scene, place, 12);
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
         let [scratches, base] =

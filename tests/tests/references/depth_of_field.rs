@@ -58,7 +58,8 @@ fn lamp(focus_m: f64) -> Scene {
         [[object]]\nname = \"wall\"\nmaterial = \"black\"\nshape = {{ plane = {{ size_m = [1, 1] }} }}\ntranslation_m = [0, 0, -0.9]
         [[light]]\nkind = \"disk\"\ncenter_m = [0, 0, -0.4]\ntarget_m = [0, 0, 0]\nradius_m = 0.001\nradiance = 1\nvisible = true\n"
     );
-    Scene::from_toml(&text, "lamp.toml", Path::new(".")).unwrap_or_else(|error| panic!("{error}"))
+    hairline_document::from_toml(&text, "lamp.toml", Path::new("."))
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]

@@ -50,7 +50,7 @@ pub fn over(environment: Environment) -> Environment {
 
 #[test]
 fn a_smooth_sky() {
-    let environment = over(Environment::from_map(sky([128, 64]), 0.0, 1.0, false));
+    let environment = over(hairline_sky::from_map(sky([128, 64]), 0.0, 1.0, false));
     for (base, angle_rad) in [(Base::Mirror, 0.4), (Base::Metal(Metal::Aluminium), 0.9)] {
         let view = View {
             angle_rad,
@@ -101,14 +101,14 @@ fn check_sun(base: Base, angle_rad: f64, size_px: [u32; 2], whole_too: bool) {
     scene.materials[0].roughness = 0.3;
     scratch(&mut scene, view, 20);
     let toward = scenes::off_the_mirror(angle_rad, 0.1, 0.02);
-    let map_from_world = over(Environment::uniform([1.0; 3])).map_from_world();
+    let map_from_world = over(hairline_sky::uniform([1.0; 3])).map_from_world();
     let mut map = sky(size_px);
     for (i, texel) in map.rgb.iter_mut().enumerate() {
         if direction(size_px, i as u32).angle_between(map_from_world * toward) < 0.03 {
             *texel = [2000.0, 1600.0, 1200.0];
         }
     }
-    let parted = Environment::with_lamps_parted(map.clone(), 0.0, 1.0, false);
+    let parted = hairline_sky::with_lamps_parted(map.clone(), 0.0, 1.0, false);
     assert_eq!(parted.suns().len(), 1);
     scene.environment = Some(over(parted));
     // By chance the whole map shines, parted or not.
@@ -122,7 +122,7 @@ fn check_sun(base: Base, angle_rad: f64, size_px: [u32; 2], whole_too: bool) {
     assert!(base.rms().0 < 0.04, "{base:?}");
     if whole_too {
         // Left in the map it is a stain, all the wider and brighter.
-        scene.environment = Some(over(Environment::from_map(map, 0.0, 1.0, false)));
+        scene.environment = Some(over(hairline_sky::from_map(map, 0.0, 1.0, false)));
         let name = format!("{name}, in the map");
         let stain = compared(&name, &closed(&scene), &reference, Layer::Scratches);
         assert!(stain.rms().0 > 0.5, "{stain:?}");
@@ -160,7 +160,7 @@ fn check_drawn_out(cases: &[(f64, f64, f64)], map_px: [u32; 2], size_px: [u32; 2
             .with(&format!("roughness = {roughness}"))
             .object("disk", "metal", "disk = { radius_m = 50.0 }")
             .scene();
-        let map_from_world = over(Environment::uniform([1.0; 3])).map_from_world();
+        let map_from_world = over(hairline_sky::uniform([1.0; 3])).map_from_world();
         let toward = map_from_world * DVec3::new(0.0, sin, cos);
         let mut map = sky(map_px);
         for (i, texel) in map.rgb.iter_mut().enumerate() {
@@ -168,7 +168,7 @@ fn check_drawn_out(cases: &[(f64, f64, f64)], map_px: [u32; 2], size_px: [u32; 2
                 *texel = [300.0, 240.0, 180.0];
             }
         }
-        scene.environment = Some(over(Environment::from_map(map, 0.0, 1.0, false)));
+        scene.environment = Some(over(hairline_sky::from_map(map, 0.0, 1.0, false)));
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
         let name = format!("lamp on roughness {roughness} from {angle_rad} rad");
         let base = compared(&name, &exact, &reference, Layer::Base);
@@ -200,7 +200,7 @@ fn check_window(size_px: [u32; 2], whole_too: bool) {
     let mut scene = plate(Base::Metal(Metal::Aluminium), view);
     scene.materials[0].roughness = 0.3;
     scratch(&mut scene, view, 20);
-    let map_from_world = over(Environment::uniform([1.0; 3])).map_from_world();
+    let map_from_world = over(hairline_sky::uniform([1.0; 3])).map_from_world();
     let middle = map_from_world * scenes::off_the_mirror(angle_rad, 0.12, 0.1);
     let right = DVec3::Y.cross(middle).normalize();
     let up = middle.cross(right);
@@ -218,7 +218,7 @@ fn check_window(size_px: [u32; 2], whole_too: bool) {
         let sky = Vec3::from(*texel).as_dvec3();
         *texel = sky.lerp(lit, covered).as_vec3().to_array();
     }
-    let parted = Environment::with_lamps_parted(map.clone(), 0.0, 1.0, false);
+    let parted = hairline_sky::with_lamps_parted(map.clone(), 0.0, 1.0, false);
     assert_eq!((parted.suns().len(), parted.windows().len()), (0, 1));
     scene.environment = Some(over(parted));
     // By chance the whole map shines, parted or not.
@@ -231,7 +231,7 @@ fn check_window(size_px: [u32; 2], whole_too: bool) {
     assert!(at_least < 0.01, "{scratches:?}");
     assert!((scratches.mean_ratio - 1.0).abs() < 0.005 + 3.0 * scratches.mean_ratio_error);
     if whole_too {
-        scene.environment = Some(over(Environment::from_map(map, 0.0, 1.0, false)));
+        scene.environment = Some(over(hairline_sky::from_map(map, 0.0, 1.0, false)));
         let blurred = closed(&scene);
         // The base knows nothing of it.
         assert!(exact.base == blurred.base);

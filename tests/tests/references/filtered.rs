@@ -3,10 +3,11 @@
 use super::shadowed::{bounced, luminance, scenes};
 use conformance::two_renderers::at_width;
 use glam::{DVec2, DVec3};
+use hairline_document::DEFAULT_SAMPLES;
 use hairline_fixtures::SceneFile;
 use hairline_image::{Image, Layer, Picture, filter_found};
+use hairline_scene::Scene;
 use hairline_scene::environment::lookup::environment_dir;
-use hairline_scene::{DEFAULT_SAMPLES, Environment, Scene};
 use std::ops::Range;
 use std::path::Path;
 
@@ -56,7 +57,7 @@ fn means_stay_in_all_scenes() {
 fn check_means(bounds: &[(&str, f64)], width_px: u32) {
     for &(name, bound) in bounds {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shadows");
-        let scene = Scene::load(folder.join(name).with_extension("toml")).unwrap();
+        let scene = hairline_document::load(folder.join(name).with_extension("toml")).unwrap();
         let [found, filtered] = found_and_filtered(&at_width(scene, width_px));
         for layer in [Layer::Base, Layer::Scratches] {
             let [before, after] = [&found, &filtered].map(|image| mean(&luminance(image, layer)));
@@ -136,7 +137,7 @@ fn half_shadow_of_a_lamp_that_few_rays_meet_has_no_speckle() {
         let is_lamp = direction.angle_between(DVec3::new(0.0, 0.95, 0.3)) < 0.15;
         *texel = [if is_lamp { 30.0 } else { 0.3 }; 3];
     }
-    scene.environment = Some(Environment::from_map(map, 0.0, 1.0, false));
+    scene.environment = Some(hairline_sky::from_map(map, 0.0, 1.0, false));
     let [found, filtered] = found_and_filtered(&scene);
     let [before, after] = [found, filtered].map(|image| grain(&image, 8..56, 8..40));
     println!("{before:.4}, filtered {after:.4}");

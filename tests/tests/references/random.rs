@@ -6,7 +6,6 @@ use conformance::random::{judge, scene_file};
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::Layers;
 use hairline_reference::Settings;
-use hairline_scene::Scene;
 
 #[test]
 fn random_scenes_are_right() {
@@ -14,8 +13,8 @@ fn random_scenes_are_right() {
     let seeds = [5002, 5007, 5009, 5011];
     let is_off = |seed: &u64| {
         let file = scene_file(*seed, [96, 54]);
-        let scene =
-            Scene::from_toml(&file, "random", ".").unwrap_or_else(|e| panic!("{e}\n{file}"));
+        let scene = hairline_document::from_toml(&file, "random", ".")
+            .unwrap_or_else(|e| panic!("{e}\n{file}"));
         let scene = middle_of(scene, 96, [30, 21]);
         let right = sampled(&scene, Settings::default(), 2);
         let found = closed_form::render(&scene, &RenderOptions::default(), &|_| {});

@@ -10,8 +10,8 @@ use hairline_optics::grating::Grating as Row;
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
-use hairline_scene::environment::BuiltInMap;
 use hairline_scene::{Base, Bearing, Coat, Environment, Grating, GrooveField, Scene};
+use hairline_sky::BuiltInMap;
 use std::sync::LazyLock;
 
 pub(super) const VIEW: View = View {
@@ -212,7 +212,7 @@ fn make_scenes() -> Vec<(&'static str, Scene)> {
     let rows = with_rows(wall.clone());
 
     // An even map takes no time to prepare.
-    let even = under(&wall, Environment::uniform([0.6, 0.7, 0.9]));
+    let even = under(&wall, hairline_sky::uniform([0.6, 0.7, 0.9]));
 
     vec![
         ("half a lamp", edge),
@@ -237,7 +237,7 @@ fn under(scene: &Scene, environment: Environment) -> Scene {
 
 /// One of [`scenes`] under an uneven sky.
 fn under_a_sky() -> (&'static str, Scene) {
-    let map = Environment::from_map(sky([128, 64]), 0.0, 1.0, false);
+    let map = hairline_sky::from_map(sky([128, 64]), 0.0, 1.0, false);
     let (_, wall) = &scenes()[6];
     ("a wall under the sky", under(wall, map))
 }
@@ -250,7 +250,7 @@ pub(super) fn all_scenes() -> impl Iterator<Item = (&'static str, Scene)> {
 /// One of [`scenes`] in a studio whose soft boxes light scratches as a file's lights do.
 pub(super) fn in_a_studio() -> (&'static str, Scene) {
     let map = BuiltInMap::Studio.picture([256, 128]);
-    let studio = Environment::with_lamps_parted(map, 0.0, 1.0, false);
+    let studio = hairline_sky::with_lamps_parted(map, 0.0, 1.0, false);
     let (_, wall) = &scenes()[6];
     ("a wall in a studio", under(wall, studio))
 }

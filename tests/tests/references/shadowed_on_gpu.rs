@@ -146,7 +146,7 @@ fn on_edges_rays_find_what_the_cpus_find() {
 #[ignore = "long: cargo long"]
 fn on_the_edges_of_a_lid_rays_find_what_the_cpus_find() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/lid.toml");
-    let scene = middle_of(Scene::load(&path).unwrap(), 1280, [72, 56]);
+    let scene = middle_of(hairline_document::load(&path).unwrap(), 1280, [72, 56]);
     check_edges(&scene, 8, 60);
 }
 

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use conformance::middle_of;
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
+use hairline_document::DEFAULT_SAMPLES;
 use hairline_fixtures::SceneFile;
 use hairline_gpu::headless;
 use hairline_image::Layer;
-use hairline_scene::{DEFAULT_SAMPLES, Scene};
 
 /// A monkey's head of steel, 13 cm wide, in a studio with a lamp and a panel.
 fn monkey() -> SceneFile {
@@ -50,7 +50,7 @@ fn assets() -> Option<PathBuf> {
 #[test]
 fn a_monkey_with_fifty_thousand_scratches_in_a_studio() {
     let Some(folder) = assets() else { return };
-    let scene = Scene::from_toml(&monkey().to_string(), "monkey.toml", &folder)
+    let scene = hairline_document::from_toml(&monkey().to_string(), "monkey.toml", &folder)
         .unwrap_or_else(|error| panic!("{error}"));
     // Seeds at a boundary may leave nothing.
     assert!(scene.objects[0].scratches.len() > 49_900);

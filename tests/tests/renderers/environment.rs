@@ -3,10 +3,10 @@
 use conformance::Sequence;
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use glam::{DVec2, DVec3};
+use hairline_document::DEFAULT_SAMPLES;
 use hairline_fixtures::SceneFile;
 use hairline_image::Picture;
 use hairline_scene::environment::lookup::environment_dir;
-use hairline_scene::{DEFAULT_SAMPLES, Environment};
 
 fn balls() -> SceneFile {
     SceneFile::seen_from([0.0, -0.05, 0.3])
@@ -34,7 +34,7 @@ fn starry_sky() -> Picture {
 #[test]
 fn balls_mirror_a_map_alike() {
     let mut scene = balls().size_px([256, 160]).scene();
-    scene.environment = Some(Environment::from_map(starry_sky(), 0.4, 1.0, true));
+    scene.environment = Some(hairline_sky::from_map(starry_sky(), 0.4, 1.0, true));
     let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {
         return;
     };
@@ -57,7 +57,7 @@ fn balls_under_a_sun() {
         let is_sun = direction.angle_between(sun) < 0.0047;
         *texel = [0.2, 0.4, 0.8].map(|c| if is_sun { 3e4 } else { c });
     }
-    let environment = Environment::with_lamps_parted(map, 0.0, 1.0, true);
+    let environment = hairline_sky::with_lamps_parted(map, 0.0, 1.0, true);
     assert_eq!(environment.suns().len(), 1);
     scene.environment = Some(environment);
     let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {

@@ -22,7 +22,7 @@ fn map(radiance: impl Fn(DVec3) -> DVec3) -> Environment {
         radiance(environment_dir(uv)).as_vec3().to_array()
     };
     let rgb = (0..size_px[0] * size_px[1]).map(texel).collect();
-    Environment::from_map(Picture { size_px, rgb }, 0.0, 1.0, true)
+    hairline_sky::from_map(Picture { size_px, rgb }, 0.0, 1.0, true)
 }
 
 /// A sky, brighter towards the top and bluer away from it.

@@ -235,7 +235,7 @@ fn occlusion_takes_its_share_of_the_environment() {
         size_px: [4, 2],
         rgb: vec![[0.7, 0.5, 0.3]; 8],
     };
-    open.environment = Some(hairline_scene::Environment::from_map(map, 0.0, 1.0, false));
+    open.environment = Some(hairline_sky::from_map(map, 0.0, 1.0, false));
     let mut closed = open.clone();
     closed.textures = Arc::new(vec![Texture {
         size_px: [1, 1],
@@ -349,7 +349,7 @@ fn balls_under_layers_of_other_normals() {
             strength,
             direction_deg: 40.0,
         });
-        scene.environment = Some(hairline_scene::Environment::uniform([0.1, 0.2, 0.3]));
+        scene.environment = Some(hairline_sky::uniform([0.1, 0.2, 0.3]));
         let lamp = DVec3::new(-0.4, -0.5, 0.6);
         scene.lights = vec![Light::sphere(lamp, 0.05, [30.0, 20.0, 10.0])];
         let cpu = on_the_cpu(&scene, 1);
@@ -461,7 +461,7 @@ fn brushed_balls() {
                 .map(|i| [0.1 * (i % 5) as f32, 0.3, 0.05 * (i % 7) as f32])
                 .collect(),
         };
-        scene.environment = Some(hairline_scene::Environment::from_map(map, 0.3, 1.0, false));
+        scene.environment = Some(hairline_sky::from_map(map, 0.3, 1.0, false));
         let lamp = DVec3::new(-0.4, -0.5, 0.6);
         scene.lights = vec![
             Light::sphere(lamp, 0.05, [30.0, 20.0, 10.0]),
@@ -488,7 +488,7 @@ fn brushed_balls() {
 #[test]
 fn bumps_as_wide_as_a_pixel() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("peers/scenes/bumpy-ball-lamps.toml");
-    let bare = middle_of(Scene::load(path).unwrap(), 96, [40, 40]);
+    let bare = middle_of(hairline_document::load(path).unwrap(), 96, [40, 40]);
     let mut coated = bare.clone();
     let material = &mut coated.materials[0];
     material.coat = Some(Coat {

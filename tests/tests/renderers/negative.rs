@@ -4,10 +4,11 @@ use super::scenes::{ALL, scene};
 use conformance::middle_of;
 use conformance::two_renderers::on_the_gpu_by;
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_document::DEFAULT_TRANSPORT;
 use hairline_gpu::Method;
 use hairline_image::tone_map::tone_luminance;
 use hairline_image::{Image, filter_found};
-use hairline_scene::{DEFAULT_TRANSPORT, Scene};
+use hairline_scene::Scene;
 
 /// Finds the first pixel, before the filter or after it, whose luminance is negative, or a channel of which is below both zero and the closed
 /// form. It tells the layer and the colours.

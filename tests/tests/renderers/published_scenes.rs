@@ -10,7 +10,7 @@ use hairline_image::{Image, Layer, Picture};
 use hairline_optics::mask::Mask;
 use hairline_published::sine_integral::SineIntegral;
 use hairline_published::{Method, PublishedMethod, Structure};
-use hairline_scene::{Environment, Scene};
+use hairline_scene::Scene;
 
 /// A difference between methods that two renderers of one method, 0.12 % apart at most, could not be taken for.
 const SEEN: f64 = 7e-3;
@@ -166,7 +166,7 @@ fn under_a_map() {
         *texel = [0.2, 0.6, 1.0].map(|c| c + random.next());
     }
     let mut scene = middle("closeup.toml", 256, [32; 2]);
-    scene.environment = Some(Environment::from_map(map, 0.4, 1.0, true));
+    scene.environment = Some(hairline_sky::from_map(map, 0.4, 1.0, true));
     let Some(mut both) = Both::new("closeup under a map", &scene) else {
         return;
     };

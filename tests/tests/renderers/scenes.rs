@@ -6,8 +6,9 @@ use std::sync::Arc;
 
 use conformance::middle_of;
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
+use hairline_document::DEFAULT_SAMPLES;
 use hairline_fixtures::{DISK, SceneFile};
-use hairline_scene::{DEFAULT_SAMPLES, Scene};
+use hairline_scene::Scene;
 
 /// Widths of the whole picture and of its middle: a whole picture of that size would have all scratches in each tile.
 const WIDTH_PX: u32 = 1280;
@@ -30,7 +31,7 @@ pub(super) fn scene(name: &str) -> Scene {
         "built_in_scene" => root().join("crates/console/src/built_in_scene.toml"),
         _ => root().join("scenes").join(name).with_extension("toml"),
     };
-    Scene::load(path).unwrap_or_else(|error| panic!("{error}"))
+    hairline_document::load(path).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn middle(name: &str) -> Scene {

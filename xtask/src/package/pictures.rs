@@ -4,10 +4,11 @@ use std::path::Path;
 
 use anyhow::{Context, ensure};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_document::gltf_scene::Export;
+use hairline_document::{Description, Loader, write_scratches};
 use hairline_image::{Image, Layer};
 use hairline_optics::section::Section;
-use hairline_scene::gltf_scene::Export;
-use hairline_scene::{Base, Description, Light, LightShape, Loader, Scene, write_scratches};
+use hairline_scene::{Base, Light, LightShape, Scene};
 use serde_json::{Value, json};
 
 use super::browser::{Folders, answers};
@@ -151,7 +152,7 @@ fn write_pages(root: &Path, output: &Path) -> anyhow::Result<Vec<(&'static str, 
     let tests = root.join("packages/hairline-shaders/test");
     let page = |name: &'static str| {
         let file = tests.join(format!("{name}.toml"));
-        let scene = Scene::load(&file)?;
+        let scene = hairline_document::load(&file)?;
         let folder = output.join("pages").join(name);
         write_page(&folder, &scene)?;
         let text = std::fs::read_to_string(&file)?;

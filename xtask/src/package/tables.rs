@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use anyhow::Context;
+use hairline_document::LISTED_RANGES;
+use hairline_document::description::metal_names;
 use hairline_engine::scratch_tree;
 use hairline_optics::metal::Metal;
 use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_GRATING_ROWS, ROWS, last_depth_nm};
-use hairline_scene::description::metal_names;
-use hairline_scene::{DEFAULT_COHERENCE_UM, LISTED_RANGES, Scene, ScratchTables};
+use hairline_scene::{DEFAULT_COHERENCE_UM, ScratchTables};
 use serde_json::json;
 
 use super::files::write;
@@ -55,7 +56,7 @@ pub(super) fn write_gratings(folder: &Path) -> anyhow::Result<()> {
             grating = [{{ object = \"o\", pattern = \"circular\", {row} }}]
         "
         );
-        let scene = Scene::from_toml(&text, name, ".")?;
+        let scene = hairline_document::from_toml(&text, name, ".")?;
         let tables = ScratchTables::new(&scene);
         let grating = &scene.objects[0].gratings[0];
         let table = tables.grating_table(grating, 0);

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use hairline_scene::schema::{Form, Initial, Key, Section, grating, place, scratches, stroke};
+use hairline_document::schema::{Form, Initial, Key, Section, grating, place, scratches, stroke};
 use serde_json::json;
 
 use super::files::{install, node, write};

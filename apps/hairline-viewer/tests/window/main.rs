@@ -14,9 +14,9 @@ use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
 use display::{Display, Picture};
+use hairline_document::Description;
+use hairline_document::description::Layer;
 use hairline_gpu::headless::{skip, test_gpu};
-use hairline_scene::Description;
-use hairline_scene::description::Layer;
 use layout::Layout;
 use tempfile::TempDir;
 

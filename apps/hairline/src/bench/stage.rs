@@ -134,7 +134,7 @@ depth_nm = {{ mean = 220.0, spread = 0.3 }}
 
     /// Builds it.
     pub fn build(self) -> Result<Scene, Failure> {
-        Scene::from_toml(&self.to_toml(), Path::new("bench scene"), ".")
+        hairline_document::from_toml(&self.to_toml(), Path::new("bench scene"), ".")
             .map_err(|error| Failure::Work(anyhow!("{error}")))
     }
 

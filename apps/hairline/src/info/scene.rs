@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use hairline_console::print;
+use hairline_document::description::{self, LightKind};
+use hairline_document::estimate::{Estimate, scratches_bytes, textures_bytes};
+use hairline_document::text::shown;
 use hairline_memory::{available_bytes, in_words};
-use hairline_scene::description::{self, LightKind};
-use hairline_scene::estimate::{Estimate, scratches_bytes, textures_bytes};
-use hairline_scene::text::shown;
 use hairline_scene::{Light, LightShape};
 use serde::Serialize;
 
@@ -282,7 +282,7 @@ fn contents(loaded: &Loaded) -> Contents {
 
 fn left_out(loaded: &Loaded) -> Vec<LeftOut> {
     let models = loaded.description.left_out(&loaded.folder).into_iter();
-    let of_model = |(file, left_out): (PathBuf, Vec<hairline_scene::LeftOut>)| {
+    let of_model = |(file, left_out): (PathBuf, Vec<hairline_document::LeftOut>)| {
         let file = file.to_string_lossy().into_owned();
         left_out.into_iter().map(move |it| LeftOut {
             file: file.clone(),

@@ -2,10 +2,9 @@
 
 use anyhow::anyhow;
 use glam::DVec3;
+use hairline_document::schema::Bounds;
+use hairline_document::{Description, description};
 use hairline_editor::navigate;
-use hairline_scene::Description;
-use hairline_scene::description;
-use hairline_scene::schema::Bounds;
 
 use crate::cli::{SequenceFlags, Turns};
 use crate::scene_file::set_time;

@@ -288,7 +288,7 @@ fn the_documented_scene_renders_as_it_stands() {
 }
 
 fn the_documented_scene_is_bright(folder: &Path, flags: &str) {
-    let scene = include_str!("../../../../crates/scene/tests/example.toml");
+    let scene = include_str!("../../../../crates/document/tests/example.toml");
     fs::write(folder.join("scene.toml"), scene).unwrap();
     hairline(folder, &format!("render scene.toml -o a.png {flags}")).success();
     let picture = png::read_picture(&folder.join("a.png")).unwrap();

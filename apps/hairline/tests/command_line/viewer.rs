@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use hairline_document::{DEFAULT_TRANSPORT, Description};
 use hairline_image::Display;
-use hairline_scene::{DEFAULT_TRANSPORT, Description};
 use hairline_viewer::engine::{Backend, Engine, Picture, View};
 
 use crate::common::{folder_with, hairline, stderr_of};

@@ -13,7 +13,8 @@ fn scene(camera: &str, size_px: [u32; 2], shape: &str, scratches: &str, lights: 
          [[scratches]]\nobject = \"o\"\n{scratches}\nwidth_um = 2.0\ndepth_nm = 200.0\n{lights}",
         size_px[0], size_px[1]
     );
-    Scene::from_toml(&text, "test", ".").unwrap_or_else(|error| panic!("{error}\n{text}"))
+    hairline_document::from_toml(&text, "test", ".")
+        .unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
 const SLANTED: &str =

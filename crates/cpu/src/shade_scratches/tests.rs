@@ -138,7 +138,7 @@ fn margins_of_scenes() {
         ("scenes/pan.toml", 720),
         ("scenes/plate.toml", 360),
     ] {
-        let mut scene = Scene::load(format!("{root}/{name}")).unwrap();
+        let mut scene = hairline_document::load(format!("{root}/{name}")).unwrap();
         scene.render.size_px = [height * 16 / 9, height];
         println!(
             "{name} {height}: {:.5?}",

@@ -1,7 +1,7 @@
 //! Gratings.
 
-use hairline_scene::Description;
-use hairline_scene::description::Grating;
+use hairline_document::Description;
+use hairline_document::description::Grating;
 
 use super::{ActionError, list};
 use crate::Selection;

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use hairline_scene::Description;
-use hairline_scene::description::LARGEST_SEED;
-use hairline_scene::description::{Layer, Listed, Object, Pattern, Scratches, standings};
+use hairline_document::Description;
+use hairline_document::description::LARGEST_SEED;
+use hairline_document::description::{Layer, Listed, Object, Pattern, Scratches, standings};
 
 use super::{ActionError, list};
 use crate::{Selection, paths};

@@ -1,7 +1,7 @@
 //! Lights.
 
-use hairline_scene::Description;
-use hairline_scene::description::Light;
+use hairline_document::Description;
+use hairline_document::description::Light;
 
 use super::{ActionError, list};
 use crate::Selection;

@@ -1,7 +1,7 @@
 //! Common interface of the parts in the lists of a description: most have a name, and they are copied, moved and removed.
 
-use hairline_scene::Description;
-use hairline_scene::description::{Grating, Light, Material, Object, Scratches};
+use hairline_document::Description;
+use hairline_document::description::{Grating, Light, Material, Object, Scratches};
 
 use super::{ActionError, unique_name};
 use crate::Selection;

@@ -1,8 +1,8 @@
 //! Materials.
 
+use hairline_document::Description;
+use hairline_document::description::{Material, Object, Override};
 use hairline_optics::metal::Metal;
-use hairline_scene::Description;
-use hairline_scene::description::{Material, Object, Override};
 
 use super::{ActionError, list};
 use crate::Selection;

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use glam::{DMat3, DVec3};
-use hairline_scene::Description;
-use hairline_scene::description::{Grating, Material, Object, Scratches, Shape, Surface, Up};
+use hairline_document::Description;
+use hairline_document::description::{Grating, Material, Object, Scratches, Shape, Surface, Up};
 
 use super::{ActionError, list, materials};
 use crate::presets::{self, ShapePreset};

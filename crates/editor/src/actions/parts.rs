@@ -1,7 +1,7 @@
 //! Actions on any part of a scene that can be selected. Those that a kind of part has for itself are in the module of that kind.
 
-use hairline_scene::Description;
-use hairline_scene::description::{Grating, Light, Material, Object, Scratches};
+use hairline_document::Description;
+use hairline_document::description::{Grating, Light, Material, Object, Scratches};
 
 use super::list::{self, ListedPart};
 use super::{ActionError, layers, materials, objects, studio};

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use hairline_scene::Description;
-use hairline_scene::description::{Grating, GroovePattern, Light, Scratches};
+use hairline_document::Description;
+use hairline_document::description::{Grating, GroovePattern, Light, Scratches};
 
 use super::{ActionError, list};
 use crate::{Selection, paths};

@@ -1,8 +1,8 @@
 //! The studio that lights a scene, and the ground under it.
 
 use glam::DVec3;
-use hairline_scene::Description;
-use hairline_scene::description::{Ground, Studio};
+use hairline_document::Description;
+use hairline_document::description::{Ground, Studio};
 
 use super::lights;
 use crate::Selection;

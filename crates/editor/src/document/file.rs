@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
+use hairline_document::description::FileUse;
+use hairline_document::{Description, Error, inputs, reading};
 use hairline_image::output::write_atomically;
-use hairline_scene::description::FileUse;
-use hairline_scene::{Description, Error, inputs, reading};
 
 use super::{Document, layout, next_revision};
 use crate::paths;

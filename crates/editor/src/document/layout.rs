@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use hairline_scene::Description;
+use hairline_document::Description;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
 
 /// Returns the text of a scene file that holds `description`: `original` with the changes, or `plain` where that cannot be.
@@ -179,7 +179,7 @@ fn place(table: &mut Table, position: Option<isize>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hairline_scene::description::{Layer, Light, LightKind};
+    use hairline_document::description::{Layer, Light, LightKind};
 
     const SCENE: &str = r#"# A plate for the window of the shop.
 

@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use glam::DVec3;
+use hairline_document::Description;
+use hairline_document::description::{Light, LightKind, Map, Surface};
 use hairline_editor::actions::{self, layers, lights, materials, objects, parts};
 use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::*;
 use hairline_editor::{ActionError, Selection};
 use hairline_fixtures::SceneFile;
-use hairline_scene::Description;
-use hairline_scene::description::{Light, LightKind, Map, Surface};
-use hairline_scene::environment::BuiltInMap;
+use hairline_sky::BuiltInMap;
 
 fn scene() -> Description {
     let mut file = SceneFile::seen_from([0.0, 0.0, 1.0]);

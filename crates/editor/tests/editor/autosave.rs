@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::time::Duration;
 
+use hairline_document::Description;
 use hairline_editor::Document;
 use hairline_editor::autosave::{Autosave, Tick, pending};
-use hairline_scene::Description;
 
 const SCENE: &str = "[camera]\nposition_m = [0, 0, 1]\ntarget_m = [0, 0, 0]\n\
     [environment]\nfile = \"maps/a.hdr\"\n\

@@ -2,11 +2,11 @@
 
 use crate::seeded;
 use glam::{DMat4, DVec3, dvec3};
+use hairline_document::Description;
+use hairline_document::description::{Brush, Layer, Object, Stroke};
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
 use hairline_editor::{ActionError, Selection};
 use hairline_fixtures::SceneFile;
-use hairline_scene::Description;
-use hairline_scene::description::{Brush, Layer, Object, Stroke};
 use proptest::prelude::*;
 
 const RADIUS_M: f64 = 0.01;

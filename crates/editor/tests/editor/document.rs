@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use hairline_document::Description;
+use hairline_document::description::{Layer, Surface};
 use hairline_editor::document::SaveError;
 use hairline_editor::{ActionError, Document, DragKey, Selection, actions};
-use hairline_scene::Description;
-use hairline_scene::description::{Layer, Surface};
 
 const SCENE: &str = r#"
 [camera]

@@ -3,8 +3,8 @@
 
 use crate::seeded;
 use glam::{DVec2, DVec3};
+use hairline_document::description::Camera;
 use hairline_editor::navigate::*;
-use hairline_scene::description::Camera;
 use proptest::prelude::*;
 
 const SIZE_PX: DVec2 = DVec2::new(800.0, 500.0);
@@ -226,19 +226,21 @@ fn surroundings_turn_as_the_camera_does() {
         .object("disk", "steel", hairline_fixtures::DISK)
         .sphere([0.3, 0.2, 0.5], 0.02, 30.0)
         .description();
-    scene.lights.push(hairline_scene::description::Light::new(
-        hairline_scene::description::LightKind::Rectangle {
-            center_m: [-0.2, 0.1, 0.4],
-            target_m: [0.1, 0.0, 0.0],
-            width_m: 0.2,
-            height_m: 0.1,
-            rotation_deg: 20.0,
-            two_sided: false,
-        },
-    ));
-    let seen = |scene: &hairline_scene::Description| -> Vec<DVec2> {
+    scene
+        .lights
+        .push(hairline_document::description::Light::new(
+            hairline_document::description::LightKind::Rectangle {
+                center_m: [-0.2, 0.1, 0.4],
+                target_m: [0.1, 0.0, 0.0],
+                width_m: 0.2,
+                height_m: 0.1,
+                rotation_deg: 20.0,
+                two_sided: false,
+            },
+        ));
+    let seen = |scene: &hairline_document::Description| -> Vec<DVec2> {
         let points = scene.lights.iter().flat_map(|light| match &light.kind {
-            hairline_scene::description::LightKind::Sphere { center_m, .. } => {
+            hairline_document::description::LightKind::Sphere { center_m, .. } => {
                 vec![(*center_m).into()]
             }
             other => other.corners_m(),

@@ -2,9 +2,9 @@
 
 use crate::seeded;
 use glam::{DVec3, dvec3};
+use hairline_document::description::{Light, LightKind};
 use hairline_editor::ActionError;
 use hairline_editor::place_light::*;
-use hairline_scene::description::{Light, LightKind};
 use proptest::prelude::*;
 
 fn point(range: f64) -> impl Strategy<Value = DVec3> {

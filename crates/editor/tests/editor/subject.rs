@@ -1,9 +1,9 @@
 //! The contents of a view of all.
 
 use glam::DVec3;
+use hairline_document::Description;
 use hairline_editor::subject::objects;
 use hairline_fixtures::{BALL, SceneFile};
-use hairline_scene::Description;
 
 fn scene() -> Description {
     let mut file = SceneFile::seen_from([0.0, -1.0, 1.0]).mirror("m");

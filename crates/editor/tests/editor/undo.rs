@@ -5,13 +5,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec2, dvec3};
+use hairline_document::Description;
+use hairline_document::description::{Layer, Map};
 use hairline_editor::actions::{self, layers, lights, materials, objects, parts};
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
 use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
 use hairline_editor::{Document, DragKey, Selection, navigate, place_light};
 use hairline_fixtures::SceneFile;
-use hairline_scene::Description;
-use hairline_scene::description::{Layer, Map};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 

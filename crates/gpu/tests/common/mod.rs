@@ -41,7 +41,7 @@ const TUBE_M: [[f64; 3]; 4] = [
 pub const BUILT_IN: &str = include_str!("../../../../crates/console/src/built_in_scene.toml");
 
 pub fn scene(text: &str) -> Scene {
-    Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
+    hairline_document::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Opens a device of its own with the limits of a browser; none where tests have no adapter.

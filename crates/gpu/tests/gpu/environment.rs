@@ -5,7 +5,6 @@ use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::headless::test_gpu;
 use hairline_gpu::shaders;
 use hairline_image::Picture;
-use hairline_scene::Environment;
 use hairline_scene::environment::lookup::{
     environment_bilinear, environment_irradiance, environment_lod, environment_prefiltered,
     environment_radiance, environment_uv,
@@ -174,7 +173,7 @@ fn levels() {
 #[test]
 fn irradiance() {
     let Some(gpu) = test_gpu() else { return };
-    let environment = Environment::from_map(map(), 0.0, 1.0, true);
+    let environment = hairline_sky::from_map(map(), 0.0, 1.0, true);
     let blurred = environment.irradiance_map();
     // Layout of the host: below a first level, which is empty here and of that size.
     let [width, height] = blurred.size_px;

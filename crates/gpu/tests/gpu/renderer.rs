@@ -8,7 +8,7 @@ use hairline_gpu::{AdapterRequest, Error, Gpu, GpuScene, RenderOptions, Renderer
 use hairline_image::tone_map::{display_code, dither_offset, linear_from_srgb};
 use hairline_image::{Display, Image, Picture, ToneMap};
 use hairline_index::ScratchIndex;
-use hairline_scene::{Environment, Mesh, Sampling, Scene, ScratchTables, Texture};
+use hairline_scene::{Mesh, Sampling, Scene, ScratchTables, Texture};
 use std::sync::Arc;
 
 /// A tilted mirror.
@@ -364,7 +364,7 @@ fn the_environment_is_seen_where_it_is() {
             .map(|i| [(i % 32) as f32, (i / 32) as f32 * 3.0, 1.0])
             .collect(),
     };
-    let visible = Environment::from_map(map, 0.0, 1.5, true).with_up(DVec3::Z, 0.7);
+    let visible = hairline_sky::from_map(map, 0.0, 1.5, true).with_up(DVec3::Z, 0.7);
     scene.environment = Some(visible.clone());
     let camera = scene.camera.frame(scene.render.size_px);
     let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
@@ -386,7 +386,7 @@ fn the_environment_is_seen_where_it_is() {
         size_px: [2, 1],
         rgb: vec![[1.0; 3]; 2],
     };
-    scene.environment = Some(Environment::from_map(white, 0.0, 1.0, false));
+    scene.environment = Some(hairline_sky::from_map(white, 0.0, 1.0, false));
     let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
     assert!(image.base.iter().all(|c| *c == [0.0; 3]));
 }

@@ -29,7 +29,7 @@ fn map(radiance: f32) -> Environment {
         size_px: [4, 2],
         rgb: (0..8).map(|i| [radiance, 0.1 * i as f32, 0.2]).collect(),
     };
-    Environment::from_map(map, 0.0, 1.0, true)
+    hairline_sky::from_map(map, 0.0, 1.0, true)
 }
 
 fn texture(value: u8) -> Texture {

@@ -1,8 +1,8 @@
 use super::*;
 use glam::Vec3;
+use hairline_document::description::{Description, Layer};
+use hairline_document::{Loader, SceneBuilder};
 use hairline_fixtures::{BALL, DISK, SceneFile};
-use hairline_scene::description::{Description, Layer};
-use hairline_scene::{Loader, SceneBuilder};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};

@@ -1,4 +1,4 @@
-"""The keys of a scene's tables. Made of the schema of scene files, in crates/scene/src/schema."""
+"""The keys of a scene's tables. Made of the schema of scene files, in crates/document/src/schema."""
 
 # Notes are one line each.
 # ruff: noqa: E501

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::ViewportCommand;
+use hairline_document::inputs::is_same_file;
 use hairline_editor::Document;
 use hairline_editor::autosave::Pending;
 use hairline_editor::document::SaveError;
-use hairline_scene::inputs::is_same_file;
 
 use super::Viewer;
 use crate::dialogs::{Answer, PathLine, Question, Wish};

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use hairline_document::description::Map;
+use hairline_document::gltf_scene;
+use hairline_document::probe::{self, MeshSummary};
 use hairline_editor::actions::{self, layers, objects, pictures};
-use hairline_scene::description::Map;
-use hairline_scene::gltf_scene;
-use hairline_scene::probe::{self, MeshSummary};
 
 use super::Viewer;
 use crate::dialogs::{PathLine, Question, Wish};
@@ -149,7 +149,7 @@ impl Viewer {
         &mut self,
         purpose: Purpose,
         path: &Path,
-        probed: Result<Option<MeshSummary>, hairline_scene::Error>,
+        probed: Result<Option<MeshSummary>, hairline_document::Error>,
     ) {
         let summary = match probed {
             Ok(summary) => summary,

@@ -4,11 +4,11 @@ use std::sync::mpsc::{Receiver, channel};
 
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_document::{Loader, SceneBuilder};
 use hairline_editor::Document;
 use hairline_editor::autosave::Pending;
 use hairline_image::{Display, png};
 use hairline_index::{Pieces, Watch};
-use hairline_scene::{Loader, SceneBuilder};
 
 use crate::jobs::{Job, Stop};
 

@@ -4,9 +4,10 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
+use hairline_document::description::Description;
+use hairline_document::{Loader, SceneBuilder};
 use hairline_index::{Pieces, ScratchIndex, TriangleIndex, Watch};
-use hairline_scene::description::Description;
-use hairline_scene::{Loader, Scene, SceneBuilder, ScratchTables};
+use hairline_scene::{Scene, ScratchTables};
 use web_time::Instant;
 
 use super::View;
@@ -169,7 +170,7 @@ impl ViewBuilder {
         description: Arc<Description>,
         base_dir: &Path,
         view: Option<View>,
-    ) -> Result<Option<Built>, hairline_scene::Error> {
+    ) -> Result<Option<Built>, hairline_document::Error> {
         let start = Instant::now();
         let loader = Loader {
             cancelled,

@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use std::time::Duration;
 
+use hairline_document::DEFAULT_SAMPLES;
 use hairline_image::Image;
-use hairline_scene::DEFAULT_SAMPLES;
 use web_time::Instant;
 
 use super::Backend;

@@ -3,8 +3,8 @@
 use std::sync::{Arc, Weak};
 
 use hairline_cpu::draft::{Draft, DraftLayer};
+use hairline_document::description::Layer;
 use hairline_index::ScratchIndex;
-use hairline_scene::description::Layer;
 
 use super::Built;
 use super::sketch::Sketch;

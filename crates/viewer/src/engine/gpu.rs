@@ -4,10 +4,11 @@ use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 use egui::ColorImage;
+use hairline_document::DEFAULT_SAMPLES;
 use hairline_gpu::canvas::Canvas;
 use hairline_gpu::{AdapterKind, Error, Gpu, GpuScene, Method, PassTime, RenderOptions, Renderer};
 use hairline_image::{Batch, Image, filter_found};
-use hairline_scene::{DEFAULT_SAMPLES, Transport};
+use hairline_scene::Transport;
 use web_time::Instant;
 
 use super::adding::Adding;

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use hairline_scene::description::Description;
+use hairline_document::description::Description;
 use web_time::Instant;
 
 use super::{Backend, Built, Event, Frame, View, Wake};

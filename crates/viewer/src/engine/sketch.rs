@@ -1,7 +1,7 @@
 //! A scene with some of its scratches, which is laid while a slider moves, before the whole scene.
 
-use hairline_scene::Description;
-use hairline_scene::description::{Amount, Layer};
+use hairline_document::Description;
+use hairline_document::description::{Amount, Layer};
 
 /// Approximate number of random scratches in a sketch.
 const SCRATCHES: u64 = 700;

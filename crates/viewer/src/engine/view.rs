@@ -1,8 +1,7 @@
 //! View of the scene: camera and display.
 
 use hairline_image::Display;
-use hairline_scene::Transport;
-use hairline_scene::scene::Camera;
+use hairline_scene::{Camera, Transport};
 
 /// View of the scene: camera and display.
 #[derive(Clone, Copy, Debug, PartialEq)]

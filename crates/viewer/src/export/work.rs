@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
+use hairline_document::{Description, description};
 use hairline_editor::navigate;
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, Method, RenderOptions, Renderer};
 use hairline_image::{Animation, Batches, Display, Image, Output, filter_found};
-use hairline_scene::{Camera, Description, Scene, Transport, description};
+use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
 use crate::engine::{Backend, Built, ViewBuilder, Wake, bands};

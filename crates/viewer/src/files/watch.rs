@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, SystemTime};
 
-use hairline_scene::{Description, inputs};
+use hairline_document::{Description, inputs};
 
 /// Interval between two looks. A change counts once a file has stood still for one.
 const PAUSE: Duration = Duration::from_millis(500);

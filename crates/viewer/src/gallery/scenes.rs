@@ -4,17 +4,18 @@ use std::path::Path;
 
 use glam::DVec3;
 use hairline_cpu::closed_form::{self, RenderOptions};
+use hairline_document::description::{
+    Light, LightKind, Material, MaterialKind, Scratches, Shape, Surface,
+};
+use hairline_document::{Description, Loader};
 use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::place_light::place_highlight;
 use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
 use hairline_editor::wear::Wear;
 use hairline_image::{Display, Picture, png};
 use hairline_optics::metal::Metal;
-use hairline_scene::description::{
-    Light, LightKind, Material, MaterialKind, Scratches, Shape, Surface,
-};
-use hairline_scene::environment::BuiltInMap;
-use hairline_scene::{Description, Environment, Loader};
+use hairline_scene::Environment;
+use hairline_sky::BuiltInMap;
 
 use super::{COLUMNS, SIDE_PX, StandIn, Thumb};
 
@@ -186,7 +187,8 @@ impl Studio {
             let picture: Picture = map.picture([64, 32]);
             // The window is before the ball, where it is seen in it.
             let rotation_rad = if map == BuiltInMap::Window { 2.5 } else { 0.0 };
-            Environment::from_map(picture, rotation_rad, 1.0, false).with_up(DVec3::Z, rotation_rad)
+            hairline_sky::from_map(picture, rotation_rad, 1.0, false)
+                .with_up(DVec3::Z, rotation_rad)
         };
         match map {
             // Map of the pictures of all materials and shapes.

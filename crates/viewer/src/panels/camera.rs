@@ -4,10 +4,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use egui::{Button, Id, Ui};
+use hairline_document::description::{Camera, Description};
+use hairline_document::schema;
 use hairline_editor::navigate::{self, Viewpoint};
 use hairline_image::ToneMap;
-use hairline_scene::description::{Camera, Description};
-use hairline_scene::schema;
 
 use super::form::Form;
 use crate::command::Command;

@@ -1,11 +1,11 @@
 //! Light from all around.
 
 use egui::Ui;
+use hairline_document::description::Map;
+use hairline_document::schema;
 use hairline_editor::maps;
 use hairline_scene::Light;
-use hairline_scene::description::Map;
-use hairline_scene::environment::BuiltInMap;
-use hairline_scene::schema;
+use hairline_sky::BuiltInMap;
 
 use super::form::Form;
 use crate::command::Command;

@@ -12,12 +12,12 @@ use egui::{
     Align, Context, Event, FocusDirection, Id, Key as KeyboardKey, Layout, Response, Slider,
     SliderClamping, TextEdit, Ui,
 };
+use hairline_document::description::Distribution;
+use hairline_document::schema::{self, Key};
 use hairline_editor::DragKey;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::quantity::ShownUnit;
 use hairline_editor::ranges::{Range, range, second_range};
-use hairline_scene::description::Distribution;
-use hairline_scene::schema::{self, Key};
 
 use super::number::NumberBox;
 use crate::platform::HAS_DISK;

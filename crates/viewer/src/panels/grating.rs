@@ -1,10 +1,11 @@
 //! A grating.
 
 use egui::Ui;
+use hairline_document::description::GratingTheory;
+use hairline_document::schema;
 use hairline_editor::Selection;
 use hairline_editor::actions::pictures::PictureOf;
-use hairline_scene::description::GratingTheory;
-use hairline_scene::{FINE_PITCH_UM, schema};
+use hairline_scene::FINE_PITCH_UM;
 
 use super::form::{Form, NAME};
 use super::groove_pattern;

@@ -1,8 +1,8 @@
 //! Controls for the directions of a grating's grooves.
 
+use hairline_document::description::{Around, GroovePattern, UvAxis};
+use hairline_document::schema;
 use hairline_editor::actions::pictures::PictureOf;
-use hairline_scene::description::{Around, GroovePattern, UvAxis};
-use hairline_scene::schema;
 
 use super::form::Form;
 

@@ -1,11 +1,13 @@
 //! A layer of scratches.
 
 use egui::Ui;
+use hairline_document::description::{
+    Amount, Around, Distribution, Laid, Layer, Pattern, Scratches,
+};
+use hairline_document::schema;
 use hairline_editor::Selection;
 use hairline_editor::presets::LayerPreset;
 use hairline_optics::section::Section;
-use hairline_scene::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
-use hairline_scene::schema;
 
 use super::form::{Form, NAME};
 use super::layer_place;
@@ -214,7 +216,7 @@ fn buttons(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches, d
                         }
                         // Paint needs a drawn layer; an eraser serves any.
                         kept.strokes.retain(|stroke| {
-                            matches!(stroke.brush, hairline_scene::description::Brush::Erase)
+                            matches!(stroke.brush, hairline_document::description::Brush::Erase)
                         });
                     });
                 }

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use hairline_document::description::{LayerPlaces, Scratches};
+use hairline_document::schema;
 use hairline_editor::actions::pictures::PictureOf;
-use hairline_scene::description::{LayerPlaces, Scratches};
-use hairline_scene::schema;
 
 use super::form::Form;
 use crate::parts::Names;

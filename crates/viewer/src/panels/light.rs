@@ -2,11 +2,11 @@
 
 use egui::Ui;
 use glam::DVec3;
+use hairline_document::description::{Cone, Light, LightKind};
+use hairline_document::schema;
 use hairline_editor::actions::parts;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::{Selection, place_light};
-use hairline_scene::description::{Cone, Light, LightKind};
-use hairline_scene::schema;
 
 use super::form::{Form, NAME};
 use crate::command::Command;

@@ -1,11 +1,11 @@
 //! A material.
 
 use egui::Ui;
+use hairline_document::description::{Cover, MaterialKind, MetalColor};
+use hairline_document::schema;
 use hairline_editor::actions::materials;
 use hairline_editor::presets::MaterialPreset;
 use hairline_optics::metal::Metal;
-use hairline_scene::description::{Cover, MaterialKind, MetalColor};
-use hairline_scene::schema;
 use hairline_scene::{Anisotropy, Coat, Specular};
 
 use super::form::{Form, NAME};
@@ -222,7 +222,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             if let Some(preset) = material_cards(ui, work, stand_in) {
                 work.document.edit("Material preset", |d| {
                     let name = d.materials[index].name.clone();
-                    d.materials[index] = hairline_scene::description::Material {
+                    d.materials[index] = hairline_document::description::Material {
                         name,
                         ..preset.material()
                     };

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use egui::{Button, Color32, MenuBar, Modifiers, Panel, Popup, RichText, Ui};
-use hairline_scene::schema;
+use hairline_document::schema;
 
 use super::form::Form;
 use crate::command::{self, Command, Group};

@@ -1,14 +1,14 @@
 //! An object: its place, its material, and the layers on it.
 
 use egui::Ui;
+use hairline_document::description::{Shape, Surface, Up};
+use hairline_document::schema::{self, Key};
 use hairline_editor::Selection;
 use hairline_editor::actions::{gratings, layers, objects};
 use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::LayerPreset;
 use hairline_editor::shown::FAINT;
 use hairline_editor::wear::{self, Wear};
-use hairline_scene::description::{Shape, Surface, Up};
-use hairline_scene::schema::{self, Key};
 
 use super::form::{Form, NAME};
 use super::material::material_cards;

@@ -1,12 +1,12 @@
 //! The list of all that the scene has.
 
 use egui::{RichText, StrokeKind, Ui};
+use hairline_document::Description;
+use hairline_document::description::Map;
 use hairline_editor::Selection;
 use hairline_editor::actions::{gratings, layers, lights, materials, objects, parts};
 use hairline_editor::maps;
 use hairline_editor::presets::{LightPreset, ShapePreset};
-use hairline_scene::Description;
-use hairline_scene::description::Map;
 
 use super::material::material_cards;
 use super::object::{add_grating, add_layer};

@@ -1,8 +1,8 @@
 //! The materials of a model's file, whose factors a scene may change.
 
 use egui::{CollapsingHeader, Ui};
-use hairline_scene::description::{Object, Override};
-use hairline_scene::schema;
+use hairline_document::description::{Object, Override};
+use hairline_document::schema;
 use hairline_scene::{Base, Material};
 
 use super::form::Form;

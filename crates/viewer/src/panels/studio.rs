@@ -1,8 +1,8 @@
 //! The studio that lights a scene, and the ground under it.
 
 use egui::{Button, Ui};
+use hairline_document::schema;
 use hairline_editor::actions::studio;
-use hairline_scene::schema;
 
 use super::form::Form;
 use crate::workspace::Workspace;

@@ -5,11 +5,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use egui::{Pos2, Rect};
 use glam::{DVec2, DVec3};
 use hairline_cpu::closed_form::Prepared;
+use hairline_document::DEFAULT_SAMPLES;
 use hairline_editor::actions::layers;
 use hairline_image::Display;
 use hairline_index::Hit;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
-use hairline_scene::{CameraFrame, DEFAULT_SAMPLES, Scene};
+use hairline_scene::{CameraFrame, Scene};
 
 use super::false_color;
 use crate::engine::{Built, SHADOW_SAMPLES, View, bands};

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 
 use egui::ColorImage;
+use hairline_document::Description;
 use hairline_editor::document::rebased;
 use hairline_image::output::write_atomically;
-use hairline_scene::Description;
 use image::{ExtendedColorType, ImageEncoder};
 
 /// The folder of a scene's snapshots.

@@ -2,7 +2,8 @@
 
 use egui::Rect;
 use glam::DVec2;
-use hairline_scene::{Camera, description};
+use hairline_document::description;
+use hairline_scene::Camera;
 
 /// The picture's area on the screen, in points.
 #[derive(Clone, Copy)]

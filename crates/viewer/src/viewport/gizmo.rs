@@ -13,8 +13,8 @@ mod motion;
 use std::sync::Arc;
 
 use egui::{Color32, CursorIcon, PointerButton, Pos2, Rect, Role, Sense, Ui, Vec2, WidgetInfo};
+use hairline_document::Description;
 use hairline_editor::{DragKey, Selection};
-use hairline_scene::Description;
 
 use crate::tools::Tool;
 use crate::workspace::Workspace;

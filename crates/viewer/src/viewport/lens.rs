@@ -3,8 +3,8 @@
 
 use egui::Pos2;
 use glam::{DVec2, DVec3};
+use hairline_document::description::Camera;
 use hairline_scene::CameraFrame;
-use hairline_scene::description::Camera;
 
 use super::Area;
 

@@ -10,7 +10,7 @@ use egui::{Color32, Pos2, Ui};
 use glam::{DVec3, Vec3};
 use hairline_editor::Selection;
 use hairline_editor::actions::layers;
-use hairline_scene::scene::{Scratch, Segment};
+use hairline_scene::{Scratch, Segment};
 use web_time::Instant;
 
 use crate::engine::Built;

@@ -2,10 +2,10 @@
 
 use egui::{PointerButton, Response};
 use glam::DVec3;
+use hairline_document::description::Light;
 use hairline_editor::place_light::{center, extent_m, place_highlight, set_distance_m};
 use hairline_editor::quantity::Unit;
 use hairline_editor::{DragKey, Selection};
-use hairline_scene::description::Light;
 
 use super::pick::Picked;
 use super::{Area, Viewport, pick};

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use egui::{PointerButton, Pos2, Response, Ui};
 use glam::{DMat4, DVec3};
+use hairline_document::description;
 use hairline_editor::Selection;
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
-use hairline_scene::description;
 
 use crate::engine::{Built, Frame};
 use crate::overlays::Overlay;

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use hairline_document::Description;
 use hairline_editor::actions::materials;
 use hairline_editor::brush::BrushSettings;
 use hairline_editor::shown::{LITTLE, Shown};
 use hairline_editor::{Selection, navigate};
-use hairline_scene::Description;
 
 use super::Workspace;
 

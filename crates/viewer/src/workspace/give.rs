@@ -1,9 +1,9 @@
 //! Presets that are given to an object, or to a part of it: by a click on their card, or by a drop of it.
 
+use hairline_document::description::Scratches;
 use hairline_editor::actions::{gratings, layers, materials};
 use hairline_editor::presets::MaterialPreset;
 use hairline_editor::wear;
-use hairline_scene::description::Scratches;
 
 use super::Workspace;
 use crate::gallery::{StandIn, Thumb};

@@ -1,8 +1,8 @@
 //! Camera of the window, and its movements.
 
 use glam::DVec3;
+use hairline_document::description::Camera;
 use hairline_editor::{DragKey, navigate};
-use hairline_scene::description::Camera;
 
 use super::Workspace;
 use crate::free_view::ViewCommand;

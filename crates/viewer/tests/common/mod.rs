@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 use egui::accesskit::Role;
 use egui::{PointerButton, Pos2, Rect};
 use egui_kittest::{Harness, kittest::Queryable};
+use hairline_document::Description;
+use hairline_document::description::Light;
 use hairline_fixtures::SceneFile;
-use hairline_scene::Description;
-use hairline_scene::description::Light;
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 

@@ -7,8 +7,8 @@ use std::sync::LazyLock;
 use egui::{Pos2, vec2};
 use egui_kittest::Harness;
 use glam::DVec3;
+use hairline_document::description::{Brush, Stroke};
 use hairline_fixtures::{BALL, SceneFile};
-use hairline_scene::description::{Brush, Stroke};
 use hairline_viewer::Viewer;
 
 /// A ball, whose surface bends away between two places of the pointer.

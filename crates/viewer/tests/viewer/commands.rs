@@ -4,8 +4,8 @@ use crate::common::{SMALL, click_on, description, viewer, wait_built};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use hairline_document::Description;
 use hairline_editor::Selection;
-use hairline_scene::Description;
 use hairline_viewer::Viewer;
 
 fn press(harness: &mut Harness<'static, Viewer>, modifiers: Modifiers, key: Key) {

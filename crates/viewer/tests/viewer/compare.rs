@@ -10,7 +10,6 @@ use egui_kittest::{Harness, kittest::Queryable};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_image::{Image, Layer};
 use hairline_index::{Pieces, Watch};
-use hairline_scene::Scene;
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Figures, LayerFigures, Options, Viewer};
 
@@ -54,7 +53,7 @@ fn agrees(figures: &LayerFigures, mean: f64, share: f64) -> bool {
 }
 
 fn rendered(text: &str, size_px: [u32; 2]) -> Image {
-    let mut scene = Scene::from_toml(text, "test", "").unwrap();
+    let mut scene = hairline_document::from_toml(text, "test", "").unwrap();
     scene.render.size_px = size_px;
     let options = RenderOptions {
         samples: 16,

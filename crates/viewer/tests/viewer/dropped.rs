@@ -9,10 +9,10 @@ use egui::accesskit::Role;
 use egui::{Pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use hairline_document::description::{MaterialKind, MetalColor, Override, Shape, Surface};
 use hairline_editor::Selection;
 use hairline_editor::wear::{self, Wear};
 use hairline_optics::metal::Metal;
-use hairline_scene::description::{MaterialKind, MetalColor, Override, Shape, Surface};
 use hairline_viewer::Viewer;
 
 fn select(harness: &mut Harness<'static, Viewer>, selection: Selection) {

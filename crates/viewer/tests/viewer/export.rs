@@ -10,12 +10,13 @@ use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use hairline_cpu::closed_form::{self, RenderOptions};
+use hairline_document::{Description, Loader};
 use hairline_editor::navigate;
 use hairline_gpu::{Method, headless};
 use hairline_image::metrics::layer_difference;
 use hairline_image::tone_map::srgb_from_linear;
 use hairline_image::{Display, Image, Layer, exr_file, png};
-use hairline_scene::{Description, Loader, Scene};
+use hairline_scene::Scene;
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 
@@ -31,7 +32,7 @@ const MODEST: &str = concat!(
 );
 
 /// Number of samples with which the dialog begins.
-const SAMPLES: u32 = hairline_scene::DEFAULT_SAMPLES;
+const SAMPLES: u32 = hairline_document::DEFAULT_SAMPLES;
 
 fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
     let mut harness = common::viewer(scene);
@@ -160,7 +161,7 @@ fn a_picture_of_a_gpu_is_what_its_renderer_makes() {
     save_picture(&mut harness, &path);
     wait_exported(&mut harness);
     let found = exr_file::read_image(&path).unwrap();
-    let scene = Scene::from_toml(&text, "test", "").unwrap();
+    let scene = hairline_document::from_toml(&text, "test", "").unwrap();
     let options = hairline_gpu::RenderOptions {
         samples: SAMPLES,
         ..Default::default()

@@ -134,7 +134,7 @@ fn saving_asks_for_a_place_first_and_then_goes_on() {
     click_on(&mut harness, "OK");
     assert!(!harness.state().document().is_modified());
     let saved = std::fs::read_to_string(&path).unwrap();
-    let read = hairline_scene::Description::from_toml(&saved, &path).unwrap();
+    let read = hairline_document::Description::from_toml(&saved, &path).unwrap();
     assert_eq!(read, *shown);
 }
 
@@ -338,7 +338,7 @@ fn a_models_axis_and_size_are_in_its_panel() {
     assert_eq!(object(&harness).fit_m, None);
     click(&mut harness, Role::ComboBox, "Up");
     click_on(&mut harness, "z, as in CAD");
-    assert_eq!(object(&harness).up, hairline_scene::description::Up::Z);
+    assert_eq!(object(&harness).up, hairline_document::description::Up::Z);
 }
 
 /// Messages about the scene before mean nothing to the one that is opened.

@@ -5,12 +5,12 @@ use egui::accesskit::{Role, Toggled};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use hairline_document::description::{Map, MaterialKind, MetalColor};
 use hairline_editor::Selection;
 use hairline_editor::presets::ShapePreset;
 use hairline_editor::wear::Wear;
 use hairline_optics::metal::Metal;
-use hairline_scene::description::{Map, MaterialKind, MetalColor};
-use hairline_scene::environment::BuiltInMap;
+use hairline_sky::BuiltInMap;
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 
@@ -115,7 +115,7 @@ fn a_map_in_the_box_is_named_in_the_scene() {
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     let saved = std::fs::read_to_string(&scene).unwrap();
-    let read = hairline_scene::Description::from_toml(&saved, &scene).unwrap();
+    let read = hairline_document::Description::from_toml(&saved, &scene).unwrap();
     let environment = read.environment.unwrap();
     assert_eq!(environment.map, Map::BuiltIn(BuiltInMap::Overcast));
 }

@@ -5,9 +5,9 @@ use crate::panels::{choose, controls, is_live, select};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use hairline_document::description::{Grating, GroovePattern, UvAxis};
 use hairline_editor::Selection;
 use hairline_editor::grating_presets::GratingPreset;
-use hairline_scene::description::{Grating, GroovePattern, UvAxis};
 use hairline_viewer::Viewer;
 
 /// The only grating of the scene.

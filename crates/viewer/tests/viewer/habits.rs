@@ -221,7 +221,7 @@ fn a_new_name_and_an_unused_material_leave_the_picture() {
         harness.state().engine().built().map(|built| built.revision)
     };
     let before = revision(&harness);
-    let edits: [fn(&mut hairline_scene::Description); 4] = [
+    let edits: [fn(&mut hairline_document::Description); 4] = [
         |d| d.scratches[0].name = Some("another".to_owned()),
         |d| d.lights[0].name = None,
         |d| {

@@ -5,8 +5,8 @@ use crate::picking::{LAMP, two_squares};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use hairline_document::description::Override;
 use hairline_editor::Selection;
-use hairline_scene::description::Override;
 use hairline_viewer::Viewer;
 
 /// A scene of two squares, and a selection in it.

@@ -5,8 +5,8 @@ use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use hairline_document::description::{Layer, LightKind};
 use hairline_editor::Selection;
-use hairline_scene::description::{Layer, LightKind};
 use hairline_viewer::Viewer;
 
 /// Replaces the text of the box of this name.
@@ -138,7 +138,7 @@ fn a_sun_is_described_by_direction_angle_and_irradiance() {
     let mut harness = with_layer();
     let document = harness.state_mut().document_mut();
     document.edit("by the test", |d| {
-        d.lights[0] = hairline_scene::description::Light::new(LightKind::sun([0.0, 0.0, -1.0]));
+        d.lights[0] = hairline_document::description::Light::new(LightKind::sun([0.0, 0.0, -1.0]));
     });
     document.select(Selection::Light(0));
     harness.run_steps(3);
@@ -198,7 +198,7 @@ fn a_camera_is_described_by_its_lens_too() {
     let f_stop = camera.focal_length_mm([1200, 800]) / 10.0;
     assert!((camera.f_stop([1200, 800]).unwrap() - f_stop).abs() < 1e-9);
     let saved = description(&harness).to_toml().unwrap();
-    let again = hairline_scene::Description::from_toml(&saved, std::path::Path::new("saved"));
+    let again = hairline_document::Description::from_toml(&saved, std::path::Path::new("saved"));
     assert_eq!(again.unwrap(), *description(&harness));
 }
 

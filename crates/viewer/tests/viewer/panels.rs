@@ -8,12 +8,12 @@ use crate::common::{
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use hairline_document::Description;
+use hairline_document::description::Amount;
+use hairline_document::description::{Environment, Layer, Map, Pattern};
 use hairline_editor::Selection;
 use hairline_editor::presets::{LayerPreset, MaterialPreset};
 use hairline_image::{Display, Output, Picture};
-use hairline_scene::Description;
-use hairline_scene::description::Amount;
-use hairline_scene::description::{Environment, Layer, Map, Pattern};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 
@@ -136,7 +136,7 @@ fn a_material_of_every_kind_and_lights() {
     wait_built(&mut harness);
     for preset in MaterialPreset::all() {
         edit(&mut harness, |d| {
-            d.materials[0] = hairline_scene::description::Material {
+            d.materials[0] = hairline_document::description::Material {
                 name: d.materials[0].name.clone(),
                 ..preset.material()
             };

@@ -31,7 +31,7 @@ fn a_panic_is_told_and_the_picture_goes_on() {
                 "a broken lamp"
             );
         });
-        let change = |d: &mut hairline_scene::Description| {
+        let change = |d: &mut hairline_document::Description| {
             d.camera.position_m[0] += 0.1;
             d.objects[0].translation_m[0] += 0.001;
         };

@@ -2,8 +2,9 @@
 
 use crate::common::{self, click_on, description, viewer, wait_built};
 use egui_kittest::{Harness, kittest::Queryable};
+use hairline_document::Description;
 use hairline_editor::Selection;
-use hairline_scene::{Description, Scene};
+use hairline_scene::Scene;
 use hairline_viewer::Viewer;
 
 const BARE: &str = r#"

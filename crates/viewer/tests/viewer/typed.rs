@@ -10,8 +10,8 @@ use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use hairline_document::description::{Shape, Surface};
 use hairline_editor::{Document, Selection};
-use hairline_scene::description::{Shape, Surface};
 use hairline_viewer::Viewer;
 
 const TEXTS: [&str; 3] = ["ACME 🎲", "", "\"]\n[x]"];

@@ -4,9 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use hairline_scene::Arrays;
-use hairline_scene::description::{Description, FileUse};
-use hairline_scene::inputs;
+use hairline_document::description::{Description, FileUse};
+use hairline_document::{Arrays, inputs};
 
 /// Hexadecimal digits of a fingerprint: 128 bits, beyond any accident.
 const DIGITS: usize = 32;
@@ -73,7 +72,7 @@ fn digest_of_mesh(path: &Path) -> Result<String> {
 
 #[cfg(test)]
 mod tests {
-    use hairline_scene::description::Layer;
+    use hairline_document::description::Layer;
 
     use super::*;
 

@@ -12,7 +12,7 @@ use hairline_fixtures::statistics::{Draw, chi_square, jittered};
 fn map(size_px: [u32; 2], texel: impl Fn(u32, u32) -> [f32; 3]) -> Environment {
     let texels = (0..size_px[1]).flat_map(|y| (0..size_px[0]).map(move |x| (x, y)));
     let rgb = texels.map(|(x, y)| texel(x, y)).collect();
-    Environment::from_map(Picture { size_px, rgb }, 0.7, 2.5, true)
+    hairline_sky::from_map(Picture { size_px, rgb }, 0.7, 2.5, true)
 }
 
 /// Maps with names. Made once: environments blur themselves for the closed form, which takes most of these tests' time.
@@ -21,7 +21,7 @@ fn maps() -> &'static [(&'static str, Environment)] {
         let mut draw = Draw::new(1);
         let noise: Vec<f32> = (0..64 * 32).map(|_| draw.one().powi(8) as f32).collect();
         vec![
-            ("even", Environment::uniform([1.0, 0.5, 0.25])),
+            ("even", hairline_sky::uniform([1.0, 0.5, 0.25])),
             (
                 "bright texels at the seam and the poles",
                 map([37, 19], |x, y| {
@@ -167,7 +167,7 @@ fn a_map_turned_the_wrong_way_would_be_noticed() {
 
 #[test]
 fn a_black_map_is_sampled_evenly() {
-    let sampler = EnvironmentSampler::new(&Environment::uniform([0.0; 3]));
+    let sampler = EnvironmentSampler::new(&hairline_sky::uniform([0.0; 3]));
     let mut mean = DVec3::ZERO;
     for u in jittered(100, 4) {
         let (direction, pdf) = sampler.sample(u);

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use glam::DVec3;
+use hairline_document::Description;
 use hairline_fixtures::scenes::oblique_plate;
 use hairline_image::{Display, ToneMap};
-use hairline_scene::Transport;
-use hairline_scene::{Camera, Description, Lens};
+use hairline_scene::{Camera, Lens, Transport};
 use web_time::Instant;
 
 use super::super::{Backend, Engine, Frame, Picture, View};

@@ -1,9 +1,9 @@
 //! Body that handles belong to.
 
 use glam::DVec3;
+use hairline_document::Description;
+use hairline_document::description::{Light, LightKind};
 use hairline_editor::{Selection, place_light};
-use hairline_scene::Description;
-use hairline_scene::description::{Light, LightKind};
 
 use super::cone::LightCone;
 

@@ -1,9 +1,9 @@
 //! Changes of the scene by the motion of a handle.
 
 use glam::{DMat3, DVec3};
+use hairline_document::Description;
+use hairline_document::description::{Light, Object};
 use hairline_editor::{Selection, place_light};
-use hairline_scene::Description;
-use hairline_scene::description::{Light, Object};
 
 use super::motion::Motion;
 
@@ -85,7 +85,7 @@ fn turned(object: &Object, axis: DVec3, angle_rad: f64) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hairline_scene::description::{Shape, Surface};
+    use hairline_document::description::{Shape, Surface};
 
     fn object(rotation_deg: [f64; 3]) -> Object {
         Object {

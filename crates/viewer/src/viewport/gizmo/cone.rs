@@ -5,9 +5,9 @@
 
 use egui::{Pos2, Vec2};
 use glam::DVec3;
+use hairline_document::description::Light;
+use hairline_document::schema::light::CONE_DEG;
 use hairline_editor::place_light;
-use hairline_scene::description::Light;
-use hairline_scene::schema::light::CONE_DEG;
 
 use crate::viewport::lens::Lens;
 

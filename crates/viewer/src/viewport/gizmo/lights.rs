@@ -2,10 +2,10 @@
 
 use egui::{Color32, Painter, Pos2, Vec2};
 use glam::DVec3;
+use hairline_document::Description;
+use hairline_document::description::{Light, LightKind};
 use hairline_editor::place_light;
 use hairline_optics::band::{TUBE_CORNERS, TubeOutline, tube_outline};
-use hairline_scene::Description;
-use hairline_scene::description::{Light, LightKind};
 
 use super::cone::LightCone;
 use super::handles::distance_to_segment;

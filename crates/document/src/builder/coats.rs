@@ -1,0 +1,194 @@
+//! The scratches of a scene: those that a build lays, and those that it has from the last one.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::Work;
+use super::kept::{KeptLayer, KeptSurface};
+use super::parts::{OnPart, PartGround};
+use crate::description::references::find;
+use crate::description::{self, Layer, LayerPlaces, standings};
+use crate::error::Error;
+use crate::grey_map::GreyMap;
+use crate::scratches;
+use crate::stamp::Stamp;
+use hairline_scene::{Scene, SectionId};
+
+/// A `[[scratches]]` table and where it goes.
+struct Coat<'a> {
+    table: &'a description::Scratches,
+    object: usize,
+    /// Number of earlier layers on the same object with the same seed.
+    number: u64,
+    is_shown: bool,
+    /// Versions of the files that the layer is read from.
+    files: Vec<Stamp>,
+    /// The surface that it is laid on. For a layer that is not to be laid it is set only if it was
+    /// made before.
+    ground: Option<Arc<PartGround>>,
+    /// Scratches that the last build or this one laid.
+    laid: Option<Arc<KeptLayer>>,
+}
+
+impl<'a> Work<'a> {
+    pub(super) fn scratches(
+        &mut self,
+        surfaces: &[Arc<KeptSurface>],
+        scene: &mut Scene,
+    ) -> Result<(), Error> {
+        let mut coats = self.coats(surfaces)?;
+        let is_due = |coat: &Coat| coat.is_shown && coat.laid.is_none();
+        let used = coats.iter().filter(|coat| coat.is_shown);
+        let used = used.filter_map(|coat| coat.laid.as_deref());
+        let used_bytes = used.map(|kept| kept.laid.bytes()).sum::<f64>() + self.estimate.bytes();
+        for (i, coat) in coats
+            .iter_mut()
+            .enumerate()
+            .filter(|(_, coat)| is_due(coat))
+        {
+            let key = format!("scratches[{i}]");
+            let ground = surfaces[coat.object].ground(&OnPart::of(coat.table), &key)?;
+            coat.ground = Some(ground);
+        }
+        let mut tables = Vec::new();
+        for (i, coat) in coats.iter().enumerate() {
+            let Some(ground) = coat.ground.as_ref().filter(|_| is_due(coat)) else {
+                continue;
+            };
+            let key = format!("scratches[{i}]");
+            tables.push(scratches::Table {
+                layer: &coat.table.layer,
+                section: SectionId::new(&coat.table.profile),
+                strokes: &coat.table.strokes,
+                number: coat.number,
+                ground: &ground.ground,
+                means: self.means(&coat.table.place, &surfaces[coat.object], &key, used_bytes)?,
+                key,
+            });
+        }
+        let laid = scratches::lay(self.loader, &tables, self.base_dir, used_bytes)?;
+        drop(tables);
+        let due = coats.iter_mut().filter(|coat| is_due(coat));
+        for (coat, laid) in due.zip(laid) {
+            let Some(ground) = &coat.ground else {
+                continue;
+            };
+            coat.laid = Some(Arc::new(KeptLayer {
+                layer: coat.table.layer.clone(),
+                profile: coat.table.profile.clone(),
+                strokes: coat.table.strokes.clone(),
+                place: coat.table.place.clone(),
+                number: coat.number,
+                ground: ground.ground.clone(),
+                files: coat.files.clone(),
+                laid: ground.on_the_whole(laid),
+            }));
+        }
+        for (i, object) in scene.objects.iter_mut().enumerate() {
+            let layers = (0..).zip(&coats).filter_map(|(layer, coat)| {
+                let is_here = coat.is_shown && coat.object == i;
+                let laid = coat.laid.as_ref().filter(|_| is_here)?;
+                Some((layer, laid.clone()))
+            });
+            let together = self.old.together(layers.collect())?;
+            object.scratches = together.scratches.clone();
+            object.segments = together.segments.clone();
+            self.new.objects.push(together);
+        }
+        let laid = coats.into_iter().filter_map(|coat| coat.laid);
+        self.new.layers = laid.collect();
+        Ok(())
+    }
+
+    /// Pairs all tables with the scratches that the last build has laid for them.
+    fn coats(&self, surfaces: &[Arc<KeptSurface>]) -> Result<Vec<Coat<'a>>, Error> {
+        let tables = &self.description.scratches;
+        let mut coats: Vec<Coat> = Vec::new();
+        for (i, (table, standing)) in tables.iter().zip(standings(tables)).enumerate() {
+            let names = self.description.objects.iter().map(|o| o.name.as_str());
+            let key = format!("scratches[{i}].object");
+            let object = find(&table.object, names, &key, "object")?;
+            let number = standing.number;
+            let is_hidden = self.description.objects[object].hidden || surfaces[object].is_gone();
+            let is_shown = standing.is_shown && !is_hidden;
+            let ground = surfaces[object].ground_if_made(&OnPart::of(table));
+            // Before they are read.
+            let files = self.stamps(table);
+            let laid = ground
+                .as_ref()
+                .and_then(|ground| self.old.layer(table, number, &ground.ground, &files));
+            coats.push(Coat {
+                files,
+                ground,
+                table,
+                object,
+                number,
+                is_shown,
+                laid,
+            });
+        }
+        Ok(coats)
+    }
+
+    /// Stamps of the files that a layer is read from.
+    fn stamps(&self, table: &description::Scratches) -> Vec<Stamp> {
+        let list = match &table.layer {
+            Layer::Listed(listed) => Some(&listed.file),
+            Layer::Laid(_) | Layer::Brushed(_) => None,
+        };
+        let files = list.into_iter().chain(table.place.files());
+        files
+            .map(|file| Stamp::of(&self.base_dir.join(file)))
+            .collect()
+    }
+
+    /// Reads the files that the `where` of a layer names; `key` is the path to it in the scene
+    /// file.
+    fn means(
+        &mut self,
+        place: &'a LayerPlaces,
+        surface: &KeptSurface,
+        key: &str,
+        used_bytes: f64,
+    ) -> Result<scratches::PlaceInputs<'a>, Error> {
+        let mut picture = |name: &str, file: &Option<PathBuf>| {
+            let way = format!("{key}.where.{name}");
+            let read = file
+                .as_ref()
+                .map(|file| self.grey_map(&way, file, used_bytes));
+            read.transpose()
+        };
+        let mask = picture("mask", &place.mask)?;
+        let density = picture("density", &place.density)?;
+        let whole = (place.edges > 0.0).then(|| surface.ground(&OnPart::default(), key));
+        Ok(scratches::PlaceInputs {
+            described: place,
+            mask,
+            density,
+            whole: whole.transpose()?.map(|whole| whole.ground.clone()),
+        })
+    }
+
+    /// A picture of a layer's places. `key` is the way to it.
+    fn grey_map(&mut self, key: &str, file: &Path, used_bytes: f64) -> Result<Arc<GreyMap>, Error> {
+        let path = self.base_dir.join(file);
+        let stamp = Stamp::of(&path);
+        let known = self
+            .new
+            .grey_map(&stamp)
+            .or_else(|| self.old.grey_map(&stamp));
+        let map = match known {
+            Some(map) => map,
+            None => {
+                let free_bytes = self.loader.memory_budget_bytes as f64 - used_bytes;
+                let read = GreyMap::read(&path, free_bytes);
+                Arc::new(read.map_err(|found| {
+                    let right = "must be a .png, .jpg or .webp, relative to the scene file";
+                    Error::new(key, found, right)
+                })?)
+            }
+        };
+        self.new.grey_maps.push((stamp, map.clone()));
+        Ok(map)
+    }
+}

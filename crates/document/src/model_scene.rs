@@ -1,0 +1,232 @@
+//! A scene around a model that comes without one: a studio and a ground, wear on metal, a camera that frames it.
+
+use std::path::{Path, PathBuf};
+
+use glam::{DVec2, DVec3, Vec3};
+use hairline_model::text::shown;
+use hairline_model::{mesh_file, packed};
+use hairline_scene::Mesh;
+use hairline_sky::BuiltInMap;
+
+use crate::description::{
+    Camera, Description, Environment, Map, Object, Render, Studio, Surface, Up,
+};
+use crate::error::Error;
+use crate::framing::framing;
+use crate::gltf_scene;
+use crate::probe;
+use crate::probe::ProbedMesh;
+use crate::scratch_studio::{DARK_GROUND, Subject};
+use crate::studio::PhotoSet;
+use crate::wear::Wear;
+
+mod lights;
+
+/// Sizes at which scratches can be seen; other models are shown [`SHOWN_M`] large.
+const SIZES_M: std::ops::RangeInclusive<f64> = 0.02..=1.0;
+const SHOWN_M: f64 = 0.05;
+/// The share of the picture that the model fills: the rest is for its shadow.
+const FILLED: f64 = 0.8;
+const FOV_Y_DEG: f64 = 28.0;
+/// Around the lights of a model's file: its brightest box behind the camera, to the side.
+const STUDIO_ROTATION_DEG: f64 = 220.0;
+const STUDIO_INTENSITY: f64 = 0.75;
+/// Direction from the model to the camera on the floor plan: a little from the left.
+const VIEW: DVec2 = DVec2::new(-0.42, -1.0);
+/// Elevations of the camera: for flat models, and for those as high as wide, whose walls mirror their surroundings.
+const ELEVATION_DEG: [f64; 2] = [32.0, 12.0];
+
+impl Description {
+    /// Whether a file is a model by its name: .glb or .gltf.
+    pub fn is_model(path: &Path) -> bool {
+        packed::is_model(path)
+    }
+
+    /// The scene that a model's file holds, or one that shows the model, z up. Its files are relative to the model's folder.
+    ///
+    /// # Errors
+    /// What is wrong with the file. A scene in it that cannot be read is told in the notes, and the model is shown plain.
+    pub fn for_model(path: &Path) -> Result<Self, Error> {
+        match gltf_scene::reading::read(path) {
+            Some(Ok(scene)) => Ok(scene),
+            Some(Err(error)) => {
+                let mut plain = Self::around(path)?;
+                plain.scratches.clear();
+                plain
+                    .notes
+                    .push(format!("{error}; the model is shown plain"));
+                Ok(plain)
+            }
+            None => Self::around(path),
+        }
+    }
+
+    /// A scene around a model.
+    fn around(path: &Path) -> Result<Self, Error> {
+        let ProbedMesh {
+            mesh,
+            materials,
+            textures,
+            summary,
+        } = probe::read_mesh(path)?;
+        let name = path.file_name().map_or_else(|| path.into(), PathBuf::from);
+        let mut notes = Vec::new();
+        let (mut factor, mut fit_m) = (1.0, None);
+        let extent_m = summary.extent_m();
+        if !SIZES_M.contains(&extent_m) {
+            (factor, fit_m) = (SHOWN_M / extent_m, Some(SHOWN_M));
+            notes.push(format!(
+                "{} is {} large; it is shown {SHOWN_M} m large (`fit_m`), so that its scratches are seen",
+                shown(&name.to_string_lossy()),
+                metres(extent_m)
+            ));
+        }
+        if summary.moved_from.is_some() {
+            // Fitted models are moved.
+            fit_m.get_or_insert(extent_m);
+        }
+        // Rotation from y up to z up.
+        let turned = |p: DVec3| factor * DVec3::new(p.x, -p.z, p.y);
+        let from_middle = |p: DVec3| turned(p - summary.moved_from.unwrap_or(DVec3::ZERO));
+        let lights = mesh_file::lights(path)
+            .map_err(|flaw| Error::new("", flaw.found, flaw.right).at(path, None))?;
+        let mut lamps = Vec::new();
+        for (i, light) in lights.iter().enumerate() {
+            match lights::lamp(light, extent_m, factor, [&turned, &from_middle]) {
+                Ok(lamp) => lamps.push(lamp),
+                Err(why) => {
+                    let file = shown(&name.to_string_lossy());
+                    let light = light.name.as_deref().map_or_else(|| i.to_string(), shown);
+                    notes.push(format!("{file}: light {light} left out; {why}"));
+                }
+            }
+        }
+        let (least, most) = summary.bounds_m;
+        let upright = |p: Vec3| turned(p.as_dvec3());
+        let [a, b] = [least, most].map(upright);
+        let points_m: Vec<_> = summary
+            .extreme_points_m
+            .iter()
+            .copied()
+            .map(upright)
+            .collect();
+        let render = Render::default();
+        let stem = path
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned());
+        let object = stem
+            .filter(|stem| !stem.is_empty())
+            .unwrap_or_else(|| "model".to_owned());
+        let camera = camera(&points_m, render.size_px);
+        let set = PhotoSet::new(&camera, (a.min(b), a.max(b)));
+        let environment = match lamps.is_empty() {
+            true => {
+                let mesh = in_scene(mesh, factor);
+                let subject = Subject {
+                    meshes: &[&mesh],
+                    count: 1,
+                    materials: &materials,
+                    textures: &textures,
+                };
+                lamps = subject.lights(&camera, render.size_px);
+                Environment::dark_room()
+            }
+            // The model has lights of its own, but their strength is unknown, so the studio's map lights it as
+            // well.
+            false => Environment {
+                map: Map::BuiltIn(BuiltInMap::Studio),
+                rotation_deg: STUDIO_ROTATION_DEG,
+                intensity: STUDIO_INTENSITY,
+                visible: true,
+            },
+        };
+        let (mut ground, ground_material) = set.ground(&DARK_GROUND);
+        if object == ground.name {
+            ground.name += " under it";
+        }
+        Ok(Self {
+            camera,
+            render,
+            environment: Some(environment),
+            // The scene gets lights and an object in place of the studio, so that each can be changed.
+            studio: Studio::NONE,
+            ground: None,
+            materials: vec![ground_material],
+            gratings: Vec::new(),
+            scratches: match summary.metal_share > 0.5 {
+                true => Wear::Worn.layers(&object, a.distance(b)),
+                false => Vec::new(),
+            },
+            objects: vec![
+                Object {
+                    name: object,
+                    surface: Surface::Mesh(name.clone()),
+                    up: Up::Y,
+                    fit_m,
+                    time_s: None,
+                    animation: None,
+                    overrides: Vec::new(),
+                    material: None,
+                    translation_m: [0.0; 3],
+                    rotation_deg: [0.0; 3],
+                    scale: [1.0; 3],
+                    hidden: false,
+                },
+                ground,
+            ],
+            lights: lamps,
+            lights_of: Some(name),
+            notes,
+        })
+    }
+}
+
+fn metres(length_m: f64) -> String {
+    match length_m {
+        0.01..1000.0 => format!("{length_m:.3} m"),
+        _ => format!("{length_m:.1e} m"),
+    }
+}
+
+/// A model as the scene has it: z up, so many times as large.
+fn in_scene(mut mesh: Mesh, factor: f64) -> Mesh {
+    let turned = |p: Vec3| Vec3::new(p.x, -p.z, p.y);
+    for position_m in &mut mesh.positions_m {
+        *position_m = factor as f32 * turned(*position_m);
+    }
+    for normal in &mut mesh.normals {
+        *normal = turned(*normal);
+    }
+    mesh
+}
+
+/// Places the camera along [`VIEW`], as near as possible so that all points are in the picture.
+fn camera(points_m: &[DVec3], [width, height]: [u32; 2]) -> Camera {
+    let least = points_m
+        .iter()
+        .copied()
+        .reduce(DVec3::min)
+        .unwrap_or_default();
+    let most = points_m
+        .iter()
+        .copied()
+        .reduce(DVec3::max)
+        .unwrap_or_default();
+    let size_m = most - least;
+    let [flat_deg, tall_deg] = ELEVATION_DEG;
+    let tallness = (size_m.z / size_m.truncate().max_element()).clamp(0.0, 1.0);
+    let elevation_rad = (flat_deg + (tall_deg - flat_deg) * tallness).to_radians();
+    let view = VIEW.normalize() * elevation_rad.cos();
+    let forward = -view.extend(elevation_rad.sin());
+    let right = forward.cross(DVec3::Z).normalize();
+    let tan_y = FILLED * (0.5 * FOV_Y_DEG.to_radians()).tan();
+    let tan = DVec2::new(tan_y * f64::from(width) / f64::from(height), tan_y);
+    let view = framing(points_m, [right, right.cross(forward), forward], tan);
+    Camera {
+        position_m: view.position_m.into(),
+        target_m: view.target_m.into(),
+        up: [0.0, 0.0, 1.0],
+        fov_y_deg: FOV_Y_DEG,
+        ..Default::default()
+    }
+}

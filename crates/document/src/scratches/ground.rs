@@ -1,0 +1,107 @@
+//! The surface that scratches are laid on, made ready for it.
+
+use std::sync::{Arc, OnceLock};
+
+use glam::{DMat4, DVec3};
+use hairline_scene::Mesh;
+
+use super::closest::Closest;
+use super::facet::Facet;
+use super::neighbours::Neighbours;
+use super::random::Stream;
+use super::walk::{MeshPoint, Walker, shortest_piece_m};
+use crate::description::Distribution;
+
+/// Half of the usual coherence width.
+const SHORTEST_M: f64 = 10e-6;
+/// A longer scratch only goes over itself again; relative to the object's diagonal.
+const LONGEST: f64 = 100.0;
+
+/// A mesh with all data that laying needs.
+#[derive(Debug)]
+pub(crate) struct Ground {
+    pub(super) mesh: Arc<Mesh>,
+    /// The object's own frame, in which patterns are described.
+    pub(super) world_from_object: DMat4,
+    /// Corner of the bounding box with the least coordinates.
+    pub(super) corner_m: DVec3,
+    /// The length of the box's diagonal.
+    pub(super) diagonal_m: f64,
+    /// Length of the shortest piece of a walk.
+    shortest_piece_m: f64,
+    neighbours: Neighbours,
+    /// The area of all triangles up to and including each.
+    areas_m2: Vec<f64>,
+    /// Search for closest points, made at the first use: few layers need it.
+    closest: OnceLock<Closest>,
+}
+
+impl Ground {
+    pub(crate) fn new(mesh: Arc<Mesh>, world_from_object: DMat4) -> Self {
+        let mut sum = 0.0;
+        let areas_m2 = (0..mesh.triangles.len())
+            .map(|triangle| {
+                let [a, b, c] = mesh.corners_m(triangle);
+                sum += (b - a).cross(c - a).length() / 2.0;
+                sum
+            })
+            .collect();
+        let (least, most) = mesh.bounds_m();
+        Self {
+            neighbours: Neighbours::new(&mesh),
+            mesh,
+            world_from_object,
+            corner_m: least.as_dvec3(),
+            diagonal_m: f64::from((most - least).length()),
+            areas_m2,
+            shortest_piece_m: shortest_piece_m((least, most)),
+            closest: OnceLock::new(),
+        }
+    }
+
+    pub(super) fn area_m2(&self) -> f64 {
+        self.areas_m2.last().copied().unwrap_or(0.0)
+    }
+
+    pub(super) fn walker(&self) -> Walker<'_> {
+        Walker::new(&self.mesh, &self.neighbours, self.shortest_piece_m)
+    }
+
+    /// The nearest places on the surface.
+    pub(super) fn closest(&self) -> &Closest {
+        self.closest.get_or_init(|| Closest::new(self.mesh.clone()))
+    }
+
+    /// Length that lies `normal` standard deviations from the mean, limited to lengths that fit the surface.
+    pub(super) fn scratch_length_m(&self, drawn: &Distribution, normal: f64) -> f64 {
+        let longest_m = (LONGEST * self.diagonal_m).max(SHORTEST_M);
+        drawn.log_normal_at(normal).clamp(SHORTEST_M, longest_m)
+    }
+
+    /// A place on the surface, each area alike.
+    pub(super) fn random_spot(&self, stream: &mut Stream) -> MeshPoint {
+        let wanted = stream.uniform() * self.area_m2();
+        let triangle = self.areas_m2.partition_point(|area| *area <= wanted);
+        // Rounding may carry the product up to the whole area.
+        let triangle = triangle.min(self.areas_m2.len() - 1) as u32;
+        let [a, b, c] = Facet::new(&self.mesh, triangle).corners_m;
+        // The square root makes the density even over the triangle.
+        let from_a = libm::sqrt(stream.uniform());
+        let to_c = stream.uniform();
+        MeshPoint {
+            triangle,
+            point_m: a.lerp(b.lerp(c, to_c), from_a),
+        }
+    }
+
+    pub(super) fn point_in_world_m(&self, point_m: [f64; 3]) -> DVec3 {
+        self.world_from_object.transform_point3(point_m.into())
+    }
+
+    /// A unit direction in world space.
+    pub(super) fn direction_in_world(&self, direction: [f64; 3]) -> DVec3 {
+        self.world_from_object
+            .transform_vector3(direction.into())
+            .normalize_or_zero()
+    }
+}

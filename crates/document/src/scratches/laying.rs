@@ -1,0 +1,90 @@
+//! Interface of all kinds of layers for laying a scratch.
+
+use hairline_scene::{Profile, SectionId, Segment};
+
+use super::walk::{Course, MeshPoint, Walker};
+use crate::description::Distribution;
+use crate::error::Error;
+
+/// Size of a groove that a list gives for each scratch.
+pub(crate) struct ListedSize {
+    /// Name of the size: of its column in a file, and of its array in memory.
+    pub key: &'static str,
+    range: (f64, f64),
+    pub of: fn(&mut Profile) -> &mut f32,
+}
+
+/// Sizes in the order of the columns.
+pub(crate) const LISTED_SIZES: [ListedSize; 2] = [
+    ListedSize {
+        key: "width_um",
+        range: Profile::WIDTHS_UM,
+        of: |profile| &mut profile.width_um,
+    },
+    ListedSize {
+        key: "depth_nm",
+        range: Profile::DEPTHS_NM,
+        of: |profile| &mut profile.depth_nm,
+    },
+];
+
+/// Name and range of each size of a groove, in the order of the columns of a list.
+pub const LISTED_RANGES: [(&str, (f64, f64)); 2] = [
+    (LISTED_SIZES[0].key, LISTED_SIZES[0].range),
+    (LISTED_SIZES[1].key, LISTED_SIZES[1].range),
+];
+
+impl ListedSize {
+    /// # Errors
+    /// At `key`: a number that is out of range, or none at all.
+    pub(crate) fn check(&self, key: impl FnOnce() -> String, value: f64) -> Result<(), Error> {
+        let (least, most) = self.range;
+        // Written so that NaN is out of range.
+        match (least..=most).contains(&value) {
+            true => Ok(()),
+            false => {
+                let right = format!("must be from {least} to {most}");
+                Err(Error::new(key(), format!("found {value}"), right))
+            }
+        }
+    }
+}
+
+/// The renderers' trees number the segments by 28 bits.
+pub(super) const MOST_SEGMENTS: usize = 1 << 28;
+
+/// Profile and course of a scratch, besides its segments. Its section is the layer's.
+pub(super) struct Groove {
+    pub profile: Profile,
+    pub course: Course,
+}
+
+/// A layer that can lay its scratches one by one, in any order.
+pub(super) trait Laying: Sync {
+    /// Appends the segments of one scratch.
+    fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove;
+
+    /// Middle of a scratch, if it has one, where [`Laying::lay`] lays it.
+    fn middle(&self, index: u64) -> Option<MeshPoint>;
+
+    /// Number of the layer's strokes before a scratch, its own included.
+    fn strokes_before(&self, _index: u64) -> usize {
+        0
+    }
+}
+
+/// Profile whose sizes lie `normals` standard deviations from their means, times factors.
+pub(super) fn scratch_profile(
+    [_, width_um, depth_nm]: [Distribution; 3],
+    normals: [f64; 2],
+    [width, depth]: [f64; 2],
+) -> Profile {
+    let drawn = |size: Distribution, normal: f64, factor: f64, (least, most): (f64, f64)| {
+        (size.log_normal_at(normal) * factor).clamp(least, most) as f32
+    };
+    Profile {
+        width_um: drawn(width_um, normals[0], width, Profile::WIDTHS_UM),
+        depth_nm: drawn(depth_nm, normals[1], depth, Profile::DEPTHS_NM),
+        section: SectionId::default(),
+    }
+}

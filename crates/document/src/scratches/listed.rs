@@ -1,0 +1,291 @@
+//! A layer whose scratches are listed in a CSV file, one straight scratch a row; and lists for other programs.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use glam::DVec3;
+use hairline_model::reading::{self, FileKind};
+use hairline_model::text::shown;
+use hairline_scene::{Object, Profile, Scratch, Segment};
+use rayon::prelude::*;
+
+use super::ground::Ground;
+use super::guide::Guide;
+use super::laying::{Groove, LISTED_SIZES, Laying};
+use super::walk::{Course, MeshPoint, Walker};
+use crate::arrays::ScratchArrays;
+use crate::error::Error;
+use crate::loader::Loader;
+
+const ENDS: [&str; 6] = ["x0_m", "y0_m", "z0_m", "x1_m", "y1_m", "z1_m"];
+const COUNT: usize = ENDS.len() + LISTED_SIZES.len();
+/// Further columns of a list for other programs: the number of the scratch, whose straight pieces follow one another, and the surface's
+/// normal in the middle of the piece.
+const MORE_COLUMNS: &str = "scratch,nx,ny,nz";
+/// Largest distance of a scratch's end from the surface, relative to the diagonal of the object: a list for the ideal shape fits its
+/// facets.
+const OFF_SURFACE: f64 = 0.01;
+/// Longest way on the surface between two points over their distance: on a curved surface it is longer than the straight line.
+const LONGEST_WAY: f64 = 4.0;
+
+/// A row of the file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ListedRow {
+    /// Counted from 1.
+    line: usize,
+    pub ends_m: [[f64; 3]; 2],
+    pub profile: Profile,
+}
+
+/// The header.
+fn columns() -> Vec<&'static str> {
+    let sizes = LISTED_SIZES.iter().map(|size| size.key);
+    ENDS.into_iter().chain(sizes).collect()
+}
+
+/// The header of a list.
+pub(crate) fn list_header() -> String {
+    columns().join(",")
+}
+
+/// Reads all rows. `key` is the way to the layer's table in the scene file.
+pub(crate) fn read(path: &Path, key: &str) -> Result<Vec<ListedRow>, Error> {
+    // The rows take about as much as the text, twice.
+    let text = reading::read(path, FileKind::File, 1.0 / 6.0).map_err(|error| {
+        Error::new(
+            format!("{key}.file"),
+            format!("\"{}\" cannot be read ({error})", path.display()),
+            "must be a CSV file, relative to the scene file",
+        )
+    })?;
+    let text = String::from_utf8(text).map_err(|_| {
+        let right = format!("must be a text with the header `{}`", columns().join(","));
+        Error::new("", "found bytes that are no UTF-8", right).at(path, None)
+    })?;
+    parse(&text, path)
+}
+
+/// Parses the list. An error gets its line in the file of this path.
+fn parse(text: &str, path: &Path) -> Result<Vec<ListedRow>, Error> {
+    // A byte order mark is no part of the first name.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut lines = text
+        .lines()
+        .enumerate()
+        .map(|(i, line)| (i + 1, line.trim()))
+        .filter(|(_, line)| !line.is_empty());
+    let header_is = || format!("must be the header `{}`", columns().join(","));
+    let Some((first, header)) = lines.next() else {
+        return Err(Error::new("", "found an empty file", header_is()).at(path, Some(1)));
+    };
+    let header: Vec<_> = header.split(',').map(bare).collect();
+    if header != columns() {
+        let found = format!("found `{}`", shown(&header.join(",")));
+        return Err(Error::new("", found, header_is()).at(path, Some(first)));
+    }
+    let lines: Vec<_> = lines.collect();
+    let rows: Vec<_> = lines
+        .par_iter()
+        .map(|&(line, row)| parse_row(line, row).map_err(|error| error.at(path, Some(line))))
+        .collect();
+    // The first wrong one, whichever was read first.
+    rows.into_iter().collect()
+}
+
+/// A cell without spaces around it, and without quotes, which some programs write around all.
+fn bare(cell: &str) -> &str {
+    let cell = cell.trim();
+    let quoted = cell.strip_prefix('"').and_then(|it| it.strip_suffix('"'));
+    quoted.map_or(cell, str::trim)
+}
+
+fn parse_row(line: usize, row: &str) -> Result<ListedRow, Error> {
+    let cells: Vec<_> = row.split(',').map(bare).collect();
+    if cells.len() != COUNT {
+        let found = format!("found {} cells", cells.len());
+        let right = format!("must be {COUNT}, as in the header");
+        return Err(Error::new("", found, right));
+    }
+    let mut values = [0.0; COUNT];
+    for (i, cell) in cells.iter().enumerate() {
+        values[i] = cell
+            .parse()
+            .ok()
+            .filter(|value: &f64| value.is_finite())
+            .ok_or_else(|| {
+                let found = format!("found \"{}\"", shown(cell));
+                Error::new(columns()[i], found, "must be a number")
+            })?;
+    }
+    let [x0, y0, z0, x1, y1, z1, sizes @ ..] = values;
+    let mut profile = Profile::default();
+    for (size, value) in LISTED_SIZES.iter().zip(sizes) {
+        size.check(|| size.key.to_owned(), value)?;
+        *(size.of)(&mut profile) = value as f32;
+    }
+    if (x0, y0, z0) == (x1, y1, z1) {
+        return Err(Error::new(
+            "",
+            "found both ends at one point",
+            "must be two points",
+        ));
+    }
+    Ok(ListedRow {
+        line,
+        ends_m: [[x0, y0, z0], [x1, y1, z1]],
+        profile,
+    })
+}
+
+/// Writes laid scratches of an object for other programs: a straight piece a row, in world space. The numbers read back as what they were.
+/// packages/hairline-shaders reads it.
+///
+/// # Errors
+/// What cannot be written.
+pub fn write_scratches<'a>(
+    object: &Object,
+    scratches: impl IntoIterator<Item = &'a Scratch>,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    writeln!(out, "{},{MORE_COLUMNS}", columns().join(","))?;
+    for (number, scratch) in scratches.into_iter().enumerate() {
+        let mut profile = scratch.profile;
+        let sizes = LISTED_SIZES.each_ref().map(|size| *(size.of)(&mut profile));
+        let own = scratch.segments.start as usize..scratch.segments.end as usize;
+        for piece in &object.segments[own] {
+            let ends = [piece.start_m, piece.end_m].map(|end| end.to_array());
+            for x in ends.as_flattened().iter().chain(&sizes) {
+                write!(out, "{x},")?;
+            }
+            let [x, y, z] = piece.normal.to_array();
+            writeln!(out, "{number},{x},{y},{z}")?;
+        }
+    }
+    Ok(())
+}
+
+/// A scratch with its ends on the surface.
+struct PlacedScratch {
+    start: MeshPoint,
+    end_m: DVec3,
+    profile: Profile,
+}
+
+/// Scratches on the ground that they go on.
+pub(super) struct Listed<'a> {
+    scratches: Vec<PlacedScratch>,
+    ground: &'a Ground,
+}
+
+impl<'a> Listed<'a> {
+    /// Makes the layer, or refuses rows that do not lie on the surface.
+    pub(super) fn new(
+        loader: &Loader,
+        rows: &[ListedRow],
+        path: &Path,
+        ground: &'a Ground,
+    ) -> Result<Self, Error> {
+        let row = |i: usize| (rows[i].ends_m, rows[i].profile);
+        Self::placed(loader, rows.len(), row, ground, |i, end, found, right| {
+            let key = ["x0_m", "x1_m"][end];
+            Error::new(key, found, right).at(path, Some(rows[i].line))
+        })
+    }
+
+    /// Reads scratches from arrays in memory. `key` is the way to the layer's table in the scene.
+    pub(super) fn of_arrays(
+        loader: &Loader,
+        arrays: &ScratchArrays,
+        key: &str,
+        ground: &'a Ground,
+    ) -> Result<Self, Error> {
+        let (ends_m, profiles) = (arrays.ends_m(), arrays.profiles());
+        let row = |i: usize| (ends_m[i], profiles[i]);
+        Self::placed(loader, ends_m.len(), row, ground, |i, end, found, right| {
+            Error::new(format!("{key}.ends_m[{i}][{end}]"), found, right)
+        })
+    }
+
+    /// Places both ends of each row on the surface, or refuses the first end that is too far from it. `error` makes the message from a
+    /// row, one of its ends and two halves of a sentence.
+    fn placed(
+        loader: &Loader,
+        count: usize,
+        row: impl Fn(usize) -> ([[f64; 3]; 2], Profile) + Sync,
+        ground: &'a Ground,
+        error: impl Fn(usize, usize, String, String) -> Error,
+    ) -> Result<Self, Error> {
+        const TOGETHER: usize = 1 << 16;
+        let tolerance_m = OFF_SURFACE * ground.diagonal_m;
+        let closest = ground.closest();
+        // Twice the row, and the end.
+        let wrong = AtomicUsize::new(usize::MAX);
+        let place = |i: usize| {
+            let (ends_m, profile) = row(i);
+            let [start, end] = [0, 1].map(|end| {
+                let point_m = ground.point_in_world_m(ends_m[end]);
+                let found = closest.find_within(point_m, tolerance_m);
+                let (spot, _) = found.unwrap_or_else(|| {
+                    wrong.fetch_min(2 * i + end, Ordering::Relaxed);
+                    (
+                        MeshPoint {
+                            triangle: 0,
+                            point_m,
+                        },
+                        0.0,
+                    )
+                });
+                spot
+            });
+            PlacedScratch {
+                start,
+                end_m: end.point_m,
+                profile,
+            }
+        };
+        let mut scratches = Vec::with_capacity(count);
+        for first in (0..count).step_by(TOGETHER) {
+            loader.go_on()?;
+            let together = first..count.min(first + TOGETHER);
+            scratches.par_extend(together.into_par_iter().map(place));
+            let wrong = wrong.load(Ordering::Relaxed);
+            if wrong < usize::MAX {
+                let (i, end) = (wrong / 2, wrong % 2);
+                let (ends_m, _) = row(i);
+                let (_, distance_m) = closest.find(ground.point_in_world_m(ends_m[end]));
+                let found = format!("found a point {distance_m:.3e} m off the object's surface");
+                let right = format!(
+                    "must be at most {tolerance_m:.3e} m off, in metres of the object's own frame"
+                );
+                return Err(error(i, end, found, right));
+            }
+        }
+        Ok(Self { scratches, ground })
+    }
+
+    pub(super) fn count(&self) -> u64 {
+        self.scratches.len() as u64
+    }
+}
+
+impl Laying for Listed<'_> {
+    fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
+        let placed = &self.scratches[index as usize];
+        let guide = Guide::Towards {
+            end_m: placed.end_m,
+        };
+        let length_m = LONGEST_WAY * placed.start.point_m.distance(placed.end_m);
+        walker.lay_from(placed.start, &guide, length_m, segments);
+        Groove {
+            profile: placed.profile,
+            course: Course::Open,
+        }
+    }
+
+    fn middle(&self, index: u64) -> Option<MeshPoint> {
+        let placed = &self.scratches[index as usize];
+        let middle_m = placed.start.point_m.lerp(placed.end_m, 0.5);
+        Some(self.ground.closest().find(middle_m).0)
+    }
+}

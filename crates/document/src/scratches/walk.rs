@@ -1,0 +1,311 @@
+//! The walk of one scratch over a mesh: from its seed both ways along its guide, across edges, until its length is used up or
+//! the surface ends.
+
+use glam::{DVec3, Vec3};
+use hairline_scene::{Mesh, Segment};
+
+use super::facet::{self, Arc, Facet};
+use super::guide::{Aim, Guide, chord_length_m};
+use super::neighbours::Neighbours;
+
+/// A walk that needs more steps than this is going nowhere.
+const MOST_STEPS: usize = 1 << 20;
+/// Steps without progress before a walk gives up: more than triangles meet in any sensible corner.
+const MOST_IDLE_STEPS: usize = 128;
+/// A field that turns by more than 60 degrees at once has no direction there: a pole, or a ridge with both sides facing it.
+const TURN_BACK_COS: f64 = 0.5;
+
+/// A place on the surface.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MeshPoint {
+    pub triangle: u32,
+    pub point_m: DVec3,
+}
+
+/// A straight piece within one triangle.
+#[derive(Clone, Copy, Debug)]
+struct StraightPiece {
+    start_m: DVec3,
+    end_m: DVec3,
+    triangle: u32,
+}
+
+/// Walks on one mesh.
+pub(super) struct Walker<'a> {
+    mesh: &'a Mesh,
+    neighbours: &'a Neighbours,
+    /// Shorter pieces are left out.
+    pub(super) shortest_piece_m: f64,
+}
+
+/// The shortest piece that is laid on a mesh of such bounds. Shorter ones add nothing under a coherence width of 20 um, and their direction would
+/// be lost in single precision.
+pub(super) fn shortest_piece_m((least, most): (Vec3, Vec3)) -> f64 {
+    let farthest = least.abs().max(most.abs()).max_element();
+    f64::from(farthest * f32::EPSILON * 16.0).max(0.5e-6)
+}
+
+/// Course of a walk, besides its segments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Course {
+    Open,
+    /// The walk came back to its start.
+    Closed,
+}
+
+impl<'a> Walker<'a> {
+    /// `shortest_piece_m` is that of the mesh.
+    pub(super) fn new(mesh: &'a Mesh, neighbours: &'a Neighbours, shortest_piece_m: f64) -> Self {
+        Self {
+            mesh,
+            neighbours,
+            shortest_piece_m,
+        }
+    }
+
+    /// Lays a scratch with its middle at the seed and appends its segments: none if the guide has no direction there.
+    pub(super) fn lay(
+        &self,
+        seed: MeshPoint,
+        guide: &Guide,
+        length_m: f64,
+        segments: &mut Vec<Segment>,
+    ) -> Course {
+        if length_m >= guide.shortest_ring_m(seed.point_m) {
+            let (pieces, course) = self.walk(seed, guide, false, length_m);
+            if course == Course::Closed {
+                return self.append(pieces, course, segments);
+            }
+        }
+        let (ahead, _) = self.walk(seed, guide, false, length_m / 2.0);
+        let (behind, _) = self.walk(seed, guide, true, length_m / 2.0);
+        let mut pieces: Vec<_> = behind
+            .into_iter()
+            .rev()
+            .map(StraightPiece::reversed)
+            .collect();
+        let mut ahead = ahead.into_iter();
+        // A straight scratch has no joint at its seed.
+        if let (Some(last), Some(first)) = (pieces.last_mut(), ahead.as_slice().first())
+            && last.continues_straight(first)
+        {
+            last.end_m = first.end_m;
+            ahead.next();
+        }
+        pieces.extend(ahead);
+        self.append(pieces, Course::Open, segments)
+    }
+
+    /// Lays a scratch from `start` on, as far as its guide leads.
+    pub(super) fn lay_from(
+        &self,
+        start: MeshPoint,
+        guide: &Guide,
+        length_m: f64,
+        segments: &mut Vec<Segment>,
+    ) {
+        let (pieces, _) = self.walk(start, guide, false, length_m);
+        self.append(pieces, Course::Open, segments);
+    }
+
+    fn walk(
+        &self,
+        start: MeshPoint,
+        guide: &Guide,
+        reversed: bool,
+        length_m: f64,
+    ) -> (Vec<StraightPiece>, Course) {
+        let mut pieces = Vec::new();
+        let mut spot = start;
+        let mut heading = None;
+        let mut entry = None;
+        let mut left_m = length_m;
+        let mut start_direction = None;
+        let mut idle_steps = 0;
+        let mut facet = Facet::new(self.mesh, start.triangle);
+        for _ in 0..MOST_STEPS {
+            let Some(aim) = self.aim(guide, &facet, spot, heading, entry, reversed) else {
+                break;
+            };
+            let start_direction = *start_direction.get_or_insert(aim.direction);
+            let arc = facet.arc(spot.point_m, aim.direction, aim.curvature_per_m);
+            // Up to a quarter of a turn, well within what `exit` and `nearest` can tell.
+            let quarter_turn_m = std::f64::consts::FRAC_PI_2 / aim.curvature_per_m.abs();
+            let mut reach_m = aim.reach_m.min(left_m).min(quarter_turn_m);
+            let exit = facet
+                .exit(&arc, entry)
+                .filter(|(exit_m, _)| *exit_m <= reach_m);
+            if let Some((exit_m, _)) = exit {
+                reach_m = exit_m;
+            }
+            let walked_m = length_m - left_m;
+            if spot.triangle == start.triangle
+                && let Some(way_m) = closes(&arc, start, start_direction, walked_m, reach_m)
+            {
+                push_chords(&mut pieces, spot.triangle, &arc, way_m);
+                return (pieces, Course::Closed);
+            }
+            push_chords(&mut pieces, spot.triangle, &arc, reach_m);
+            left_m -= reach_m;
+            if left_m <= 0.0 {
+                break;
+            }
+            idle_steps = match reach_m < self.shortest_piece_m * 1e-3 {
+                true => idle_steps + 1,
+                false => 0,
+            };
+            if idle_steps > MOST_IDLE_STEPS {
+                break;
+            }
+            let (point_m, direction) = arc.at(reach_m);
+            let Some((_, edge)) = exit else {
+                spot.point_m = point_m;
+                heading = Some(direction);
+                entry = None;
+                continue;
+            };
+            let Some((triangle, next_edge)) = self.neighbours.beyond(spot.triangle, edge) else {
+                break;
+            };
+            let next = Facet::new(self.mesh, triangle);
+            let share = 1.0 - facet.share_of_edge(edge, point_m);
+            heading = Some(facet.unfold(direction, edge, &next, next_edge));
+            spot = MeshPoint {
+                triangle,
+                point_m: next.point_on_edge(next_edge, share),
+            };
+            facet = next;
+            entry = Some(next_edge);
+        }
+        (pieces, Course::Open)
+    }
+
+    /// The guide's aim, if it leads on from where the scratch comes.
+    fn aim(
+        &self,
+        guide: &Guide,
+        facet: &Facet,
+        spot: MeshPoint,
+        heading: Option<DVec3>,
+        entry: Option<usize>,
+        reversed: bool,
+    ) -> Option<Aim> {
+        let aim = guide.aim(facet, spot.point_m, heading, reversed)?;
+        if let Some(heading) = heading
+            && heading.dot(aim.direction) < TURN_BACK_COS
+        {
+            return None;
+        }
+        match (entry, heading) {
+            // The fields of two facets can both point at their edge; then cross this one straight on.
+            (Some(edge), Some(heading)) if !facet.is_inward(aim.direction, edge) => facet
+                .is_inward(heading, edge)
+                .then(|| Aim::straight(heading)),
+            _ => Some(aim),
+        }
+    }
+
+    /// Rounds pieces to segments and appends them, without those too short to matter.
+    fn append(
+        &self,
+        pieces: Vec<StraightPiece>,
+        course: Course,
+        segments: &mut Vec<Segment>,
+    ) -> Course {
+        let Some(first) = pieces.first() else {
+            return Course::Open;
+        };
+        let first_segment = segments.len();
+        let mut joint_m = first.start_m;
+        for piece in &pieces {
+            if piece.end_m.distance(joint_m) < self.shortest_piece_m {
+                continue;
+            }
+            segments.push(self.segment(joint_m, piece.end_m, piece.triangle));
+            joint_m = piece.end_m;
+        }
+        let laid = &mut segments[first_segment..];
+        match (course, laid) {
+            // Fewer than three segments cannot go round.
+            (Course::Closed, [first, _, .., last]) => {
+                last.end_m = first.start_m;
+                Course::Closed
+            }
+            _ => Course::Open,
+        }
+    }
+
+    /// A piece of a triangle with the shading normal at its middle.
+    pub(super) fn segment(&self, start_m: DVec3, end_m: DVec3, triangle: u32) -> Segment {
+        let corners_m = self.mesh.corners_m(triangle as usize);
+        let facet_normal = facet::normal(corners_m);
+        let weights = facet::barycentric(corners_m, facet_normal, (start_m + end_m) / 2.0);
+        let corners = self.mesh.triangles[triangle as usize];
+        let normal: DVec3 = (0..3)
+            .map(|i| self.mesh.normals[corners[i] as usize].as_dvec3() * weights[i])
+            .sum();
+        let normal: Vec3 = normal.normalize_or(facet_normal).as_vec3();
+        Segment {
+            start_m: start_m.as_vec3(),
+            end_m: end_m.as_vec3(),
+            normal,
+            triangle,
+        }
+    }
+}
+
+/// The length along an arc of `reach_m` at which a scratch is back where it started, with the direction in which it started.
+fn closes(
+    arc: &Arc,
+    start: MeshPoint,
+    start_direction: DVec3,
+    walked_m: f64,
+    reach_m: f64,
+) -> Option<f64> {
+    // Error of a ring by vertices in single precision: facets are tilted by some 1e-5, at random.
+    let tolerance_m = (1e-6 * walked_m).max(1e-7);
+    if walked_m <= tolerance_m {
+        return None;
+    }
+    let (way_m, miss_m) = arc.nearest(start.point_m);
+    let met = (-tolerance_m..=reach_m + tolerance_m).contains(&way_m) && miss_m < tolerance_m;
+    let is_along = || arc.at(way_m).1.dot(start_direction) > 0.999;
+    (met && is_along()).then(|| way_m.max(0.0))
+}
+
+/// Cuts an arc into chords of equal length.
+fn push_chords(pieces: &mut Vec<StraightPiece>, triangle: u32, arc: &Arc, length_m: f64) {
+    let chords = match arc.curvature_per_m == 0.0 {
+        true => 1,
+        false => (length_m / chord_length_m(arc.curvature_per_m))
+            .ceil()
+            .max(1.0) as usize,
+    };
+    let mut start_m = arc.start_m;
+    for i in 1..=chords {
+        let (end_m, _) = arc.at(length_m * i as f64 / chords as f64);
+        pieces.push(StraightPiece {
+            start_m,
+            end_m,
+            triangle,
+        });
+        start_m = end_m;
+    }
+}
+
+impl StraightPiece {
+    fn reversed(self) -> Self {
+        Self {
+            start_m: self.end_m,
+            end_m: self.start_m,
+            ..self
+        }
+    }
+
+    /// Whether the next piece goes on in the same triangle and the same direction.
+    fn continues_straight(&self, next: &StraightPiece) -> bool {
+        let (way, next_way) = (self.end_m - self.start_m, next.end_m - next.start_m);
+        let turn = way.cross(next_way).length();
+        self.triangle == next.triangle && turn <= 1e-9 * way.length() * next_way.length()
+    }
+}

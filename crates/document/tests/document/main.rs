@@ -1,0 +1,26 @@
+//! Tests of loading files to scenes.
+//! They are one program, since each that is linked takes seconds.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bad_input;
+mod builder;
+mod description;
+mod draco;
+mod gltf;
+mod gltf_scene;
+mod left_out;
+mod lights;
+mod listed;
+mod looks;
+mod meshopt;
+mod places;
+mod poses;
+mod probe;
+mod schema;
+mod scratch_studio;
+mod scratches;
+mod strokes;
+mod studio;
+mod wild_meshes;

@@ -1,0 +1,96 @@
+//! Environment maps blurred by the reflection lobe of rough surfaces.
+//!
+//! Brian Karis, "Real Shading in Unreal Engine 4", 2013: maps blurred ahead by the lobe of somebody who looks along the normal. How the
+//! lobes of other viewers are made of these, `hairline_optics::environment_lobe` says.
+//!
+//! A lobe falls with the fourth power of the angle for two orders of magnitude, and maps hold lamps a ten thousand times as bright as
+//! what is around them: far tails count. So a blur is a sum over all texels, near ones of a fine map, far ones of coarse maps, none of
+//! which is wider than a sixth of the angle that it lies off, or a third at the smooth levels. (Samples of the lobe, a few hundred for each
+//! texel, lose half of such a lamp's tail or find twice as much.)
+
+use hairline_image::Picture;
+use hairline_scene::environment::{LEVEL_HALVINGS, LEVEL_ROUGHNESS};
+
+use super::half_texels::round_to_half;
+use super::mip::Mip;
+use super::resample::resample;
+use lobe_part::{LobePart, row_taps};
+
+mod levels;
+mod lobe_part;
+
+pub(super) use levels::LEVEL_0_SIZE_PX;
+use levels::{COARSEST, FINEST};
+
+/// The levels of several maps, blurred together: the lobes' weights are the same for all. Level 0 is the map itself, scaled; the others are
+/// blurred by the lobes of [`LEVEL_ROUGHNESS`].
+pub(super) fn prefilter(maps: &[&Picture]) -> Vec<Vec<Picture>> {
+    let sharp: Vec<Picture> = maps
+        .iter()
+        .map(|map| resample(map, LEVEL_0_SIZE_PX))
+        .collect();
+    let is_uniform = |map: &Picture| map.rgb.iter().all(|texel| *texel == map.rgb[0]);
+    let mut levels: Vec<Vec<Picture>> = if sharp.iter().all(is_uniform) {
+        // Blurring would change no bit of them, but take as long as for any other maps.
+        sharp.iter().map(uniform_levels).collect()
+    } else {
+        let mips = mip_chain(&sharp);
+        let mut levels = vec![Vec::new(); maps.len()];
+        for level in 1..LEVEL_ROUGHNESS.len() {
+            for (levels, blurred) in levels.iter_mut().zip(blur(&mips, level)) {
+                levels.push(blurred);
+            }
+        }
+        levels
+    };
+    for (levels, sharp) in levels.iter_mut().zip(sharp) {
+        levels.insert(0, sharp);
+        levels.iter_mut().for_each(round_to_half);
+    }
+    levels
+}
+
+/// Levels of a uniform map, from level 1 on.
+fn uniform_levels(sharp: &Picture) -> Vec<Picture> {
+    let level = |halvings: &usize| {
+        let size_px = LEVEL_0_SIZE_PX.map(|n| n >> halvings);
+        let rgb = vec![sharp.rgb[0]; (size_px[0] * size_px[1]) as usize];
+        Picture { size_px, rgb }
+    };
+    LEVEL_HALVINGS[1..].iter().map(level).collect()
+}
+
+fn mip_chain(sharp: &[Picture]) -> Vec<Mip> {
+    let mut last = sharp.to_vec();
+    let mut mips = vec![Mip::of(&last)];
+    for _ in 0..COARSEST {
+        for map in &mut last {
+            *map = resample(map, map.size_px.map(|n| n / 2));
+        }
+        mips.push(Mip::of(&last));
+    }
+    mips
+}
+
+/// Blurs a level of each map from the contributions of each mip.
+fn blur(mips: &[Mip], level: usize) -> Vec<Picture> {
+    let size = LEVEL_HALVINGS[level];
+    let finest = FINEST[size];
+    // The light of a coarse map changes slowly and needs no fine grid.
+    let grid = |mip: usize| size.max(mip);
+    let mut sum: Option<Mip> = None;
+    for on in (size..=grid(COARSEST)).rev() {
+        let mut sums = match sum {
+            Some(coarser) => coarser.doubled(),
+            None => Mip::empty(LEVEL_0_SIZE_PX.map(|n| n >> on), mips[0].maps),
+        };
+        for mip in (finest..=COARSEST).filter(|mip| grid(*mip) == on) {
+            let lobe = LobePart::new(level, mip);
+            sums.add(&mips[mip], |size, v, stride| {
+                row_taps(size, &lobe, v, stride)
+            });
+        }
+        sum = Some(sums);
+    }
+    sum.expect("a level is on a grid").pictures()
+}

@@ -1,0 +1,6 @@
+//! Tests of maps of environments.
+
+#[path = "../common/asset.rs"]
+mod asset;
+
+mod environment;
