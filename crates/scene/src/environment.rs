@@ -2,7 +2,7 @@
 //!
 //! Shading follows the split sum: a reflection off a rough surface is the map blurred by the surface's lobe, put together from round ones
 //! ([`Environment::prefiltered`], `hairline_optics::environment_lobe`), times the lobe's directional albedo; diffuse light is the map blurred by the cosine
-//! ([`Environment::irradiance`]). Suns ([`Environment::load`]) are lights of their own; for scratches windows are, too.
+//! ([`Environment::irradiance`]). Suns ([`Environment::load`]) are lights of their own.
 //!
 //! The map's top is at +Y, as in glTF, and its centre column at -Z, where a glTF camera looks by default; +X is to the
 //! right of it. [`Environment::with_up`] turns all of that to another axis.
@@ -13,10 +13,9 @@ use std::sync::Arc;
 use glam::{DMat3, DQuat, DVec3};
 use hairline_image::Picture;
 
-use crate::light::{Light, SUN_DISTANCE_M};
+use crate::light::Light;
 use half_texels::{HALF_MAX, fit_half, round_to_half};
 use suns::Sun;
-use windows::Window;
 
 mod built_in;
 mod file;
@@ -28,7 +27,6 @@ mod prefilter;
 mod radiance_header;
 mod resample;
 mod suns;
-mod windows;
 
 pub use built_in::BuiltInMap;
 pub(crate) use built_in::SIZE_PX as BUILT_IN_SIZE_PX;
@@ -54,8 +52,6 @@ pub struct Environment {
     visible: bool,
     /// The suns as they shine on the scene.
     suns: Vec<Light>,
-    /// The windows as they shine on scratches.
-    windows: Vec<Light>,
 }
 
 #[derive(Debug)]
@@ -64,9 +60,6 @@ struct Maps {
     suns: Vec<Sun>,
     background: Picture,
     levels: Vec<Picture>,
-    /// Windows, which are lights for scratches as suns are, and the levels without them; none where there is no window.
-    windows: Vec<Window>,
-    levels_beside_windows: Option<Vec<Picture>>,
     irradiance: Picture,
     texel_scale: f64,
     repaired_texels: usize,
@@ -81,7 +74,7 @@ impl Environment {
     /// radiance; `visible` says whether the camera sees it.
     ///
     /// What is small and bright in it, the disc of the sun above all, becomes a light: [`Environment::suns`]. The camera sees it
-    /// where it was. What is larger and has a sharp outline becomes a light for scratches alone: [`Environment::windows`].
+    /// where it was.
     ///
     /// Negative and NaN components count as 0, infinite ones as 65504, the largest half float: what files of half floats had no number for;
     /// [`Environment::repaired_texels`] counts them. Maps wider than 8192 pixels are halved until they are not.
@@ -99,8 +92,8 @@ impl Environment {
         Ok(Self::of_maps(maps, rotation_rad, intensity, visible))
     }
 
-    /// Makes an environment of an equirectangular map in memory, rows from the top; see [`Environment::load`] for the rest. The map stays whole: no sun or
-    /// window becomes a light of its own.
+    /// Makes an environment of an equirectangular map in memory, rows from the top; see [`Environment::load`] for the rest. The map stays whole: no sun
+    /// becomes a light of its own.
     ///
     /// # Panics
     /// If the map is empty.
@@ -109,7 +102,7 @@ impl Environment {
         Self::of_maps(maps, rotation_rad, intensity, visible)
     }
 
-    /// Makes the environment as [`Environment::from_map`] does, with suns and windows parted from the map as [`Environment::load`] does.
+    /// Makes the environment as [`Environment::from_map`] does, with suns parted from the map as [`Environment::load`] does.
     ///
     /// # Panics
     /// If the map is empty.
@@ -130,12 +123,11 @@ impl Environment {
             map_from_world: map_from_world(DVec3::Y, rotation_rad),
             visible,
             suns: Vec::new(),
-            windows: Vec::new(),
         }
         .with_lamps()
     }
 
-    /// Brings suns and windows up to date with the map's turn and intensity.
+    /// Brings suns up to date with the map's turn and intensity.
     fn with_lamps(mut self) -> Self {
         let per_texel = self.texel_radiance();
         let world_from_map = self.map_from_world.transpose();
@@ -146,12 +138,7 @@ impl Environment {
                 sun.radiance.map(|c| c * per_texel),
             )
         };
-        let window = |window: &Window| {
-            let outline = window.outline.turned(|d| world_from_map * d);
-            outline.light(SUN_DISTANCE_M, window.radiance.map(|c| c * per_texel))
-        };
         self.suns = self.maps.suns.iter().map(sun).collect();
-        self.windows = self.maps.windows.iter().map(window).collect();
         self
     }
 
@@ -215,24 +202,6 @@ impl Environment {
         radiance.map(|radiance| radiance * self.texel_radiance())
     }
 
-    /// [`Environment::prefiltered_all`] of the map without its [windows](Environment::windows).
-    #[inline(always)]
-    pub fn beside_windows_all<const N: usize>(
-        &self,
-        dirs: [DVec3; N],
-        roughness: [f64; N],
-    ) -> [DVec3; N] {
-        let dirs = dirs.map(|dir| self.map_from_world * dir);
-        let radiance = environment_prefiltered_all(self.levels_beside_windows(), dirs, roughness);
-        radiance.map(|radiance| radiance * self.texel_radiance())
-    }
-
-    /// [`Environment::prefiltered`] of the map without its [windows](Environment::windows).
-    pub fn beside_windows(&self, dir: DVec3, roughness: f64) -> DVec3 {
-        let (levels, dir) = (self.levels_beside_windows(), self.map_from_world * dir);
-        environment_prefiltered_lod(levels, dir, environment_lod(roughness)) * self.texel_radiance()
-    }
-
     /// [`Environment::prefiltered`] by level: `lod` 0 is the sharp map, each further level belongs to
     /// [`LEVEL_ROUGHNESS`]; between levels, a blend.
     pub fn prefiltered_lod(&self, dir: DVec3, lod: f64) -> DVec3 {
@@ -285,18 +254,6 @@ impl Environment {
         &self.suns
     }
 
-    /// Windows and soft boxes: bright parts of the map with a sharp outline, larger than a sun, as lights as far away as suns. Scratches have them beside
-    /// the rest of the map ([`Environment::beside_windows`]); for all others they are in the map.
-    pub fn windows(&self) -> &[Light] {
-        &self.windows
-    }
-
-    /// [`Environment::prefiltered_levels`] of the map without its windows.
-    pub fn levels_beside_windows(&self) -> &[Picture] {
-        let beside = self.maps.levels_beside_windows.as_ref();
-        beside.unwrap_or(&self.maps.levels)
-    }
-
     /// Number of texels of the file with a negative, infinite or NaN component, or one beyond [what a map can hold](Environment).
     pub fn repaired_texels(&self) -> usize {
         self.maps.repaired_texels
@@ -309,7 +266,7 @@ impl Environment {
 }
 
 impl Maps {
-    /// Makes the maps; `parts` tells whether suns and windows are taken out.
+    /// Makes the maps; `parts` tells whether suns are taken out.
     fn new(mut map: Picture, parts: bool) -> Self {
         assert!(!map.rgb.is_empty(), "an empty environment map");
         let mut repaired_texels = repair(&mut map);
@@ -323,18 +280,11 @@ impl Maps {
         } else {
             suns::Parted::default()
         };
-        let windows = parts.then(|| windows::part(&map)).flatten();
-        let (windows, beside) = windows.unzip();
-        let maps: Vec<&Picture> = std::iter::once(&map).chain(&beside).collect();
-        let mut levels = prefilter::prefilter(&maps).into_iter();
-        let (levels, levels_beside_windows) =
-            (levels.next().expect("as many as maps"), levels.next());
+        let levels = prefilter::prefilter(&map);
         let irradiance = irradiance::blur(&levels[0]);
         parted.put_back(&mut map);
         round_to_half(&mut map);
         Self {
-            windows: windows.unwrap_or_default(),
-            levels_beside_windows,
             suns: parted.suns,
             background: map,
             levels,

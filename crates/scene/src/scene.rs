@@ -86,7 +86,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The area lights, then the environment's [suns](Environment::suns): all that shine on surfaces besides the environment itself.
+    /// The area lights, then the environment's [suns](Environment::suns): all that shine besides the environment itself.
     pub fn all_lights(&self) -> impl Iterator<Item = &Light> + Clone {
         let suns = self.environment.iter().flat_map(Environment::suns);
         self.lights.iter().chain(suns)
@@ -99,13 +99,6 @@ impl Scene {
         let environment = scene.environment.take();
         scene.environment = environment.map(|it| it.with_visible(false));
         scene
-    }
-
-    /// The lights of [`Self::all_lights`], then the environment's [windows](Environment::windows): all that shine on scratches besides the rest of
-    /// the environment.
-    pub fn scratch_lights(&self) -> impl Iterator<Item = &Light> + Clone {
-        let windows = self.environment.iter().flat_map(Environment::windows);
-        self.all_lights().chain(windows)
     }
 }
 

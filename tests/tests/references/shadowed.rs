@@ -10,7 +10,6 @@ use hairline_optics::grating::Grating as Row;
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
-use hairline_scene::environment::BuiltInMap;
 use hairline_scene::{Base, Bearing, Coat, Environment, Grating, GrooveField, Scene};
 use std::sync::LazyLock;
 
@@ -245,14 +244,6 @@ fn under_a_sky() -> (&'static str, Scene) {
 /// [`scenes`], and a scene whose map takes seconds to prepare.
 pub(super) fn all_scenes() -> impl Iterator<Item = (&'static str, Scene)> {
     scenes().into_iter().chain([under_a_sky()])
-}
-
-/// One of [`scenes`] in a studio whose soft boxes light scratches as a file's lights do.
-pub(super) fn in_a_studio() -> (&'static str, Scene) {
-    let map = BuiltInMap::Studio.picture([256, 128]);
-    let studio = Environment::with_lamps_parted(map, 0.0, 1.0, false);
-    let (_, wall) = &scenes()[6];
-    ("a wall in a studio", under(wall, studio))
 }
 
 pub(super) fn luminance(image: &Image, layer: Layer) -> Vec<f64> {

@@ -130,20 +130,6 @@ struct Environment {
     size_px: [u32; 2],
     /// Lamps that were found in the map; they shine as lights do.
     lamps: Vec<Sun>,
-    /// Windows and soft boxes, which light scratches as lights do.
-    windows: Vec<Window>,
-}
-
-#[derive(Serialize)]
-struct Window {
-    /// Direction to the lamp's middle: unit, in the world.
-    direction: [f64; 3],
-    /// Above the horizon.
-    elevation_deg: f64,
-    /// Angular sizes from side to side.
-    size_deg: [f64; 2],
-    /// Radiance above that of the surroundings.
-    radiance: [f64; 3],
 }
 
 #[derive(Serialize)]
@@ -245,11 +231,6 @@ fn contents(loaded: &Loaded) -> Contents {
             .iter()
             .filter_map(|sun| self::sun(sun, up))
             .collect(),
-        windows: environment
-            .windows()
-            .iter()
-            .map(|light| window(light, up))
-            .collect(),
     });
     let segments: usize = scene
         .objects
@@ -307,30 +288,6 @@ fn sun(sun: &Light, up: DVec3) -> Option<Sun> {
         radius_deg: (radius_m / center_m.length()).asin().to_degrees(),
         radiance: sun.radiance,
     })
-}
-
-/// A window of an environment: a disc or four corners, as far away.
-fn window(light: &Light, up: DVec3) -> Window {
-    let (center_m, radius_m) = light.bounding_sphere();
-    let (direction, size_rad) = match &light.shape {
-        LightShape::Polygon { vertices_m, .. } => {
-            let n = vertices_m.len();
-            let side = |i: usize| vertices_m[i % n].angle_between(vertices_m[(i + 1) % n]);
-            let size_rad = [0, 1].map(|i| 0.5 * (side(i) + side(i + 2)));
-            let middle: DVec3 = vertices_m.iter().map(|v| v.normalize()).sum();
-            (middle.normalize(), size_rad)
-        }
-        _ => {
-            let across_rad = 2.0 * (radius_m / center_m.length()).asin();
-            (center_m.normalize(), [across_rad; 2])
-        }
-    };
-    Window {
-        direction: direction.into(),
-        elevation_deg: elevation_deg(direction, up),
-        size_deg: size_rad.map(f64::to_degrees),
-        radiance: light.radiance,
-    }
 }
 
 /// The environment's top is the axis nearest to the camera's up.
@@ -425,18 +382,6 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
                     sun.elevation_deg,
                     sun.radius_deg,
                     sun.radiance.map(|it| format!("{it:.1}")).join(", ")
-                )?;
-            }
-            let windows = environment.windows.len();
-            writeln!(out, "  windows and soft boxes found in it: {windows}")?;
-            for window in &environment.windows {
-                writeln!(
-                    out,
-                    "  towards {}, {:.1} degrees above the horizon, {} degrees, radiance {}",
-                    window.direction.map(|it| format!("{it:.3}")).join(", "),
-                    window.elevation_deg,
-                    window.size_deg.map(|it| format!("{it:.1}")).join(" x "),
-                    window.radiance.map(|it| format!("{it:.1}")).join(", ")
                 )?;
             }
         }
