@@ -170,17 +170,6 @@ impl Object {
             .map(|p| p.start_m.distance(p.end_m));
         scratch.profile.width_um * lengths.sum::<f32>()
     }
-
-    /// Whether two objects share their surface, unchanged.
-    pub fn same_mesh(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.mesh, &other.mesh)
-    }
-
-    /// Whether two objects share their scratches, unchanged.
-    pub fn same_scratches(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scratches, &other.scratches)
-            && Arc::ptr_eq(&self.segments, &other.segments)
-    }
 }
 
 /// The cross section of a groove. It travels whole, from the layer that draws it to what shades it.
