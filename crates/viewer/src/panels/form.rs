@@ -16,6 +16,7 @@ use hairline_editor::DragKey;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::quantity::ShownUnit;
 use hairline_editor::ranges::{Range, range, second_range};
+use hairline_scene::Description;
 use hairline_scene::description::Distribution;
 use hairline_scene::schema::{self, Key};
 
@@ -230,6 +231,24 @@ impl<'a> Form<'a> {
                 .labelled_by(text.id);
             *value != before
         });
+    }
+
+    /// An object of the scene, by its name.
+    pub fn object(&mut self, tooltip: &str, description: &Description, value: &mut String) {
+        let names = description.objects.iter().map(|object| object.name.clone());
+        self.choice(
+            "Object",
+            tooltip,
+            names.map(|name| (name.clone(), name)),
+            value,
+        );
+    }
+
+    /// The name of a part that may have none.
+    pub fn optional_name(&mut self, value: &mut Option<String>) {
+        let mut name = value.clone().unwrap_or_default();
+        self.text(NAME, "What the outliner calls it", &mut name);
+        *value = (!name.is_empty()).then_some(name);
     }
 
     /// A line of text, which counts when it is left.
