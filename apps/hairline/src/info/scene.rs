@@ -316,55 +316,35 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
         )?;
     }
     writeln!(out, "layers of scratches: {}", contents.layers.len())?;
-    for (i, layer) in contents.layers.iter().enumerate() {
-        writeln!(
-            out,
-            "  {}{} on \"{}\": {} scratches in {} segments{}",
+    lines(out, &contents.layers, |layer| {
+        format!(
+            "{}{} on \"{}\": {} scratches in {} segments{}",
             layer.pattern,
             named(&layer.name),
             shown(&layer.object),
             layer.scratches,
             layer.segments,
-            if layer.hidden { ", hidden" } else { "" }
-        )?;
-        if i == MOST_LINES {
-            writeln!(out, "  ..")?;
-            break;
-        }
-    }
+            hidden(layer.hidden)
+        )
+    })?;
     if !contents.gratings.is_empty() {
         writeln!(out, "gratings: {}", contents.gratings.len())?;
     }
-    for (i, grating) in contents.gratings.iter().enumerate() {
-        writeln!(
-            out,
-            "  {}{} on \"{}\": a groove every {} um{}",
+    lines(out, &contents.gratings, |grating| {
+        format!(
+            "{}{} on \"{}\": a groove every {} um{}",
             grating.pattern,
             named(&grating.name),
             shown(&grating.object),
             grating.pitch_um,
-            if grating.hidden { ", hidden" } else { "" }
-        )?;
-        if i == MOST_LINES {
-            writeln!(out, "  ..")?;
-            break;
-        }
-    }
+            hidden(grating.hidden)
+        )
+    })?;
     writeln!(out, "lights: {}", contents.lights.len())?;
-    for (i, lamp) in contents.lights.iter().enumerate() {
-        writeln!(
-            out,
-            "  {}{} {}{}",
-            lamp.kind,
-            named(&lamp.name),
-            lamp.strength,
-            if lamp.hidden { ", hidden" } else { "" }
-        )?;
-        if i == MOST_LINES {
-            writeln!(out, "  ..")?;
-            break;
-        }
-    }
+    lines(out, &contents.lights, |lamp| {
+        let (name, end) = (named(&lamp.name), hidden(lamp.hidden));
+        format!("{}{name} {}{end}", lamp.kind, lamp.strength)
+    })?;
     match &contents.environment {
         None => writeln!(out, "environment: none")?,
         Some(environment) => {
@@ -411,6 +391,21 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
 
 /// Largest number of lines of layers and lights; JSON has all.
 const MOST_LINES: usize = 200;
+
+/// Writes a line for each of the first things.
+fn lines<T>(out: &mut String, things: &[T], line: impl Fn(&T) -> String) -> fmt::Result {
+    for (i, thing) in things.iter().enumerate() {
+        writeln!(out, "  {}", line(thing))?;
+        if i == MOST_LINES {
+            return writeln!(out, "  ..");
+        }
+    }
+    Ok(())
+}
+
+fn hidden(is_hidden: bool) -> &'static str {
+    if is_hidden { ", hidden" } else { "" }
+}
 
 fn named(name: &Option<String>) -> String {
     name.as_ref()
