@@ -1,8 +1,8 @@
 //! The maps of an environment, as shaders look them up.
 
 use hairline_image::Picture;
+use hairline_scene::Environment;
 use hairline_scene::environment::level_place;
-use hairline_scene::{Environment, Light, LightShape};
 use half::f16;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -13,7 +13,7 @@ pub struct Maps(Environment);
 
 #[wasm_bindgen]
 impl Maps {
-    /// Reads an equirectangular map, linear Rec.709, three numbers a pixel, rows from the top, and parts suns and windows from it.
+    /// Reads an equirectangular map, linear Rec.709, three numbers a pixel, rows from the top, and parts suns from it.
     ///
     /// # Errors
     /// A map that is not twice as wide as high.
@@ -45,12 +45,6 @@ impl Maps {
         mips(self.0.prefiltered_levels(), self.0.irradiance_map())
     }
 
-    /// The same of the map without its windows, which scratches see.
-    #[wasm_bindgen(js_name = levelsBesideWindows)]
-    pub fn levels_beside_windows(&self) -> Vec<u16> {
-        mips(self.0.levels_beside_windows(), self.0.irradiance_map())
-    }
-
     /// The radiance of a texel of value 1.
     #[wasm_bindgen(js_name = texelRadiance)]
     pub fn texel_radiance(&self) -> f64 {
@@ -65,35 +59,13 @@ impl Maps {
 
     /// A sun: three numbers of its radiance, then the middle and the radius of a sphere in the map's frame, in metres.
     pub fn sun(&self, i: usize) -> Vec<f64> {
-        numbers(&self.0.suns()[i])
+        let sun = &self.0.suns()[i];
+        let (center_m, radius_m) = sun.bounding_sphere();
+        let mut numbers = sun.radiance.to_vec();
+        numbers.extend(center_m.to_array());
+        numbers.push(radius_m);
+        numbers
     }
-
-    /// Number of windows, which shine on scratches beside the levels without them.
-    #[wasm_bindgen(js_name = windowCount)]
-    pub fn window_count(&self) -> usize {
-        self.0.windows().len()
-    }
-
-    /// A window: as a sun, or in the place of the sphere the corners of a polygon.
-    pub fn window(&self, i: usize) -> Vec<f64> {
-        numbers(&self.0.windows()[i])
-    }
-}
-
-/// What [`Maps::sun`] and [`Maps::window`] return.
-fn numbers(light: &Light) -> Vec<f64> {
-    let mut numbers = light.radiance.to_vec();
-    match &light.shape {
-        LightShape::Sphere { center_m, radius_m } => {
-            numbers.extend(center_m.to_array());
-            numbers.push(*radius_m);
-        }
-        LightShape::Polygon { vertices_m, .. } => {
-            numbers.extend(vertices_m.iter().flat_map(|vertex| vertex.to_array()));
-        }
-        LightShape::Tube { .. } => unreachable!("no map has tubes"),
-    }
-    numbers
 }
 
 fn mips(levels: &[Picture], irradiance: &Picture) -> Vec<u16> {

@@ -96,7 +96,6 @@ pub struct LightViews<'a> {
     lights: Vec<&'a Light>,
     textures: &'a [Texture],
     /// Number of `lights` that shine on the base too.
-    on_base: usize,
     /// Lights that the point sees.
     pub views: Vec<LightView>,
     /// Index in `views` of each light of the scene; `u32::MAX` if it is left out.
@@ -122,15 +121,13 @@ pub struct LightViews<'a> {
 impl<'a> LightViews<'a> {
     /// Room for the lights of a scene.
     pub fn new(scene: &'a Scene) -> Self {
-        let lights = scene.scratch_lights().collect();
-        Self::of(lights, &scene.textures, scene.all_lights().count())
+        Self::of(scene.all_lights().collect(), &scene.textures)
     }
 
-    fn of(lights: Vec<&'a Light>, textures: &'a [Texture], on_base: usize) -> Self {
+    fn of(lights: Vec<&'a Light>, textures: &'a [Texture]) -> Self {
         Self {
             lights,
             textures,
-            on_base,
             views: Vec::new(),
             places: Vec::new(),
             in_scene: Vec::new(),
@@ -157,7 +154,7 @@ impl<'a> LightViews<'a> {
         let under_coat = point.under_coat();
         self.has_own_under_coat = under_coat.is_some();
         if let Some(under_coat) = under_coat {
-            let new = || Self::of(self.lights.clone(), self.textures, self.on_base).into();
+            let new = || Self::of(self.lights.clone(), self.textures).into();
             self.under_coat
                 .get_or_insert_with(new)
                 .look_from(&under_coat);
@@ -293,10 +290,10 @@ impl<'a> LightViews<'a> {
         own.filter(|_| self.has_own_under_coat).unwrap_or(self)
     }
 
-    /// Lights of the scene that shine on the base too, seen by the coat or by the surface under it.
+    /// Lights of the scene that the coat or the surface under it sees.
     pub(crate) fn on_base(&self) -> impl Iterator<Item = u32> {
         let under_coat = self.under_coat();
-        (0..self.on_base as u32).filter(move |light| {
+        (0..self.lights.len() as u32).filter(move |light| {
             [self, under_coat]
                 .iter()
                 .any(|it| it.light(*light).is_some())

@@ -55,6 +55,8 @@ fn one_line_node(segment: u32) -> f64 {
 /// Shades batches of points. One for each thread: what it holds is filled anew for each batch.
 pub(crate) struct ScratchShader {
     frames: Vec<Frame>,
+    /// For each point, how far the normals of others may be off its own at which the environment lights them alike.
+    alike_rad: Vec<f64>,
     groups: Vec<Group>,
     bounds: LightBounds,
     /// The segment in hand under each group.
@@ -70,6 +72,7 @@ impl ScratchShader {
     pub fn new() -> Self {
         Self {
             frames: Vec::with_capacity(BATCH),
+            alike_rad: Vec::with_capacity(BATCH),
             groups: Vec::with_capacity(GROUPS),
             bounds: LightBounds::default(),
             seen: Default::default(),
@@ -93,6 +96,10 @@ impl ScratchShader {
         self.frames.clear();
         self.frames
             .extend(points.iter().map(|p| Frame::new(p.point)));
+        self.alike_rad.clear();
+        let materials = points.iter().map(|p| p.point.material);
+        self.alike_rad
+            .extend(materials.map(|material| prepared.alike_rad(material)));
         self.groups.clear();
         for (points, frames) in points.chunks(LANES).zip(self.frames.chunks(LANES)) {
             self.groups.push(Group::new(points, frames));
@@ -175,6 +182,7 @@ impl Shading<'_, '_> {
     fn light(&mut self, segment: &IndexedSegment, along: DVec2, node: Option<f64>) {
         let ScratchShader {
             frames,
+            alike_rad,
             seen,
             pairs,
             bounds,
@@ -231,9 +239,7 @@ impl Shading<'_, '_> {
                     let alone = || light.environment(point.point, environment);
                     add(
                         point.views.views.len(),
-                        places
-                            .sent(point, prepared.alike_rad(point.point.material))
-                            .unwrap_or_else(alone),
+                        places.sent(point, alike_rad[i]).unwrap_or_else(alone),
                     );
                 }
                 if let Some(picks) = picks {

@@ -29,7 +29,7 @@ mod scratches;
 /// Rays to the lights of a scene.
 pub(crate) struct Shadows<'a> {
     pub(crate) prepared: &'a Prepared<'a>,
-    /// Lights in the order of [`hairline_scene::Scene::scratch_lights`].
+    /// Lights in the order of [`hairline_scene::Scene::all_lights`].
     lights: AreaLights,
     environment: Option<&'a EnvironmentSampler>,
     /// Largest distance of the scene from the origin; rounding errors grow with it.
@@ -159,7 +159,7 @@ impl<'a> Shadows<'a> {
         let positions = scene.objects.iter().flat_map(|o| &o.mesh.positions_m);
         Self {
             prepared,
-            lights: AreaLights::with_textures(scene.scratch_lights(), &scene.textures),
+            lights: AreaLights::with_textures(scene.all_lights(), &scene.textures),
             environment: prepared.environment_sampler(),
             extent_m: positions.map(|p| f64::from(p.length())).fold(0.0, f64::max),
             options: options.clone(),

@@ -4,6 +4,7 @@ use std::io;
 use std::path::Path;
 
 use hairline_image::Picture;
+use hairline_image::tone_map::linear_from_srgb;
 use hairline_model::texture;
 
 use hairline_scene::Texture;
@@ -66,7 +67,7 @@ fn over_black([r, g, b, a]: [u8; 4]) -> [u8; 4] {
         return [r, g, b, a];
     }
     let seen = |code: u8| {
-        let light = texture::srgb_to_linear(f32::from(code) / 255.0);
+        let light = linear_from_srgb(f32::from(code) / 255.0);
         texture::srgb_code(light * f32::from(a) / 255.0)
     };
     [seen(r), seen(g), seen(b), u8::MAX]

@@ -1,7 +1,7 @@
 //! Bindings of the passes, group by group. Twin: `shaders/scene/bindings.wgsl`.
 //!
 //! Group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures; group 3 is each pass's own. Of the 16 sampled
-//! textures of a WebGPU stage 11 are taken, and some by passes; of the 8 storage buffers 2.
+//! textures of a WebGPU stage 10 are taken, and some by passes; of the 8 storage buffers 2.
 
 use wgpu::{ShaderStages, TextureViewDimension};
 
@@ -52,7 +52,6 @@ impl Layouts {
             numbers(d2, true),
             numbers(TextureViewDimension::D2Array, true),
             numbers(d2, false),
-            numbers(d2, true),
         ];
         let textures: Vec<_> = (0..)
             .zip(textures)

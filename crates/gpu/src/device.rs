@@ -403,7 +403,10 @@ impl Gpu {
     }
 
     /// A texture of one layer and one level, that passes write or draw to; as [`Self::texture`].
-    pub(crate) async fn target(
+    ///
+    /// # Errors
+    /// As [`Self::texture`].
+    pub async fn target(
         &self,
         what: &str,
         [width, height]: [u32; 2],

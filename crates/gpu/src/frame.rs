@@ -140,7 +140,6 @@ pub(crate) fn frame(view: &View, rows: &Range<u32>, film_row: u32, sample: u32) 
         halo_rows: halo_rows(scene),
         is_edge_everywhere: scene.render.outline_reach_px().is_none().into(),
         object_count: scene.objects.len() as u32,
-        base_light_count: data.base_light_count,
         middle_px: camera.middle_px.as_vec2().to_array(),
         // A pixel of several samples counts as an edge where a surface covers only a part.
         coverage_round: match (step, samples) {

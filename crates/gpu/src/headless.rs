@@ -49,11 +49,8 @@ pub fn render(
     options: &RenderOptions,
     progress: &dyn Fn(f64),
 ) -> Result<Image, Error> {
-    let index = match &method.other {
-        None => ScratchIndex::build(scene),
-        Some(_) => ScratchIndex::laid(scene),
-    };
-    let (index, tables) = (Arc::new(index), ScratchTables::new(scene));
+    let index = Arc::new(ScratchIndex::of(scene, method.pieces()));
+    let tables = ScratchTables::new(scene);
     gpu.block_on(async {
         let mut renderer = Renderer::new(gpu).await?;
         let uploaded = renderer.upload(scene, &index, &tables, method).await?;

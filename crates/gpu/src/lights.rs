@@ -55,10 +55,10 @@ impl LightKind {
     }
 
     /// Constants of a pass that takes lights of this kind alone.
-    pub(crate) fn constants(self) -> [(&'static str, f64); 9] {
+    pub(crate) fn constants(self) -> [(&'static str, f64); 7] {
         let mut only = Kinds::default();
         only.0[self as usize] = true;
-        only.constants(only)
+        only.constants()
     }
 
     fn of(light: &Light) -> Self {
@@ -79,19 +79,9 @@ pub(crate) struct Kinds([bool; LightKind::ALL.len()]);
 impl Kinds {
     pub(crate) const ALL: Self = Self([true; LightKind::ALL.len()]);
 
-    /// Kinds that shine on scratches.
     pub(crate) fn of(scene: &Scene) -> Self {
-        Self::of_lights(scene, scene.scratch_lights())
-    }
-
-    /// Kinds that shine on the base.
-    pub(crate) fn on_base(scene: &Scene) -> Self {
-        Self::of_lights(scene, scene.all_lights())
-    }
-
-    fn of_lights<'l>(scene: &Scene, lights: impl Iterator<Item = &'l Light>) -> Self {
         let mut kinds = Self::default();
-        for light in lights {
+        for light in scene.all_lights() {
             kinds.0[LightKind::of(light) as usize] = true;
         }
         kinds.0[LightKind::Environment as usize] = scene.environment.is_some();
@@ -119,9 +109,8 @@ impl Kinds {
         there.filter(folded).map(LightKind::of_rays)
     }
 
-    /// Constants of shaders for the kinds of lights that shine on scratches, and those that shine on the base. Twin:
-    /// contents.wgsl.
-    pub(crate) fn constants(self, on_base: Self) -> [(&'static str, f64); 9] {
+    /// Constants of shaders. Twin: contents.wgsl.
+    pub(crate) fn constants(self) -> [(&'static str, f64); 7] {
         [
             ("HAS_SPHERES", self.has(LightKind::Spheres).into()),
             ("HAS_POLYGONS", self.has_polygons().into()),
@@ -130,8 +119,6 @@ impl Kinds {
             ("ONLY_PICTURES", self.has_only(LightKind::Pictures).into()),
             ("HAS_PICTURES", self.has(LightKind::Pictures).into()),
             ("HAS_ENVIRONMENT", self.has(LightKind::Environment).into()),
-            ("BASE_HAS_SPHERES", on_base.has(LightKind::Spheres).into()),
-            ("BASE_HAS_POLYGONS", on_base.has_polygons().into()),
         ]
     }
 
@@ -148,42 +135,27 @@ impl Kinds {
     }
 }
 
-/// All area lights, kind after kind: first those that shine on everything, then those that shine on scratches alone.
+/// All area lights, kind after kind.
 pub(crate) fn sorted(scene: &Scene) -> Vec<&Light> {
-    let mut lights: Vec<_> = scene.scratch_lights().collect();
-    let (on_base, on_scratches) = lights.split_at_mut(scene.all_lights().count());
-    for lights in [on_base, on_scratches] {
-        lights.sort_by_key(|light| LightKind::of(light));
-    }
+    let mut lights: Vec<_> = scene.all_lights().collect();
+    lights.sort_by_key(|light| LightKind::of(light));
     lights
 }
 
-/// The kind of each light that shines on the base, in the order of [`sorted`].
-pub(crate) fn kinds_on_base(scene: &Scene) -> Vec<LightKind> {
-    let on_base = scene.all_lights().count();
-    let lights = sorted(scene).into_iter().take(on_base);
-    lights.map(LightKind::of).collect()
+/// The kind of each light, in the order of [`sorted`].
+pub(crate) fn kinds(scene: &Scene) -> Vec<LightKind> {
+    sorted(scene).into_iter().map(LightKind::of).collect()
 }
 
 /// Ranges among the sorted lights of each kind that the scene has; the environment has none.
 pub(crate) fn ranges(scene: &Scene) -> Vec<(LightKind, Range<u32>)> {
-    let lights = sorted(scene);
-    let on_base = scene.all_lights().count();
-    let mut ranges = Vec::new();
-    for kind in Kinds::of(scene).over_scratches() {
-        let own = [0..on_base, on_base..lights.len()].map(|of| {
-            let (first, lights) = (of.start, &lights[of]);
-            let start = lights.partition_point(|light| LightKind::of(light) < kind);
-            let end = lights.partition_point(|light| LightKind::of(light) <= kind);
-            (first + start) as u32..(first + end) as u32
-        });
-        let mut own: Vec<_> = own.into_iter().filter(|of| !of.is_empty()).collect();
-        if own.is_empty() {
-            own.push(0..0);
-        }
-        ranges.extend(own.into_iter().map(|of| (kind, of)));
-    }
-    ranges
+    let kinds = kinds(scene);
+    let range = |kind| {
+        let start = kinds.partition_point(|it| *it < kind);
+        let end = kinds.partition_point(|it| *it <= kind);
+        (kind, start as u32..end as u32)
+    };
+    Kinds::of(scene).over_scratches().map(range).collect()
 }
 
 /// Texels of a light without its vertices.
@@ -282,5 +254,5 @@ pub(crate) fn packed(scene: &Scene, array: &TextureArray, origin_m: DVec3) -> Ve
 /// Number of texels that [`packed`] makes.
 pub(crate) fn texels(scene: &Scene) -> usize {
     let texels = |light| LIGHT_TEXELS + places(light);
-    scene.scratch_lights().map(texels).sum()
+    scene.all_lights().map(texels).sum()
 }

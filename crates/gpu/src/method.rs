@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 use glam::DVec3;
-use hairline_index::ScratchIndex;
+use hairline_index::{Pieces, ScratchIndex};
 use hairline_optics::mask::Mask;
 use hairline_scene::{Light, Scene, ScratchTables};
 
@@ -21,6 +21,16 @@ pub struct Method {
     pub mask: Mask,
     /// A method in the place of Hairline's own.
     pub other: Option<Arc<dyn ShadingMethod>>,
+}
+
+impl Method {
+    /// Pieces of scratches that it takes: methods of others know no arcs.
+    pub fn pieces(&self) -> Pieces {
+        match self.other {
+            None => Pieces::Seen,
+            Some(_) => Pieces::Laid,
+        }
+    }
 }
 
 /// A pass that shades base and scratches of each sample; gratings and shadows are left out.

@@ -22,8 +22,6 @@ pub(crate) struct SceneData {
     pub buffers: SceneBuffers,
     pub textures: SceneTextures,
     pub light_count: u32,
-    /// Number of lights that do not shine on scratches alone: they come first.
-    pub base_light_count: u32,
     pub light_ranges: LightRanges,
     /// Tables of a method that is not Hairline's own.
     pub method_tables: Resources,
@@ -81,8 +79,7 @@ impl SceneData {
         Ok(Self {
             buffers,
             textures,
-            light_count: source.scene.scratch_lights().count() as u32,
-            base_light_count: source.scene.all_lights().count() as u32,
+            light_count: source.scene.all_lights().count() as u32,
             light_ranges,
             method_tables,
             lamps: source

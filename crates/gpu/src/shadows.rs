@@ -74,7 +74,7 @@ impl Shadows {
         if has.gratings {
             by_picks.push(PickPasses::of_gratings(orders));
         }
-        let over_base = has.base_lights.of_rays().map(|kind| {
+        let over_base = has.lights.of_rays().map(|kind| {
             let module = (&shaders::SHADOW_BASE_RAYS, "shadow_base_rays");
             let pass = ComputePass::order(orders, "shadow rays", module, &kind.constants());
             (kind, pass)

@@ -43,7 +43,7 @@ impl StripShader {
         self.submit(view, |recording| shadow_room.clear(recording.encoder));
         let light_count = view.uploaded.data.light_count;
         let environment = view.scene.environment.iter().map(|_| light_count);
-        let kinds = (0..).zip(lights::kinds_on_base(view.scene));
+        let kinds = (0..).zip(lights::kinds(view.scene));
         let around = environment.map(|source| (source, LightKind::Environment));
         let sources: Vec<_> = kinds.chain(around).collect();
         let mut next = ShadowRound {

@@ -35,7 +35,7 @@ pub(crate) struct SceneTextures {
     curves: wgpu::TextureView,
     lobes: [wgpu::TextureView; 2],
     environment: Option<Environment>,
-    maps: [wgpu::TextureView; 3],
+    maps: [wgpu::TextureView; 2],
     textures: Arc<Vec<Texture>>,
     array: wgpu::TextureView,
 }
@@ -86,7 +86,7 @@ impl SceneTextures {
             None => array.upload(transfer, &scene.textures).await?,
         };
         let [albedo, ltc] = &lobes;
-        let [background, levels, beside_windows] = &maps;
+        let [background, levels] = &maps;
         let resources = [
             &scratch_tables,
             albedo,
@@ -95,7 +95,6 @@ impl SceneTextures {
             levels,
             &array,
             &curves,
-            beside_windows,
         ]
         .map(wgpu::BindingResource::TextureView);
         Ok(Self {
@@ -193,15 +192,14 @@ async fn lobe(
     Ok(texture.create_view(&Default::default()))
 }
 
-/// Maps for the camera's background, for rough surfaces and for scratches; black where there is no environment.
+/// Maps for the camera's background and for what is lit; black where there is no environment.
 async fn environment_maps(
     transfer: &mut Transfer<'_>,
     environment: Option<&Environment>,
-) -> Result<[wgpu::TextureView; 3], Error> {
+) -> Result<[wgpu::TextureView; 2], Error> {
     let black = [Picture::new([1, 1])];
     let background = environment.map_or(&black[0], |e| e.background());
     let levels = environment.map_or(black.as_slice(), |e| e.prefiltered_levels());
-    let beside_windows = environment.map_or(black.as_slice(), |e| e.levels_beside_windows());
     let format = TextureFormat::Rgba16Float;
     let what = "environment";
     let texture = transfer
@@ -216,7 +214,7 @@ async fn environment_maps(
     );
     let background = texture.create_view(&Default::default());
 
-    let texture = environment_levels(transfer, "prefiltered environment", levels).await?;
+    let texture = environment_levels(transfer, levels).await?;
     // Below the first level, which has no other beside it. Twin: environment_mean_by_cosine() in environment.wgsl.
     if let Some(environment) = environment {
         let place = TexturePosition {
@@ -226,23 +224,15 @@ async fn environment_maps(
         let map = environment.irradiance_map();
         write_radiance(transfer, "irradiance", &texture, place, map);
     }
-    let view = texture.create_view(&Default::default());
-    let beside_windows = if std::ptr::eq(levels, beside_windows) {
-        view.clone()
-    } else {
-        let what = "environment beside windows";
-        let texture = environment_levels(transfer, what, beside_windows).await?;
-        texture.create_view(&Default::default())
-    };
-    Ok([background, view, beside_windows])
+    Ok([background, texture.create_view(&Default::default())])
 }
 
 /// Levels of the same size one above the other. Twin: environment_level_place() in environment.wgsl.
 async fn environment_levels(
     transfer: &mut Transfer<'_>,
-    what: &'static str,
     levels: &[Picture],
 ) -> Result<wgpu::Texture, Error> {
+    let what = "prefiltered environment";
     let [width, height] = levels[0].size_px;
     let mips = level_place(levels.len() - 1).0 as u32 + 1;
     let texture = transfer

@@ -31,9 +31,8 @@ pub(crate) struct Contents {
     pub groove_maps: bool,
     /// Gratings whose grooves lie about spots.
     pub groove_spots: bool,
-    /// Kinds of lights that shine on scratches, and on the base.
+    /// Kinds of lights.
     pub lights: Kinds,
-    pub base_lights: Kinds,
     /// Lights with barn doors.
     pub doors: bool,
     pub textures: bool,
@@ -76,7 +75,6 @@ impl Contents {
             groove_maps: gratings && any(has_maps),
             groove_spots: gratings && any(has_spots),
             lights: Kinds::of(scene),
-            base_lights: Kinds::on_base(scene),
             doors: scene
                 .lights
                 .iter()
@@ -168,7 +166,6 @@ pub fn pipeline_variants(
         groove_maps: true,
         groove_spots: true,
         lights: Kinds::ALL,
-        base_lights: Kinds::ALL,
         doors: true,
         textures: true,
         bumps: true,
@@ -245,7 +242,7 @@ impl ShadeVariant {
             ("COAT_CURVE", has.coats.unwrap_or(0).into()),
             ("METHOD_MASK", mask.into()),
         ];
-        constants.extend(has.lights.constants(has.base_lights));
+        constants.extend(has.lights.constants());
         constants.extend(method.other.iter().flat_map(|other| other.constants()));
         constants.retain(|(name, _)| text.contains(&format!("override {name}:")));
         constants

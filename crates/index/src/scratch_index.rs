@@ -40,8 +40,7 @@ impl ScratchIndex {
     /// # Panics
     /// Beyond 268 million pieces; no loaded scene has as many on one object.
     pub fn build(scene: &Scene) -> Self {
-        Self::rebuild(scene, Pieces::Seen, None, &Watch::default())
-            .unwrap_or_else(|| unreachable!("nobody cancels it"))
+        Self::of(scene, Pieces::Seen)
     }
 
     /// Builds the trees over the pieces as they were laid.
@@ -49,7 +48,15 @@ impl ScratchIndex {
     /// # Panics
     /// As [`Self::build`].
     pub fn laid(scene: &Scene) -> Self {
-        Self::rebuild(scene, Pieces::Laid, None, &Watch::default())
+        Self::of(scene, Pieces::Laid)
+    }
+
+    /// Builds the trees over some pieces.
+    ///
+    /// # Panics
+    /// As [`Self::build`].
+    pub fn of(scene: &Scene, pieces: Pieces) -> Self {
+        Self::rebuild(scene, pieces, None, &Watch::default())
             .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 

@@ -78,29 +78,6 @@ impl Facets {
         }
     }
 
-    /// Squares of alpha: along x, both, along y.
-    pub fn squares(&self) -> [f64; 3] {
-        let (x, y) = (self.alphas.x, self.alphas.y * DVec2::new(self.shear, 1.0));
-        [x * x, x * y.x, y.length_squared()]
-    }
-
-    /// The axes.
-    pub fn axes(&self) -> FacetAxes {
-        let [xx, xy, yy] = self.squares();
-        let (mean, half) = (0.5 * (xx + yy), 0.5 * (xx - yy));
-        let apart = half.hypot(xy);
-        let along = if half > 0.0 {
-            DVec2::new(half + apart, xy)
-        } else {
-            DVec2::new(xy.abs(), (apart - half).copysign(xy))
-        };
-        let long = (mean + apart).sqrt();
-        FacetAxes {
-            along: along.normalize_or(DVec2::X),
-            alphas: DVec2::new(long, self.alphas.x * self.alphas.y / long),
-        }
-    }
-
     /// The distribution of normals at a half vector of any length, per steradian.
     pub fn distribution(&self, h: DVec3) -> f64 {
         let x = h.x / self.alphas.x;

@@ -30,10 +30,10 @@ fn published_base(point: SurfacePoint) -> BaseRadiance {
 fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
     // The pivot transform knows round lobes alone.
     if HAS_ANISOTROPY && layer.is_brushed {
-        return brushed_lit(point, layer, vec2u(0u, frame.base_light_count), true);
+        return brushed_lit(point, layer, vec2u(0u, frame.light_count), true);
     }
     var sum = layer_surrounded(point, layer);
-    for (var l = 0u; l < frame.base_light_count; l += 1u) {
+    for (var l = 0u; l < frame.light_count; l += 1u) {
         let source = light_at(l);
         let radiance = published_light_radiance(source, point.position_m);
         let filtered = layer_filtered(point, layer, light_per_m(source, point.position_m));
@@ -45,14 +45,14 @@ fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
             }
             var share: vec4f;
             var vector: vec3f;
-            if BASE_HAS_SPHERES && source.kind == LIGHT_SPHERE {
+            if HAS_SPHERES && source.kind == LIGHT_SPHERE {
                 // The pivot transform knows round lobes alone.
                 let alphas = part.lobe.alphas;
                 let pivot = sptd_lobe(point.wo, min(sqrt(sqrt(alphas.x * alphas.y)), 1.0), lobe_sptd, lobe_albedo);
                 share = published_base_sphere(point, part.lobe, layer.reflecting, pivot, source);
                 vector = base_sphere(point, part.lobe, source).vector;
             }
-            if BASE_HAS_POLYGONS && source.kind != LIGHT_SPHERE {
+            if HAS_POLYGONS && source.kind != LIGHT_SPHERE {
                 let seen = base_polygon(point, part.lobe, source);
                 vector = seen.vector;
                 share = vec4f(ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector), seen.form_factor);

@@ -129,7 +129,7 @@ fn published_environment(point: SurfacePoint, view: PublishedView) -> vec3f {
             push_segment(&segments, cell.q_low, cell.q_high);
             let direction = world_from_surface(point, surface_from_band(view.tangent, cell.direction));
             sum += published_response(point.table, segments, view.width_um, view.depth_nm)
-                * scene_beside_windows(direction, environment_cell_roughness(cell));
+                * scene_prefiltered(direction, environment_cell_roughness(cell));
         }
     }
     return sum;

@@ -96,7 +96,7 @@ impl<'a> Published<'a> {
             method,
             mask,
             spectra: published_spectra(prepared.tables()),
-            triangles: scene.scratch_lights().map(triangles).collect(),
+            triangles: scene.all_lights().map(triangles).collect(),
             lists: None,
             first_triangles: first_triangles.collect(),
         }

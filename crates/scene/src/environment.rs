@@ -2,7 +2,7 @@
 //!
 //! Shading follows the split sum: a reflection off a rough surface is the map blurred by the surface's lobe, put together from round ones
 //! ([`Environment::prefiltered`], `hairline_optics::environment_lobe`), times the lobe's directional albedo; diffuse light is the map blurred by the cosine
-//! ([`Environment::irradiance`]). [Suns](Environment::suns) are lights of their own; for scratches [windows](Environment::windows) are, too.
+//! ([`Environment::irradiance`]). [Suns](Environment::suns) are lights of their own.
 //!
 //! The map's top is at +Y, as in glTF, and its centre column at -Z, where a glTF camera looks by default; +X is to the
 //! right of it. [`Environment::with_up`] turns all of that to another axis.
@@ -12,14 +12,12 @@ use std::sync::Arc;
 use glam::{DMat3, DQuat, DVec3};
 use hairline_image::Picture;
 
-use crate::light::{Light, SUN_DISTANCE_M};
+use crate::light::Light;
 
 mod levels;
 pub mod lookup;
-mod outline;
 
 pub use levels::{LEVEL_HALVINGS, LEVEL_ROUGHNESS, level_place};
-pub use outline::{Outline, Window};
 
 use lookup::{
     environment_irradiance, environment_lod, environment_prefiltered_all,
@@ -39,8 +37,6 @@ pub struct Environment {
     visible: bool,
     /// The suns as they shine on the scene.
     suns: Vec<Light>,
-    /// The windows as they shine on scratches.
-    windows: Vec<Light>,
 }
 
 /// A disc of even radiance, infinitely far away.
@@ -63,10 +59,6 @@ pub struct EnvironmentMaps {
     pub background: Picture,
     /// The prefiltered maps, one for each of [`LEVEL_ROUGHNESS`].
     pub levels: Vec<Picture>,
-    /// Windows, which are lights for scratches as suns are.
-    pub windows: Vec<Window>,
-    /// The levels without the windows; none where there is no window.
-    pub levels_beside_windows: Option<Vec<Picture>>,
     /// The map blurred by the cosine.
     pub irradiance: Picture,
     /// Radiance of a texel of value 1.
@@ -87,12 +79,11 @@ impl Environment {
             map_from_world: map_from_world(DVec3::Y, rotation_rad),
             visible,
             suns: Vec::new(),
-            windows: Vec::new(),
         }
         .with_lamps()
     }
 
-    /// Brings suns and windows up to date with the map's turn and intensity.
+    /// Brings suns up to date with the map's turn and intensity.
     fn with_lamps(mut self) -> Self {
         let per_texel = self.texel_radiance();
         let world_from_map = self.map_from_world.transpose();
@@ -103,12 +94,7 @@ impl Environment {
                 sun.radiance.map(|c| c * per_texel),
             )
         };
-        let window = |window: &Window| {
-            let outline = window.outline.turned(|d| world_from_map * d);
-            outline.light(SUN_DISTANCE_M, window.radiance.map(|c| c * per_texel))
-        };
         self.suns = self.maps.suns.iter().map(sun).collect();
-        self.windows = self.maps.windows.iter().map(window).collect();
         self
     }
 
@@ -163,24 +149,6 @@ impl Environment {
         radiance.map(|radiance| radiance * self.texel_radiance())
     }
 
-    /// [`Environment::prefiltered_all`] of the map without its [windows](Environment::windows).
-    #[inline(always)]
-    pub fn beside_windows_all<const N: usize>(
-        &self,
-        dirs: [DVec3; N],
-        roughness: [f64; N],
-    ) -> [DVec3; N] {
-        let dirs = dirs.map(|dir| self.map_from_world * dir);
-        let radiance = environment_prefiltered_all(self.levels_beside_windows(), dirs, roughness);
-        radiance.map(|radiance| radiance * self.texel_radiance())
-    }
-
-    /// [`Environment::prefiltered`] of the map without its [windows](Environment::windows).
-    pub fn beside_windows(&self, dir: DVec3, roughness: f64) -> DVec3 {
-        let (levels, dir) = (self.levels_beside_windows(), self.map_from_world * dir);
-        environment_prefiltered_lod(levels, dir, environment_lod(roughness)) * self.texel_radiance()
-    }
-
     /// [`Environment::prefiltered`] by level: `lod` 0 is the sharp map, each further level belongs to
     /// [`LEVEL_ROUGHNESS`]; between levels, a blend.
     pub fn prefiltered_lod(&self, dir: DVec3, lod: f64) -> DVec3 {
@@ -231,18 +199,6 @@ impl Environment {
     /// [radiance](Environment::radiance) has them.
     pub fn suns(&self) -> &[Light] {
         &self.suns
-    }
-
-    /// Windows and soft boxes: bright parts of the map with a sharp outline, larger than a sun, as lights as far away as suns. Scratches have them beside
-    /// the rest of the map ([`Environment::beside_windows`]); for all others they are in the map.
-    pub fn windows(&self) -> &[Light] {
-        &self.windows
-    }
-
-    /// [`Environment::prefiltered_levels`] of the map without its windows.
-    pub fn levels_beside_windows(&self) -> &[Picture] {
-        let beside = self.maps.levels_beside_windows.as_ref();
-        beside.unwrap_or(&self.maps.levels)
     }
 
     /// Number of texels of the file with a negative, infinite or NaN component, or one beyond [what a map can hold](Environment).

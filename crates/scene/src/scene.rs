@@ -77,7 +77,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The area lights, then the environment's [suns](Environment::suns): all that shine on surfaces besides the environment itself.
+    /// The area lights, then the environment's [suns](Environment::suns): all that shine besides the environment itself.
     pub fn all_lights(&self) -> impl Iterator<Item = &Light> + Clone {
         let suns = self.environment.iter().flat_map(Environment::suns);
         self.lights.iter().chain(suns)
@@ -90,13 +90,6 @@ impl Scene {
         let environment = scene.environment.take();
         scene.environment = environment.map(|it| it.with_visible(false));
         scene
-    }
-
-    /// The lights of [`Self::all_lights`], then the environment's [windows](Environment::windows): all that shine on scratches besides the rest of
-    /// the environment.
-    pub fn scratch_lights(&self) -> impl Iterator<Item = &Light> + Clone {
-        let windows = self.environment.iter().flat_map(Environment::windows);
-        self.all_lights().chain(windows)
     }
 }
 
@@ -167,17 +160,6 @@ impl Object {
             .iter()
             .map(|p| p.start_m.distance(p.end_m));
         scratch.profile.width_um * lengths.sum::<f32>()
-    }
-
-    /// Whether two objects share their surface, unchanged.
-    pub fn same_mesh(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.mesh, &other.mesh)
-    }
-
-    /// Whether two objects share their scratches, unchanged.
-    pub fn same_scratches(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scratches, &other.scratches)
-            && Arc::ptr_eq(&self.segments, &other.segments)
     }
 }
 

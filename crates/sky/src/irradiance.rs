@@ -18,9 +18,9 @@ pub(super) fn blur(map: &Picture) -> Picture {
     if source.rgb.iter().all(|texel| *texel == source.rgb[0]) {
         return source;
     }
-    let mut sums = Mip::empty(IRRADIANCE_SIZE_PX, 1);
-    sums.add(&Mip::of(&[source]), |size, v, _| row_taps(size, v));
-    let mut blurred = sums.pictures().swap_remove(0);
+    let mut sums = Mip::empty(IRRADIANCE_SIZE_PX);
+    sums.add(&Mip::of(&source), |size, v, _| row_taps(size, v));
+    let mut blurred = sums.picture();
     round_to_half(&mut blurred);
     blurred
 }

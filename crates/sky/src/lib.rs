@@ -1,4 +1,4 @@
-//! Maps of environments from files and pictures: an equirectangular map is freed of suns and windows, and prefiltered for rough reflection.
+//! Maps of environments from files and pictures: an equirectangular map is freed of suns, and prefiltered for rough reflection.
 //!
 //! ```
 //! use hairline_image::Picture;
@@ -27,7 +27,6 @@ mod prefilter;
 mod radiance_header;
 mod resample;
 mod suns;
-mod windows;
 
 pub use built_in::{BuiltInMap, SIZE_PX as BUILT_IN_SIZE_PX};
 pub use file::{Error, read, read_picture, size_px};
@@ -38,7 +37,7 @@ pub use file::{Error, read, read_picture, size_px};
 /// radiance; `visible` says whether the camera sees it.
 ///
 /// What is small and bright in it, the disc of the sun above all, becomes a light: [`Environment::suns`]. The camera sees it
-/// where it was. What is larger and has a sharp outline becomes a light for scratches alone: [`Environment::windows`].
+/// where it was.
 ///
 /// Negative and NaN components count as 0, infinite ones as 65504, the largest half float: what files of half floats had no number for;
 /// [`Environment::repaired_texels`] counts them. Maps wider than 8192 pixels are halved until they are not.
@@ -56,8 +55,8 @@ pub fn load(
     Ok(Environment::new(maps, rotation_rad, intensity, visible))
 }
 
-/// Makes an environment of an equirectangular map in memory, rows from the top; see [`load`] for the rest. The map stays whole: no sun or
-/// window becomes a light of its own.
+/// Makes an environment of an equirectangular map in memory, rows from the top; see [`load`] for the rest. The map stays whole: no sun
+/// becomes a light of its own.
 ///
 /// # Panics
 /// If the map is empty.
@@ -66,7 +65,7 @@ pub fn from_map(map: Picture, rotation_rad: f64, intensity: f64, visible: bool) 
     Environment::new(maps, rotation_rad, intensity, visible)
 }
 
-/// Makes the environment as [`from_map`] does, with suns and windows parted from the map as [`load`] does.
+/// Makes the environment as [`from_map`] does, with suns parted from the map as [`load`] does.
 ///
 /// # Panics
 /// If the map is empty.
@@ -92,7 +91,7 @@ pub fn uniform(radiance: [f32; 3]) -> Environment {
 /// Largest width: every WebGPU device holds it in one texture.
 const MAP_WIDTH_MAX: u32 = 8192;
 
-/// Makes the maps; `parts` tells whether suns and windows are taken out.
+/// Makes the maps; `parts` tells whether suns are taken out.
 fn maps_of(mut map: Picture, parts: bool) -> EnvironmentMaps {
     assert!(!map.rgb.is_empty(), "an empty environment map");
     let mut repaired_texels = repair(&mut map);
@@ -106,17 +105,11 @@ fn maps_of(mut map: Picture, parts: bool) -> EnvironmentMaps {
     } else {
         suns::Parted::default()
     };
-    let windows = parts.then(|| windows::part(&map)).flatten();
-    let (windows, beside) = windows.unzip();
-    let maps: Vec<&Picture> = std::iter::once(&map).chain(&beside).collect();
-    let mut levels = prefilter::prefilter(&maps).into_iter();
-    let (levels, levels_beside_windows) = (levels.next().expect("as many as maps"), levels.next());
+    let levels = prefilter::prefilter(&map);
     let irradiance = irradiance::blur(&levels[0]);
     parted.put_back(&mut map);
     round_to_half(&mut map);
     EnvironmentMaps {
-        windows: windows.unwrap_or_default(),
-        levels_beside_windows,
         suns: parted.suns,
         background: map,
         levels,

@@ -1,4 +1,4 @@
-//! Maps of one size, and sums of blurred ones.
+//! A map by lines of one channel, and sums of blurred ones.
 
 use hairline_image::Picture;
 use hairline_optics::vectors::with_widest;
@@ -12,12 +12,11 @@ pub(super) struct RowTaps {
     pub weights: Vec<f32>,
 }
 
-/// Maps of one size, with a weight for each row of them, which is 1 before anything is added up.
+/// A map with a weight for each row, which is 1 before anything is added up.
 pub(super) struct Mip {
     width: usize,
     height: usize,
-    pub(super) maps: usize,
-    /// Rows of one channel: by row, by map, by channel.
+    /// Rows of one channel: by row, by channel.
     lines: Vec<f32>,
     /// A weight for each row.
     weights: Vec<f32>,
@@ -27,54 +26,43 @@ pub(super) struct Mip {
 const CHANNELS: usize = 3;
 
 impl Mip {
-    pub(super) fn of(maps: &[Picture]) -> Self {
-        let [width, height] = maps[0].size_px.map(|n| n as usize);
-        let rows = (0..height).flat_map(|y| maps.iter().map(move |map| &map.rgb[y * width..]));
-        let lines =
-            rows.flat_map(|row| (0..CHANNELS).flat_map(|c| row[..width].iter().map(move |t| t[c])));
+    pub(super) fn of(map: &Picture) -> Self {
+        let [width, height] = map.size_px.map(|n| n as usize);
+        let rows = map.rgb.chunks_exact(width);
+        let lines = rows.flat_map(|row| (0..CHANNELS).flat_map(|c| row.iter().map(move |t| t[c])));
         Self {
             width,
             height,
-            maps: maps.len(),
             lines: lines.collect(),
             weights: vec![1.0; height],
         }
     }
 
-    pub(super) fn empty(size_px: [u32; 2], maps: usize) -> Self {
+    pub(super) fn empty(size_px: [u32; 2]) -> Self {
         let [width, height] = size_px.map(|n| n as usize);
         Self {
             width,
             height,
-            maps,
-            lines: vec![0.0; width * height * maps * CHANNELS],
+            lines: vec![0.0; width * height * CHANNELS],
             weights: vec![0.0; height],
         }
     }
 
-    /// Number of lines of a row.
-    fn per_row(&self) -> usize {
-        self.maps * CHANNELS
-    }
-
     fn line(&self, row: usize, line: usize) -> &[f32] {
-        let first = (row * self.per_row() + line) * self.width;
+        let first = (row * CHANNELS + line) * self.width;
         &self.lines[first..first + self.width]
     }
 
     /// Returns the weighted means: sums over weights.
-    pub(super) fn pictures(&self) -> Vec<Picture> {
-        let picture = |map: usize| Picture {
+    pub(super) fn picture(&self) -> Picture {
+        let texels = (0..self.height).flat_map(|y| {
+            let lines: [&[f32]; CHANNELS] = std::array::from_fn(|c| self.line(y, c));
+            (0..self.width).map(move |x| lines.map(|line| line[x] / self.weights[y]))
+        });
+        Picture {
             size_px: [self.width as u32, self.height as u32],
-            rgb: (0..self.height)
-                .flat_map(|y| {
-                    let lines: [&[f32]; CHANNELS] =
-                        std::array::from_fn(|c| self.line(y, map * CHANNELS + c));
-                    (0..self.width).map(move |x| lines.map(|line| line[x] / self.weights[y]))
-                })
-                .collect(),
-        };
-        (0..self.maps).map(picture).collect()
+            rgb: texels.collect(),
+        }
     }
 
     /// Adds a mip that is as fine or finer, blurred. `taps` are what the row at a v takes from the rows of a map of a size, which has so many
@@ -84,9 +72,9 @@ impl Mip {
         mip: &Self,
         taps: impl Fn([usize; 2], f64, usize) -> Vec<RowTaps> + Sync,
     ) {
-        let (width, height, per_row) = (self.width, self.height, self.per_row());
+        let (width, height) = (self.width, self.height);
         let strided = Strided::new(mip, mip.width / width);
-        let rows = self.lines.par_chunks_mut(width * per_row);
+        let rows = self.lines.par_chunks_mut(width * CHANNELS);
         let rows = rows.zip(&mut self.weights).enumerate();
         rows.for_each(|(y, (lines, weight))| {
             let v = (y as f64 + 0.5) / height as f64;
@@ -94,7 +82,7 @@ impl Mip {
                 *weight += taps.weights.iter().sum::<f32>();
                 let places = strided.places(&taps);
                 for (i, sums) in lines.chunks_exact_mut(width).enumerate() {
-                    strided.add(taps.row * per_row + i, &places, sums);
+                    strided.add(taps.row * CHANNELS + i, &places, sums);
                 }
             }
         });
@@ -102,7 +90,7 @@ impl Mip {
 
     /// Twice as wide and high, linear between texels. Beyond a pole lies the row on its other side.
     pub(super) fn doubled(&self) -> Self {
-        let (width, height, per_row) = (self.width, self.height, self.per_row());
+        let (width, height) = (self.width, self.height);
         let at = |x: isize, y: isize, line: usize| {
             let is_beyond = y < 0 || y >= height as isize;
             let y = y.clamp(0, height as isize - 1) as usize;
@@ -114,10 +102,10 @@ impl Mip {
             let i = i as isize;
             (i / 2, if i % 2 == 0 { i / 2 - 1 } else { i / 2 + 1 })
         };
-        let lines = (0..2 * height * per_row)
+        let lines = (0..2 * height * CHANNELS)
             .into_par_iter()
             .flat_map_iter(|row| {
-                let ((y0, y1), line) = (near(row / per_row), row % per_row);
+                let ((y0, y1), line) = (near(row / CHANNELS), row % CHANNELS);
                 (0..2 * width).map(move |x| {
                     let (x0, x1) = near(x);
                     let across = |y: isize| 0.75 * at(x0, y, line) + 0.25 * at(x1, y, line);
@@ -133,7 +121,6 @@ impl Mip {
         Self {
             width: 2 * width,
             height: 2 * height,
-            maps: self.maps,
             weights: weights.collect(),
             lines,
         }

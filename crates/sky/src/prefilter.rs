@@ -22,31 +22,20 @@ mod lobe_part;
 pub(super) use levels::LEVEL_0_SIZE_PX;
 use levels::{COARSEST, FINEST};
 
-/// The levels of several maps, blurred together: the lobes' weights are the same for all. Level 0 is the map itself, scaled; the others are
-/// blurred by the lobes of [`LEVEL_ROUGHNESS`].
-pub(super) fn prefilter(maps: &[&Picture]) -> Vec<Vec<Picture>> {
-    let sharp: Vec<Picture> = maps
-        .iter()
-        .map(|map| resample(map, LEVEL_0_SIZE_PX))
-        .collect();
-    let is_uniform = |map: &Picture| map.rgb.iter().all(|texel| *texel == map.rgb[0]);
-    let mut levels: Vec<Vec<Picture>> = if sharp.iter().all(is_uniform) {
-        // Blurring would change no bit of them, but take as long as for any other maps.
-        sharp.iter().map(uniform_levels).collect()
+/// The levels of a map. Level 0 is the map itself, scaled; the others are blurred by the lobes of [`LEVEL_ROUGHNESS`].
+pub(super) fn prefilter(map: &Picture) -> Vec<Picture> {
+    let sharp = resample(map, LEVEL_0_SIZE_PX);
+    let mut levels = if sharp.rgb.iter().all(|texel| *texel == sharp.rgb[0]) {
+        // Blurring would change no bit of it, but take as long as for any other map.
+        uniform_levels(&sharp)
     } else {
         let mips = mip_chain(&sharp);
-        let mut levels = vec![Vec::new(); maps.len()];
-        for level in 1..LEVEL_ROUGHNESS.len() {
-            for (levels, blurred) in levels.iter_mut().zip(blur(&mips, level)) {
-                levels.push(blurred);
-            }
-        }
-        levels
+        (1..LEVEL_ROUGHNESS.len())
+            .map(|level| blur(&mips, level))
+            .collect()
     };
-    for (levels, sharp) in levels.iter_mut().zip(sharp) {
-        levels.insert(0, sharp);
-        levels.iter_mut().for_each(round_to_half);
-    }
+    levels.insert(0, sharp);
+    levels.iter_mut().for_each(round_to_half);
     levels
 }
 
@@ -60,20 +49,18 @@ fn uniform_levels(sharp: &Picture) -> Vec<Picture> {
     LEVEL_HALVINGS[1..].iter().map(level).collect()
 }
 
-fn mip_chain(sharp: &[Picture]) -> Vec<Mip> {
-    let mut last = sharp.to_vec();
+fn mip_chain(sharp: &Picture) -> Vec<Mip> {
+    let mut last = sharp.clone();
     let mut mips = vec![Mip::of(&last)];
     for _ in 0..COARSEST {
-        for map in &mut last {
-            *map = resample(map, map.size_px.map(|n| n / 2));
-        }
+        last = resample(&last, last.size_px.map(|n| n / 2));
         mips.push(Mip::of(&last));
     }
     mips
 }
 
-/// Blurs a level of each map from the contributions of each mip.
-fn blur(mips: &[Mip], level: usize) -> Vec<Picture> {
+/// Blurs a level from the contributions of each mip.
+fn blur(mips: &[Mip], level: usize) -> Picture {
     let size = LEVEL_HALVINGS[level];
     let finest = FINEST[size];
     // The light of a coarse map changes slowly and needs no fine grid.
@@ -82,7 +69,7 @@ fn blur(mips: &[Mip], level: usize) -> Vec<Picture> {
     for on in (size..=grid(COARSEST)).rev() {
         let mut sums = match sum {
             Some(coarser) => coarser.doubled(),
-            None => Mip::empty(LEVEL_0_SIZE_PX.map(|n| n >> on), mips[0].maps),
+            None => Mip::empty(LEVEL_0_SIZE_PX.map(|n| n >> on)),
         };
         for mip in (finest..=COARSEST).filter(|mip| grid(*mip) == on) {
             let lobe = LobePart::new(level, mip);
@@ -92,5 +79,5 @@ fn blur(mips: &[Mip], level: usize) -> Vec<Picture> {
         }
         sum = Some(sums);
     }
-    sum.expect("a level is on a grid").pictures()
+    sum.expect("a level is on a grid").picture()
 }

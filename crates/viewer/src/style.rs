@@ -149,17 +149,11 @@ pub(crate) fn beside(response: &Response, menu: Rect, text: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hairline_image::tone_map::linear_from_srgb;
 
     /// Luminance of an sRGB colour, by WCAG 2.
     fn luminance(color: Color32) -> f64 {
-        let linear = |c: u8| {
-            let c = f64::from(c) / 255.0;
-            if c <= 0.04045 {
-                c / 12.92
-            } else {
-                ((c + 0.055) / 1.055).powf(2.4)
-            }
-        };
+        let linear = |c: u8| f64::from(linear_from_srgb(f32::from(c) / 255.0));
         0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
     }
 

@@ -12,7 +12,7 @@ use hairline_cpu::closed_form::{self, Prepared};
 use hairline_document::DEFAULT_TRANSPORT;
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
 use hairline_image::{Batch, Image, Notes, filter_found};
-use hairline_index::{Pieces, ScratchIndex, TriangleIndex, Watch};
+use hairline_index::{ScratchIndex, TriangleIndex, Watch};
 use hairline_optics::mask::Mask;
 use hairline_scene::{Scene, ScratchTables, Transport};
 
@@ -105,14 +105,6 @@ impl Task {
             bounces,
             mask: self.mask,
             method: self.method.as_ref().map(|it| it.on_cpu.clone()),
-        }
-    }
-
-    /// Methods of others know no arcs.
-    fn pieces(&self) -> Pieces {
-        match self.method {
-            None => Pieces::Seen,
-            Some(_) => Pieces::Laid,
         }
     }
 
@@ -371,8 +363,8 @@ impl<'a> Painter<'a> {
                 Err(error) if self.task.backend == Backend::Gpu => return Err(advise(error)),
                 Err(error) => {
                     warn_of(ready.gpu(), &error, self.listener);
-                    let pieces = self.task.pieces();
-                    self.on = OpenRenderer::Cpu(prepared(self.scene, pieces, self.listener));
+                    let on_cpu = prepared(self.scene, &self.task, self.listener);
+                    self.on = OpenRenderer::Cpu(on_cpu);
                 }
             }
         }
@@ -386,7 +378,7 @@ impl<'a> Painter<'a> {
 impl<'a> OpenRenderer<'a> {
     fn on_cpu(scene: &'a Scene, why: &str, task: &Task, listener: &dyn Listener) -> Self {
         announce_cpu(why, listener);
-        Self::Cpu(prepared(scene, task.pieces(), listener))
+        Self::Cpu(prepared(scene, task, listener))
     }
 
     fn on_gpu(
@@ -395,18 +387,11 @@ impl<'a> OpenRenderer<'a> {
         task: &Task,
         listener: &dyn Listener,
     ) -> Result<Self, hairline_gpu::Error> {
-        let pieces = task.pieces();
-        let rebuild = |watch: &Watch| ScratchIndex::rebuild(scene, pieces, None, watch);
+        let method = task.method_on_gpu();
+        let rebuild = |watch: &Watch| ScratchIndex::rebuild(scene, method.pieces(), None, watch);
         let sort = || Arc::new(sorted(listener, rebuild));
         let (scratches, tables) = rayon::join(sort, || ScratchTables::new(scene));
-        let on = OnGpu::new(
-            gpu,
-            scene,
-            &scratches,
-            &tables,
-            &task.method_on_gpu(),
-            task.transport,
-        )?;
+        let on = OnGpu::new(gpu, scene, &scratches, &tables, &method, task.transport)?;
         Ok(Self::Gpu(Box::new(on)))
     }
 
@@ -422,7 +407,7 @@ impl<'a> OpenRenderer<'a> {
                 announce_gpu(&gpu, "a GPU is there", listener);
                 Self::on_gpu(&gpu, scene, task, listener).unwrap_or_else(|error| {
                     warn_of(&gpu, &error, listener);
-                    Self::Cpu(prepared(scene, task.pieces(), listener))
+                    Self::Cpu(prepared(scene, task, listener))
                 })
             }
         }
@@ -430,7 +415,8 @@ impl<'a> OpenRenderer<'a> {
 }
 
 /// Builds trees and tables.
-fn prepared<'a>(scene: &'a Scene, pieces: Pieces, listener: &dyn Listener) -> Box<Prepared<'a>> {
+fn prepared<'a>(scene: &'a Scene, task: &Task, listener: &dyn Listener) -> Box<Prepared<'a>> {
+    let pieces = task.method_on_gpu().pieces();
     Box::new(sorted(listener, |watch| {
         Prepared::watched(scene, pieces, watch)
     }))

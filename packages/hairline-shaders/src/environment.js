@@ -1,9 +1,7 @@
 // Hairline's own maps of an environment for three.js: base, scratches and gratings then mirror it as `hairline render` has it.
-import { DataTexture, DataUtils, FloatType, HalfFloatType, Matrix4, NearestFilter, NearestMipmapNearestFilter, RGBAFormat, Vector3 } from 'three/webgpu';
-import { cameraWorldMatrix, mat3, mat4, materialEnvIntensity, materialEnvRotation, positionView, texture, vec3, vec4 } from 'three/tsl';
+import { DataTexture, DataUtils, FloatType, HalfFloatType, NearestFilter, NearestMipmapNearestFilter, RGBAFormat } from 'three/webgpu';
+import { cameraWorldMatrix, mat3, materialEnvIntensity, materialEnvRotation, positionView, texture, vec3, vec4 } from 'three/tsl';
 import { beside } from './beside.js';
-import { around } from './three_lights.js';
-import { vertexTexture } from './three_outlines.js';
 
 const known = new WeakMap();
 let count = 0;
@@ -48,51 +46,27 @@ function levelsTexture(texels, width) {
  */
 export async function prepareEnvironment(map) {
   if (known.has(map)) return;
-  const { levels, besideWindows, width, ...rest } = await beside('maps', rowsFromTop(map));
-  const whole = levelsTexture(levels, width);
-  known.set(map, { ...rest, levels: whole, besideWindows: besideWindows ? levelsTexture(besideWindows, width) : whole });
+  const { levels, width, ...rest } = await beside('maps', rowsFromTop(map));
+  known.set(map, { ...rest, levels: levelsTexture(levels, width) });
   count += 1;
 }
 
 /** From three.js's maps to Hairline's, whose middle column is at -z where three.js has it at x. */
 const mapFromThree = mat3(vec3(0, 0, -1), vec3(0, 1, 0), vec3(1, 0, 0));
 
-/** A frame of a flat lamp, which shines to its own -z. */
-function frameOf(corners) {
-  const places = corners.map((corner) => new Vector3(...corner));
-  const middle = places.reduce((sum, place) => sum.addScaledVector(place, 1 / places.length), new Vector3());
-  const x = places[1].clone().sub(places[0]).normalize();
-  const z = places[2].clone().sub(places[1]).cross(x).normalize();
-  const frame = new Matrix4().makeBasis(x, z.clone().cross(x), z).setPosition(middle);
-  const back = frame.clone().invert();
-  return { frame, vertices: places.map((place) => [...place.applyMatrix4(back).toArray(), 0]) };
-}
-
-/** What shaders are given of prepared maps: arguments for look-ups, a factor on these, and the lamps that were parted from the map. */
+/** What shaders are given of prepared maps: arguments for look-ups, a factor on these, and the suns that were parted from the map. */
 export class EnvironmentNodes {
-  constructor({ levels, besideWindows, texelRadiance, suns, windows }) {
+  constructor({ levels, texelRadiance, suns }) {
     const map_from_view = mapFromThree.mul(mat3(materialEnvRotation)).mul(mat3(cameraWorldMatrix)).toVar();
-    this.whole = { levels: texture(levels), map_from_view };
-    this.besideWindows = { levels: texture(besideWindows), map_from_view };
+    this.maps = { levels: texture(levels), map_from_view };
     this.factor = materialEnvIntensity.mul(texelRadiance);
     this.viewFromMap = map_from_view.transpose().toVar();
-    this.suns = suns.map((sun) => this.lamp(sun));
-    this.windows = windows.map((window) => this.lamp(window));
+    this.suns = suns.map((sun) => this.sun(sun));
   }
 
   /** Radiance, a shape, and the name of the functions that take it. The map is as far from every point. */
-  lamp({ radiance, center, radius, corners }) {
+  sun({ radiance, center, radius }) {
     const lit = vec3(...radiance).mul(materialEnvIntensity);
-    if (!corners) return [lit, { light: vec4(this.viewFromMap.mul(vec3(...center)).add(positionView), radius).toVar() }, 'bySphere'];
-    const { frame, vertices } = frameOf(corners);
-    const e = frame.elements;
-    const column = (i) => this.viewFromMap.mul(vec3(e[4 * i], e[4 * i + 1], e[4 * i + 2]));
-    const shape = {
-      vertices: texture(vertexTexture(vertices)),
-      outline: vec4(vertices.length, 0, 0, 0),
-      around: vec4(...around(vertices)),
-      view_from_light: mat4(vec4(column(0), 0), vec4(column(1), 0), vec4(column(2), 0), vec4(column(3).add(positionView), 1)),
-    };
-    return [lit, shape, 'byOutline'];
+    return [lit, { light: vec4(this.viewFromMap.mul(vec3(...center)).add(positionView), radius).toVar() }, 'bySphere'];
   }
 }

@@ -130,7 +130,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
     this.gratingLight = vec3(0).toVar();
 
     this.around = this.maps && new EnvironmentNodes(this.maps);
-    if (this.around) this.lampsOfEnvironment();
+    if (this.around) this.sunsOfEnvironment();
 
     super.start(builder);
 
@@ -158,7 +158,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       for (const grating of this.gratings) {
         left.subAssign(gratingTaken(grating));
         if (axes) this.gratingLight.addAssign(this.aroundByCells(axes, ROW_CELLS, (j) => gratingCell({ ...grating, j })));
-        if (this.around) this.gratingLight.addAssign(this.besideWindows(gratingSends, grating));
+        if (this.around) this.gratingLight.addAssign(this.byMaps(gratingSends, grating));
       }
       sent.addAssign(this.gratingLight);
       if (this.scratches) {
@@ -166,7 +166,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
         const mask = maskOf(this.scratches).toVar();
         const beside = mask.xyz.oneMinus().toVar();
         if (axes) this.scratchLight.addAssign(this.scratchesByEnvironment(axes));
-        if (this.around) this.scratchLight.addAssign(this.besideWindows(scratchesSend, this.scratches));
+        if (this.around) this.scratchLight.addAssign(this.byMaps(scratchesSend, this.scratches));
         left.mulAssign(beside);
         sent.assign(sent.mul(beside).add(this.scratchLight.mul(mask.w)));
       }
@@ -176,21 +176,20 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
     if (through) directSpecular.addAssign(through);
   }
 
-  /** The lamps that were parted from an environment: suns shine on all, windows on grooves alone. */
-  lampsOfEnvironment() {
+  /** The suns that were parted from an environment. */
+  sunsOfEnvironment() {
     for (const [radiance, shape, byShape] of this.around.suns) this.light(radiance, [shape, byShape], [shape, byShape]);
-    for (const [radiance, shape, byShape] of this.around.windows) this.lightGrooves(radiance, [shape, byShape]);
   }
 
-  besideWindows(functions, grooves) {
-    return functions.byEnvironment({ ...grooves, ...this.around.besideWindows }).mul(this.around.factor);
+  byMaps(functions, lit) {
+    return functions.byEnvironment({ ...lit, ...this.around.maps }).mul(this.around.factor);
   }
 
   indirectDiffuse(builder) {
     super.indirectDiffuse(builder);
     if (!this.around) return;
     const { surface, more, mixed, shapes, albedo, curves, facets, ...place } = this.base;
-    const mean = environmentOnBody({ ...place, ...this.around.whole }).mul(this.around.factor);
+    const mean = environmentOnBody({ ...place, ...this.around.maps }).mul(this.around.factor);
     builder.context.reflectedLight.indirectDiffuse.addAssign(mean.mul(diffuseContribution).mul(this.functions.body(this.base)));
   }
 
@@ -198,7 +197,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
     super.indirectSpecular(builder);
     if (!this.around) return;
     const reflected = (functions, base) => {
-      const specular = functions.byEnvironment({ ...base, ...this.around.whole }).mul(this.around.factor);
+      const specular = functions.byEnvironment({ ...base, ...this.around.maps }).mul(this.around.factor);
       return functions.reflected({ ...base, specular });
     };
     builder.context.reflectedLight.indirectSpecular.addAssign(reflected(this.functions, this.base));
@@ -266,10 +265,6 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
     this.specular.addAssign(radiance.mul(lit.xyz));
     this.diffuse.addAssign(radiance.mul(lit.w));
     if (this.coat) this.coatSpecular.addAssign(radiance.mul(roundBase[byShape]({ ...this.coat, ...shape }).xyz));
-    this.lightGrooves(radiance, [onGrooves, byGrooves]);
-  }
-
-  lightGrooves(radiance, [onGrooves, byGrooves]) {
     if (this.scratches) this.scratchLight.addAssign(radiance.mul(scratchesSend[byGrooves]({ ...this.scratches, ...onGrooves })));
     for (const grating of this.gratings) this.gratingLight.addAssign(radiance.mul(gratingSends[byGrooves]({ ...grating, ...onGrooves })));
   }

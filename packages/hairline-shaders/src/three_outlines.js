@@ -7,7 +7,7 @@ import { around, outlineOf } from './three_lights.js';
 const TUBE_CORNERS = 22;
 
 /** A texture of corners, or of the ends of a tube. */
-export function vertexTexture(vertices) {
+function vertexTexture(vertices) {
   const made = new DataTexture(new Uint32Array(Float32Array.from(vertices.flat()).buffer), vertices.length, 1, RGBAIntegerFormat, UnsignedIntType);
   made.needsUpdate = true;
   return made;

@@ -247,14 +247,6 @@ pub(super) fn all_scenes() -> impl Iterator<Item = (&'static str, Scene)> {
     scenes().into_iter().chain([under_a_sky()])
 }
 
-/// One of [`scenes`] in a studio whose soft boxes light scratches as a file's lights do.
-pub(super) fn in_a_studio() -> (&'static str, Scene) {
-    let map = BuiltInMap::Studio.picture([256, 128]);
-    let studio = hairline_sky::with_lamps_parted(map, 0.0, 1.0, false);
-    let (_, wall) = &scenes()[6];
-    ("a wall in a studio", under(wall, studio))
-}
-
 pub(super) fn luminance(image: &Image, layer: Layer) -> Vec<f64> {
     let values = match layer {
         Layer::Base => &image.base,

@@ -1,7 +1,7 @@
 //! Shadow rays on the GPU against the CPU's.
 
 use super::pictures::LINEAR;
-use super::shadowed::{all_scenes, bounced, closed, in_a_studio, luminance, scenes};
+use super::shadowed::{all_scenes, bounced, closed, luminance, scenes};
 use conformance::middle_of;
 use conformance::two_renderers::on_the_gpu_by;
 use hairline_gpu::Method;
@@ -26,7 +26,7 @@ fn rms(values: &[f64]) -> f64 {
 #[test]
 #[ignore = "long: cargo long"]
 fn rays_come_to_the_cpus_shadows() {
-    for (name, scene) in all_scenes().chain([in_a_studio()]) {
+    for (name, scene) in all_scenes() {
         let Some(open) = on_gpu(&scene, 1, None) else {
             return;
         };

@@ -9,6 +9,7 @@ use hairline_console::{Backend, tell};
 use hairline_cpu::closed_form::{self, Counts, Prepared, RenderOptions};
 use hairline_gpu::{Adapter, Canvas, Error, Gpu, GpuScene, PassTime, Renderer, headless};
 use hairline_image::Image;
+use hairline_index::Pieces;
 use hairline_published::Method;
 use hairline_scene::Scene;
 
@@ -99,12 +100,12 @@ impl Worker {
     ) -> Result<Ready, Error> {
         let uploaded = match self {
             Self::Gpu(worker) => {
-                let index = match method.published {
-                    None => prepared.scratches(),
-                    Some(_) => prepared.laid(),
-                };
                 let tables = prepared.tables();
                 let method = method.on_gpu();
+                let index = match method.pieces() {
+                    Pieces::Laid => prepared.laid(),
+                    _ => prepared.scratches(),
+                };
                 let upload = worker.renderer.upload(scene, index, tables, &method);
                 Some(worker.gpu.block_on(upload)?)
             }

@@ -130,20 +130,6 @@ struct Environment {
     size_px: [u32; 2],
     /// Lamps that were found in the map; they shine as lights do.
     lamps: Vec<Sun>,
-    /// Windows and soft boxes, which light scratches as lights do.
-    windows: Vec<Window>,
-}
-
-#[derive(Serialize)]
-struct Window {
-    /// Direction to the lamp's middle: unit, in the world.
-    direction: [f64; 3],
-    /// Above the horizon.
-    elevation_deg: f64,
-    /// Angular sizes from side to side.
-    size_deg: [f64; 2],
-    /// Radiance above that of the surroundings.
-    radiance: [f64; 3],
 }
 
 #[derive(Serialize)]
@@ -245,11 +231,6 @@ fn contents(loaded: &Loaded) -> Contents {
             .iter()
             .filter_map(|sun| self::sun(sun, up))
             .collect(),
-        windows: environment
-            .windows()
-            .iter()
-            .map(|light| window(light, up))
-            .collect(),
     });
     let segments: usize = scene
         .objects
@@ -309,30 +290,6 @@ fn sun(sun: &Light, up: DVec3) -> Option<Sun> {
     })
 }
 
-/// A window of an environment: a disc or four corners, as far away.
-fn window(light: &Light, up: DVec3) -> Window {
-    let (center_m, radius_m) = light.bounding_sphere();
-    let (direction, size_rad) = match &light.shape {
-        LightShape::Polygon { vertices_m, .. } => {
-            let n = vertices_m.len();
-            let side = |i: usize| vertices_m[i % n].angle_between(vertices_m[(i + 1) % n]);
-            let size_rad = [0, 1].map(|i| 0.5 * (side(i) + side(i + 2)));
-            let middle: DVec3 = vertices_m.iter().map(|v| v.normalize()).sum();
-            (middle.normalize(), size_rad)
-        }
-        _ => {
-            let across_rad = 2.0 * (radius_m / center_m.length()).asin();
-            (center_m.normalize(), [across_rad; 2])
-        }
-    };
-    Window {
-        direction: direction.into(),
-        elevation_deg: elevation_deg(direction, up),
-        size_deg: size_rad.map(f64::to_degrees),
-        radiance: light.radiance,
-    }
-}
-
 /// The environment's top is the axis nearest to the camera's up.
 fn elevation_deg(direction: DVec3, up: DVec3) -> f64 {
     let axis = DVec3::AXES[up.abs().max_position()];
@@ -359,55 +316,35 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
         )?;
     }
     writeln!(out, "layers of scratches: {}", contents.layers.len())?;
-    for (i, layer) in contents.layers.iter().enumerate() {
-        writeln!(
-            out,
-            "  {}{} on \"{}\": {} scratches in {} segments{}",
+    lines(out, &contents.layers, |layer| {
+        format!(
+            "{}{} on \"{}\": {} scratches in {} segments{}",
             layer.pattern,
             named(&layer.name),
             shown(&layer.object),
             layer.scratches,
             layer.segments,
-            if layer.hidden { ", hidden" } else { "" }
-        )?;
-        if i == MOST_LINES {
-            writeln!(out, "  ..")?;
-            break;
-        }
-    }
+            hidden(layer.hidden)
+        )
+    })?;
     if !contents.gratings.is_empty() {
         writeln!(out, "gratings: {}", contents.gratings.len())?;
     }
-    for (i, grating) in contents.gratings.iter().enumerate() {
-        writeln!(
-            out,
-            "  {}{} on \"{}\": a groove every {} um{}",
+    lines(out, &contents.gratings, |grating| {
+        format!(
+            "{}{} on \"{}\": a groove every {} um{}",
             grating.pattern,
             named(&grating.name),
             shown(&grating.object),
             grating.pitch_um,
-            if grating.hidden { ", hidden" } else { "" }
-        )?;
-        if i == MOST_LINES {
-            writeln!(out, "  ..")?;
-            break;
-        }
-    }
+            hidden(grating.hidden)
+        )
+    })?;
     writeln!(out, "lights: {}", contents.lights.len())?;
-    for (i, lamp) in contents.lights.iter().enumerate() {
-        writeln!(
-            out,
-            "  {}{} {}{}",
-            lamp.kind,
-            named(&lamp.name),
-            lamp.strength,
-            if lamp.hidden { ", hidden" } else { "" }
-        )?;
-        if i == MOST_LINES {
-            writeln!(out, "  ..")?;
-            break;
-        }
-    }
+    lines(out, &contents.lights, |lamp| {
+        let (name, end) = (named(&lamp.name), hidden(lamp.hidden));
+        format!("{}{name} {}{end}", lamp.kind, lamp.strength)
+    })?;
     match &contents.environment {
         None => writeln!(out, "environment: none")?,
         Some(environment) => {
@@ -425,18 +362,6 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
                     sun.elevation_deg,
                     sun.radius_deg,
                     sun.radiance.map(|it| format!("{it:.1}")).join(", ")
-                )?;
-            }
-            let windows = environment.windows.len();
-            writeln!(out, "  windows and soft boxes found in it: {windows}")?;
-            for window in &environment.windows {
-                writeln!(
-                    out,
-                    "  towards {}, {:.1} degrees above the horizon, {} degrees, radiance {}",
-                    window.direction.map(|it| format!("{it:.3}")).join(", "),
-                    window.elevation_deg,
-                    window.size_deg.map(|it| format!("{it:.1}")).join(" x "),
-                    window.radiance.map(|it| format!("{it:.1}")).join(", ")
                 )?;
             }
         }
@@ -466,6 +391,21 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
 
 /// Largest number of lines of layers and lights; JSON has all.
 const MOST_LINES: usize = 200;
+
+/// Writes a line for each of the first things.
+fn lines<T>(out: &mut String, things: &[T], line: impl Fn(&T) -> String) -> fmt::Result {
+    for (i, thing) in things.iter().enumerate() {
+        writeln!(out, "  {}", line(thing))?;
+        if i == MOST_LINES {
+            return writeln!(out, "  ..");
+        }
+    }
+    Ok(())
+}
+
+fn hidden(is_hidden: bool) -> &'static str {
+    if is_hidden { ", hidden" } else { "" }
+}
 
 fn named(name: &Option<String>) -> String {
     name.as_ref()

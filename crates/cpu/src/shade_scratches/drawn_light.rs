@@ -194,7 +194,7 @@ impl ScratchLight<'_> {
         let line = BandLine::new(self.wo, 0.0);
         let from = |direction: DVec3, roughness: f64| {
             let direction = self.frame.surface_from_band(direction);
-            environment.beside_windows(point.world_from_surface(direction), roughness)
+            environment.prefiltered(point.world_from_surface(direction), roughness)
         };
         let response = |cell: &EnvironmentCell| {
             let row = self.row(cell.direction.z);

@@ -18,7 +18,7 @@ pub(crate) const ALIKE_ON_BUMPS_RAD: f64 = 0.06;
 
 /// The largest distance between the normals of two points that an environment lights alike: by its rms change over an angle, as narrow cells see it.
 pub(crate) fn alike_rad(environment: &Environment) -> f64 {
-    let map = &environment.levels_beside_windows()[1];
+    let map = &environment.prefiltered_levels()[1];
     let [width, height] = map.size_px.map(|n| n as usize);
     let step_rad = PI / height as f64;
     let (mut light2, mut change2) = (0.0, 0.0);

@@ -376,7 +376,7 @@ impl<'a> ScratchLight<'a> {
         self.spectrum(line, roots.range)
     }
 
-    /// Light of the environment without its windows off the scratch, along the band's middle line, cell by cell.
+    /// Light of the environment off the scratch, along the band's middle line, cell by cell.
     #[inline(always)]
     pub fn environment(&self, point: &SurfacePoint, environment: &Environment) -> DVec3 {
         let line = BandLine::new(self.wo, 0.0);
@@ -401,7 +401,7 @@ impl<'a> ScratchLight<'a> {
             point.world_from_surface(direction)
         });
         let roughness = cells.map(|cell| cell.environment_cell_roughness());
-        let blurred = environment.beside_windows_all(towards, roughness);
+        let blurred = environment.prefiltered_all(towards, roughness);
         let mut sum = DVec3::ZERO;
         for (cell, blurred) in cells.iter().zip(blurred) {
             let row = self.row(cell.direction.z);

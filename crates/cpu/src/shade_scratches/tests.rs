@@ -13,7 +13,6 @@ use hairline_fixtures::SceneFile;
 use hairline_index::IndexedProfile;
 use hairline_optics::band::BandLine;
 use hairline_optics::footprint::{Footprint, scratch_share};
-use hairline_optics::gaussian::gaussian;
 use hairline_scene::Scene;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -292,14 +291,14 @@ fn what_is_drawn_of_an_environment_comes_from_there() {
         let (mut exact, mut by_cells) = ([0.0; BINS], [0.0; BINS]);
         scratch.for_cells(|cell| {
             let really = |direction: DVec3| {
-                let radiance = environment.beside_windows(world(direction), 0.0);
+                let radiance = environment.prefiltered(world(direction), 0.0);
                 (radiance, direction.z)
             };
             for (bin, sent) in integral(cell.q_low, cell.q_high, &really) {
                 exact[bin] += sent;
             }
             let blur = cell.environment_cell_roughness();
-            let blurred = environment.beside_windows(world(cell.direction), blur);
+            let blurred = environment.prefiltered(world(cell.direction), blur);
             for (bin, sent) in integral(cell.q_low, cell.q_high, &|_| (blurred, cell.direction.z)) {
                 by_cells[bin] += sent;
             }
@@ -325,114 +324,5 @@ fn what_is_drawn_of_an_environment_comes_from_there() {
         let (drawn, by_cells) = (off(&drawn), off(&by_cells));
         println!("{turn_rad} rad, {width_um} um: off by {drawn:.4} of all, cells by {by_cells:.4}");
         assert!(drawn < 0.004 && by_cells > 0.01, "{drawn} {by_cells}");
-    }
-}
-
-/// Error of windows with the cells of the rest against the whole map.
-#[test]
-#[ignore = "prints how well maps are told by their windows and what is left"]
-fn windows_and_the_rest_are_the_map() {
-    let scene_of = |environment: &str| {
-        SceneFile::seen_from([0.0, -0.2, 0.1])
-            .size_px([8, 8])
-            .mirror("m")
-            .object("o", "m", "plane = { size_m = [0.2, 0.2] }")
-            .part(&format!("[environment]\n{environment}"))
-            .scene()
-    };
-    let mut maps = vec![
-        "builtin = \"studio\"".to_owned(),
-        "builtin = \"window\"".to_owned(),
-    ];
-    let files = std::env::var("HAIRLINE_MAPS").unwrap_or_default();
-    maps.extend(files.split_whitespace().map(|f| format!("file = \"{f}\"")));
-    for map in maps {
-        let scene = scene_of(&map);
-        let environment = scene.environment.as_ref().unwrap();
-        let level = &environment.levels_beside_windows()[0];
-        let (mut below, mut all) = (0.0, 0.0);
-        let width = level.size_px[0] as usize;
-        for (i, texel) in level.rgb.iter().enumerate() {
-            let row = (i / width) as f64 + 0.5;
-            let sr = (std::f64::consts::PI * row / f64::from(level.size_px[1])).sin();
-            let value: f32 = texel.iter().sum();
-            all += sr * f64::from(value.abs());
-            below += sr * f64::from(texel.iter().map(|c| (-c).max(0.0)).sum::<f32>());
-        }
-        let prepared = Prepared::new(&scene);
-        let (picture, _) = prepared.picture(&RenderOptions::default(), 0..8, &|| false);
-        let hit = picture.visibility.hit(4, 4).copied();
-        let SampleView::Surface { point, .. } = picture.surface(center(4, 4), 1, hit) else {
-            panic!("the plane is in the middle");
-        };
-        let mut views = LightViews::new(&scene);
-        views.look_from(&point);
-        let frame = Frame::new(&point);
-        views.ready_for_scratches(&point);
-        let table = &prepared.tables.tables[point.table];
-        for width_um in [1.0f32, 3.0] {
-            let (mut errors, mut cell_errors, mut squares) = (0.0, 0.0, 0.0);
-            let (mut negative, mut most) = (0, 0.0f64);
-            for turn in 0..45 {
-                let tangent = DVec2::from_angle(std::f64::consts::PI * f64::from(turn) / 45.0);
-                let profile = IndexedProfile::rectangle(width_um, 300.0);
-                let scratch =
-                    ScratchLight::new(point.wo, Course::straight(tangent), table, profile);
-                let (mut exact, mut cells) = (DVec3::ZERO, DVec3::ZERO);
-                let world = |in_band: DVec3| {
-                    point.world_from_surface(scratch.frame.surface_from_band(in_band))
-                };
-                scratch.for_cells(|cell| {
-                    let steps = 100;
-                    let at =
-                        |i: f64| cell.q_low + (cell.q_high - cell.q_low) * i / f64::from(steps);
-                    for (i, k) in (0..steps).flat_map(|i| (0..8).map(move |k| (i, k))) {
-                        // All over the band.
-                        let u = (f64::from(k) + 0.5) / 8.0;
-                        let across = frame.stds.mean * gaussian().quantile(u);
-                        let line = BandLine::new(scratch.wo, across);
-                        let direction = line.direction_at(
-                            at(f64::from(i) + 0.5).clamp(line.q_end(), line.q_start()),
-                        );
-                        let row = scratch.row(direction.z);
-                        let below =
-                            |i: i32| DVec3::from(row.at(f64::from(width_um) * at(f64::from(i))));
-                        exact += environment.radiance(world(direction)) * (below(i + 1) - below(i))
-                            / 8.0;
-                    }
-                    let row = scratch.row(cell.direction.z);
-                    let at = |q: f64| DVec3::from(row.at(f64::from(width_um) * q));
-                    let blurred = environment
-                        .prefiltered(world(cell.direction), cell.environment_cell_roughness());
-                    cells += (at(cell.q_high) - at(cell.q_low)) * blurred;
-                });
-                let rest = scratch.environment(&point, environment);
-                negative += u32::from(luminance(rest) < 0.0);
-                let mut sum = rest;
-                let mut roots = Default::default();
-                let place = hairline_optics::band::BandPlace::new([0.0; 2], 0.0, 1.0);
-                for view in 0..views.views.len() {
-                    sum += scratch
-                        .light(&frame.stds, place, &views, view, &mut roots)
-                        .unwrap_or_default();
-                }
-                errors += (sum - exact).length_squared();
-                cell_errors += (cells - exact).length_squared();
-                squares += exact.length_squared();
-                for i in 0..200 {
-                    let u = (f64::from(i) + 0.5) / 200.0;
-                    let v = (f64::from(i) * 0.618_033_988_75).fract();
-                    let drawn = scratch.draw_environment(&point, environment, [u, v]);
-                    most = most.max(drawn.map_or(0.0, |d| luminance(d.color)));
-                }
-            }
-            println!(
-                "{map} {width_um} um: {} windows, {:.2} % off, by cells alone {:.2} %; below zero {:.1} % of the rest, {negative} of 45 bands; a ray weighs {most:.1} at most",
-                environment.windows().len(),
-                100.0 * f64::sqrt(errors / squares),
-                100.0 * f64::sqrt(cell_errors / squares),
-                100.0 * below / all,
-            );
-        }
     }
 }

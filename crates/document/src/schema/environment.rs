@@ -18,7 +18,7 @@ pub static ENVIRONMENT: Section = Section::one(
 pub static FILE: Key = Key::new("file", Form::File)
     .words("this or `builtin`")
     .range_words("`.hdr` or `.exr`, twice as wide as high, at most 16384 px wide")
-    .means("An equirectangular map. Maps wider than 8192 px are halved. What is small, round and bright in it, as the sun is, lights as a lamp of its own would, colours on scratches included. Larger lamps, windows and soft boxes with sharp outlines do so for scratches; `hairline info` lists both.");
+    .means("An equirectangular map. Maps wider than 8192 px are halved. What is small, round and bright in it, as the sun is, lights as a lamp of its own would, colours on scratches included. `hairline info` lists such lamps.");
 
 pub static BUILTIN: Key = Key::new("builtin", Form::Name(NAMES))
     .words("this or `file`")

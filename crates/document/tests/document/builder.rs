@@ -226,12 +226,10 @@ fn what_is_built_after_edits_is_what_is_built_from_nothing() {
 
 /// Tells which of the objects share their surfaces, and which their scratches.
 fn shared(a: &Scene, b: &Scene) -> ([bool; 3], [bool; 3]) {
-    let of = |same: fn(&hairline_scene::Object, &hairline_scene::Object) -> bool| {
-        [0, 1, 2].map(|i| same(&a.objects[i], &b.objects[i]))
-    };
+    let objects = [0, 1, 2].map(|i| [&a.objects[i], &b.objects[i]]);
     (
-        of(hairline_scene::Object::same_mesh),
-        of(hairline_scene::Object::same_scratches),
+        objects.map(|[a, b]| Arc::ptr_eq(&a.mesh, &b.mesh)),
+        objects.map(|[a, b]| Arc::ptr_eq(&a.segments, &b.segments)),
     )
 }
 
@@ -459,7 +457,7 @@ fn a_hidden_object_is_as_if_it_were_not_there() {
     // A change elsewhere leaves it shared.
     it.objects[0].rotation_deg[2] += 10.0;
     let after = builder.build(&loader, &it, dir.path()).unwrap();
-    assert!(own.same_mesh(&after.objects[1]));
+    assert!(Arc::ptr_eq(&own.mesh, &after.objects[1].mesh));
     it.objects[1].hidden = false;
     it.objects[1].translation_m = place_m;
     let shown = builder.build(&loader, &it, dir.path()).unwrap();

@@ -55,18 +55,6 @@ pub fn duplicate(description: &mut Description, index: usize) -> Result<Selectio
     Ok(insert(description, index + 1, copy))
 }
 
-/// Sets the name of a layer; an empty one removes it.
-///
-/// # Errors
-/// [`ActionError::Missing`].
-pub fn rename(
-    description: &mut Description,
-    index: usize,
-    name: &str,
-) -> Result<Selection, ActionError> {
-    list::rename_freely::<Scratches>(description, index, name)
-}
-
 /// Makes a layer solo, or ends that. While any is solo, the scene shows only those.
 ///
 /// # Errors

@@ -3,24 +3,12 @@
 use hairline_document::Description;
 use hairline_document::description::Light;
 
-use super::{ActionError, list};
+use super::list;
 use crate::Selection;
 
 /// Adds a light, under another name if its own is taken.
 pub fn add(description: &mut Description, light: Light) -> Selection {
     list::insert(description, description.lights.len(), light)
-}
-
-/// Sets the name of a light; an empty one removes it.
-///
-/// # Errors
-/// [`ActionError::Missing`].
-pub fn rename(
-    description: &mut Description,
-    index: usize,
-    name: &str,
-) -> Result<Selection, ActionError> {
-    list::rename_freely::<Light>(description, index, name)
 }
 
 /// Title of a light in a list: its name, else its kind.

@@ -130,17 +130,6 @@ pub(super) fn shift<P: ListedPart>(
     })
 }
 
-/// Renames a part that may go without a name: an empty one takes it away.
-pub(super) fn rename_freely<P: ListedPart>(
-    description: &mut Description,
-    index: usize,
-    name: &str,
-) -> Result<Selection, ActionError> {
-    let name = Some(name.trim()).filter(|name| !name.is_empty());
-    get_mut::<P>(description, index)?.set_name(name.map(str::to_owned));
-    Ok(P::at(index))
-}
-
 /// Renames a part to which others refer by name. Returns the old and the new name, for the references.
 pub(super) fn rename_known<P: ListedPart>(
     description: &mut Description,

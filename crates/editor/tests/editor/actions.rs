@@ -240,13 +240,12 @@ fn renaming_takes_references_along() {
             name: "brass".into()
         }
     );
-    // A part may keep its name, and layers and lights may lose theirs.
+    // A part may keep its name, and layers and lights may have none.
     materials::rename(&mut description, 1, "brass").unwrap();
-    layers::rename(&mut description, 0, "wear").unwrap();
-    lights::rename(&mut description, 0, "key").unwrap();
+    description.scratches[0].name = Some("wear".into());
     assert_eq!(layers::title(&description.scratches[0]), "wear");
-    layers::rename(&mut description, 0, "").unwrap();
-    lights::rename(&mut description, 0, "").unwrap();
+    description.scratches[0].name = None;
+    description.lights[0].name = None;
     assert_eq!(layers::title(&description.scratches[0]), "random scratches");
     assert_eq!(lights::title(&description.lights[0]), "sphere light");
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec2, dvec3};
 use hairline_document::Description;
 use hairline_document::description::{Layer, Map};
-use hairline_editor::actions::{self, layers, lights, materials, objects, parts};
+use hairline_editor::actions::{self, ActionError, layers, lights, materials, objects, parts};
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
 use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
 use hairline_editor::{Document, DragKey, Selection, navigate, place_light};
@@ -47,7 +47,11 @@ fn perform(document: &mut Document, (deed, i, by): Deed) {
             let object = d.objects[i % d.objects.len()].name.clone();
             layers::add(d, LayerPreset::ALL[i].layer(object, 0.2 + 0.1 * by))
         }),
-        6 => apply(&|d, _| layers::rename(d, i, if by < 0.0 { "" } else { "wear" })),
+        6 => apply(&|d, _| {
+            let layer = d.scratches.get_mut(i);
+            layer.ok_or(ActionError::Missing("layer"))?.name = (by >= 0.0).then(|| "wear".into());
+            Ok(Selection::Layer(i))
+        }),
         7 => apply(&|d, _| {
             Ok(lights::add(
                 d,

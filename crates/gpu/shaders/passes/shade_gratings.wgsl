@@ -17,7 +17,7 @@ override PICKS: bool = false;
 fn grating_light(pair: Pair, light_index: u32) -> vec3f {
     if lights_are_around() {
         let map_from_surface = frame.environment_from_world * pair.surface;
-        return frame.environment_texel_radiance * row_environment(scratch_tables, pair.point, pair.seen, levels_beside_windows, map_from_surface);
+        return frame.environment_texel_radiance * row_environment(scratch_tables, pair.point, pair.seen, environment_levels, map_from_surface);
     }
     if !pair_meets(pair, light_index) {
         return vec3f(0.0);

@@ -143,7 +143,7 @@ fn lights_reaching(pair: Pair) -> u32 {
 fn light_pair(pair: Pair, light_index: u32) -> vec3f {
     if lights_are_around() {
         let map_from_surface = frame.environment_from_world * pair.surface;
-        let radiance = scratch_environment(scratch_tables, pair.point, pair.seen, levels_beside_windows, map_from_surface);
+        let radiance = scratch_environment(scratch_tables, pair.point, pair.seen, environment_levels, map_from_surface);
         return frame.environment_texel_radiance * radiance;
     }
     return pair_light(pair, light_index);

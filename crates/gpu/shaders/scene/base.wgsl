@@ -206,7 +206,7 @@ fn base_coated(share: f32, albedo: vec3f, base: BaseRadiance, by_coat: vec3f) ->
 
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn base_radiance(point: SurfacePoint) -> BaseRadiance {
-    return base_radiance_of(point, vec2u(0u, frame.base_light_count), true);
+    return base_radiance_of(point, vec2u(0u, frame.light_count), true);
 }
 
 // Radiance of the base by some of the lights, from the first to the one before the end, and from all around or not.
@@ -284,14 +284,14 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
             var seen: LightOnBase;
             var on_lobe = radiance;
             var on_body = radiance;
-            if BASE_HAS_SPHERES && source.kind == LIGHT_SPHERE {
+            if HAS_SPHERES && source.kind == LIGHT_SPHERE {
                 seen = base_sphere(point, part.lobe, source);
             } else if light_has_picture(source) {
                 let picture = base_picture(point, part.lobe, layer.reflecting, source);
                 seen = picture.seen;
                 on_lobe *= picture.mean.specular;
                 on_body *= picture.mean.diffuse;
-            } else if BASE_HAS_POLYGONS {
+            } else if HAS_POLYGONS {
                 seen = base_polygon(point, part.lobe, source);
             }
             if p == 0u {
@@ -326,7 +326,7 @@ fn brushed_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: 
         var seen: LightOnBase;
         var on_lobe = radiance;
         var on_body = radiance;
-        if BASE_HAS_SPHERES && source.kind == LIGHT_SPHERE {
+        if HAS_SPHERES && source.kind == LIGHT_SPHERE {
             seen = base_sphere(point, chord, source);
             on_lobe *= brushed_light_sphere(point, lobe, fresnel, source);
         } else {
@@ -335,10 +335,10 @@ fn brushed_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: 
                 seen = picture.seen;
                 on_lobe *= picture.mean.specular;
                 on_body *= picture.mean.diffuse;
-            } else if BASE_HAS_POLYGONS && HAS_BODIES {
+            } else if HAS_POLYGONS && HAS_BODIES {
                 seen = base_polygon(point, chord, source);
             }
-            if BASE_HAS_POLYGONS {
+            if HAS_POLYGONS {
                 on_lobe *= brushed_outline(lobe, fresnel, fresnel_curves, lights, surface_outline(point, source));
             }
         }

@@ -18,5 +18,3 @@
 @group(2) @binding(5) var textures: texture_2d_array<f32>;
 // Curves of reflectance over the angle; fresnel.wgsl says how they lie.
 @group(2) @binding(6) var fresnel_curves: texture_2d<f32>;
-// environment_levels without what shines on scratches as lights do; the same where there is no such light.
-@group(2) @binding(7) var levels_beside_windows: texture_2d<f32>;

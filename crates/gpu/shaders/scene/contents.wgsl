@@ -22,9 +22,6 @@ override HAS_TUBES: bool = true;
 override ONLY_TUBES: bool = false;
 override ONLY_PICTURES: bool = false;
 override HAS_ENVIRONMENT: bool = true;
-// Kinds of lights that do not shine on scratches alone.
-override BASE_HAS_SPHERES: bool = true;
-override BASE_HAS_POLYGONS: bool = true;
 override HAS_DOORS: bool = true;
 override HAS_PICTURES: bool = true;
 override HAS_TEXTURES: bool = true;

@@ -291,7 +291,7 @@ fn draw_around(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface:
     }
     var drawn = drawn_direction(point, seen, from_there);
     if drawn.is_there {
-        let really = environment_prefiltered_lod(levels_beside_windows, map_from_surface * drawn.direction, 0.0);
+        let really = environment_prefiltered_lod(environment_levels, map_from_surface * drawn.direction, 0.0);
         let total = cell.from_there.total;
         let color = drawn.color * really * (by_groove * offer.weight * cell.weight / cell.luminance) / total;
         drawn.color = select(vec3f(1.0), color, all(total != vec3f(0.0)));
@@ -309,7 +309,7 @@ fn drawn_cell(i: u32, cells: u32, line: BandLine, seen: SeenScratch) -> Environm
 // Light of a cell of the environment, in the unit of the map.
 fn drawn_cell_light(seen: SeenScratch, map_from_surface: mat3x3f, cell: EnvironmentCell) -> vec3f {
     let direction = map_from_surface * surface_from_band(seen.tangent, cell.direction);
-    return environment_prefiltered(levels_beside_windows, direction, environment_cell_roughness(cell));
+    return environment_prefiltered(environment_levels, direction, environment_cell_roughness(cell));
 }
 
 // A cell of an environment, or of one of radiance 1.

@@ -27,7 +27,6 @@ struct Frame {
     halo_rows: u32,             // of the strip's arrays, above it and below
     is_edge_everywhere: u32,    // 1: samples see so far that each pixel has all of them
     object_count: u32,
-    base_light_count: u32,      // of the lights, those that do not shine on scratches alone: they come first
     middle_px: vec2f,           // where in the picture the ray along `forward` is
     coverage_round: u32,        // of all samples of a pixel, which one is looked at; COVERAGE_ANY: it stands for all
     sample_order: vec2u,        // the samples of the step from the one that is nearest to the pixel's middle, 4 bits each

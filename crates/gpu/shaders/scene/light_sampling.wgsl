@@ -144,10 +144,10 @@ fn outline_meets(point: SurfacePoint, light: Light, outline: OutlineView, direct
 
 fn light_draw(point: SurfacePoint, light: Light, u: vec2f) -> DrawnToLight {
     var drawn: DrawnToLight;
-    if BASE_HAS_SPHERES && light.kind == LIGHT_SPHERE {
+    if HAS_SPHERES && light.kind == LIGHT_SPHERE {
         drawn = sphere_draw(surface_from_world(point, light.center_m - point.position_m), light.radius_m, u);
     }
-    if BASE_HAS_POLYGONS && light.kind != LIGHT_SPHERE {
+    if HAS_POLYGONS && light.kind != LIGHT_SPHERE {
         let outline = surface_outline(point, light);
         if outline.facing != 0.0 {
             drawn = outline_draw(point, light, outline, u);
@@ -159,11 +159,11 @@ fn light_draw(point: SurfacePoint, light: Light, u: vec2f) -> DrawnToLight {
 // The light that light_draw has drawn from, along any direction.
 fn light_meets(point: SurfacePoint, light: Light, direction: vec3f) -> MetLight {
     var met: MetLight;
-    if BASE_HAS_SPHERES && light.kind == LIGHT_SPHERE {
+    if HAS_SPHERES && light.kind == LIGHT_SPHERE {
         let reach_m = sphere_reach_m(surface_from_world(point, light.center_m - point.position_m), light.radius_m, direction);
         met = MetLight(max(reach_m, 0.0), 1.0);
     }
-    if BASE_HAS_POLYGONS && light.kind != LIGHT_SPHERE {
+    if HAS_POLYGONS && light.kind != LIGHT_SPHERE {
         met = outline_meets(point, light, surface_outline(point, light), direction);
     }
     return met;

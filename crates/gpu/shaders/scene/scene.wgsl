@@ -9,9 +9,9 @@ fn scene_background(direction: vec3f) -> vec3f {
     return texel * frame.environment_texel_radiance;
 }
 
-// The environment without its windows, for scratches.
-fn scene_beside_windows(direction: vec3f, roughness: f32) -> vec3f {
-    let texel = environment_prefiltered(levels_beside_windows, frame.environment_from_world * direction, roughness);
+// The environment, blurred.
+fn scene_prefiltered(direction: vec3f, roughness: f32) -> vec3f {
+    let texel = environment_prefiltered(environment_levels, frame.environment_from_world * direction, roughness);
     return texel * frame.environment_texel_radiance;
 }
 

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use hairline_image::tone_map::linear_from_srgb;
 use hairline_image::{
     Display, Error, Image, Layer, Layers, Noise, Notes, Output, Picture, Referred, exr_file, png,
 };
@@ -276,17 +277,8 @@ fn png_of_8_and_16_bits() {
     );
     let values = &layers.get(Layer::Beauty).unwrap().values;
     for (value, code) in values.iter().flatten().zip(&codes) {
-        // IEC 61966-2-1, written again.
-        let encoded = f64::from(*code) / 65535.0;
-        let linear = if encoded <= 0.04045 {
-            encoded / 12.92
-        } else {
-            ((encoded + 0.055) / 1.055).powf(2.4)
-        };
-        assert!(
-            (f64::from(*value) - linear).abs() < 1e-6,
-            "{value} {linear}"
-        );
+        let linear = linear_from_srgb(f32::from(*code) / 65535.0);
+        assert!((value - linear).abs() < 1e-6, "{value} {linear}");
     }
     let shallow = image::RgbImage::from_raw(1, 1, vec![0, 128, 255]).unwrap();
     let layers = save(shallow.into());

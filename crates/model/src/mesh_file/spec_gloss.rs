@@ -5,8 +5,9 @@
 //! b (1 - m) = d (1 - s) and 0.04 (1 - m) + b m = s.
 
 use gltf::json::Value;
+use hairline_image::tone_map::{linear_from_srgb, srgb_from_linear};
 
-use crate::texture::{Texels, linear_to_srgb, srgb_to_linear};
+use crate::texture::Texels;
 
 pub(super) const NAME: &str = "KHR_materials_pbrSpecularGlossiness";
 pub(super) const TEXTURES: [&str; 2] = ["diffuseTexture", "specularGlossinessTexture"];
@@ -76,7 +77,7 @@ impl SpecGloss {
         let size_px = largest.map_or([1, 1], |it| it.size_px);
         let [width, height] = size_px;
         let linear: Vec<f32> = (0..=255_u8)
-            .map(|code| srgb_to_linear(f32::from(code) / 255.0))
+            .map(|code| linear_from_srgb(f32::from(code) / 255.0))
             .collect();
         let of = |image: Option<&Texels>, x: u32, y: u32| {
             let [r, g, b, a] = image.map_or([255; 4], |it| nearest(it, size_px, [x, y]));
@@ -95,7 +96,7 @@ impl SpecGloss {
                     glossiness: self.glossiness * specular[3],
                 };
                 let metal = there.metal();
-                let [r, g, b] = metal.base_color.map(|c| code(linear_to_srgb(c)));
+                let [r, g, b] = metal.base_color.map(|c| code(srgb_from_linear(c)));
                 colors.push([r, g, b, code(there.diffuse[3])]);
                 metals.push([255, code(metal.roughness), code(metal.metallic), 255]);
             }

@@ -64,7 +64,7 @@ impl Published<'_> {
                 },
                 |direction, roughness| {
                     let direction = view.frame.surface_from_band(direction);
-                    environment.beside_windows(point.world_from_surface(direction), roughness)
+                    environment.prefiltered(point.world_from_surface(direction), roughness)
                 },
             );
         }

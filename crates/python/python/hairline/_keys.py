@@ -70,7 +70,7 @@ class Environment(Table):
     _absent = {"rotation_deg": 0.0, "intensity": 1.0, "visible": True}
 
     file: Optional[Path] = _default()
-    """An equirectangular map. Maps wider than 8192 px are halved. What is small, round and bright in it, as the sun is, lights as a lamp of its own would, colours on scratches included. Larger lamps, windows and soft boxes with sharp outlines do so for scratches; ``hairline info`` lists both. Default: this or ``builtin``. Range: ``.hdr`` or ``.exr``, twice as wide as high, at most 16384 px wide."""
+    """An equirectangular map. Maps wider than 8192 px are halved. What is small, round and bright in it, as the sun is, lights as a lamp of its own would, colours on scratches included. ``hairline info`` lists such lamps. Default: this or ``builtin``. Range: ``.hdr`` or ``.exr``, twice as wide as high, at most 16384 px wide."""
     builtin: Optional[str] = _default()
     """A map in the box, without a file: soft boxes in a dark room, a room with a tall window, an even grey sky. Default: this or ``file``. Range: ``"studio"``, ``"window"``, ``"overcast"``."""
     rotation_deg: float = _default()

@@ -273,24 +273,12 @@ impl StepRenderer for GpuStepRenderer {
 const TARGET_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// A new one for each picture: the window may be drawing the last.
-async fn target(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<wgpu::TextureView, Error> {
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some("picture for the window"),
-        size: wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: TARGET_FORMAT,
-        // Copied for a snapshot.
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-            | wgpu::TextureUsages::TEXTURE_BINDING
-            | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    };
-    let texture = gpu.texture("picture for the window", &descriptor).await?;
+async fn target(gpu: &Gpu, size_px: [u32; 2]) -> Result<wgpu::TextureView, Error> {
+    // Copied for a snapshot.
+    let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
+        | wgpu::TextureUsages::TEXTURE_BINDING
+        | wgpu::TextureUsages::COPY_SRC;
+    let what = "picture for the window";
+    let texture = gpu.target(what, size_px, TARGET_FORMAT, usage).await?;
     Ok(texture.create_view(&Default::default()))
 }

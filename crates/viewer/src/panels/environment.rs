@@ -32,11 +32,6 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
             "What is small, round and bright in the map lights as a lamp of its own would, colours on scratches included",
         );
     }
-    if let Some(text) = windows(work) {
-        ui.label(text).on_hover_text(
-            "What is bright in the map and has a sharp outline lights scratches as a lamp of its own would",
-        );
-    }
     let mut form = Form::new(ui, "environment", work.diagonal_m(None));
     form.number(
         &schema::environment::ROTATION_DEG,
@@ -73,16 +68,6 @@ fn built_in_maps(ui: &mut Ui, work: &mut Workspace) {
         BuiltInMap::ALL.map(|map| (map, Thumb::Map(map), maps::name(map), maps::tooltip(map)));
     if let Some(map) = cards(ui, &mut work.gallery, "maps", choices) {
         work.set_environment("Set the environment", Some(Map::BuiltIn(map)));
-    }
-}
-
-/// Describes the windows that scratches have besides the map of the picture.
-fn windows(work: &Workspace) -> Option<String> {
-    let built = work.engine.built()?;
-    match built.scene.environment.as_ref()?.windows() {
-        [] => None,
-        [_] => Some("One window or soft box in it".to_owned()),
-        windows => Some(format!("{} windows and soft boxes in it", windows.len())),
     }
 }
 

@@ -232,6 +232,24 @@ impl<'a> Form<'a> {
         });
     }
 
+    /// An object of the scene, by its name.
+    pub fn object(&mut self, tooltip: &str, description: &Description, value: &mut String) {
+        let names = description.objects.iter().map(|object| object.name.clone());
+        self.choice(
+            "Object",
+            tooltip,
+            names.map(|name| (name.clone(), name)),
+            value,
+        );
+    }
+
+    /// The name of a part that may have none.
+    pub fn optional_name(&mut self, value: &mut Option<String>) {
+        let mut name = value.clone().unwrap_or_default();
+        self.text(NAME, "What the outliner calls it", &mut name);
+        *value = (!name.is_empty()).then_some(name);
+    }
+
     /// A line of text, which counts when it is left.
     pub fn text(&mut self, label: &str, tooltip: &str, value: &mut String) {
         let scope = self.scope;

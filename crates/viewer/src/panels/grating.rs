@@ -7,7 +7,7 @@ use hairline_editor::Selection;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_scene::FINE_PITCH_UM;
 
-use super::form::{Form, NAME};
+use super::form::Form;
 use super::groove_pattern;
 use super::layer_place::tile;
 use crate::command::Command;
@@ -25,19 +25,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let everywhere_m = work.diagonal_m(object);
     ui.heading("Grating");
     let mut form = Form::new(ui, ("grating", index), everywhere_m);
-    let mut name = grating.name.clone().unwrap_or_default();
-    form.text(NAME, "What the outliner calls it", &mut name);
-    grating.name = (!name.is_empty()).then_some(name);
-    let objects = description
-        .objects
-        .iter()
-        .map(|o| (o.name.clone(), o.name.clone()));
-    form.choice(
-        "Object",
-        "What its grooves are in",
-        objects,
-        &mut grating.object,
-    );
+    form.optional_name(&mut grating.name);
+    form.object("What its grooves are in", &description, &mut grating.object);
     form.toggle(
         "Hidden",
         "As if the grating were not there",

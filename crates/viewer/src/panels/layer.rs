@@ -9,7 +9,7 @@ use hairline_editor::Selection;
 use hairline_editor::presets::LayerPreset;
 use hairline_optics::section::Section;
 
-use super::form::{Form, NAME};
+use super::form::Form;
 use super::layer_place;
 use crate::command::Command;
 use crate::parts;
@@ -27,14 +27,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let names = parts::names(work, &layer.object);
     ui.heading("Scratches");
     let mut form = Form::new(ui, ("layer", index), diagonal_m);
-    let mut name = layer.name.clone().unwrap_or_default();
-    form.text(NAME, "What the outliner calls it", &mut name);
-    layer.name = (!name.is_empty()).then_some(name);
-    let objects = description
-        .objects
-        .iter()
-        .map(|o| (o.name.clone(), o.name.clone()));
-    form.choice("Object", "What they lie on", objects, &mut layer.object);
+    form.optional_name(&mut layer.name);
+    form.object("What they lie on", &description, &mut layer.object);
     form.toggle(
         "Hidden",
         "A hidden layer is laid nowhere",

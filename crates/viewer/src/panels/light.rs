@@ -8,7 +8,7 @@ use hairline_editor::actions::parts;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::{Selection, place_light};
 
-use super::form::{Form, NAME};
+use super::form::Form;
 use crate::command::Command;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
@@ -23,9 +23,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     };
     ui.heading("Light");
     let mut form = Form::new(ui, ("light", index), work.diagonal_m(None));
-    let mut name = light.name.clone().unwrap_or_default();
-    form.text(NAME, "What the outliner calls it", &mut name);
-    light.name = (!name.is_empty()).then_some(name);
+    form.optional_name(&mut light.name);
     let mut shines = !light.hidden;
     form.toggle("Shines", "Whether it gives light", &mut shines);
     light.hidden = !shines;
