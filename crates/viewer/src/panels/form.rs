@@ -12,6 +12,7 @@ use egui::{
     Align, Context, Event, FocusDirection, Id, Key as KeyboardKey, Layout, Response, Slider,
     SliderClamping, TextEdit, Ui,
 };
+use hairline_document::Description;
 use hairline_document::description::Distribution;
 use hairline_document::schema::{self, Key};
 use hairline_editor::DragKey;
