@@ -11,7 +11,7 @@ use crate::listener::Listener;
 /// Renders a scene in bands; `progress` is told the share that is done.
 ///
 /// # Errors
-/// [`Failure::Input`] for bands and colours that [`Scene::in_bands`] refuses, and for a GPU; [`Failure::Work`] where it is stopped.
+/// [`Failure::Input`] for bands and colours that [`in_bands`](hairline_document::in_bands) refuses, and for a GPU; [`Failure::Work`] where it is stopped.
 pub fn render(
     scene: &Scene,
     bands_nm: &[[f64; 2]],
