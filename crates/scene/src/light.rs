@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// Distance of suns: a scene of some metres is a point beside it, and single precision tells directions to a ten millionth.
-pub(crate) const SUN_DISTANCE_M: f64 = 1e5;
+const SUN_DISTANCE_M: f64 = 1e5;
 
 /// An area light.
 #[derive(Clone, Debug, PartialEq)]

@@ -88,7 +88,7 @@ pub(super) fn part(map: &mut Picture) -> Parted {
 }
 
 /// Brightness of a texel.
-pub(super) fn value(texel: [f32; 3]) -> f64 {
+fn value(texel: [f32; 3]) -> f64 {
     texel.iter().map(|c| f64::from(*c)).sum()
 }
 
@@ -228,11 +228,11 @@ impl BrightSpot {
     }
 }
 
-pub(super) fn radiance(map: &Picture, i: usize) -> DVec3 {
+fn radiance(map: &Picture, i: usize) -> DVec3 {
     DVec3::from(map.rgb[i].map(f64::from))
 }
 
-pub(super) fn direction(map: &Picture, i: usize) -> DVec3 {
+fn direction(map: &Picture, i: usize) -> DVec3 {
     let [width, height] = map.size_px;
     let at = DVec2::new(
         f64::from(i as u32 % width) + 0.5,
@@ -242,7 +242,7 @@ pub(super) fn direction(map: &Picture, i: usize) -> DVec3 {
 }
 
 /// The texels beside, above and below one, and at its corners. In the rows at the poles all lie beside one another.
-pub(super) fn neighbours(map: &Picture, i: usize) -> impl Iterator<Item = usize> {
+fn neighbours(map: &Picture, i: usize) -> impl Iterator<Item = usize> {
     let [width, height] = map.size_px.map(|n| n as usize);
     let (x, y) = (i % width, i / width);
     let is_pole = y == 0 || y + 1 == height;

@@ -215,7 +215,7 @@ fn a_window_in_the_sky() {
         compare("window", &scene, &gpu, &on_the_cpu(&scene, 1)).unwrap();
     }
     let scratches = compared("window", &exact, &reference, Layer::Scratches);
-    // Cells blur the window's edges: 1.2 % (docs/model.md, section 8).
+    // Cells blur the window's edges: 2 % (docs/model.md, section 8), of which noise may be a part.
     let [at_least, _] = scratches.beyond.relative_rms_within(2.0);
     assert!(at_least < 0.015, "{scratches:?}");
     assert!((scratches.mean_ratio - 1.0).abs() < 0.01 + 3.0 * scratches.mean_ratio_error);
