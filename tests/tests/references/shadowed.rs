@@ -11,7 +11,6 @@ use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
 use hairline_scene::{Base, Bearing, Coat, Environment, Grating, GrooveField, Scene};
-use hairline_sky::BuiltInMap;
 use std::sync::LazyLock;
 
 pub(super) const VIEW: View = View {
