@@ -31,7 +31,7 @@ impl Maps {
             size_px: [width, height],
             rgb: texels.to_vec(),
         };
-        Ok(Self(hairline_sky::with_lamps_parted(map, 0.0, 1.0, true)))
+        Ok(Self(hairline_sky::with_suns_parted(map, 0.0, 1.0, true)))
     }
 
     /// Width of the first mip of [`Maps::levels`], which is as high; each further one is half as wide.

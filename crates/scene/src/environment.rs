@@ -80,11 +80,11 @@ impl Environment {
             visible,
             suns: Vec::new(),
         }
-        .with_lamps()
+        .with_suns()
     }
 
     /// Brings suns up to date with the map's turn and intensity.
-    fn with_lamps(mut self) -> Self {
+    fn with_suns(mut self) -> Self {
         let per_texel = self.texel_radiance();
         let world_from_map = self.map_from_world.transpose();
         let sun = |sun: &Sun| {
@@ -103,14 +103,14 @@ impl Environment {
     #[must_use]
     pub fn with_up(mut self, up: DVec3, rotation_rad: f64) -> Self {
         self.map_from_world = map_from_world(up, rotation_rad);
-        self.with_lamps()
+        self.with_suns()
     }
 
     /// Sets the factor on the map's radiance.
     #[must_use]
     pub fn with_intensity(mut self, intensity: f64) -> Self {
         self.intensity = intensity;
-        self.with_lamps()
+        self.with_suns()
     }
 
     /// Sets whether the camera sees it.

@@ -69,7 +69,7 @@ pub fn from_map(map: Picture, rotation_rad: f64, intensity: f64, visible: bool) 
 ///
 /// # Panics
 /// If the map is empty.
-pub fn with_lamps_parted(
+pub fn with_suns_parted(
     map: Picture,
     rotation_rad: f64,
     intensity: f64,

@@ -108,7 +108,7 @@ fn check_sun(base: Base, angle_rad: f64, size_px: [u32; 2], whole_too: bool) {
             *texel = [2000.0, 1600.0, 1200.0];
         }
     }
-    let parted = hairline_sky::with_lamps_parted(map.clone(), 0.0, 1.0, false);
+    let parted = hairline_sky::with_suns_parted(map.clone(), 0.0, 1.0, false);
     assert_eq!(parted.suns().len(), 1);
     scene.environment = Some(over(parted));
     // By chance the whole map shines, parted or not.
@@ -207,7 +207,7 @@ fn a_window_in_the_sky() {
         let sky = Vec3::from(*texel).as_dvec3();
         *texel = sky.lerp(lit, covered).as_vec3().to_array();
     }
-    let map = hairline_sky::with_lamps_parted(map, 0.0, 1.0, false);
+    let map = hairline_sky::with_suns_parted(map, 0.0, 1.0, false);
     assert!(map.suns().is_empty());
     scene.environment = Some(over(map));
     let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));

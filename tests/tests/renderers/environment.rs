@@ -57,7 +57,7 @@ fn balls_under_a_sun() {
         let is_sun = direction.angle_between(sun) < 0.0047;
         *texel = [0.2, 0.4, 0.8].map(|c| if is_sun { 3e4 } else { c });
     }
-    let environment = hairline_sky::with_lamps_parted(map, 0.0, 1.0, true);
+    let environment = hairline_sky::with_suns_parted(map, 0.0, 1.0, true);
     assert_eq!(environment.suns().len(), 1);
     scene.environment = Some(environment);
     let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {

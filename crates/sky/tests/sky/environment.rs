@@ -413,7 +413,7 @@ fn a_sun_is_a_light() {
     });
     let sky = hairline_sky::from_map(map_of([512, 256], evening), 0.4, 1.5, true);
     let whole = hairline_sky::from_map(sunny.clone(), 0.4, 1.5, true);
-    let parted = hairline_sky::with_lamps_parted(sunny, 0.4, 1.5, true);
+    let parted = hairline_sky::with_suns_parted(sunny, 0.4, 1.5, true);
     assert!(sky.suns().is_empty() && whole.suns().is_empty());
     for d in directions(500) {
         assert_eq!(parted.radiance(d), whole.radiance(d));
