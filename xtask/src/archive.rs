@@ -56,7 +56,7 @@ pub fn unpack(archive: &Path, folder: &Path) -> anyhow::Result<()> {
 }
 
 /// The files of a folder and of those in it, sorted.
-fn files(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
+pub fn files(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let mut folders = vec![PathBuf::new()];
     while let Some(inner) = folders.pop() {

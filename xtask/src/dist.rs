@@ -1,6 +1,7 @@
 //! What is handed out, for the machine that it is made on: programs, packages, the page; with their sums, sizes and the crates that are in them.
 
 mod crates;
+mod documents;
 mod old_machines;
 mod target;
 
@@ -52,13 +53,16 @@ const PROGRAMS: [&str; 2] = ["hairline", "hairline-viewer"];
 const COPIED: [(&str, &str); 7] = [
     ("README.md", "README.md"),
     ("CHANGELOG.md", "CHANGELOG.md"),
-    ("LICENSE-MIT", "LICENSE-MIT"),
-    ("LICENSE-APACHE", "LICENSE-APACHE"),
+    (LICENCES[0], LICENCES[0]),
+    (LICENCES[1], LICENCES[1]),
     ("scenes", "scenes"),
     ("docs", "docs"),
     // The icon, and the file that lists the program in menus.
     ("crates/viewer/assets", "desktop"),
 ];
+
+/// Hairline's own licences.
+const LICENCES: [&str; 2] = ["LICENSE-MIT", "LICENSE-APACHE"];
 
 const COMPLETIONS: [(&str, &str); 5] = [
     ("bash", "hairline.bash"),
@@ -97,7 +101,7 @@ impl Dist {
             }
         }
         let target = Target::of_this_machine()?;
-        let packages = [&[MATURIN], target.packages()].concat();
+        let packages = [&[MATURIN, wheel::PACKER], target.packages()].concat();
         let tools = wheel::environment(&self.python, &work, &packages)
             .map_err(|error| format!("no Python with venv and {}: {error}", packages.join(", ")));
         let mut release = Release {
@@ -174,7 +178,9 @@ impl Release {
                     .link(&["hairline-engine-web"], &[wasm::TARGET], "npm")?;
                 self.crates.add_three("npm")?;
                 let folder = self.at.work.join("npm");
-                package::for_npm(&self.at.root, &folder)?;
+                package::for_npm(&self.at.root, &folder, |package| {
+                    self.crates.copy_licences("npm", &package.join("licences"))
+                })?;
                 self.hand_out_all(&folder, "tgz", "a browser with WebGPU")
             }
             Part::Page => {
@@ -211,6 +217,7 @@ impl Release {
         for (from, to) in COPIED {
             copy(&self.at.root.join(from), &folder.join(to))?;
         }
+        documents::without_dead_links(&folder)?;
         let say = |arguments: &[&str], file: PathBuf| -> anyhow::Result<()> {
             let said = Command::new(&built[0]).args(arguments).output()?;
             ensure!(said.status.success(), "hairline {arguments:?} failed");
@@ -247,9 +254,22 @@ impl Release {
         fs::create_dir_all(&folder)?;
         let set = |maturin: &mut Command| self.target.set_wheel(maturin, &self.at);
         let package = self.at.root.join("crates/python");
-        let wheel = wheel::build(&package, &tools, &folder, set)?;
-        let unpacked = self.at.work.join("unpacked");
-        let asks = old_machines::asks_of_wheel(&wheel, &self.python, &unpacked)?;
+        let built = wheel::build(&package, &tools, &folder, set)?;
+        let mut asks = String::new();
+        let wheel = wheel::repack(
+            &built,
+            &tools,
+            &folder,
+            self.at.time,
+            |unpacked, licences| {
+                for licence in LICENCES {
+                    copy(&self.at.root.join(licence), &licences.join(licence))?;
+                }
+                self.crates.copy_licences("wheel", licences)?;
+                asks = old_machines::asks_of_wheel(unpacked)?;
+                Ok(())
+            },
+        )?;
         Ok(self.wheel.insert((wheel, asks)).clone())
     }
 

@@ -58,14 +58,25 @@ pub struct Package {
 /// Files that are written by hand, beside the folder `src`.
 const FILES: [&str; 2] = ["package.json", "README.md"];
 
-/// Makes the files that npm installs: the package for engines and the element for pages.
-pub fn for_npm(root: &Path, output: &Path) -> anyhow::Result<()> {
+const NAMES: [&str; 2] = ["hairline-shaders", "hairline-viewer"];
+
+/// Makes the files that npm installs: the package for engines and the element for pages, with what `add` puts into each one's folder.
+pub fn for_npm(
+    root: &Path,
+    output: &Path,
+    add: impl Fn(&Path) -> anyhow::Result<()>,
+) -> anyhow::Result<()> {
     let package = Package {
         output: output.to_owned(),
         ..Package::default()
     };
     package.run()?;
     element::make(root, output)?;
+    for name in NAMES {
+        let folder = output.join(name);
+        add(&folder)?;
+        pack(&folder)?;
+    }
     Ok(())
 }
 
@@ -76,8 +87,8 @@ impl Package {
             .join("..")
             .canonicalize()?;
         if let Some(folder) = &self.packed {
-            let [shaders, element] = ["hairline-shaders", "hairline-viewer"]
-                .map(|name| folder.join(format!("{name}-{}.tgz", env!("CARGO_PKG_VERSION"))));
+            let [shaders, element] =
+                NAMES.map(|name| folder.join(format!("{name}-{}.tgz", env!("CARGO_PKG_VERSION"))));
             archive::unpack(&shaders, &self.output)?;
             archive::unpack(&element, &self.output)?;
             examples::look(&root, &self.output, &shaders)?;

@@ -21,6 +21,8 @@ pub struct Wheel {
 
 /// Package that builds it.
 pub const MATURIN: &str = "maturin>=1.9,<2";
+/// Package that packs it again, with what maturin does not know.
+pub const PACKER: &str = "wheel>=0.45";
 /// Packages that build and test it.
 const TOOLS: [&str; 11] = [
     MATURIN,
@@ -81,6 +83,46 @@ pub fn build(
     set(&mut maturin)?;
     run(&mut maturin)?;
     wheels(output)?.pop().context("maturin made no wheel")
+}
+
+/// Packs a wheel again, in its place, with what `add` does to its files: its arguments are their folder and that of the licences in it.
+pub fn repack(
+    wheel: &Path,
+    programs: &Path,
+    work: &Path,
+    time: u64,
+    add: impl FnOnce(&Path, &Path) -> anyhow::Result<()>,
+) -> anyhow::Result<PathBuf> {
+    let unpacked = work.join("unpacked");
+    if unpacked.exists() {
+        std::fs::remove_dir_all(&unpacked)?;
+    }
+    let packer = || {
+        let mut packer = Command::new(programs.join("python"));
+        packer.args(["-m", "wheel"]);
+        packer
+    };
+    run(packer()
+        .arg("unpack")
+        .arg(wheel)
+        .arg("--dest")
+        .arg(&unpacked))?;
+    let name = wheel.file_name().context("a wheel without a name")?;
+    let name = name.to_string_lossy();
+    let mut words = name.split('-');
+    let (package, version) = (words.next().unwrap_or(""), words.next().unwrap_or(""));
+    let files = unpacked.join(format!("{package}-{version}"));
+    add(
+        &files,
+        &files.join(format!("{package}-{version}.dist-info/licenses")),
+    )?;
+    run(packer()
+        .arg("pack")
+        .arg(&files)
+        .arg("--dest-dir")
+        .arg(work)
+        .env("SOURCE_DATE_EPOCH", time.to_string()))?;
+    Ok(wheel.to_owned())
 }
 
 impl Wheel {

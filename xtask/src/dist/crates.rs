@@ -10,8 +10,14 @@ use serde_json::{Value, json};
 
 use crate::archive::copy;
 
-/// Beginnings of names of files that hold a licence.
-const LICENCES: [&str; 4] = ["LICENSE", "LICENCE", "COPYING", "NOTICE"];
+/// Beginnings of names of files that hold a licence; the last is that of Rust's own library.
+const LICENCES: [&str; 5] = [
+    "LICENSE",
+    "LICENCE",
+    "COPYING",
+    "NOTICE",
+    "COPYRIGHT-LIBRARY",
+];
 
 /// Crates, and packages of npm, that are linked into a part.
 pub struct Crates {
@@ -75,12 +81,17 @@ impl Crates {
             };
             known.insert(id, of);
         }
-        let rustc = Command::new("rustc").arg("-V").output()?;
-        let rustc = String::from_utf8(rustc.stdout)?;
-        let version = rustc.split_whitespace().nth(1).unwrap_or_default();
+        let rustc = |argument: &str| -> anyhow::Result<String> {
+            let said = Command::new("rustc").args(argument.split(' ')).output()?;
+            Ok(String::from_utf8(said.stdout)?.trim().to_owned())
+        };
+        let version = rustc("-V")?;
+        let version = version.split_whitespace().nth(1).unwrap_or_default();
+        let documents = Path::new(&rustc("--print sysroot")?).join("share/doc/rust");
         let of = Crate {
             licence: "MIT OR Apache-2.0".to_owned(),
-            folder: None,
+            // Without documents the compiler brings no licences.
+            folder: documents.is_dir().then_some(documents),
             sha256: None,
             registry: "generic",
         };
@@ -129,16 +140,16 @@ impl Crates {
 
     /// Adds three.js, which is in the element for pages.
     pub fn add_three(&mut self, part: &'static str) -> anyhow::Result<()> {
-        let lock = self
-            .root
-            .join("packages/hairline-shaders/test/package-lock.json");
-        let lock: Value = serde_json::from_slice(&fs::read(lock)?)?;
+        let tests = self.root.join("packages/hairline-shaders/test");
+        let lock = fs::read(tests.join("package-lock.json"))?;
+        let lock: Value = serde_json::from_slice(&lock)?;
         let three = &lock["packages"]["node_modules/three"];
         let version = three["version"].as_str().context("no version of three")?;
         let id = ("three".to_owned(), version.to_owned());
         let of = Crate {
             licence: three["license"].as_str().unwrap_or("MIT").to_owned(),
-            folder: None,
+            // Installed there before licences are copied.
+            folder: Some(tests.join("node_modules/three")),
             sha256: None,
             registry: "npm",
         };

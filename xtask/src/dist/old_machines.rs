@@ -5,8 +5,6 @@ use std::process::Command;
 
 use anyhow::{Context, ensure};
 
-use crate::program::run;
-
 /// The newest glibc that a program may ask for: that of Debian 10, Ubuntu 18.10 and RHEL 8.
 pub const GLIBC: [u32; 2] = [2, 28];
 
@@ -41,12 +39,10 @@ pub fn asks(program: &Path) -> anyhow::Result<String> {
     Ok(format!("Linux, glibc {major}.{minor} or later"))
 }
 
-/// The same of the module in a wheel, which is unpacked into a folder.
-pub fn asks_of_wheel(wheel: &Path, python: &Path, folder: &Path) -> anyhow::Result<String> {
-    let mut unpack = Command::new(python);
-    run(unpack.args(["-m", "zipfile", "-e"]).arg(wheel).arg(folder))?;
+/// The same of the module in a wheel's files.
+pub fn asks_of_wheel(files: &Path) -> anyhow::Result<String> {
     let module = if cfg!(windows) { "pyd" } else { "abi3.so" };
-    asks(&folder.join(format!("hairline/_hairline.{module}")))
+    asks(&files.join(format!("hairline/_hairline.{module}")))
 }
 
 /// The version of glibc that the header of a program asks for, as `objdump -p` writes it.
