@@ -3,9 +3,10 @@
 //! Group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures; group 3 is each pass's own. Of the 16 sampled
 //! textures of a WebGPU stage 10 are taken, and some by passes; of the 8 storage buffers 2.
 
-use wgpu::{ShaderStages, TextureViewDimension};
+use wgpu::{BindingType, ShaderStages, TextureViewDimension};
 
 use crate::device::Gpu;
+use crate::shaders::{Binding, BindingKind};
 
 /// Names of the scene's arrays in the order of their bindings.
 pub(crate) const SCENE_BUFFERS: [&str; 5] = [
@@ -88,7 +89,7 @@ pub(crate) fn layout(
 pub(crate) fn entry(
     binding: u32,
     visibility: ShaderStages,
-    ty: wgpu::BindingType,
+    ty: BindingType,
 ) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
@@ -98,16 +99,16 @@ pub(crate) fn entry(
     }
 }
 
-pub(crate) fn uniform() -> wgpu::BindingType {
-    wgpu::BindingType::Buffer {
+pub(crate) fn uniform() -> BindingType {
+    BindingType::Buffer {
         ty: wgpu::BufferBindingType::Uniform,
         has_dynamic_offset: false,
         min_binding_size: None,
     }
 }
 
-pub(crate) fn storage(read_only: bool) -> wgpu::BindingType {
-    wgpu::BindingType::Buffer {
+pub(crate) fn storage(read_only: bool) -> BindingType {
+    BindingType::Buffer {
         ty: wgpu::BufferBindingType::Storage { read_only },
         has_dynamic_offset: false,
         min_binding_size: None,
@@ -115,8 +116,8 @@ pub(crate) fn storage(read_only: bool) -> wgpu::BindingType {
 }
 
 /// A part of a buffer that each dispatch chooses.
-pub(crate) fn dynamic_uniform() -> wgpu::BindingType {
-    wgpu::BindingType::Buffer {
+pub(crate) fn dynamic_uniform() -> BindingType {
+    BindingType::Buffer {
         ty: wgpu::BufferBindingType::Uniform,
         has_dynamic_offset: true,
         min_binding_size: None,
@@ -126,22 +127,22 @@ pub(crate) fn dynamic_uniform() -> wgpu::BindingType {
 fn texture(
     sample_type: wgpu::TextureSampleType,
     view_dimension: TextureViewDimension,
-) -> wgpu::BindingType {
-    wgpu::BindingType::Texture {
+) -> BindingType {
+    BindingType::Texture {
         sample_type,
         view_dimension,
         multisampled: false,
     }
 }
 
-pub(crate) fn numbers(view_dimension: TextureViewDimension, filterable: bool) -> wgpu::BindingType {
+pub(crate) fn numbers(view_dimension: TextureViewDimension, filterable: bool) -> BindingType {
     texture(
         wgpu::TextureSampleType::Float { filterable },
         view_dimension,
     )
 }
 
-pub(crate) fn integers() -> wgpu::BindingType {
+pub(crate) fn integers() -> BindingType {
     texture(wgpu::TextureSampleType::Uint, TextureViewDimension::D2)
 }
 
@@ -164,4 +165,23 @@ pub(crate) fn bind(
         layout,
         entries: &entries,
     })
+}
+
+/// Name of the uniform whose part each dispatch chooses.
+const DYNAMIC: &str = "range";
+
+impl Binding {
+    pub(crate) fn is_dynamic(&self) -> bool {
+        self.name == DYNAMIC
+    }
+
+    pub(crate) fn ty(&self) -> BindingType {
+        match self.kind {
+            BindingKind::Storage { is_read_only } => storage(is_read_only),
+            BindingKind::Uniform if self.is_dynamic() => dynamic_uniform(),
+            BindingKind::Uniform => uniform(),
+            BindingKind::Integers => integers(),
+            BindingKind::Numbers => numbers(TextureViewDimension::D2, false),
+        }
+    }
 }

@@ -6,11 +6,10 @@ use wgpu::{BindingResource, ShaderStages};
 use crate::bindings::{entry, layout};
 use crate::device::Gpu;
 use crate::layout::LightRange;
-use crate::own_bindings::OwnBinding;
 use crate::pipelines::{Orders, Pipeline};
 use crate::resources::Resources;
 use crate::scene_data::SceneData;
-use crate::shaders::Module;
+use crate::shaders::{Binding, Module};
 use crate::timing::Timing;
 use crate::variant::Constant;
 
@@ -19,7 +18,7 @@ pub(crate) struct ComputePass {
     name: &'static str,
     pipeline: Pipeline,
     group_3: wgpu::BindGroupLayout,
-    bindings: Vec<OwnBinding>,
+    bindings: &'static [Binding],
 }
 
 /// Bindings that all passes of a strip share, and the clock that notes their time.
@@ -50,8 +49,8 @@ impl ComputePass {
         (module, entry_point): (&'static Module, &'static str),
         more: &[Constant],
     ) -> Self {
-        let bindings = OwnBinding::of(module);
-        let entries: Vec<_> = bindings
+        let entries: Vec<_> = module
+            .bindings
             .iter()
             .map(|own| entry(own.number, ShaderStages::COMPUTE, own.ty()))
             .collect();
@@ -60,7 +59,7 @@ impl ComputePass {
             name,
             pipeline: orders.pipeline((module, entry_point), &group_3, more),
             group_3,
-            bindings,
+            bindings: module.bindings,
         }
     }
 
@@ -113,7 +112,7 @@ impl ComputePass {
         workgroups: &Workgroups,
     ) {
         let group = self.bind(recording, resources);
-        let has_ranges = self.bindings.iter().any(OwnBinding::is_dynamic);
+        let has_ranges = self.bindings.iter().any(Binding::is_dynamic);
         let offsets: &[u32] = if has_ranges { &[0] } else { &[] };
         self.dispatch(recording, &group, offsets, workgroups);
     }

@@ -1,5 +1,5 @@
 //! Every struct and number that host and shaders share: made of `shaders/scene/layout.wgsl`, which documents them, when this crate is built
-//! (`build.rs`). The tests hold names, offsets and sizes equal by naga's reflection of the text.
+//! (`build/layout.rs`). The tests hold names, offsets and sizes equal by naga's reflection of the text.
 //!
 //! Not encase: it writes structs member by member, where arrays of millions of these are copied as they lie in memory.
 

@@ -38,7 +38,6 @@ mod light_ranges;
 mod lights;
 pub mod method;
 mod method_tables;
-mod own_bindings;
 mod passes;
 mod pipeline_cache;
 mod pipelines;

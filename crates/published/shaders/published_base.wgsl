@@ -1,5 +1,6 @@
 // The base under lights and environment, spheres by the pivot transform of 2017. Twin: src/cpu.rs; base.wgsl
 // explains what is the same there.
+// Needs: base, sptd, published_lights.
 
 // The lobe's integrals and the diffuse form factor of a light.
 fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, pivot: SptdLobe, light: Light) -> vec4f {

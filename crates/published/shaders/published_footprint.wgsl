@@ -1,5 +1,6 @@
 // The method of 2018, kept to be compared with: a blend of the pixel's two limits, and the density that masks the base.
 // Twin: src/footprint.rs, which explains it.
+// Needs: gaussian.
 
 // Step on the surface from one pixel to the next, right and down; x along the scratch, y across it.
 struct PixelFootprint {

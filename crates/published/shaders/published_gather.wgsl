@@ -1,5 +1,6 @@
 // The scratches under a pixel by the method of 2018: each pixel traverses the BVH by its skip pointers, or goes through a list of its
 // triangle. Twin: src/cpu.rs.
+// Needs: published_lights, published_footprint, triangle_lists, method, mask.
 
 const REACH_STD: f32 = 3.5;
 const FACING_MIN_COS: f32 = 0.2;

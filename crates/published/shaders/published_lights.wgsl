@@ -1,5 +1,6 @@
 // Light that a scratch sends to the viewer by the method of 2018: eight wavelengths, the talk's steps, the middle line of the band,
 // depths along the normal. Twin: src/cpu/lights.rs.
+// Needs: scene, lights, picture_light, segments, band_environment, published_tables, published_spectrum, published_sphere, published_polygon.
 
 // Wavelengths of published_wavelengths. Twin: src/spectrum.rs.
 const PUBLISHED_WAVELENGTHS: u32 = 8u;

@@ -1,5 +1,6 @@
 // The method of 2018, kept to be compared with: a triangular light on the band's middle line. Twin:
 // src/polygon.rs, which explains the steps.
+// Needs: published_segments.
 
 const CULL_SLACK: f32 = 1e-6;
 const CULLED: f32 = 2.0;

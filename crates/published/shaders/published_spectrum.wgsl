@@ -1,5 +1,6 @@
 // The method of 2018, kept to be compared with: a scratch's light, wavelength by wavelength. Twin:
 // src/spectrum.rs. `fast` chooses the approximated sine integral.
+// Needs: published_segments, published_sine_integral.
 
 // A part of the visible: its weight in the three channels, and the wavelength that stands for it.
 struct PublishedWavelength {

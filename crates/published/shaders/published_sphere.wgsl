@@ -1,5 +1,6 @@
 // The method of 2018, kept to be compared with: a spherical light on the band's middle line. Twin:
 // src/sphere.rs, which explains the steps. All vectors are in the scratch's frame.
+// Needs: band, published_segments.
 
 fn sphere_segments(wo: vec3f, cap: Cap) -> BandSegments {
     var segments: BandSegments;

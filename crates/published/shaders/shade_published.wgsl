@@ -1,5 +1,6 @@
 // Pass: base and scratches of a sample by the method of 2018, in place of shade_base and shade_scratches. Twin:
 // src/cpu.rs.
+// Needs: published_gather, published_base, film, pixel_point.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

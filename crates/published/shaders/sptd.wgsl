@@ -1,5 +1,6 @@
 // The GGX lobe over a sphere by a pivot transform, as published (ltc_sphere is the default).
 // Needs ggx, irradiance, lobe_table, ltc. Twin: src/sptd.rs, which explains the method and names the paper.
+// Needs: ltc.
 
 struct SptdLobe {
     axis: vec3f,

@@ -1,4 +1,5 @@
 // The scratches that each triangle's points may see. Twins: src/gpu.rs, src/triangle_lists.rs.
+// Needs: rows, published_tables.
 
 fn triangle_lists_word(i: u32) -> u32 {
     return textureLoad(triangle_lists, row_texel(i), 0).x;

@@ -1,6 +1,7 @@
 // The base of brushed metal as an engine shades it: facets that lean further one way than across it, in the place of lit_base().
 //
-// Needs: brushed_outline, lit_base. Frame and textures: those of lit_base. Sums over lights end in lit_base_reflected() and lit_base_body() of `lit`.
+// Needs: brushed_outline, lit_base.
+// Frame and textures: those of lit_base. Sums over lights end in lit_base_reflected() and lit_base_body() of `lit`.
 
 struct BrushedBase {
     lit: LitBase,                   // with the albedo of the brushed lobe

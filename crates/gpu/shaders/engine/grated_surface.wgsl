@@ -1,6 +1,7 @@
 // A surface with rows of grooves as an engine shades it: a grating, whose light lies about its orders.
 //
-// Needs: grating, groove_field, outline_light, scratched_surface (SurfaceView). Frame: as of scratched_surface. Tables are a texture of their own: each
+// Needs: grating, groove_field, scratched_surface.
+// Frame: as of scratched_surface. Tables are a texture of their own: each
 // layer that of one grating, over its depth, or INCIDENCE_ROWS high of a fine one.
 //
 //   let point = grated_point(view, grooves, 1.0);                             // once

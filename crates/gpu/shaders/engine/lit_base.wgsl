@@ -1,6 +1,7 @@
 // The base between the scratches as an engine shades it: a GGX lobe over a white body, widened by what a pixel sees.
 //
-// Needs: filtered_lobe, pixel_slopes, band, scratch_light (QuadLight), outline_light, environment_lobe. Frame: the surface's, z along the shading normal, the viewer in the x-z plane.
+// Needs: filtered_lobe, pixel_slopes, band, outline_light, environment_lobe, metal_mix.
+// Frame: the surface's, z along the shading normal, the viewer in the x-z plane.
 // Positions of lights are relative to the point, in metres. Textures: `shapes`, `albedo` and `curves` of the package's tables.
 //
 //   let base = lit_base(wo, roughness, fresnel, slopes, shapes, albedo, curves);    // once; PixelSlopes of pixel_slopes

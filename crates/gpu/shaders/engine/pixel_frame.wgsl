@@ -1,6 +1,7 @@
 // Converts the inputs of a fragment shader to the frame that the modules compute in.
 //
-// Needs: camera, scratched_surface, lit_base. Frame of the arguments: the camera's own, which looks along -z, y up, in metres; and the
+// Needs: camera, scratched_surface, lit_base.
+// Frame of the arguments: the camera's own, which looks along -z, y up, in metres; and the
 // object's, turned and scaled by `view_from_object`, with one scale for all axes.
 
 struct PixelFrame {

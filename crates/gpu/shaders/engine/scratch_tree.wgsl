@@ -1,7 +1,8 @@
 // Finding the scratches under a footprint: a tree of boxes over an object's scratches, with skip pointers. Twin: engine/src/scratch_tree.rs
 // makes it; B. Smits, "Efficiency Issues for Ray Tracing", 1998.
 //
-// Needs: scratch. Frame: the object's own, in its own unit of length, which the caller's matrices turn into metres.
+// Needs: scratch.
+// Frame: the object's own, in its own unit of length, which the caller's matrices turn into metres.
 //
 // All lies in one texture, rgba32uint, SCRATCH_TREE_WIDTH texels wide:
 //   texel 0   number of nodes, number of pieces, depth coherence (f32), coherence window in micrometres (f32)

@@ -1,6 +1,7 @@
 // A scratched surface as an engine shades it: all scratches under a pixel at once, found in a tree.
 //
-// Needs: scratch_light, outline_light, scratch_tree. Frame: the surface's, z along the shading normal, towards the viewer; any x. Positions
+// Needs: outline_light, scratch_tree.
+// Frame: the surface's, z along the shading normal, towards the viewer; any x. Positions
 // of lights are relative to the point, in metres.
 //
 //   let view = SurfaceView(...);                                            // from the engine

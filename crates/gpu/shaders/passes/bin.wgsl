@@ -1,6 +1,7 @@
 // Pass: the entries of tile lists, segment after segment: the tile, the segment, and a bit for each pixel of the tile that its line comes
 // near to. sort.wgsl brings them in the order of tiles.
 // Twin: cpu/src/bin.rs.
+// Needs: projected.
 
 @group(3) @binding(0) var<storage, read> entry_starts: array<u32>;
 @group(3) @binding(1) var<storage, read_write> entries: array<vec4u>;

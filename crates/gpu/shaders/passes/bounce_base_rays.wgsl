@@ -1,4 +1,5 @@
 // Pass: for each sample a ray by the lobes of its base. A workgroup a group. Twin: cpu/src/shadows/base.rs.
+// Needs: bounce, found, base_lobes, sums, pixel_point.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

@@ -1,5 +1,6 @@
 // Passes: the scratches that each sample may see, by the tree over them: for samples that no tile has a list for. The first one counts them; the
 // second one lists them. A workgroup a group. Twin: cpu/src/gather.rs.
+// Needs: rows, film, pixel_point.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 // One more than samples; becomes prefix sums between the passes.

@@ -1,4 +1,5 @@
 // Pass: for each sample a ray by way of its gratings. A workgroup a group. Twin: cpu/src/shadows/scratches.rs.
+// Needs: bounce, grating_pairs, drawn_light, sums, coat.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

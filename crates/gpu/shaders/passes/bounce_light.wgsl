@@ -1,5 +1,6 @@
 // Pass: adds the light of what the rays have met to the light that rays found for the camera's samples. A workgroup a group.
 // Twins: cpu/src/bounces.rs, cpu/src/found.rs.
+// Needs: found, film.
 
 @group(3) @binding(0) var<storage, read> rays: array<BounceRay>;
 // Light of what the rays met.

@@ -1,4 +1,5 @@
 // Pass: for each sample a ray by way of a scratch that was picked. A workgroup a group. Twin: cpu/src/shadows/scratches.rs.
+// Needs: bounce, pair_place, picks, sums, coat.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

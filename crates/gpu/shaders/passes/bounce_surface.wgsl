@@ -1,4 +1,5 @@
 // Pass: surface points of what the rays have met. A workgroup a group. Twin: cpu/src/bounces.rs.
+// Needs: hit, film, pixel_point, ggx.
 
 // Points that the rays come from.
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;

@@ -1,4 +1,5 @@
 // Pass: follows each sample's ray to its hit. A workgroup a group. Twin: cpu/src/shadows.rs.
+// Needs: ray_start, film.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

@@ -1,4 +1,5 @@
 // Converts the film to a display's colours.
+// Needs: layout, tone_map.
 
 @group(0) @binding(0) var<uniform> display: DisplaySettings;
 @group(0) @binding(1) var<storage, read> display_film: DisplayFilm;

@@ -1,5 +1,6 @@
 // Pass: numbers the pixels of each tile that have an edge or a crease, and counts the groups of their samples. A workgroup a tile.
 // Twin: cpu/src/silhouettes.rs says which pixels these are; resolve.wgsl has marked them.
+// Needs: film.
 
 @group(3) @binding(0) var<storage, read_write> film: Film;
 // One more than tiles; becomes prefix sums.

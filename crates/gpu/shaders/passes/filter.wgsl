@@ -1,5 +1,6 @@
 // Passes: the filter of the light that rays found, a layer at a time. Twin: image/src/filter.rs, which names the papers and explains
 // the numbers.
+// Needs: found_light.
 //
 // The signals of a layer, red, green, blue and the variance of the luminance, below 0 where there is none, go from texture to texture.
 

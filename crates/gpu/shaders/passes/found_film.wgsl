@@ -1,5 +1,6 @@
 // Pass: adds the light that rays found for the samples of a pixel to the film. One invocation a pixel, after resolve.wgsl. Twin:
 // cpu/src/resolve.rs.
+// Needs: found_light, scene, pixel_point, film.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

@@ -1,4 +1,5 @@
 // Pass: number of chunks into which the list of each group is cut. One invocation a group.
+// Needs: groups.
 
 @group(3) @binding(1) var<storage, read> list_starts: array<u32>;
 // One more than groups; becomes prefix sums.

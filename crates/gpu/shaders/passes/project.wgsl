@@ -1,5 +1,6 @@
 // Pass: from segments to the picture. One invocation a segment counts the tiles that its line comes near to; bin.wgsl lists it there.
 // Twin: cpu/src/project.rs.
+// Needs: projected.
 
 @group(3) @binding(0) var<storage, read_write> entry_starts: array<u32>;
 

@@ -1,5 +1,6 @@
 // Pass: base and scratches of a pixel, weakened by one another, on the film. One invocation a pixel. The first step takes every pixel, and
 // marks those that have an edge or a crease; the second one replaces these by their samples, and later ones add more. Twin: cpu/src/resolve.rs.
+// Needs: scene, sums, pixel_point.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> base_light: array<BaseLight>;

@@ -1,4 +1,5 @@
 // Exclusive prefix sums in place, block after block. Guy Blelloch, "Prefix Sums and Their Applications", 1990.
+// Needs: layout.
 
 const SCAN_LANES: u32 = 256u;
 // Elements of a lane.

@@ -1,4 +1,5 @@
 // Pass: the radiance of the base, before scratches take their part. A workgroup a group. Twin: cpu/src/shade_base.rs.
+// Needs: base, pixel_parts, film, pixel_point.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

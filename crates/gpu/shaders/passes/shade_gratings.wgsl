@@ -1,5 +1,6 @@
 // Pass: the light of gratings, and the energy that they take of the mirror's direction. A workgroup a group; a dispatch for each kind of
 // light. Twin: cpu/src/shade_gratings.rs.
+// Needs: grating_pairs, pair_light, picks, film, coat.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

@@ -5,6 +5,7 @@
 // 3. Pairs that a light reaches wait in a queue. Each lane takes one and lights it: most pairs are dark to most lights.
 // 4. Each pixel adds up what is its own, in the order of the list.
 // Twin: cpu/src/shade_scratches.rs.
+// Needs: nearness, pair_light, picks, groups.
 
 @group(3) @binding(1) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(2) var<storage, read> entries: array<vec4u>;

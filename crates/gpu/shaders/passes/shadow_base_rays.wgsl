@@ -1,5 +1,6 @@
 // Pass: for each sample a ray to one source of the base's light. A workgroup a group. Twin: cpu/src/shadows/base.rs, which casts two rays a round
 // where this one keeps one of several candidates with the probability of its part in their sum (J. Talbot, 2005).
+// Needs: base_lobes, light_sampling, shadow, film, pixel_point.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

@@ -1,5 +1,6 @@
 // Pass: converts the sums over rounds of each sample to light, less what layers take of one another. A workgroup a group. Twins: cpu/src/found.rs,
 // cpu/src/resolve.rs.
+// Needs: found, sums, pixel_point.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> base_light: array<BaseLight>;

@@ -1,5 +1,6 @@
 // Pass: for each sample a ray by way of a scratch or a grating that was picked, if it goes to a light of the kind that the pass is compiled for. A
 // workgroup a group. Twin: cpu/src/shadows/scratches.rs.
+// Needs: pair_place, grating_pairs, drawn_ray, picks, film.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> chunk_starts: array<u32>;

@@ -1,5 +1,6 @@
 // Passes: start values of the running sums by which shade_scratches.wgsl picks scratches for shadow rays, and shade_gratings.wgsl gratings. A
 // workgroup a group.
+// Needs: shadow, picks, pixel_point, film.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> chunk_starts: array<u32>;

@@ -1,5 +1,6 @@
 // Pass: follows each sample's ray to a source and adds its weight to the light that rays found. A workgroup a group. Twins:
 // cpu/src/shadows.rs, cpu/src/found.rs.
+// Needs: ray_start, found, film.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

@@ -1,5 +1,6 @@
 // Pass: finds the samples of a pixel on an edge that see the same surface: one of them has the scratches for all. One invocation a pixel, in
 // later steps. Scratches are most of the work, and a pixel without an edge has them once, too. Twin: cpu/src/share_scratches.rs.
+// Needs: film, pixel_point.
 
 @group(3) @binding(0) var<storage, read_write> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;

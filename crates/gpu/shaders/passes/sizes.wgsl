@@ -1,5 +1,6 @@
 // Pass: what passes before have counted, as sizes of the dispatches to come. Where there is no room for it, the step and those that follow add
 // nothing to the film: their dispatches are empty, and the host, which reads how much room is needed when it reads pixels, asks for them again.
+// Needs: film, at_hits, contents.
 
 // Prefix sums: the last one is the sum of all.
 @group(3) @binding(0) var<storage, read> totals: array<u32>;

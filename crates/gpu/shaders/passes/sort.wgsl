@@ -1,5 +1,6 @@
 // Passes: a stable radix sort of the entries by their tile, one digit of 8 bits at a time. Entries of a tile stay in the order of
 // segments, so that sums over a list are the same in every run. Local ranks by bit masks, as in vello's binning (Levien, 2022).
+// Needs: bindings.
 
 const SORT_LANES: u32 = 256u;
 // Entries of a block, in rounds of one for each lane.

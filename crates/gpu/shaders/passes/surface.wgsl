@@ -1,5 +1,6 @@
 // Pass: from the triangle that a pixel sees to its surface point. One invocation a pixel of the strip and of the rows beside it. In later
 // steps, one sample of pixels with edges. Twin: cpu/src/surface.rs.
+// Needs: pixel_parts, film, pixel_point, coverage.
 
 @group(3) @binding(0) var visibility: texture_2d<u32>;
 @group(3) @binding(1) var<storage, read_write> points: array<PixelPoint>;

@@ -1,4 +1,5 @@
 // Pass: finds the start of each tile's list among the sorted entries. One invocation a tile.
+// Needs: film.
 
 @group(3) @binding(0) var<storage, read> entries: array<vec4u>;
 // One more than tiles.

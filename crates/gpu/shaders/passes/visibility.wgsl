@@ -1,4 +1,5 @@
 // Triangle and object that each pixel sees: x holds the triangle + 1 (0: nothing), y the object.
+// Needs: bindings.
 
 struct VisibilityVertex {
     @builtin(position) clip: vec4f,

@@ -1,4 +1,5 @@
 // Triangle and object that each pixel sees, for objects with cutouts.
+// Needs: visibility, cutouts.
 
 struct CutoutVertex {
     @builtin(position) clip: vec4f,

@@ -1,5 +1,6 @@
 // Intersects an area light with the band of a scratch: a signed sum over roots, each alone. Twin: optics/src/band.rs, which explains it.
 // All vectors are in the scratch's frame: x along the tangent, y across it, z along the surface normal.
+// Needs: scratch.
 
 const BAND_REACH_STD: f32 = 4.0;
 

@@ -1,4 +1,5 @@
 // An environment along the band of a scratch, cut into cells. Twin: optics/src/band_environment.rs, which gives the reasons.
+// Needs: band.
 
 const ENVIRONMENT_CELLS: u32 = 10u;
 const ENVIRONMENT_CELL_SCALE_UM: f32 = 0.3;

@@ -1,5 +1,6 @@
 // The lobe of elliptic GGX facets over a polygon, a sphere or everything, slice by slice. Needs facets, filtered_lobe, lobe_fresnel. Twin:
 // optics::brushed_lobe, which explains the method.
+// Needs: facets, filtered_lobe, environment.
 
 // Chebyshev's nodes in (0, 1) and the weights of Fejer's first rule; the same in (-1, 0).
 const BRUSHED_NODES: u32 = 16u;

@@ -1,5 +1,6 @@
 // Light of a polygon or a tube of radiance 1 that the lobe of elliptic facets reflects. Needs brushed_lobe, outline_light. Twin:
 // BrushedLobe::polygon of optics.
+// Needs: brushed_lobe, outline_light.
 
 // `view` is that of outline_view() with the tangent (1, 0).
 fn brushed_outline(axial: BrushedLobe, fresnel: FresnelRgb, curves: texture_2d<f32>, vertices: texture_2d<u32>, view: OutlineView) -> vec3f {

@@ -1,4 +1,5 @@
 // The GGX lobe over an environment: a few round lobes in a row. Needs ltc, environment. Twin: optics::environment_lobe, which explains it.
+// Needs: ltc, environment.
 
 const ENVIRONMENT_TAPS: u32 = 5u;
 const ENVIRONMENT_MIN_COSINE_OVER_ALPHA: f32 = 20.0;

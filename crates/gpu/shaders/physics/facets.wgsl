@@ -1,4 +1,5 @@
 // GGX facets that lean further one way than across it, with F = 1. Needs ggx. Twin: optics::facets.
+// Needs: ggx.
 
 struct FacetAxes {
     along: vec2f,               // unit vector along which slopes spread most

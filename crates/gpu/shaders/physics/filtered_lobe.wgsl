@@ -1,4 +1,5 @@
 // The lobe of a pixel whose normals differ, as the difference of two and, far from its core, the sharp one. Needs ltc. Twin: optics::filtered_lobe, which explains it.
+// Needs: ltc.
 
 struct FilteredLobe {
     alphas: vec2f,              // as the first's of LtcLobe

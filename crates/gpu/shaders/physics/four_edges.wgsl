@@ -1,5 +1,6 @@
 // Intersects the lines of a band with an outline of three or four edges. All vectors are in the scratch's frame. Twin: PolygonView of
 // optics/src/band.rs, for any number of edges.
+// Needs: band.
 
 // Unit directions to three or four corners. Edges are made where they are asked for: kept, they would take forty registers. Loops over
 // them are never unrolled, for their number is not known to a compiler: four copies took one of them minutes.

@@ -1,5 +1,6 @@
 // Light of the grooves of a grating: as of a scratch, with a table of their own. Twins: cpu/src/shade_scratches/row_spread.rs,
 // cpu/src/shade_scratches/scratch_light.rs; equations: docs/model.md, section 12.
+// Needs: scratch_light.
 
 // A grating's table is looked up as that of a scratch of this width and this depth. Twin: optics/src/grating/table.rs.
 const GRATING_WIDTH_UM: f32 = 2.0;

@@ -1,5 +1,6 @@
 // Rows of grooves on a surface: which way they run at a point, and how much of a pixel they cover. Needs gaussian. Twin:
 // crates/scene/src/grating.rs. All vectors are of one frame, in metres.
+// Needs: gaussian.
 
 const GROOVES_ALONG: u32 = 0u;
 const GROOVES_CIRCULAR: u32 = 1u;

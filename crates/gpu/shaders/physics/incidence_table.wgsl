@@ -1,6 +1,7 @@
 // The light of a fine grating as a table over q and the direction to the viewer. Twin: optics/src/grating/incidence.rs.
 // A layer of the scratch tables holds it. Its rows are of components of that direction across the grooves, for each of some angles along them; its
 // last column has half of what is missing in the mirror's direction.
+// Needs: scratch_table.
 
 const INCIDENCES_ACROSS: f32 = 64.0;
 const INCIDENCES_ALONG: f32 = 8.0;

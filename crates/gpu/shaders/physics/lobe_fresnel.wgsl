@@ -1,4 +1,5 @@
 // Reflectance of the facets of a lobe. Needs fresnel, lobe_table. Twin: LobeFresnel of optics::ltc.
+// Needs: fresnel, lobe_table.
 
 struct LobeFresnel {
     fresnel: FresnelRgb,

@@ -1,5 +1,6 @@
 // The GGX lobe (cosine inside) times Fresnel's reflectance over a polygon or a sphere, by linearly transformed cosines.
 // Needs ggx, irradiance, lobe_fresnel. Twin: optics::ltc, which explains the method and names the papers.
+// Needs: ggx, irradiance, lobe_fresnel.
 //
 // Polygons are streamed: ltc_begin, ltc_edge for each edge in order, ltc_end.
 

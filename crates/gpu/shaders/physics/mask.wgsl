@@ -1,4 +1,5 @@
 // The energy that scratches take from the base, and from one another. Twin: optics/src/mask.rs, which explains it.
+// Needs: scratch.
 
 struct ScratchSums {
     share: f32,

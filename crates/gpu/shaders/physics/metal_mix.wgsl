@@ -1,4 +1,5 @@
 // A surface that is a metal in part, and a dielectric over a body in the other: glTF's mix of two materials. Twin: optics::metal_mix, which has the reasons.
+// Needs: ggx.
 
 struct MetalMix {
     scattered_at_normal: vec3f, // by which multiple scattering adds to the lobe of the mix

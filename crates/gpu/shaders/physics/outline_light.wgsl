@@ -1,5 +1,6 @@
 // Light that one scratch sends to the viewer of a polygon with more than four vertices, or of a tube. Edges are visited one by one, several times,
 // so that no array holds their roots. Twin: cpu/src/shade_scratches/scratch_light.rs.
+// Needs: scratch_light, texels, tube.
 //
 // Vertices lie in a texture, x, y and z as bits of floats, see texels.wgsl; of a tube its two ends do, with its radius in w. Frame: any.
 

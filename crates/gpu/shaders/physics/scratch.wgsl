@@ -1,4 +1,5 @@
 // One scratch under a Gaussian coherence window and a Gaussian footprint. Twins: optics/src/scratch.rs, footprint.rs.
+// Needs: gaussian.
 
 // The cross section of a groove as it is looked up. Twin: IndexedProfile in index/src/indexed_segment.rs.
 struct Profile {

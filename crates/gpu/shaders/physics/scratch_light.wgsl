@@ -1,5 +1,6 @@
 // Light that one scratch sends to the viewer: the module for other engines, which Hairline's own pass calls as well. No binding, no entry point.
 // Twins: cpu/src/shade_scratches/scratch_light.rs; equations: docs/model.md, sections 4 to 6.
+// Needs: four_edges, band_environment, incidence_table, mask, environment.
 //
 // Frame: the surface's, z along the shading normal, any x. Positions are relative to the point and in metres unless named otherwise.
 // A caller asks scratch_seen() for each scratch near to the pixel, and where its share is not 0 one of the functions below for each

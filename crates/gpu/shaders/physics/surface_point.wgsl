@@ -1,4 +1,5 @@
 // The surface under a pixel: position, frame, footprint, material. Twin: cpu/src/surface.rs.
+// Needs: pixel_slopes.
 
 const MIN_VIEW_COS: f32 = 0.01;
 

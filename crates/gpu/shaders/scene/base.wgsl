@@ -1,4 +1,5 @@
 // The base under lights and environment: a GGX lobe over a diffuse body. Twin: cpu/src/shade_base.rs.
+// Needs: scene, lights, picture_light, filtered_lobe, environment_lobe, brushed_outline, coat, metal_mix.
 
 // Needs, beside its modules: lights, lobe_shapes, lobe_albedo, fresnel_curves, and the environment.
 

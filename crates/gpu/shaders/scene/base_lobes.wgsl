@@ -1,5 +1,6 @@
 // The lobes of the base, simple enough to draw directions from. They only shape shadows: the closed form says how much light there is.
 // Twin: Lobes of cpu/src/shadows.rs.
+// Needs: base, luminance.
 
 struct BaseLobes {
     wo: vec3f,                  // in the frame of what is under the coat

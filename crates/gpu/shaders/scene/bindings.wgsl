@@ -1,4 +1,5 @@
 // Bindings of the scene. Twin: src/bindings.rs. Group 3 is each pass's own.
+// Needs: layout.
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 

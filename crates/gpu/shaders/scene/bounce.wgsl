@@ -1,4 +1,5 @@
 // Functions that the passes share that draw rays to other objects: docs/model.md, section 11. Twin: cpu/src/bounces.rs.
+// Needs: shadow.
 
 // The part of the rays of a sample that goes one way: those whose number is from `low` on and below `low + share`.
 struct BounceWay {

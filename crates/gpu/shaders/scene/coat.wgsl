@@ -1,4 +1,5 @@
 // A clear layer over the base, in which scratches lie. Twin: cpu/src/shade_base.rs.
+// Needs: bindings, fresnel, contents, surface_point.
 
 // Needs, beside its modules: fresnel_curves.
 

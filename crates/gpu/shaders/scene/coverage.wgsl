@@ -1,5 +1,6 @@
 // Rule by which a ray meets surfaces that cover a part of what lies behind them. Twin:
 // index/src/coverage.rs.
+// Needs: sobol, triangle_tree.
 
 // Threshold of a material whose alpha is such a share. Twin: src/host.rs.
 const ALPHA_IS_SHARE: f32 = 2.0;

@@ -1,4 +1,5 @@
 // Cutouts: parts of triangles where their surface is not. Twins: model/src/texture_lookup.rs, index/src/cutouts.rs.
+// Needs: scene, coverage.
 
 // Layers of cut-out surfaces that a ray goes through; at the next one it ends.
 const CUTOUT_LAYERS: u32 = 64u;

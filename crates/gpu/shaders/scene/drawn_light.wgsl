@@ -1,5 +1,6 @@
 // A direction from which light reaches the viewer by way of a scratch, drawn in proportion to the luminance of what comes from there. Twins:
 // draw_light and draw_environment of cpu/src/shade_scratches/scratch_light.rs; optics/src/band/drawn.rs.
+// Needs: lights, luminance.
 
 // Halvings of an interval that find a place: single precision has no more.
 const DRAWN_HALVINGS: u32 = 20u;

@@ -1,5 +1,6 @@
 // A direction from which a rectangle with a picture reaches the viewer by way of a scratch, drawn as drawn_light.wgsl does. Twin: draw_light of
 // cpu/src/shade_scratches/scratch_light.rs.
+// Needs: drawn_light, scratch_picture.
 
 // Part `i` of the chords of a line: its lower end, its middle and its upper end.
 fn drawn_picture_part(seen: SeenScratch, chords: PictureChords, i: u32) -> vec3f {

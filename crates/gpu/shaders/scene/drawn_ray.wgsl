@@ -1,4 +1,5 @@
 // Rays to sources by way of a pair. Twin: cpu/src/shadows.rs.
+// Needs: drawn_picture, pairs, light_sampling, shadow.
 
 // A direction to the source by way of the pair.
 struct DrawnRay {

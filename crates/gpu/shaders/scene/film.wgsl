@@ -1,4 +1,5 @@
 // Places of pixels and their samples in the arrays of a strip and in the film.
+// Needs: bindings.
 
 // Tiles are squares of so many pixels. Twin: src/strip.rs.
 const TILE_PX: u32 = 8u;

@@ -1,4 +1,5 @@
 // Light that rays found in the layers of a sample: docs/model.md, section 11. Twins: image/src/found.rs, cpu/src/found.rs.
+// Needs: layout, contents, luminance.
 
 // The layers of a sample. Those by which rays leave it in a way begin with the way's; the base has two.
 const FOUND_SPECULAR: u32 = 0u;

@@ -1,4 +1,5 @@
 // Light that rays found in a pixel, as the host has it. Twin: image/src/found.rs.
+// Needs: found.
 
 // Number in the place of the object: samples see several.
 const FOUND_SEVERAL_OBJECTS: u32 = 0xffffffffu;

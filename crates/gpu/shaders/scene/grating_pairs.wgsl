@@ -1,4 +1,5 @@
 // A sample with a grating that it sees. Twin: cpu/src/shade_gratings.rs.
+// Needs: pairs, grating, single_grooves, groove_ground, bindings, contents.
 
 // Gratings of each object one after the other, each once for each material that it lies on.
 @group(3) @binding(2) var<storage, read> gratings: array<Grating>;

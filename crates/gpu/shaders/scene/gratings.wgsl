@@ -1,4 +1,5 @@
 // Gratings: directions of their grooves on a surface, and how a sample sees them. Twin: crates/scene/src/grating.rs.
+// Needs: groove_spots, groove_field.
 
 // Bits of Grating.maps: the mask lies from three sides; grooves run along the first texture coordinate, along the second.
 const GROOVES_MASK_BY_SIDES: u32 = 1u;

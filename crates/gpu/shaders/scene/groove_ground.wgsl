@@ -1,5 +1,6 @@
 // The triangle that gratings are looked at on, and what they take from it: pictures, and directions by texture coordinates. Twin:
 // crates/scene/src/grating/ground.rs.
+// Needs: gratings, scene, surface_point.
 
 // The weights of the second and third corner at a point of a triangle, and how they change along two steps; the same of its place in texture space.
 struct GrooveGround {

@@ -1,4 +1,5 @@
 // Spots of circular grooves in rows: which one is seen. Twin: crates/scene/src/grating/spots.rs.
+// Needs: layout, contents.
 
 // Radius of a spot, in spacings. Every place is within 0.625 of a spot's middle.
 const SPOT_RADIUS: f32 = 0.75;

@@ -1,4 +1,5 @@
 // Tile of a group, and the chunks of the tile's list.
+// Needs: film, at_hits.
 
 // First group of each tile, in later steps; one more than tiles.
 @group(3) @binding(0) var<storage, read> group_starts: array<u32>;

@@ -1,5 +1,6 @@
 // Converts a triangle that a ray meets to the surface point: interpolation, normal map, textures. Twin:
 // cpu/src/surface.rs.
+// Needs: scene, surface_point, camera, coat.
 
 // View of a point.
 struct HitView {

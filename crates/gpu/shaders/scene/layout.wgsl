@@ -1,7 +1,7 @@
 // Every struct that the host fills or reads. Twin: src/layout.rs; a test holds names, offsets and sizes equal.
 // Positions are in metres and relative to the origin that src/vertices.rs chooses, so that f32 keeps micrometres.
 
-// The view, and what else is the same for every pixel of one step of one strip.
+/// The view, and what else is the same for every pixel of one step of one strip.
 struct Frame {
     camera_m: vec3f,            // the pinhole
     forward: vec3f,             // unit direction of the view
@@ -34,7 +34,7 @@ struct Frame {
     group_count: u32,
 }
 
-// What is counted on the device, and the dispatches that follow from it; all zeros once something had no room. See sizes.wgsl.
+/// What is counted on the device, and the dispatches that follow from it; all zeros once something had no room. See sizes.wgsl.
 struct Sizes {
     entry_count: u32,           // of all tile lists of the strip
     group_count: u32,           // of 64 samples that are shaded together
@@ -45,18 +45,18 @@ struct Sizes {
     needed: vec3u,              // the most of each since the host asked
 }
 
-// Which number is counted: the place in `room` and `needed`.
+/// Which number is counted: the place in `room` and `needed`.
 const COUNTED_ENTRIES: u32 = 0u;
 const COUNTED_GROUPS: u32 = 1u;
 const COUNTED_CHUNKS: u32 = 2u;
 
-// The sample sees any surface that covers something.
+/// The sample sees any surface that covers something.
 const COVERAGE_ANY: u32 = 0xffffffffu;
 
 const ENVIRONMENT_PRESENT: u32 = 1u;
 const ENVIRONMENT_VISIBLE: u32 = 2u;
 
-// A corner of a triangle. Corners are not shared: triangle i has 3 i, 3 i + 1 and 3 i + 2.
+/// A corner of a triangle. Corners are not shared: triangle i has 3 i, 3 i + 1 and 3 i + 2.
 struct Vertex {
     position_m: vec3f,
     material: u32,              // index; VERTEX_BITANGENT_FLIPPED is its highest bit
@@ -70,7 +70,7 @@ struct Vertex {
 
 const VERTEX_BITANGENT_FLIPPED: u32 = 0x80000000u;
 
-// The scratches of an object: a range of segments, and of the nodes over them; and a range of gratings.
+/// The scratches of an object: a range of segments, and of the nodes over them; and a range of gratings.
 struct Object {
     first_segment: u32,
     end_segment: u32,
@@ -82,7 +82,7 @@ struct Object {
     end_grating: u32,
 }
 
-// Grooves side by side on one material of an object. See gratings.wgsl.
+/// Grooves side by side on one material of an object. See gratings.wgsl.
 struct Grating {
     axis: vec3f,                // unit: along the grooves, or the axis that they lie about
     kind: u32,                  // GROOVES_ALONG and so on
@@ -108,7 +108,7 @@ struct Grating {
     spacing_m: f32,             // from spot to spot; 0: all grooves lie about one axis
 }
 
-// What a surface is made of.
+/// What a surface is made of.
 struct Material {
     base_color: vec3f,
     metallic: f32,
@@ -142,8 +142,8 @@ struct Material {
     coat_normal_scale: f32,
 }
 
-// Spheres come first, then polygons of at most four vertices, then others, then tubes, then rectangles with pictures; behind them, in the
-// same order, lights for scratches alone.
+/// Spheres come first, then polygons of at most four vertices, then others, then tubes, then rectangles with pictures; behind them, in the
+/// same order, lights for scratches alone.
 struct Light {
     radiance: vec3f,
     kind: u32,                  // LIGHT_SPHERE, LIGHT_POLYGON or LIGHT_TUBE
@@ -162,12 +162,12 @@ const LIGHT_SPHERE: u32 = 0u;
 const LIGHT_POLYGON: u32 = 1u;
 const LIGHT_TUBE: u32 = 2u;
 
-// Barn doors: the direction across, tangents, and 1 over those of the fall-off.
+/// Barn doors: the direction across, tangents, and 1 over those of the fall-off.
 const LIGHT_DOORS: u32 = 1u;
-// A picture: a texture as scene_texture() takes it.
+/// A picture: a texture as scene_texture() takes it.
 const LIGHT_PICTURE: u32 = 2u;
 
-// Nodes in depth-first order: a BVH traversal goes on with the next one, or with `skip`. Twin: crates/index.
+/// Nodes in depth-first order: a BVH traversal goes on with the next one, or with `skip`. Twin: crates/index.
 struct ScratchNode {
     min_m: vec3f,
     skip: u32,
@@ -175,7 +175,7 @@ struct ScratchNode {
     leaf: u32,                  // 0, or the count of segments in the upper 4 bits and the first one in the lower 28
 }
 
-// Packed; segment_from() unpacks.
+/// Packed; segment_from() unpacks.
 struct ScratchSegment {
     start_m: vec3f,             // with end_m: the last two bits of each coordinate are of the turn
     width_depth: u32,           // half floats: um, nm
@@ -183,8 +183,8 @@ struct ScratchSegment {
     more: u32,                  // normal, table and blur: profile_unpacked()
 }
 
-// The surface point that a pixel sees, as its scratches need it. The surface frame has z along the shading normal and the viewer
-// in the x-z plane.
+/// The surface point that a pixel sees, as its scratches need it. The surface frame has z along the shading normal and the viewer
+/// in the x-z plane.
 struct PixelPoint {
     position_m: vec3f,
     object: u32,                // + 1; 0: nothing to shade
@@ -200,10 +200,10 @@ struct PixelPoint {
     leaves: f32,                // how far the surface may be off the plane of shading for each length along it
 }
 
-// Bit of table_and_place: the surface may cover only a part of what lies behind it.
+/// Bit of table_and_place: the surface may cover only a part of what lies behind it.
 const PIXEL_PARTIAL: u32 = 0x80000000u;
 
-// Material of a sample's surface, as the base needs it.
+/// Material of a sample's surface, as the base needs it.
 struct PixelPaint {
     f0_bits: vec3u,             // F0 and the metal's share: see pixel_f0_pack()
     lobe: u32,                  // roughness and spread of slopes, in 16 bits each; with anisotropy see pixel_lobe_pack()
@@ -214,7 +214,7 @@ struct PixelPaint {
     curve_bits: u32,            // the curve of fresnel_curves, and more: see pixel_curve_pack()
 }
 
-// Radiance of the base to the viewer, before scratches take their part.
+/// Radiance of the base to the viewer, before scratches take their part.
 struct BaseLight {
     specular: vec3f,            // reflected at the surface: scratches take from it
     emission_red: f32,
@@ -228,7 +228,7 @@ fn base_emission(light: BaseLight) -> vec3f {
     return vec3f(light.emission_red, light.emission_green, light.emission_blue);
 }
 
-// Sums over the segments of one chunk of a tile's list, for one pixel. Twin: ScratchSums of mask.wgsl.
+/// Sums over the segments of one chunk of a tile's list, for one pixel. Twin: ScratchSums of mask.wgsl.
 struct ChunkSum {
     radiance: vec3f,
     share: f32,
@@ -236,14 +236,14 @@ struct ChunkSum {
     share_by_line: f32,
 }
 
-// The lights of one dispatch of shade_scratches.
+/// The lights of one dispatch of shade_scratches.
 struct LightRange {
     first: u32,
     end: u32,
     adds: u32,                  // 0: the first dispatch, which writes the sums of the mask as well
 }
 
-// One round of rays to one source, of all samples of a strip.
+/// One round of rays to one source, of all samples of a strip.
 struct ShadowRound {
     source: u32,                // index into the lights; their number for the environment, one more for what scratches send
     round: u32,
@@ -259,12 +259,12 @@ struct ShadowRound {
     way: u32,                   // how light leaves the sample; of bounces, the one that the camera sees
 }
 
-// The ways by which light leaves a sample. Twin: src/variant.rs.
+/// The ways by which light leaves a sample. Twin: src/variant.rs.
 const SHADOW_BY_BASE: u32 = 0u;
 const SHADOW_BY_SCRATCHES: u32 = 1u;
 const SHADOW_BY_GRATINGS: u32 = 2u;
 
-// A ray from a sample to a source, and the light that it stands for.
+/// A ray from a sample to a source, and the light that it stands for.
 struct ShadowRay {
     direction: vec3f,           // unit, world space
     distance_m: f32,            // to the source; 0: there is no ray
@@ -274,7 +274,7 @@ struct ShadowRay {
     offset_y: f32,              // and down
 }
 
-// Light that rays found in a layer of a sample: sums over rounds; then light, by shadow_found.wgsl.
+/// Light that rays found in a layer of a sample: sums over rounds; then light, by shadow_found.wgsl.
 struct FoundRays {
     weight: vec3f,              // of rays to sources; its mean is the closed form
     round_weight: f32,          // luminances of the round in hand
@@ -288,7 +288,7 @@ struct FoundRays {
     bounced_moments: vec3f,     // sums of 1, y, y y: y is the luminance of what a round brings; then x is that of `around`
 }
 
-// See image/src/found.rs, which documents it. Sums over the samples of a pixel.
+/// See image/src/found.rs, which documents it. Sums over the samples of a pixel.
 struct FoundLight {
     open: array<f32, 3>,
     around: array<f32, 3>,
@@ -308,7 +308,7 @@ struct FoundPixel {
     scratches: FoundLight,
 }
 
-// A ray from a sample to what may send it light; then what it has met.
+/// A ray from a sample to what may send it light; then what it has met.
 struct BounceRay {
     direction: vec3f,           // unit, world space
     distance_m: f32,            // how far it goes; 0: there is no ray, or it met nothing
@@ -321,7 +321,7 @@ struct BounceRay {
     place: vec2f,               // where it starts: standard deviations of the pixel's filter; then where it ends, barycentric
 }
 
-// Sums over the samples of a pixel: who reads them divides by their count.
+/// Sums over the samples of a pixel: who reads them divides by their count.
 struct FilmPixel {
     base: vec3f,
     depth_m: f32,
@@ -339,17 +339,17 @@ struct Film {
     pixels: array<FilmPixel>,
 }
 
-// Digit of a tile's number that a pass of the radix sort looks at.
+/// Digit of a tile's number that a pass of the radix sort looks at.
 struct SortSettings {
     shift: u32,
 }
 
-// A scan of prefix sums.
+/// A scan of prefix sums.
 struct ScanSettings {
     count: u32,
 }
 
-// Settings of a dispatch of the filter.
+/// Settings of a dispatch of the filter.
 struct FilterSettings {
     size_px: vec2u,             // of the picture
     first_row: u32,             // of the band
@@ -370,7 +370,7 @@ struct FilterSettings {
     least_alike: f32,
 }
 
-// Settings for showing a film.
+/// Settings for showing a film.
 struct DisplaySettings {
     size_px: vec2u,
     tone_map: u32,

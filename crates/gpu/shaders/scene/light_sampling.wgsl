@@ -1,6 +1,7 @@
 // Directions to area lights, drawn evenly over the solid angle in which a point sees them. Twins: cpu/src/sampling/lights/sphere.rs and
 // polygon.rs, which name the papers. A polygon is a fan of triangles about its first vertex: where it is not convex some of them overlap,
 // and a direction counts as often as they cover it. All vectors are in the surface's frame.
+// Needs: lights, ggx, contents, shadow.
 
 struct DrawnToLight {
     direction: vec3f,

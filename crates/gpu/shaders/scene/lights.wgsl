@@ -1,4 +1,5 @@
 // Area lights as seen from a surface point. Needs lights. Twin: cpu/src/light_view.rs.
+// Needs: rows, contents, surface_point, outline_light.
 
 // The cap of directions that holds a light.
 fn light_cap(point: SurfacePoint, light: Light) -> Cap {

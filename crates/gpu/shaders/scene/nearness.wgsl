@@ -1,5 +1,6 @@
 // Test of which pixels see a segment: of those that its line comes near to, the ones under whose footprints it lies. Twin:
 // cpu/src/shade_scratches/lanes.rs.
+// Needs: segments, pixel_point, scratch_light, bindings.
 
 // The ends of a segment, from the camera, and what smooths them.
 struct Ends {

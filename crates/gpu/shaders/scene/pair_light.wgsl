@@ -1,4 +1,5 @@
 // Light that a pair sends of one kind of area lights. Twin: cpu/src/shade_scratches/scratch_light.rs.
+// Needs: pairs, lights, scratch_picture.
 
 // Kind of light for which the pass is compiled.
 override SCRATCH_LIGHTS: u32 = 0u;

@@ -1,4 +1,5 @@
 // Place of a pair under its pixel.
+// Needs: drawn_light, pairs.
 
 // Standard deviations of the pixel's filter to the right and down: see place_drawn().
 fn pair_place(pair: Pair, pixel: PixelPoint, segment: Segment, normals: vec3f, u: f32) -> vec2f {

@@ -1,4 +1,5 @@
 // A pixel with a segment that it sees.
+// Needs: segments, pixel_point, scratch_light, method, bindings.
 
 // A pixel and a segment.
 struct Pair {

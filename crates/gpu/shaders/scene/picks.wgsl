@@ -1,6 +1,7 @@
 // Scratches that stand for all of a sample: some of its pairs of a scratch and a light, each with the probability of its luminance in the sum of
 // all. The sum is cut into even strata, and in each a random place is drawn: the pair that the running sum passes it with is picked. Twin:
 // cpu/src/shade_scratches/picks.rs, where reservoirs do the same for each light by itself.
+// Needs: sobol, luminance.
 //
 // One array holds, for each chunk and lane, a state, and behind the states of all chunks for each sample its picks.
 

@@ -1,5 +1,6 @@
 // Pictures on lights as a point sees them, and the light that one scratch sends of a light with one. Twins: cpu/src/picture.rs,
 // cpu/src/shade_scratches/scratch_light.rs.
+// Needs: scene, picture.
 
 // Texture of the picture, for scene_texture().
 fn light_picture(light: Light) -> vec2u {

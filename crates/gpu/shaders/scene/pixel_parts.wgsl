@@ -1,4 +1,5 @@
 // Parts of a pixel: its base is the mean over places of the filter. Twin: cpu/src/pixel_parts.rs.
+// Needs: hit, ggx.
 
 // Spread of the slopes of a normal map over a pixel, over the alpha of its lobe, from which on it has parts, and from which on it has many.
 const PARTS_SPREAD: f32 = 0.25;

@@ -1,4 +1,5 @@
 // Surface points as they lie in memory between passes.
+// Needs: layout, surface_point, fresnel, contents.
 
 fn pixel_point_pack(point: SurfacePoint, object: u32, depth_m: f32, place: u32) -> PixelPoint {
     return PixelPoint(

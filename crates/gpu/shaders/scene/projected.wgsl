@@ -1,4 +1,5 @@
 // A segment in the picture, and the tiles and pixels of the strip that its line comes near to. Twin: cpu/src/project.rs.
+// Needs: rows, segments, film.
 
 // A footprint cannot be told apart from its Gaussian's tail beyond this many standard deviations.
 const REACH_STD: f32 = 3.5;

@@ -1,4 +1,5 @@
 // Origins of rays of a sample that must not meet the surface that they leave. Twin: cpu/src/shadows.rs.
+// Needs: cutouts, pixel_point, at_hits, shadow.
 
 // Origin of a ray on the surface.
 struct RayStart {

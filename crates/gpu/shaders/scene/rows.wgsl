@@ -1,5 +1,6 @@
 // Arrays that lie in textures: a texture may hold four times as much as a storage buffer, and a stage has eight storage buffers only.
 // Twin: src/rows.rs writes them.
+// Needs: bindings, texels, contents.
 
 const MATERIAL_TEXELS: u32 = 12u;
 

@@ -1,4 +1,5 @@
 // Look-ups in the bindings of the scene.
+// Needs: rows, contents, environment, tone_map.
 
 // Radiance of the environment that the camera sees along a unit direction away from it, world space.
 fn scene_background(direction: vec3f) -> vec3f {

@@ -1,5 +1,6 @@
 // Light that one scratch sends to the viewer of a rectangle with a picture: each chord in parts. Twin:
 // cpu/src/shade_scratches/scratch_light.rs.
+// Needs: picture_light, scratch_light.
 
 // A rectangle with a picture as a scratch sees it.
 struct PictureLight {

@@ -1,4 +1,5 @@
 // The segments of scratches, unpacked. Twin: src/host.rs packs them.
+// Needs: layout, scratch.
 
 struct Segment {
     start_m: vec3f,

@@ -1,4 +1,5 @@
 // Functions that the passes of shadows share: docs/model.md, section 11. Twin: cpu/src/shadows.rs.
+// Needs: layout, sobol, luminance.
 
 // Uses of random numbers: each use is a pair. Those of the candidates for the environment follow the last.
 const SHADOW_START: u32 = 0u;

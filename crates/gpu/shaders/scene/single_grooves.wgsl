@@ -1,4 +1,5 @@
 // Single grooves of a grating. Twins: crates/optics/src/grating/single.rs, crates/scene/src/grating/single.rs.
+// Needs: gratings, sobol, contents.
 
 // Standard deviation of pixel and window, in pitches, up to which single grooves are seen, and from which on only their mean is.
 const GROOVES_SINGLE_STD: f32 = 0.5;

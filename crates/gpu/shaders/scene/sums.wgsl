@@ -1,4 +1,5 @@
 // The sums of a sample over all scratches that it sees, and the mask.
+// Needs: layout, method, mask, film, contents.
 
 @group(3) @binding(3) var<storage, read> chunk_starts: array<u32>;
 @group(3) @binding(4) var<storage, read> chunk_sums: array<ChunkSum>;

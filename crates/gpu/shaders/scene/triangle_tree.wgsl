@@ -1,5 +1,6 @@
 // The triangles of a scene along a ray. Twins: index/src/triangle_index.rs, and src/triangle_tree.rs, which says how the tree lies in its
 // texture. A walk needs no stack: nodes lie in depth-first order, and each one knows which comes next if nothing below it counts.
+// Needs: texels, surface_point.
 
 struct TriangleHit {
     distance_m: f32,            // along the unit direction
