@@ -10,7 +10,7 @@ use hairline_document::description::{Description, Material, Studio};
 use hairline_document::wear::Wear;
 use hairline_document::{DEFAULT_SAMPLES, Loader, SceneBuilder};
 use hairline_editor::presets::MaterialPreset;
-use hairline_image::{Display, Image, Output, filter_found};
+use hairline_image::{Display, Image, Output, filter_traced};
 use hairline_optics::metal::Metal;
 
 /// Options of `wear`.
@@ -118,7 +118,7 @@ fn picture(scene: &hairline_scene::Scene) -> Image {
         ..RenderOptions::default()
     };
     let mut image = Prepared::new(scene).render(&options, &|_| {});
-    filter_found(&mut image);
+    filter_traced(&mut image);
     image
 }
 

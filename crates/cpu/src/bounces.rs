@@ -6,15 +6,15 @@ use crate::light_view::LightViews;
 use crate::resolve::{PointLight, Sample};
 use crate::shade_base::PixelBase;
 use crate::shade_scratches::{Picks, ScratchPoint, pick_one_pair};
-use crate::shadows::{HitRoom, MetObject, ShadowPoint, Shadows};
+use crate::shadows::{HitBuffers, MetObject, ShadowPoint, Shadows};
 use crate::surface::{SurfacePoint, surface_point};
 use glam::{DVec3, Vec3};
 use hairline_optics::mask::ScratchSums;
 
 impl<'a> Shadows<'a> {
     /// Room for a thread.
-    pub fn rooms(&self) -> Vec<HitRoom<'a>> {
-        let room = || HitRoom {
+    pub fn rooms(&self) -> Vec<HitBuffers<'a>> {
+        let room = || HitBuffers {
             views: LightViews::new(self.prepared.scene),
             picks: Picks::new(),
         };
@@ -27,7 +27,7 @@ impl<'a> Shadows<'a> {
         &self,
         at: &ShadowPoint,
         met: &MetObject,
-        rooms: &mut [HitRoom<'a>],
+        rooms: &mut [HitBuffers<'a>],
     ) -> DVec3 {
         let MetObject {
             origin_m,
@@ -37,7 +37,7 @@ impl<'a> Shadows<'a> {
             round,
             by_base,
         } = *met;
-        let Some((HitRoom { views, picks }, rooms)) = rooms.split_first_mut() else {
+        let Some((HitBuffers { views, picks }, rooms)) = rooms.split_first_mut() else {
             return DVec3::ZERO;
         };
         let scene = self.prepared.scene;
@@ -92,7 +92,10 @@ impl<'a> Shadows<'a> {
         let coherence = self.prepared.depth_coherence(hit.object);
         let masked = sums.resolve(self.options.mask, coherence);
         let sample = Sample::surface(&point, hit.object, &masked, light, 0.0);
-        let [base, scratches] = sample.found().light().map(|rgb| Vec3::from(rgb).as_dvec3());
+        let [base, scratches] = sample
+            .traced()
+            .light()
+            .map(|rgb| Vec3::from(rgb).as_dvec3());
         (base + scratches).max(DVec3::ZERO)
     }
 }

@@ -27,7 +27,6 @@ mod camera_beam;
 pub mod closed_form;
 mod counts;
 pub mod draft;
-mod found;
 mod gather;
 mod light_view;
 pub mod method;
@@ -48,6 +47,7 @@ mod share_scratches;
 mod silhouettes;
 pub mod surface;
 mod tile;
+mod traced;
 mod unrounded;
 mod visibility;
 

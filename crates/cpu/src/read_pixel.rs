@@ -38,7 +38,7 @@ impl Prepared<'_> {
         };
         let mut tile = Tile::new(&picture, &|| false);
         let sample = tile.render_pixel(column, row);
-        let [base, scratches] = sample.found().light();
+        let [base, scratches] = sample.traced().light();
         let Counts { pairs, .. } = tile.counts;
         Some(PixelReading {
             image: Image {
@@ -50,7 +50,7 @@ impl Prepared<'_> {
                 normal: vec![sample.normal.as_vec3().to_array()],
                 alpha: None,
                 noise: None,
-                found: None,
+                traced: None,
             },
             hit: picture.visibility.hit(column, row).copied(),
             segments: pairs as f64 / f64::from(samples),

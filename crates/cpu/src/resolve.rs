@@ -1,11 +1,11 @@
 //! Stage 7, resolve: the mask, the layers of a sample's light, and the mean over a pixel's samples. Twin: resolve.wgsl.
 
-use crate::found::{BaseLight, LayerLight};
 use crate::shade_base::BaseRadiance;
 use crate::shade_gratings::ShadedGratings;
 use crate::surface::SurfacePoint;
+use crate::traced::{BaseLight, LayerLight};
 use glam::DVec3;
-use hairline_image::FoundPixel;
+use hairline_image::TracedPixel;
 use hairline_optics::mask::{Masked, ScratchSums};
 
 /// Light and guides that one sample adds to the film, or the sum of several.
@@ -87,8 +87,8 @@ impl Sample {
     }
 
     /// Light that rays found in the sample.
-    pub fn found(&self) -> FoundPixel {
-        FoundPixel {
+    pub fn traced(&self) -> TracedPixel {
+        TracedPixel {
             rest: self.rest.as_vec3().to_array(),
             roughness: self.roughness as f32,
             object: self.object,
@@ -122,7 +122,7 @@ impl Pixel {
         sum.object = match (self.samples, sum.object) {
             (0, _) => sample.object,
             (_, object) if object == sample.object => object,
-            _ => FoundPixel::SEVERAL_OBJECTS,
+            _ => TracedPixel::SEVERAL_OBJECTS,
         };
         self.samples += 1;
         self.covered += u32::from(sample.depth_m > 0.0);

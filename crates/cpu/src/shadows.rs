@@ -38,7 +38,7 @@ pub(crate) struct Shadows<'a> {
 }
 
 /// Buffers of a thread for the surfaces that rays meet, filled anew for each: one for each bounce.
-pub(crate) struct HitRoom<'a> {
+pub(crate) struct HitBuffers<'a> {
     pub views: LightViews<'a>,
     pub picks: Picks,
 }

@@ -13,13 +13,13 @@ use crate::sample_point::{SamplePoint, SampleView, Shared};
 use crate::shade_base::{PixelBase, transformed_sphere};
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{BATCH, Picks, ScratchPoint, ScratchShader};
-use crate::shadows::{HitRoom, Rounds, Shadows};
+use crate::shadows::{HitBuffers, Rounds, Shadows};
 use crate::share_scratches::share_scratches;
 use crate::silhouettes::is_smooth;
 use crate::surface::surface_point;
 use crate::visibility::{Visibility, center, coverage};
 use glam::{DVec2, DVec3};
-use hairline_image::{Found, FoundPixel, Image};
+use hairline_image::{Image, Traced, TracedPixel};
 use hairline_index::Hit;
 use hairline_optics::mask::{Masked, ScratchSums};
 use hairline_scene::CameraFrame;
@@ -72,7 +72,7 @@ pub(crate) struct Tile<'a> {
     /// Picks of each point, if there are shadows.
     picks: Option<Vec<Picks>>,
     grating_picks: Picks,
-    rooms: Vec<HitRoom<'a>>,
+    rooms: Vec<HitBuffers<'a>>,
     shader: ScratchShader,
     pixels: Vec<Pixel>,
     pub counts: Counts,
@@ -384,10 +384,10 @@ impl<'a> Picture<'a> {
             .iter()
             .map(|row| self.rows.end.min((row + 1) * SIDE) - self.rows.start.max(row * SIDE))
             .collect();
-        if self.shadows.is_some() && image.found.is_none() {
-            image.found = Some(Found {
+        if self.shadows.is_some() && image.traced.is_none() {
+            image.traced = Some(Traced {
                 rounds: self.options.batch().count,
-                pixels: vec![FoundPixel::default(); image.pixel_count()],
+                pixels: vec![TracedPixel::default(); image.pixel_count()],
             });
         }
         let mut layers = Layers::of(image);
@@ -481,14 +481,14 @@ struct Layers<'i> {
     depth_m: &'i mut [f32],
     normal: &'i mut [[f32; 3]],
     /// Empty without shadows.
-    found: &'i mut [FoundPixel],
+    traced: &'i mut [TracedPixel],
 }
 
 impl<'i> Layers<'i> {
     fn of(image: &'i mut Image) -> Self {
-        let found = image.found.as_mut();
+        let traced = image.traced.as_mut();
         Self {
-            found: found.map_or(&mut [], |found| &mut found.pixels),
+            traced: traced.map_or(&mut [], |traced| &mut traced.pixels),
             base: &mut image.base,
             scratches: &mut image.scratches,
             density: &mut image.density,
@@ -510,18 +510,18 @@ impl<'i> Layers<'i> {
             density: split(&mut self.density, pixels),
             depth_m: split(&mut self.depth_m, pixels),
             normal: split(&mut self.normal, pixels),
-            found: match self.found.len() {
+            traced: match self.traced.len() {
                 0 => &mut [],
-                _ => split(&mut self.found, pixels),
+                _ => split(&mut self.traced, pixels),
             },
         }
     }
 
     fn set(&mut self, pixel: usize, sample: &Sample) {
-        let found = sample.found();
-        [self.base[pixel], self.scratches[pixel]] = found.light();
-        if let Some(kept) = self.found.get_mut(pixel) {
-            *kept = found;
+        let traced = sample.traced();
+        [self.base[pixel], self.scratches[pixel]] = traced.light();
+        if let Some(kept) = self.traced.get_mut(pixel) {
+            *kept = traced;
         }
         self.density[pixel] = sample.density.as_vec3().to_array();
         self.depth_m[pixel] = sample.depth_m as f32;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use naga::{Handle, Literal, Module, ScalarKind, StructMember, Type, TypeInner, VectorSize};
 
 /// Structs that the host has from elsewhere, or does not have as a whole.
-const NOT_MADE: [&str; 3] = ["Film", "FoundLight", "FoundPixel"];
+const NOT_MADE: [&str; 3] = ["Film", "TracedLight", "TracedPixel"];
 
 /// Rust for the structs and the numbers of a shader. Members are documented there.
 pub fn rust(module: &Module) -> String {

@@ -9,7 +9,7 @@ use crate::scan::ScanPasses;
 use crate::shaders;
 use crate::sizes::ENTRIES;
 use crate::sort::SortPasses;
-use crate::strip::StripRoom;
+use crate::strip::StripBuffers;
 
 /// Segments of a workgroup. Twins: project.wgsl, bin.wgsl.
 const WORKGROUP: u32 = 256;
@@ -38,7 +38,7 @@ impl BinPasses {
         &self,
         recording: &mut Recording,
         scans: &ScanPasses,
-        room: &StripRoom,
+        room: &StripBuffers,
         segments: u32,
     ) {
         let workgroups = in_a_row((segments + 1).div_ceil(WORKGROUP));
@@ -52,7 +52,7 @@ impl BinPasses {
         &self,
         recording: &mut Recording,
         scans: &ScanPasses,
-        room: &StripRoom,
+        room: &StripBuffers,
         tiles: u32,
         segments: u32,
     ) -> usize {

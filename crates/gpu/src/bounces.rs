@@ -17,11 +17,11 @@ use crate::scan::ScanPasses;
 use crate::scene_data::SceneData;
 use crate::shade_scratches::{ShadeScratchesPass, picks_by_energy};
 use crate::shaders;
+use crate::shadow_buffers::ShadowBuffers;
 use crate::shadow_picks::{Scratched, into_picks};
-use crate::shadow_room::ShadowRoom;
 use crate::shadows::Shadows;
 use crate::sizes::{self, ENTRIES};
-use crate::strip::{BounceRoom, StripRoom};
+use crate::strip::{BounceBuffers, StripBuffers};
 use crate::transfer::Transfer;
 use crate::variant::{RayOrigin, ShadeVariant, Way};
 
@@ -150,7 +150,7 @@ impl Bounces {
 pub(crate) struct Bounce<'a> {
     resources: Resources,
     /// Picks of the samples.
-    picks: Option<&'a ShadowRoom>,
+    picks: Option<&'a ShadowBuffers>,
     groups: Workgroups,
     /// Number of objects on the path from the samples to the camera.
     depth: u32,
@@ -161,34 +161,34 @@ pub(crate) struct Bounce<'a> {
 impl<'a> Bounce<'a> {
     /// Rays of a round that was written. Hits lie in two rooms in turn. None until there are shadows.
     pub(crate) fn new(
-        room: &'a StripRoom,
-        bounce_room: &'a BounceRoom,
+        room: &'a StripBuffers,
+        bounce_buffers: &'a BounceBuffers,
         film: &Film,
         shadows: &Shadows,
         (depth, way): (u32, Way),
         groups: &Workgroups,
     ) -> Option<Self> {
         let turn = depth as usize % 2;
-        let to = &bounce_room.hits[turn];
+        let to = &bounce_buffers.hits[turn];
         let from = match depth {
             0 => room,
-            _ => &bounce_room.hits[1 - turn],
+            _ => &bounce_buffers.hits[1 - turn],
         };
         let seen = room.shadows.as_ref()?;
         let mut resources = from
             .resources()
             .and(film.resources())
             .texture("triangle_tree", &shadows.tree.view);
-        if let Some(shadow_room) = &from.shadows {
-            resources = resources.and(shadow_room.resources());
+        if let Some(shadow_buffers) = &from.shadows {
+            resources = resources.and(shadow_buffers.resources());
         }
         if let Some(hits) = &to.shadows {
-            resources = resources.buffer("hit_found", &hits.found);
+            resources = resources.buffer("hit_traced", &hits.traced);
         }
         let resources = resources
-            .buffer("found", &seen.found)
-            .buffer("rays", &bounce_room.rays)
-            .buffer("shadow_round", &bounce_room.round)
+            .buffer("traced", &seen.traced)
+            .buffer("rays", &bounce_buffers.rays)
+            .buffer("shadow_round", &bounce_buffers.round)
             .buffer("hit_points", &to.samples.points)
             .buffer("hit_paints", &to.samples.paints)
             .buffer("hit_base_light", &to.samples.base_light);
@@ -228,12 +228,12 @@ impl BounceScratches {
 
     /// Picks scratches of each sample, as many as the round that was written says.
     pub(crate) fn record_picks(&self, recording: &mut Recording, by: &Bounce, on: &Scratched) {
-        let Some(shadow_room) = by.picks else {
+        let Some(shadow_buffers) = by.picks else {
             return;
         };
         self.begin.run(recording, &by.resources, &by.groups);
         let pick = &self.pick[usize::from(by.depth > 0)];
-        let resources = into_picks(&by.resources, shadow_room);
+        let resources = into_picks(&by.resources, shadow_buffers);
         pick.run(recording, &resources, &on.chunks);
     }
 
@@ -242,7 +242,7 @@ impl BounceScratches {
         &self,
         recording: &mut Recording,
         scans: &ScanPasses,
-        hits: &StripRoom,
+        hits: &StripBuffers,
         film: &Film,
         groups: &Workgroups,
     ) {
@@ -255,7 +255,7 @@ impl BounceScratches {
     pub(crate) fn record_lists(
         &self,
         recording: &mut Recording,
-        hits: &StripRoom,
+        hits: &StripBuffers,
         film: &Film,
         groups: &Workgroups,
     ) {
@@ -263,7 +263,7 @@ impl BounceScratches {
         self.list.run(recording, &resources, groups);
     }
 
-    fn gathered(&self, hits: &StripRoom, film: &Film) -> Resources {
+    fn gathered(&self, hits: &StripBuffers, film: &Film) -> Resources {
         let resources = hits.resources().and(film.resources());
         resources.texture("tree", &self.tree)
     }

@@ -8,7 +8,7 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
 use crate::scan::ScanPasses;
-use crate::strip::StripRoom;
+use crate::strip::StripBuffers;
 
 /// Bands of rows, each with a film of its own, so that no binding has to hold the whole picture and that work can stop after
 /// any band. It takes 64 bytes a pixel, 272 more with shadows, and what the passes need for one band at a time.
@@ -20,7 +20,7 @@ pub struct Canvas {
     gpu: Gpu,
     size_px: [u32; 2],
     band_rows: u32,
-    room: StripRoom,
+    room: StripBuffers,
     bands: Vec<CanvasBand>,
 }
 
@@ -39,7 +39,7 @@ impl Canvas {
     ) -> Result<Self, Error> {
         let size_px = size_px.map(|n| n.max(1));
         let band_rows = Film::band_rows(gpu, size_px, submission_px, true);
-        let room = StripRoom::new(gpu, scans, size_px[0], band_rows).await?;
+        let room = StripBuffers::new(gpu, scans, size_px[0], band_rows).await?;
         let mut canvas = Self {
             gpu: gpu.clone(),
             size_px,
@@ -110,7 +110,7 @@ impl Canvas {
     }
 
     /// Marks a band as being worked on; hands out its film, and the room to work in.
-    pub(crate) fn begin(&mut self, band: usize, step: u32) -> (&mut Film, &mut StripRoom) {
+    pub(crate) fn begin(&mut self, band: usize, step: u32) -> (&mut Film, &mut StripBuffers) {
         let CanvasBand { film, steps } = &mut self.bands[band];
         assert!(
             step == 0 || step == *steps,

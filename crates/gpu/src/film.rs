@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use hairline_image::{Found, FoundPixel, Image};
+use hairline_image::{Image, Traced, TracedPixel};
 use wgpu::BufferUsages;
 
 use crate::device::Gpu;
@@ -15,12 +15,12 @@ use crate::strip::{TILE_PX, strip_rows_max};
 pub(crate) struct Film {
     pub buffer: wgpu::Buffer,
     /// Light that rays found, where the scene has shadows.
-    pub found: Option<FilmFound>,
+    pub traced: Option<FilmTraced>,
     pixels: u64,
 }
 
 /// Sums over the samples of each pixel of the light that rays found.
-pub(crate) struct FilmFound {
+pub(crate) struct FilmTraced {
     pub buffer: wgpu::Buffer,
     /// Rays of each pixel to each source.
     pub rounds: u32,
@@ -36,7 +36,7 @@ impl Film {
         has_rays: bool,
     ) -> u32 {
         let most = match has_rays {
-            true => found_rows_max(gpu, width).min(strip_rows_max(gpu, width)),
+            true => traced_rows_max(gpu, width).min(strip_rows_max(gpu, width)),
             false => strip_rows_max(gpu, width),
         };
         (submission_px / width.max(1))
@@ -54,7 +54,7 @@ impl Film {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         Ok(Self {
             buffer: gpu.buffer("film", bytes, usage).await?,
-            found: None,
+            traced: None,
             pixels,
         })
     }
@@ -62,34 +62,38 @@ impl Film {
     /// All that passes may bind of it.
     pub(crate) fn resources(&self) -> Resources {
         let film = Resources::default().buffer("film", &self.buffer);
-        match &self.found {
-            Some(found) => film.buffer("film_found", &found.buffer),
+        match &self.traced {
+            Some(traced) => film.buffer("film_traced", &traced.buffer),
             None => film,
         }
     }
 
     /// Makes room for the light that so many rounds of rays find; none without rays.
-    pub(crate) async fn hold_found(&mut self, gpu: &Gpu, rounds: Option<u32>) -> Result<(), Error> {
+    pub(crate) async fn hold_traced(
+        &mut self,
+        gpu: &Gpu,
+        rounds: Option<u32>,
+    ) -> Result<(), Error> {
         let Some(rounds) = rounds else {
-            self.found = None;
+            self.traced = None;
             return Ok(());
         };
-        let buffer = match self.found.take() {
-            Some(found) => found.buffer,
+        let buffer = match self.traced.take() {
+            Some(traced) => traced.buffer,
             None => {
-                let bytes = self.pixels * size_of::<FoundPixel>() as u64;
+                let bytes = self.pixels * size_of::<TracedPixel>() as u64;
                 let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
                 gpu.buffer("film of rays", bytes, usage).await?
             }
         };
-        self.found = Some(FilmFound { buffer, rounds });
+        self.traced = Some(FilmTraced { buffer, rounds });
         Ok(())
     }
 
     /// Device memory of the film's pixels, in bytes.
     pub(crate) fn bytes(&self) -> u64 {
-        let found = self.found.as_ref().map_or(0, |_| size_of::<FoundPixel>());
-        self.pixels * (size_of::<FilmPixel>() + found) as u64
+        let traced = self.traced.as_ref().map_or(0, |_| size_of::<TracedPixel>());
+        self.pixels * (size_of::<FilmPixel>() + traced) as u64
     }
 
     /// Place of the step from which on it has nothing, plus 1.
@@ -132,8 +136,8 @@ impl Film {
         let pixels = pixels
             .chunks_exact(size_of::<FilmPixel>())
             .map(bytemuck::pod_read_unaligned::<FilmPixel>);
-        let mut found = match &self.found {
-            Some(found) => found.read(gpu, count).await?,
+        let mut traced = match &self.traced {
+            Some(traced) => traced.read(gpu, count).await?,
             None => Vec::new(),
         };
         for (k, pixel) in pixels.enumerate() {
@@ -150,36 +154,36 @@ impl Film {
             image.normal[i] = glam::Vec3::from(pixel.normal)
                 .normalize_or_zero()
                 .to_array();
-            if let Some(found) = found.get_mut(k) {
-                *found = found.mean(samples, pixel.coverage);
-                [image.base[i], image.scratches[i]] = found.light();
+            if let Some(traced) = traced.get_mut(k) {
+                *traced = traced.mean(samples, pixel.coverage);
+                [image.base[i], image.scratches[i]] = traced.light();
             }
         }
-        if let Some(held) = &self.found {
+        if let Some(held) = &self.traced {
             let pixels = image.pixel_count();
-            let all = image.found.get_or_insert_with(|| Found {
+            let all = image.traced.get_or_insert_with(|| Traced {
                 rounds: held.rounds,
-                pixels: vec![FoundPixel::default(); pixels],
+                pixels: vec![TracedPixel::default(); pixels],
             });
-            all.pixels[first..first + count].copy_from_slice(&found);
+            all.pixels[first..first + count].copy_from_slice(&traced);
         }
         Ok(())
     }
 }
 
-impl FilmFound {
+impl FilmTraced {
     /// The sums of the first pixels.
-    async fn read(&self, gpu: &Gpu, count: usize) -> Result<Vec<FoundPixel>, Error> {
-        let end = (count * size_of::<FoundPixel>()) as u64;
+    async fn read(&self, gpu: &Gpu, count: usize) -> Result<Vec<TracedPixel>, Error> {
+        let end = (count * size_of::<TracedPixel>()) as u64;
         let bytes = gpu.read(&self.buffer, 0..end).await?;
-        let pixels = bytes.chunks_exact(size_of::<FoundPixel>());
+        let pixels = bytes.chunks_exact(size_of::<TracedPixel>());
         Ok(pixels.map(bytemuck::pod_read_unaligned).collect())
     }
 }
 
 /// Largest number of rows, in whole tiles, whose found light the device can hold.
-fn found_rows_max(gpu: &Gpu, width_px: u32) -> u32 {
-    let row_bytes = u64::from(width_px.max(1)) * size_of::<FoundPixel>() as u64;
+fn traced_rows_max(gpu: &Gpu, width_px: u32) -> u32 {
+    let row_bytes = u64::from(width_px.max(1)) * size_of::<TracedPixel>() as u64;
     let rows = (gpu.largest_array() / row_bytes) as u32;
     (rows / TILE_PX * TILE_PX).max(TILE_PX)
 }

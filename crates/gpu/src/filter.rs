@@ -12,7 +12,7 @@ use wgpu::{BindingResource, BufferUsages, TextureFormat, TextureUsages};
 use crate::canvas::Canvas;
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::film::{Film, FilmFound};
+use crate::film::{Film, FilmTraced};
 use crate::layout::FilterSettings;
 use crate::pipelines::{alone, compiled, shader};
 use crate::shaders;
@@ -30,7 +30,7 @@ pub(crate) struct FilterPasses {
     variances: Pass,
     step: Pass,
     film: Pass,
-    room: Option<Room>,
+    room: Option<FilterBuffers>,
 }
 
 struct Pass {
@@ -41,7 +41,7 @@ struct Pass {
 }
 
 /// Textures and buffers that the passes leave for one another.
-struct Room {
+struct FilterBuffers {
     size_px: [u32; 2],
     guides: wgpu::TextureView,
     /// Two pairs of textures that take turns, each of shares and of bounced light.
@@ -79,12 +79,12 @@ impl FilterPasses {
         canvas: &Canvas,
     ) -> Result<(), Error> {
         let films: Vec<_> = canvas.films().collect();
-        let founds: Vec<&FilmFound> = films
+        let traced: Vec<&FilmTraced> = films
             .iter()
-            .filter_map(|(_, film)| film.found.as_ref())
+            .filter_map(|(_, film)| film.traced.as_ref())
             .collect();
         // A band that has none yet is not to be read.
-        if founds.len() < films.len() {
+        if traced.len() < films.len() {
             return Ok(());
         }
         let size_px = canvas.size_px();
@@ -96,7 +96,7 @@ impl FilterPasses {
             {
                 room
             }
-            _ => Room::new(gpu, size_px, per_layer * u64::from(LAYERS)).await?,
+            _ => FilterBuffers::new(gpu, size_px, per_layer * u64::from(LAYERS)).await?,
         };
         let mut settings = Vec::new();
         let mut run = |pass: &Pass, film, turn, own, size_px: [u32; 2]| {
@@ -107,9 +107,9 @@ impl FilterPasses {
         for layer in 0..LAYERS {
             let whole = FilterSettings {
                 size_px,
-                rounds: founds[0].rounds,
+                rounds: traced[0].rounds,
                 layer,
-                noise_std: noise_std(founds[0].rounds),
+                noise_std: noise_std(traced[0].rounds),
                 off_plane: OFF_PLANE,
                 normal_power: NORMAL_POWER,
                 rough_normals: ROUGH_NORMALS,
@@ -193,7 +193,7 @@ impl Pass {
 
 /// All bindings in their order, which read the signals of one turn and write those of the other. Twin: filter.wgsl.
 fn resources<'a>(
-    room: &'a Room,
+    room: &'a FilterBuffers,
     film: &'a Film,
     turn: usize,
     settings: usize,
@@ -204,12 +204,12 @@ fn resources<'a>(
         offset: settings as u64 * SETTINGS_STRIDE,
         size: wgpu::BufferSize::new(size_of::<FilterSettings>() as u64),
     });
-    let found = film.found.as_ref().map_or(&film.buffer, |it| &it.buffer);
+    let traced = film.traced.as_ref().map_or(&film.buffer, |it| &it.buffer);
     let [read, written] = [&room.signals[turn], &room.signals[1 - turn]];
     [
         settings,
         film.buffer.as_entire_binding(),
-        found.as_entire_binding(),
+        traced.as_entire_binding(),
         view(&room.guides),
         view(&read[0]),
         view(&read[1]),
@@ -222,7 +222,7 @@ fn resources<'a>(
 const GUIDES_FORMAT: TextureFormat = TextureFormat::Rgba32Uint;
 const SIGNALS_FORMAT: TextureFormat = TextureFormat::Rgba32Float;
 
-impl Room {
+impl FilterBuffers {
     async fn new(gpu: &Gpu, size_px: [u32; 2], settings_max: u64) -> Result<Self, Error> {
         let view = async |format| {
             let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::STORAGE_BINDING;

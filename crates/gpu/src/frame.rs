@@ -63,7 +63,7 @@ impl View<'_> {
     }
 
     /// Rays that find something of each pixel; none without shadows.
-    pub(crate) fn found_rounds(&self) -> Option<u32> {
+    pub(crate) fn traced_rounds(&self) -> Option<u32> {
         let is_own = matches!(self.uploaded.passes.shade, Shade::Own { .. });
         (is_own && self.shadows().is_some()).then_some(self.batch.count)
     }

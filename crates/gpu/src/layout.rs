@@ -58,7 +58,7 @@ mod tests {
     /// Structs of this crate and those that a film holds for another one.
     fn all_host_structs() -> Vec<HostStruct> {
         let mut all = host_structs();
-        all.push(of_image!(FoundLight {
+        all.push(of_image!(TracedLight {
             open,
             around,
             weight,
@@ -67,7 +67,7 @@ mod tests {
             share_moments,
             bounced_moments
         }));
-        all.push(of_image!(FoundPixel {
+        all.push(of_image!(TracedPixel {
             rest,
             roughness,
             object,

@@ -18,7 +18,7 @@
 
 mod bin;
 mod bindings;
-mod bounce_room;
+mod bounce_buffers;
 mod bounces;
 pub mod call;
 pub mod canvas;
@@ -51,8 +51,8 @@ mod scene_data;
 mod shade_gratings;
 mod shade_scratches;
 pub mod shaders;
+mod shadow_buffers;
 mod shadow_picks;
-mod shadow_room;
 mod shadows;
 mod sizes;
 mod sort;

@@ -19,7 +19,7 @@ use crate::filter::FilterPasses;
 use crate::frame::{SAMPLES_AT_ONCE, View};
 use crate::method::Method;
 use crate::source::Source;
-use crate::strip::StripRoom;
+use crate::strip::StripBuffers;
 use crate::strip_shader::StripShader;
 use crate::timing::{PassTime, Timing};
 use crate::upload::GpuScene;
@@ -69,7 +69,7 @@ pub struct Renderer {
     /// Compiled when first needed.
     filter: Option<FilterPasses>,
     /// Arrays and film of [`Renderer::render`].
-    band: Option<(StripRoom, Film)>,
+    band: Option<(StripBuffers, Film)>,
 }
 
 impl Renderer {
@@ -246,7 +246,7 @@ impl Renderer {
                     without_shadows: options.without_shadows,
                 };
                 if step == 0 {
-                    film.hold_found(&self.gpu, view.found_rounds()).await?;
+                    film.hold_traced(&self.gpu, view.traced_rounds()).await?;
                 }
                 self.strips
                     .shade(&view, &film, &mut room, in_picture.clone())
@@ -311,7 +311,7 @@ impl Renderer {
         };
         let (film, room) = canvas.begin(band, step);
         if step == 0 {
-            film.hold_found(&self.gpu, view.found_rounds()).await?;
+            film.hold_traced(&self.gpu, view.traced_rounds()).await?;
         }
         self.strips.shade(&view, film, room, rows).await?;
         self.gpu.check()?;
@@ -348,7 +348,7 @@ impl Renderer {
 
     /// Draws the canvas, as far as it has come, to `target`, which has its size and `format` (8 bits a channel, not sRGB:
     /// the shader encodes). Every pixel is exposed alike, however many samples it has; what has none is black. What rays found is filtered
-    /// ([`hairline_image::filter_found`]).
+    /// ([`hairline_image::filter_traced`]).
     ///
     /// # Errors
     /// [`Error::Lost`], [`Error::OutOfMemory`].
@@ -365,7 +365,7 @@ impl Renderer {
         };
         let timing = &self.strips.timing;
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        if canvas.films().any(|(_, film)| film.found.is_some()) {
+        if canvas.films().any(|(_, film)| film.traced.is_some()) {
             let filter = match &mut self.filter {
                 Some(filter) => filter,
                 none => none.insert(FilterPasses::new(&self.gpu).await?),
@@ -401,7 +401,7 @@ impl Renderer {
     }
 
     /// A film for `rows` rows of `width_px` pixels and the room to work on it: those at hand if they fit.
-    async fn take_band(&mut self, width_px: u32, rows: u32) -> Result<(StripRoom, Film), Error> {
+    async fn take_band(&mut self, width_px: u32, rows: u32) -> Result<(StripBuffers, Film), Error> {
         if let Some((room, film)) = self.band.take()
             && room.width_px == width_px
             && room.rows == rows
@@ -409,7 +409,7 @@ impl Renderer {
             return Ok((room, film));
         }
         let gpu = &self.gpu;
-        let room = StripRoom::new(gpu, &self.strips.scans, width_px, rows).await?;
+        let room = StripBuffers::new(gpu, &self.strips.scans, width_px, rows).await?;
         let film = Film::new(gpu, width_px, rows).await?;
         Ok((room, film))
     }

@@ -8,7 +8,7 @@ use crate::kind_passes::{KindPasses, LIGHTS_NONE, over_lights};
 use crate::pipelines::Orders;
 use crate::scan::ScanPasses;
 use crate::shaders;
-use crate::strip::StripRoom;
+use crate::strip::StripBuffers;
 use crate::variant::{Constant, RayOrigin};
 
 /// The pass, and the pass that it needs before.
@@ -36,7 +36,7 @@ impl ShadeScratchesPass {
         &self,
         recording: &mut Recording,
         scans: &ScanPasses,
-        room: &StripRoom,
+        room: &StripBuffers,
     ) {
         let workgroups = in_a_row((room.samples.groups_max + 1).div_ceil(CHUNKS_WORKGROUP));
         self.chunks.run(recording, &room.resources(), &workgroups);
@@ -45,7 +45,12 @@ impl ShadeScratchesPass {
     }
 
     /// The sums of the chunks.
-    pub(crate) fn record(&self, recording: &mut Recording, room: &StripRoom, chunks: &Workgroups) {
+    pub(crate) fn record(
+        &self,
+        recording: &mut Recording,
+        room: &StripBuffers,
+        chunks: &Workgroups,
+    ) {
         self.kinds.run(recording, &room.resources(), chunks);
     }
 }

@@ -8,7 +8,7 @@ use crate::kind_passes::KindPasses;
 use crate::lights::LightKind;
 use crate::pipelines::Orders;
 use crate::resources::Resources;
-use crate::shadow_room::ShadowRoom;
+use crate::shadow_buffers::ShadowBuffers;
 use crate::variant::{RayOrigin, Way};
 use crate::{shade_gratings, shade_scratches, shaders};
 
@@ -71,11 +71,11 @@ impl PickPasses {
         &self,
         recording: &mut Recording,
         resources: &Resources,
-        shadow_room: &ShadowRoom,
+        shadow_buffers: &ShadowBuffers,
         on: &Scratched,
     ) {
         self.begin.run(recording, resources, &on.groups);
-        let into_picks = into_picks(resources, shadow_room);
+        let into_picks = into_picks(resources, shadow_buffers);
         let workgroups = match self.way {
             Way::Gratings => &on.groups,
             _ => &on.chunks,
@@ -97,8 +97,8 @@ impl PickPasses {
 }
 
 /// Passes of light with these resources write to the picks in place of the sums.
-pub(crate) fn into_picks(resources: &Resources, shadow_room: &ShadowRoom) -> Resources {
-    let picks = &shadow_room.picks;
+pub(crate) fn into_picks(resources: &Resources, shadow_buffers: &ShadowBuffers) -> Resources {
+    let picks = &shadow_buffers.picks;
     resources
         .clone()
         .buffer("chunk_words", picks)

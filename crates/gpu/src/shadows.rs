@@ -25,7 +25,7 @@ pub(crate) struct Shadows {
     base: Vec<(LightKind, ComputePass)>,
     trace: ComputePass,
     /// Converts what rays found to the light of the samples, once all rounds are done.
-    pub found: ComputePass,
+    pub traced: ComputePass,
     /// Adds what rays found to the film, after the light that nothing changes.
     pub film: ComputePass,
     /// Number of layers of a sample.
@@ -84,8 +84,8 @@ impl Shadows {
         Self {
             base,
             trace: ComputePass::order(orders, "shadow trace", module, &[seen.constant()]),
-            found: orders.pass("found", &shaders::SHADOW_FOUND, "shadow_found"),
-            film: orders.pass("found film", &shaders::FOUND_FILM, "found_film"),
+            traced: orders.pass("traced", &shaders::SHADOW_TRACED, "shadow_traced"),
+            film: orders.pass("found film", &shaders::TRACED_FILM, "traced_film"),
             layers: if has.gratings { 4 } else { 3 },
             by_picks,
             tree,

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::layout::{BaseLight, ChunkSum, PixelPaint, PixelPoint, SortSettings};
 use crate::resources::Resources;
 use crate::scan::{Scan, ScanPasses};
-use crate::shadow_room::ShadowRoom;
+use crate::shadow_buffers::ShadowBuffers;
 use crate::sizes::{Numbers, Sizes};
 
 /// Pixels to a side of a tile. Twin: film.wgsl.
@@ -40,7 +40,7 @@ const DIGITS: u32 = 1 << DIGIT_BITS;
 const SORT_BLOCK: u32 = 256 * 8;
 
 /// Arrays over the pixels and the tiles of a strip.
-pub(crate) struct StripRoom {
+pub(crate) struct StripBuffers {
     pub width_px: u32,
     pub rows: u32,
     /// Rows of a strip that fits the device, as far as is known.
@@ -60,19 +60,19 @@ pub(crate) struct StripRoom {
     pub samples: Samples,
     pub lists: Lists,
     /// Arrays of shadows; none before there are shadows.
-    pub shadows: Option<ShadowRoom>,
+    pub shadows: Option<ShadowBuffers>,
     /// Arrays of bounces; none before there are bounces.
-    pub bounces: Option<Box<BounceRoom>>,
+    pub bounces: Option<Box<BounceBuffers>>,
 }
 
 /// Arrays over samples in which the passes of bounces store their results for one another, and the rooms for their hits. They grow to the size
 /// that is needed.
-pub(crate) struct BounceRoom {
+pub(crate) struct BounceBuffers {
     pub round: wgpu::Buffer,
     pub rays: wgpu::Buffer,
     pub points_max: u64,
     /// Two rooms that take turns: rays leave the hits of one, and the hits that they meet lie in the other.
-    pub hits: [StripRoom; 2],
+    pub hits: [StripBuffers; 2],
     pub groups_max: u32,
 }
 
@@ -141,7 +141,7 @@ pub(crate) fn strip_points(width_px: u32, rows: u32) -> u64 {
     u64::from(width_px) * u64::from(rows + 2 * OUTLINE_REACH_MAX_PX)
 }
 
-impl StripRoom {
+impl StripBuffers {
     /// Room for strips of up to `rows` rows of `width_px` pixels.
     pub(crate) async fn new(
         gpu: &Gpu,
@@ -178,7 +178,7 @@ impl StripRoom {
     }
 }
 
-impl StripRoom {
+impl StripBuffers {
     /// All that passes over the strip may bind.
     pub(crate) fn resources(&self) -> Resources {
         let (samples, lists) = (&self.samples, &self.lists);

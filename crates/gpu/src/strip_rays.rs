@@ -11,11 +11,11 @@ use crate::layout::ShadowRound;
 use crate::lights::{self, LightKind};
 use crate::passes::Shade;
 use crate::resources::Resources;
+use crate::shadow_buffers::ShadowBuffers;
 use crate::shadow_picks::Scratched;
-use crate::shadow_room::ShadowRoom;
 use crate::shadows::Shadows;
 use crate::sizes::{CHUNKS, Points};
-use crate::strip::{BounceRoom, StripRoom};
+use crate::strip::{BounceBuffers, StripBuffers};
 use crate::strip_shader::StripShader;
 use crate::variant::Way;
 
@@ -26,21 +26,21 @@ impl StripShader {
         &self,
         view: &View<'_>,
         shadows: &Shadows,
-        room: &mut StripRoom,
+        room: &mut StripBuffers,
         film: &Film,
         points: Points,
         on: &Scratched,
         rounds: Rounds,
     ) -> Result<(), Error> {
         let (gpu, groups) = (&self.gpu, &on.groups);
-        let mut shadow_room = match room.shadows.take() {
-            Some(shadow_room) => shadow_room,
-            None => ShadowRoom::new(gpu).await?,
+        let mut shadow_buffers = match room.shadows.take() {
+            Some(shadow_buffers) => shadow_buffers,
+            None => ShadowBuffers::new(gpu).await?,
         };
         let layers = shadows.layers;
-        shadow_room.make_room(gpu, points.most, layers).await?;
+        shadow_buffers.make_room(gpu, points.most, layers).await?;
         let lanes = room.lanes();
-        self.submit(view, |recording| shadow_room.clear(recording.encoder));
+        self.submit(view, |recording| shadow_buffers.clear(recording.encoder));
         let light_count = view.uploaded.data.light_count;
         let environment = view.scene.environment.iter().map(|_| light_count);
         let kinds = (0..).zip(lights::kinds(view.scene));
@@ -60,8 +60,8 @@ impl StripShader {
                 next.source = source;
                 next.round = round;
                 next.ends_round = (i + 1 == sources.len()).into();
-                shadow_room.write(gpu, &next);
-                let resources = of_rays(room, &shadow_room, film, shadows);
+                shadow_buffers.write(gpu, &next);
+                let resources = of_rays(room, &shadow_buffers, film, shadows);
                 self.submit(view, |recording| {
                     shadows.record_base_round(kind, recording, &resources, groups);
                 });
@@ -69,7 +69,7 @@ impl StripShader {
         }
         next.ends_round = 1;
         for (source, by) in (light_count + 1..).zip(&shadows.by_picks) {
-            let most = shadow_room
+            let most = shadow_buffers
                 .make_room_for_picks(gpu, points, lanes, next.rounds)
                 .await?;
             next.source = source;
@@ -80,41 +80,41 @@ impl StripShader {
                     next.first_pick = round;
                     next.picks = most.min(next.rounds - round);
                 }
-                shadow_room.write(gpu, &next);
-                let resources = of_rays(room, &shadow_room, film, shadows);
+                shadow_buffers.write(gpu, &next);
+                let resources = of_rays(room, &shadow_buffers, film, shadows);
                 self.submit(view, |recording| {
                     if round == next.first_pick {
-                        by.record_picks(recording, &resources, &shadow_room, on);
+                        by.record_picks(recording, &resources, &shadow_buffers, on);
                     }
                     shadows.record_picked_round(by, recording, &resources, groups);
                 });
             }
         }
-        room.shadows = Some(shadow_room);
+        room.shadows = Some(shadow_buffers);
         Ok(())
     }
 
     /// Converts the sums of so many rounds to light.
-    pub(crate) fn finish_found(
+    pub(crate) fn finish_traced(
         &self,
         view: &View<'_>,
         shadows: &Shadows,
-        room: &StripRoom,
+        room: &StripBuffers,
         film: &Film,
         groups: &Workgroups,
         rounds: u32,
     ) {
-        let Some(shadow_room) = &room.shadows else {
+        let Some(shadow_buffers) = &room.shadows else {
             return;
         };
         let all = ShadowRound {
             rounds,
             ..ShadowRound::default()
         };
-        shadow_room.write(&self.gpu, &all);
+        shadow_buffers.write(&self.gpu, &all);
         self.submit(view, |recording| {
-            let resources = of_rays(room, shadow_room, film, shadows);
-            shadows.found.run(recording, &resources, groups);
+            let resources = of_rays(room, shadow_buffers, film, shadows);
+            shadows.traced.run(recording, &resources, groups);
         });
     }
 
@@ -123,17 +123,17 @@ impl StripShader {
         &self,
         view: &View<'_>,
         bounces: &Bounces,
-        room: &mut StripRoom,
+        room: &mut StripBuffers,
         film: &Film,
         points: Points,
         on: &Scratched,
     ) -> Result<(), Error> {
         let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
-        let mut bounce_room = match room.bounces.take() {
-            Some(bounce_room) => bounce_room,
-            None => Box::new(BounceRoom::new(gpu, scans).await?),
+        let mut bounce_buffers = match room.bounces.take() {
+            Some(bounce_buffers) => bounce_buffers,
+            None => Box::new(BounceBuffers::new(gpu, scans).await?),
         };
-        let made = bounce_room.make_room(gpu, scans, passes, room, points.most, bounces.count);
+        let made = bounce_buffers.make_room(gpu, scans, passes, room, points.most, bounces.count);
         made.await?;
         let Batch {
             first: first_round,
@@ -142,9 +142,9 @@ impl StripShader {
         let mut most = rounds;
         let lanes = room.lanes();
         if bounces.scratches.is_some()
-            && let Some(shadow_room) = &mut room.shadows
+            && let Some(shadow_buffers) = &mut room.shadows
         {
-            let made = shadow_room.make_room_for_picks(gpu, points, lanes, rounds);
+            let made = shadow_buffers.make_room_for_picks(gpu, points, lanes, rounds);
             most = made.await?;
         }
         for way in Way::ALL {
@@ -164,12 +164,12 @@ impl StripShader {
                     way: way as u32,
                     ..ShadowRound::default()
                 };
-                let hits = &mut *bounce_room;
+                let hits = &mut *bounce_buffers;
                 self.go_on(view, bounces, room, hits, film, points, on, first)
                     .await?;
             }
         }
-        room.bounces = Some(bounce_room);
+        room.bounces = Some(bounce_buffers);
         Ok(())
     }
 
@@ -179,8 +179,8 @@ impl StripShader {
         &self,
         view: &View<'_>,
         bounces: &Bounces,
-        room: &StripRoom,
-        bounce_room: &mut BounceRoom,
+        room: &StripBuffers,
+        bounce_buffers: &mut BounceBuffers,
         film: &Film,
         points: Points,
         on: &Scratched,
@@ -207,10 +207,11 @@ impl StripShader {
                 ends_round: (depth + 1 == bounces.count).into(),
                 ..round
             };
-            bounce_room.write(gpu, &round);
+            bounce_buffers.write(gpu, &round);
             let to = depth as usize % 2;
             self.submit(view, |recording| {
-                let Some(by) = bounce(room, bounce_room, film, bounces, &round, &on.groups) else {
+                let Some(by) = bounce(room, bounce_buffers, film, bounces, &round, &on.groups)
+                else {
                     return;
                 };
                 if let Some(scratches) = &bounces.scratches
@@ -220,12 +221,12 @@ impl StripShader {
                 }
                 bounces.record_rays(recording, &by);
             });
-            let hits = &mut bounce_room.hits[to];
+            let hits = &mut bounce_buffers.hits[to];
             let next = seed(&first, depth + 1);
             self.shade_hits(view, bounces, hits, film, points, &mut on, next)
                 .await?;
             self.submit(view, |recording| {
-                if let Some(by) = bounce(room, bounce_room, film, bounces, &round, &on.groups) {
+                if let Some(by) = bounce(room, bounce_buffers, film, bounces, &round, &on.groups) {
                     bounces.record_light(recording, &by);
                 }
             });
@@ -239,7 +240,7 @@ impl StripShader {
         &self,
         view: &View<'_>,
         bounces: &Bounces,
-        hits: &mut StripRoom,
+        hits: &mut StripBuffers,
         film: &Film,
         points: Points,
         on: &mut Scratched,
@@ -277,26 +278,26 @@ impl StripShader {
         };
         self.shade_shadows(view, &bounces.shadows, hits, film, points, on, rounds)
             .await?;
-        self.finish_found(view, &bounces.shadows, hits, film, &on.groups, 1);
+        self.finish_traced(view, &bounces.shadows, hits, film, &on.groups, 1);
         Ok(())
     }
 }
 
 /// All that passes of shadow rays may bind.
 fn of_rays(
-    room: &StripRoom,
-    shadow_room: &ShadowRoom,
+    room: &StripBuffers,
+    shadow_buffers: &ShadowBuffers,
     film: &Film,
     shadows: &Shadows,
 ) -> Resources {
-    let room = room.resources().and(shadow_room.resources());
+    let room = room.resources().and(shadow_buffers.resources());
     room.and(film.resources())
         .texture("triangle_tree", &shadows.tree.view)
 }
 
 fn bounce<'a>(
-    room: &'a StripRoom,
-    bounce_room: &'a BounceRoom,
+    room: &'a StripBuffers,
+    bounce_buffers: &'a BounceBuffers,
     film: &Film,
     bounces: &Bounces,
     round: &ShadowRound,
@@ -304,7 +305,7 @@ fn bounce<'a>(
 ) -> Option<Bounce<'a>> {
     let way = Way::ALL[round.way as usize];
     let by = (round.depth, way);
-    Bounce::new(room, bounce_room, film, &bounces.shadows, by, groups)
+    Bounce::new(room, bounce_buffers, film, &bounces.shadows, by, groups)
 }
 
 /// Seed of the random numbers for the hits of a round: a place may be met again in other rounds.

@@ -17,7 +17,7 @@ use crate::pipelines::compiled;
 use crate::scan::ScanPasses;
 use crate::shadow_picks::Scratched;
 use crate::sizes::{CHUNKS, ENTRIES, GROUPS, Points, Sizes};
-use crate::strip::{GROUP, MadeLists, StripRoom, TILE_PX, strip_points, tile_count};
+use crate::strip::{GROUP, MadeLists, StripBuffers, TILE_PX, strip_points, tile_count};
 use crate::strip_sizes::{half, numbers_most};
 use crate::timing::Timing;
 use crate::visibility::VisibilityPass;
@@ -54,13 +54,13 @@ impl StripShader {
         })
     }
 
-    /// One step of the rows of a film, in as many strips as the device needs. Nothing is waited for but memory: [`StripRoom::settle`] tells whether
+    /// One step of the rows of a film, in as many strips as the device needs. Nothing is waited for but memory: [`StripBuffers::settle`] tells whether
     /// there was room for all.
     pub(crate) async fn shade(
         &self,
         view: &View<'_>,
         film: &Film,
-        room: &mut StripRoom,
+        room: &mut StripBuffers,
         rows: Range<u32>,
     ) -> Result<(), Error> {
         room.most = numbers_most(&self.gpu, view);
@@ -85,7 +85,7 @@ impl StripShader {
         view: &View<'_>,
         film: &Film,
         film_row: u32,
-        room: &mut StripRoom,
+        room: &mut StripBuffers,
         strip: Range<u32>,
     ) -> Result<(), Error> {
         let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
@@ -194,13 +194,13 @@ impl StripShader {
                 self.shade_bounces(view, bounces, room, film, points, &on)
                     .await?;
             }
-            self.finish_found(view, shadows, room, film, &on.groups, rounds.now.count);
+            self.finish_traced(view, shadows, room, film, &on.groups, rounds.now.count);
             self.submit(view, |recording| {
                 let resources = room.resources().and(film.resources());
                 let tiles = room.tiles(rows);
                 passes.resolve.run(recording, &resources, &tiles);
-                if let (Some(shadow_room), Some(_)) = (&room.shadows, &film.found) {
-                    let resources = resources.and(shadow_room.resources());
+                if let (Some(shadow_buffers), Some(_)) = (&room.shadows, &film.traced) {
+                    let resources = resources.and(shadow_buffers.resources());
                     shadows.film.run(recording, &resources, &tiles);
                 }
             });
@@ -215,7 +215,7 @@ impl StripShader {
         view: &View,
         passes: &ScratchPasses,
         film: &Film,
-        room: &StripRoom,
+        room: &StripBuffers,
         tiles: u32,
     ) -> usize {
         let (bin, scans) = (&passes.bin, &self.scans);

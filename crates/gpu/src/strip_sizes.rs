@@ -11,13 +11,13 @@ use crate::frame::View;
 use crate::layout;
 use crate::passes::ScenePasses;
 use crate::scan::ScanPasses;
-use crate::shadow_room::FOUND_BYTES;
+use crate::shadow_buffers::TRACED_BYTES;
 use crate::sizes::{CHUNKS, ENTRIES, GROUPS, Numbers};
 use crate::strip::{
-    CHUNK_BYTES, CHUNK_SEGMENTS, ENTRY_BYTES, GROUP, POINT_BYTES, Samples, StripRoom, TILE_PX,
+    CHUNK_BYTES, CHUNK_SEGMENTS, ENTRY_BYTES, GROUP, POINT_BYTES, Samples, StripBuffers, TILE_PX,
 };
 
-impl StripRoom {
+impl StripBuffers {
     /// Workgroups of a group each: in the first step a group is a tile.
     pub(crate) fn groups(&self, step: u32, tiles: u32) -> Workgroups {
         match step {
@@ -125,8 +125,8 @@ impl StripRoom {
 /// Numbers that the device can hold.
 pub(crate) fn numbers_most(gpu: &Gpu, view: &View) -> Numbers {
     let bytes = gpu.largest_array();
-    let found = view.shadows().map_or(0, |it| it.layers * FOUND_BYTES);
-    let group = u64::from(GROUP) * POINT_BYTES.max(found);
+    let traced = view.shadows().map_or(0, |it| it.layers * TRACED_BYTES);
+    let group = u64::from(GROUP) * POINT_BYTES.max(traced);
     [ENTRY_BYTES, group, CHUNK_BYTES].map(|each| u32::try_from(bytes / each).unwrap_or(u32::MAX))
 }
 

@@ -8,7 +8,7 @@ use crate::compute_pass::Recording;
 use crate::device::Gpu;
 use crate::pipelines::shader;
 use crate::shaders;
-use crate::strip::{DEPTH_FORMAT, StripRoom, VISIBILITY_FORMAT};
+use crate::strip::{DEPTH_FORMAT, StripBuffers, VISIBILITY_FORMAT};
 
 pub(crate) struct VisibilityPass {
     objects: wgpu::RenderPipeline,
@@ -85,7 +85,7 @@ impl VisibilityPass {
     }
 
     /// Records the pass over so many rows of a strip, with those above and below it.
-    pub(crate) fn record(&self, recording: &mut Recording, room: &StripRoom, rows: u32) {
+    pub(crate) fn record(&self, recording: &mut Recording, room: &StripBuffers, rows: u32) {
         let Recording {
             encoder,
             frame,

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use crate::{Image, Noise, filter_found};
+use crate::{Image, Noise, filter_traced};
 
 /// Samples in a batch of [`Batches`] whose pictures are averaged.
 pub const BATCH_SAMPLES: u32 = 4;
@@ -59,7 +59,7 @@ impl Batch {
     }
 }
 
-/// The mean of the batches that were added so far. What rays found in them ([`crate::Found`]) adds up: then the mean is that of all their rays.
+/// The mean of the batches that were added so far. What rays found in them ([`crate::Traced`]) adds up: then the mean is that of all their rays.
 ///
 /// ```
 /// use hairline_image::{Batches, Image};
@@ -85,7 +85,7 @@ pub struct Batches {
     /// Batches.
     added: u32,
     /// Whether the light that rays found adds up; else pictures are averaged.
-    adds_found: bool,
+    adds_traced: bool,
     is_filtered: bool,
 }
 
@@ -96,7 +96,7 @@ impl Batches {
             image: None,
             samples: samples.max(1),
             size: BATCH_ROUNDS,
-            adds_found: true,
+            adds_traced: true,
             ..Self::new(samples)
         }
     }
@@ -118,7 +118,7 @@ impl Batches {
             size,
             done: 0,
             added: 0,
-            adds_found: false,
+            adds_traced: false,
             is_filtered: true,
         }
     }
@@ -178,25 +178,25 @@ impl Batches {
     /// # Panics
     /// If it has another size than those before it.
     pub fn add(&mut self, mut batch: Image) {
-        if !self.adds_found {
+        if !self.adds_traced {
             if self.is_filtered {
-                filter_found(&mut batch);
+                filter_traced(&mut batch);
             }
-            batch.found = None;
+            batch.traced = None;
         }
-        let found = batch.found.as_ref().map(|found| found.rounds);
+        let traced = batch.traced.as_ref().map(|traced| traced.rounds);
         let before = self.added;
         self.added += 1;
-        self.done += found.unwrap_or(self.size);
+        self.done += traced.unwrap_or(self.size);
         let Some(image) = &mut self.image else {
             self.image = Some(self.first(batch));
             return;
         };
         assert_eq!(image.size_px, batch.size_px, "a batch of another size");
-        if let (Some(found), Some(more)) = (&mut image.found, &batch.found) {
-            found.add(more);
+        if let (Some(traced), Some(more)) = (&mut image.traced, &batch.traced) {
+            traced.add(more);
             add_surfaces(image, &batch, before);
-            image.show_found();
+            image.show_traced();
             return;
         }
         let Some(noise) = &mut image.noise else {
@@ -222,8 +222,8 @@ impl Batches {
     }
 
     fn first(&self, mut image: Image) -> Image {
-        if image.found.is_some() {
-            image.show_found();
+        if image.traced.is_some() {
+            image.show_traced();
         } else if self.samples > self.size {
             let mut noise = Noise::new(image.size_px, self.size);
             noise.samples.fill(self.size);

@@ -1,6 +1,6 @@
 //! Images in memory: the layers of a render, and plain pictures.
 
-use crate::found::Found;
+use crate::traced::Traced;
 
 /// Picture of a renderer: one value a pixel in each layer, row by row from the top. All layers are equally long.
 ///
@@ -27,7 +27,7 @@ pub struct Image {
     /// Variances of the colours, where they are Monte Carlo estimates.
     pub noise: Option<Noise>,
     /// Light that rays found, where there were any: for pictures of further rays, and for the filter. No file holds it.
-    pub found: Option<Found>,
+    pub traced: Option<Traced>,
 }
 
 /// Variances of a Monte Carlo estimate. All vectors are as long as the image's layers.
@@ -123,7 +123,7 @@ impl Image {
             normal: vec![[0.0; 3]; count],
             alpha: None,
             noise: None,
-            found: None,
+            traced: None,
         }
     }
 

@@ -7,8 +7,8 @@
 
 use rayon::prelude::*;
 
-use crate::found::{Found, FoundLight, FoundPixel, left};
 use crate::tone_map::tone_luminance as luminance;
+use crate::traced::{Traced, TracedLight, TracedPixel, left};
 use crate::{Image, Noise};
 
 /// Passes, each with twice the step of the one before.
@@ -48,14 +48,14 @@ pub fn noise_std(rounds: u32) -> f32 {
 }
 
 /// Replaces base and scratches of a picture by the light that rays found, filtered. Nothing changes without rays.
-pub fn filter_found(image: &mut Image) {
-    let Some(found) = image.found.take() else {
+pub fn filter_traced(image: &mut Image) {
+    let Some(traced) = image.traced.take() else {
         return;
     };
-    let guides = Guides::new(image, &found);
+    let guides = Guides::new(image, &traced);
     let layers = [Layer::Diffuse, Layer::Specular, Layer::Scratches];
-    let [diffuse, specular, scratches] = layers.map(|layer| filter_layer(&guides, &found, layer));
-    let light = |i: usize, signals: &[Signals], light: &FoundLight| match signals.get(i) {
+    let [diffuse, specular, scratches] = layers.map(|layer| filter_layer(&guides, &traced, layer));
+    let light = |i: usize, signals: &[Signals], light: &TracedLight| match signals.get(i) {
         Some(signals) => signals.light(light),
         None => light.light(),
     };
@@ -65,16 +65,16 @@ pub fn filter_found(image: &mut Image) {
         .zip(image.scratches.par_iter_mut())
         .enumerate()
         .for_each(|(i, (base, on_scratches))| {
-            let pixel = &found.pixels[i];
+            let pixel = &traced.pixels[i];
             let of_body = light(i, &diffuse, &pixel.diffuse);
             let of_surface = light(i, &specular, &pixel.specular);
             *base = std::array::from_fn(|c| pixel.rest[c] + (of_body[c] + of_surface[c]));
             *on_scratches = light(i, &scratches, &pixel.scratches);
         });
-    image.found = Some(found);
+    image.traced = Some(traced);
 }
 
-impl Found {
+impl Traced {
     /// Variances of base and scratches that no filter has changed. Diffuse and specular light share their rays: their standard deviations add up,
     /// which is an upper bound.
     fn noise(&self, image: &Image) -> Noise {
@@ -96,12 +96,12 @@ impl Found {
 
 impl Image {
     /// Replaces base and scratches by the light that rays found, without a filter, and sets their variances.
-    pub fn show_found(&mut self) {
-        let Some(found) = &self.found else { return };
-        for (i, pixel) in found.pixels.iter().enumerate() {
+    pub fn show_traced(&mut self) {
+        let Some(traced) = &self.traced else { return };
+        for (i, pixel) in traced.pixels.iter().enumerate() {
             [self.base[i], self.scratches[i]] = pixel.light();
         }
-        self.noise = (found.rounds > 1).then(|| found.noise(self));
+        self.noise = (traced.rounds > 1).then(|| traced.noise(self));
     }
 }
 
@@ -114,7 +114,7 @@ enum Layer {
 }
 
 impl Layer {
-    fn of(self, pixel: &FoundPixel) -> &FoundLight {
+    fn of(self, pixel: &TracedPixel) -> &TracedLight {
         match self {
             Self::Diffuse => &pixel.diffuse,
             Self::Specular => &pixel.specular,
@@ -150,7 +150,7 @@ struct Signals {
 const NOTHING: [f32; 4] = [0.0, 0.0, 0.0, -1.0];
 
 impl Signals {
-    fn new(light: &FoundLight, rounds: u32) -> Self {
+    fn new(light: &TracedLight, rounds: u32) -> Self {
         let [r, g, b] = light.share();
         let [share_variance, bounced_variance] = light.variances(rounds);
         let of_share = if luminance(light.open) > 0.0 {
@@ -177,7 +177,7 @@ impl Signals {
     }
 
     /// Light of a closed form by these signals.
-    fn light(&self, of: &FoundLight) -> [f32; 3] {
+    fn light(&self, of: &TracedLight) -> [f32; 3] {
         let [r, g, b, _] = self.share;
         let left = left(of.open, [r, g, b]);
         std::array::from_fn(|c| left[c] + of.around[c] * self.bounced[c])
@@ -201,7 +201,7 @@ struct Guide {
 }
 
 impl Guides {
-    fn new(image: &Image, found: &Found) -> Self {
+    fn new(image: &Image, traced: &Traced) -> Self {
         let size_px = image.size_px.map(|n| n as usize);
         let [width, height] = size_px;
         let per_depth = |i: usize| match image.depth_m[i] {
@@ -210,9 +210,9 @@ impl Guides {
         };
         // Takes the side with the smaller change: the other side may lie beyond an edge.
         let slope = |i: usize, before: Option<usize>, after: Option<usize>| {
-            let object = found.pixels[i].object;
+            let object = traced.pixels[i].object;
             let step = |from: usize, to: usize, other: usize| {
-                (found.pixels[other].object == object).then(|| per_depth(to) - per_depth(from))
+                (traced.pixels[other].object == object).then(|| per_depth(to) - per_depth(from))
             };
             let before = before.and_then(|b| step(b, i, b));
             let after = after.and_then(|a| step(i, a, a));
@@ -233,7 +233,7 @@ impl Guides {
             .map(|i| {
                 let (x, y) = (i % width, i / width);
                 Guide {
-                    object: found.pixels[i].object,
+                    object: traced.pixels[i].object,
                     normal: image.normal[i],
                     per_depth: per_depth(i),
                     slope: [
@@ -244,7 +244,7 @@ impl Guides {
                             (y + 1 < height).then(|| i + width),
                         ),
                     ],
-                    roughness: found.pixels[i].roughness,
+                    roughness: traced.pixels[i].roughness,
                 }
             })
             .collect();
@@ -254,7 +254,7 @@ impl Guides {
     /// Similarity of the surfaces that two pixels see, from 0 to 1; (dx, dy) leads from one to the other.
     fn alike(&self, normal_power: f32, p: &Guide, q: &Guide, [dx, dy]: [i32; 2]) -> f32 {
         // An outline sees what both of its sides see; its own samples are few.
-        if p.object == FoundPixel::SEVERAL_OBJECTS {
+        if p.object == TracedPixel::SEVERAL_OBJECTS {
             let is_near = dx.abs().max(dy.abs()) <= OUTLINE_PX;
             return f32::from(is_near && q.object != 0);
         }
@@ -278,8 +278,8 @@ impl Guides {
 }
 
 /// Filters the signals of a layer; empty where the layer has no noise.
-fn filter_layer(guides: &Guides, found: &Found, layer: Layer) -> Vec<Signals> {
-    let rounds = found.rounds;
+fn filter_layer(guides: &Guides, traced: &Traced, layer: Layer) -> Vec<Signals> {
+    let rounds = traced.rounds;
     let mut signals: Vec<Signals> = found
         .pixels
         .par_iter()

@@ -6,7 +6,7 @@ use crate::arcs::{Deviations, Pieces};
 use crate::depth_spread::object_coherence;
 use crate::indexed_segment::IndexedSegment;
 use crate::layer_runs::{LayerRun, groups};
-use crate::segment_tree::{Plot, SegmentTree, Tree, plant};
+use crate::segment_tree::{SegmentTree, Tree, TreeSource, build_trees};
 use crate::watch::Watch;
 use hairline_scene::{Camera, GrooveShapes, Object, Scene, Scratch};
 use std::ops::Range;
@@ -74,9 +74,9 @@ impl ScratchIndex {
         let shapes = GrooveShapes::new(scene);
         let deviations = Deviations::of(scene, pieces);
         let kept = last.filter(|(_, index)| index.shapes == shapes);
-        let plots = plots(scene, &shapes, &deviations, kept);
+        let sources = sources(scene, &shapes, &deviations, kept);
         let (tree, depth_coherence) = rayon::join(
-            || plant(plots, last.map(|(_, index)| &index.tree), watch),
+            || build_trees(sources, last.map(|(_, index)| &index.tree), watch),
             || Self::depth_coherence(scene),
         );
         Some(Self {
@@ -158,21 +158,21 @@ impl ScratchIndex {
 }
 
 /// Trees for the layers on each object: those that exist, or the segments to grow them over.
-fn plots<'a>(
+fn sources<'a>(
     scene: &'a Scene,
     shapes: &'a GrooveShapes,
     deviations: &Deviations,
     last: Option<(&'a Scene, &'a ScratchIndex)>,
-) -> Vec<Vec<Plot<'a, IndexedSegment>>> {
+) -> Vec<Vec<TreeSource<'a, IndexedSegment>>> {
     let kept = last.map_or_else(Vec::new, |(scene, index)| index.groups(scene));
-    let plot = |group: Vec<LayerRun<'a>>| {
+    let source = |group: Vec<LayerRun<'a>>| {
         let is_like = |before: &[LayerRun]| {
             let mut pairs = before.iter().zip(&group);
             before.len() == group.len() && pairs.all(|(a, b)| a.is_like(b))
         };
         match kept.iter().find(|(before, _)| is_like(before)) {
-            Some((_, tree)) => Plot::Kept((*tree).clone()),
-            None => Plot::New {
+            Some((_, tree)) => TreeSource::Kept((*tree).clone()),
+            None => TreeSource::New {
                 most: group.iter().map(LayerRun::piece_count).sum(),
                 fill: Box::new(move |pieces: &mut Vec<_>| {
                     group.iter().for_each(|run| run.append_effective(pieces));
@@ -184,7 +184,7 @@ fn plots<'a>(
     objects
         .map(|(object, deviation_m)| {
             let groups = groups(scene, shapes, object, deviation_m).into_iter();
-            groups.map(plot).collect()
+            groups.map(source).collect()
         })
         .collect()
 }

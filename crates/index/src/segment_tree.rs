@@ -2,18 +2,18 @@
 //! for Ray Tracing*, 1998). Each object has its own, so that no scratch shows on an object that merely touches its own, and may
 //! have several, one after the other: to a walk they are one.
 
+mod build_trees;
 mod grow;
 mod node;
-mod plant;
 
 use crate::watch::Watch;
 use glam::Vec3;
 use std::ops::Range;
 
+pub(crate) use build_trees::{TreeSource, build_trees};
 pub use node::Straight;
 pub(crate) use node::Tree;
 pub use node::{ScratchNode, SegmentTree};
-pub(crate) use plant::{Plot, plant};
 
 impl<S: Straight> SegmentTree<S> {
     /// Builds the trees; one list of segments for each object.
@@ -21,13 +21,13 @@ impl<S: Straight> SegmentTree<S> {
     /// # Panics
     /// Beyond 268 million segments.
     pub fn build(objects: impl Iterator<Item = Vec<S>>) -> Self {
-        let plots = objects.map(|segments| {
-            vec![Plot::New {
+        let sources = objects.map(|segments| {
+            vec![TreeSource::New {
                 most: segments.len(),
                 fill: Box::new(move |all: &mut Vec<S>| all.extend(segments)),
             }]
         });
-        plant(plots.collect(), None, &Watch::default())
+        build_trees(sources.collect(), None, &Watch::default())
             .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 

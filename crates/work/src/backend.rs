@@ -11,7 +11,7 @@ use anyhow::anyhow;
 use hairline_cpu::closed_form::{self, Prepared};
 use hairline_document::DEFAULT_TRANSPORT;
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
-use hairline_image::{Batch, Image, Notes, filter_found};
+use hairline_image::{Batch, Image, Notes, filter_traced};
 use hairline_index::{ScratchIndex, TriangleIndex, Watch};
 use hairline_optics::mask::Mask;
 use hairline_scene::{Scene, ScratchTables, Transport};
@@ -55,7 +55,7 @@ pub struct Task {
     pub samples: u32,
     /// The ways of light.
     pub transport: Transport,
-    /// Whether the light that rays found is filtered ([`filter_found`]).
+    /// Whether the light that rays found is filtered ([`filter_traced`]).
     pub is_filtered: bool,
     /// Whether the picture has [`Image::alpha`]: nothing is seen behind surfaces then, the environment neither.
     pub is_transparent: bool,
@@ -267,9 +267,9 @@ impl<'a> Painter<'a> {
             ))
         })?;
         if is_filtered {
-            filter_found(&mut image);
+            filter_traced(&mut image);
         }
-        image.found = None;
+        image.traced = None;
         Ok(Rendered {
             image,
             samples,

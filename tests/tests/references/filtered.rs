@@ -5,7 +5,7 @@ use conformance::two_renderers::at_width;
 use glam::{DVec2, DVec3};
 use hairline_document::DEFAULT_SAMPLES;
 use hairline_fixtures::SceneFile;
-use hairline_image::{Image, Layer, Picture, filter_found};
+use hairline_image::{Image, Layer, Picture, filter_traced};
 use hairline_scene::Scene;
 use hairline_scene::environment::lookup::environment_dir;
 use std::ops::Range;
@@ -15,7 +15,7 @@ use std::path::Path;
 fn found_and_filtered(scene: &Scene) -> [Image; 2] {
     let found = bounced(scene, DEFAULT_SAMPLES, true, 1);
     let mut filtered = found.clone();
-    filter_found(&mut filtered);
+    filter_traced(&mut filtered);
     [found, filtered]
 }
 

@@ -5,7 +5,7 @@ use super::shadowed::{all_scenes, bounced, closed, luminance, scenes};
 use conformance::middle_of;
 use conformance::two_renderers::on_the_gpu_by;
 use hairline_gpu::Method;
-use hairline_image::{Found, FoundLight, FoundPixel, Image, Layer};
+use hairline_image::{Image, Layer, Traced, TracedLight, TracedPixel};
 use hairline_scene::Scene;
 use std::path::Path;
 
@@ -166,10 +166,10 @@ fn check_edges(scene: &Scene, samples: u32, least: usize) {
 /// Bound: four standard deviations of the mean, which the differences of the pixels tell, and half a percent for single precision and for what the
 /// GPU keeps in fewer bits.
 fn compare_found(name: &str, on_gpu: &Image, on_cpu: &Image, counts: &dyn Fn(usize) -> bool) {
-    let [on_gpu, on_cpu] = [on_gpu, on_cpu].map(|image| image.found.as_ref().unwrap());
+    let [on_gpu, on_cpu] = [on_gpu, on_cpu].map(|image| image.traced.as_ref().unwrap());
     assert_eq!(on_gpu.rounds, on_cpu.rounds);
-    let compare = |what: &str, of: &dyn Fn(&FoundPixel) -> [f32; 3]| {
-        let sums = |found: &Found| -> Vec<f64> {
+    let compare = |what: &str, of: &dyn Fn(&TracedPixel) -> [f32; 3]| {
+        let sums = |found: &Traced| -> Vec<f64> {
             let sum = |i: usize| of(&found.pixels[i]).map(f64::from).iter().sum();
             (0..found.pixels.len())
                 .filter(|i| counts(*i))
@@ -185,7 +185,7 @@ fn compare_found(name: &str, on_gpu: &Image, on_cpu: &Image, counts: &dyn Fn(usi
         println!("{name}, {what}: mean {mean:.4e}, off {off:+.2e}, std {std:.1e}");
         assert!(off.abs() <= 5e-3 * mean + 4.0 * std, "{name}, {what}");
     };
-    type Layer = fn(&FoundPixel) -> &FoundLight;
+    type Layer = fn(&TracedPixel) -> &TracedLight;
     let layers: [(&str, Layer); 3] = [
         ("diffuse", |pixel| &pixel.diffuse),
         ("specular", |pixel| &pixel.specular),

@@ -7,7 +7,7 @@ use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_document::DEFAULT_TRANSPORT;
 use hairline_gpu::Method;
 use hairline_image::tone_map::tone_luminance;
-use hairline_image::{Image, filter_found};
+use hairline_image::{Image, filter_traced};
 use hairline_scene::Scene;
 
 /// Finds the first pixel, before the filter or after it, whose luminance is negative, or a channel of which is below both zero and the closed
@@ -16,7 +16,7 @@ use hairline_scene::Scene;
 /// Colours of scratches may lie outside of the gamut of Rec.709: the closed form itself has a channel below zero then.
 fn no_light(image: &Image) -> Option<String> {
     let mut filtered = image.clone();
-    filter_found(&mut filtered);
+    filter_traced(&mut filtered);
     for (stage, image) in [("found", image), ("filtered", &filtered)] {
         for (i, pixel) in image
             .found
@@ -48,7 +48,7 @@ fn no_light(image: &Image) -> Option<String> {
 }
 
 fn check(name: &str, samples: u32, image: &Image) {
-    assert!(image.found.is_some(), "{name} has no rays");
+    assert!(image.traced.is_some(), "{name} has no rays");
     assert_eq!(no_light(image), None, "{name}, {samples} samples");
 }
 

@@ -2,13 +2,13 @@
 //! multiple importance sampling (E. Veach, 1997).
 
 use super::lobes::Lobes;
-use super::{HitRoom, MetObject, Purpose, RayEnd, ShadowPoint, Shadows, normals};
-use crate::found::{BaseLight, LayerRays};
+use super::{HitBuffers, MetObject, Purpose, RayEnd, ShadowPoint, Shadows, normals};
 use crate::light_view::LightViews;
 use crate::sampling::lights::LightHit;
 use crate::sampling::luminance;
 use crate::shade_base::{Base, BaseRadiance, PixelBase, transformed_sphere};
 use crate::shade_scratches::Choice;
+use crate::traced::{BaseLight, LayerRays};
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
 use std::f64::consts::PI;
@@ -67,7 +67,12 @@ const FAINT: f64 = 0.02;
 
 impl<'a> Shadows<'a> {
     /// Returns the base's light that is not hidden, and the light of other objects.
-    pub fn base(&self, at: &ShadowPoint, base: &PixelBase, rooms: &mut [HitRoom<'a>]) -> BaseLight {
+    pub fn base(
+        &self,
+        at: &ShadowPoint,
+        base: &PixelBase,
+        rooms: &mut [HitBuffers<'a>],
+    ) -> BaseLight {
         let lobes = Lobes::new(&base.whole, at.point);
         let sources = if at.depth == 0 {
             self.sources(base)
@@ -165,7 +170,7 @@ impl<'a> Shadows<'a> {
         round: u32,
         sources: &[Source],
         rays: &mut BaseRays,
-        rooms: &mut [HitRoom<'a>],
+        rooms: &mut [HitBuffers<'a>],
     ) {
         let point = at.point;
         let [u, v, ..] = at.random(Purpose::Origin, round);

@@ -1,11 +1,11 @@
 //! Rays that leave scratches and gratings: in each round one to a source, and one for the light of other objects.
 
-use super::{HitRoom, MetObject, Purpose, RayEnd, ShadowPoint, Shadows, normals};
-use crate::found::{LayerLight, LayerRays};
+use super::{HitBuffers, MetObject, Purpose, RayEnd, ShadowPoint, Shadows, normals};
 use crate::sampling::luminance;
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{DrawnLight, Frame, Pick, Picks, ScratchLight};
 use crate::surface::{RayStart, SurfacePoint};
+use crate::traced::{LayerLight, LayerRays};
 use glam::DVec3;
 use hairline_optics::gaussian::gaussian;
 
@@ -15,7 +15,7 @@ impl<'a> Shadows<'a> {
         &self,
         at: &ShadowPoint,
         picks: &mut Picks,
-        rooms: &mut [HitRoom<'a>],
+        rooms: &mut [HitBuffers<'a>],
     ) -> (ShadedGratings, LayerLight) {
         // Other numbers than those of the point's scratches.
         let at = &ShadowPoint {
@@ -33,7 +33,7 @@ impl<'a> Shadows<'a> {
         &self,
         at: &ShadowPoint,
         picks: &Picks,
-        rooms: &mut [HitRoom<'a>],
+        rooms: &mut [HitBuffers<'a>],
     ) -> LayerLight {
         let bounces = at.depth < self.options.bounces;
         // Until it is known what all send from all around, as if that were 1.
@@ -102,7 +102,7 @@ impl<'a> Shadows<'a> {
         round: u32,
         pick: &Pick,
         brought: &mut Brought,
-        rooms: &mut [HitRoom<'a>],
+        rooms: &mut [HitBuffers<'a>],
     ) -> DVec3 {
         let point = at.point;
         let by = self.picked(point, pick);

@@ -1,5 +1,5 @@
 // Pass: for each sample a ray by the lobes of its base. A workgroup a group. Twin: cpu/src/shadows/base.rs.
-// Needs: bounce, found, base_lobes, sums, pixel_point.
+// Needs: bounce, traced, base_lobes, sums, pixel_point.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
@@ -8,7 +8,7 @@
 // 3 and 4: sums.wgsl.
 @group(3) @binding(5) var<uniform> shadow_round: ShadowRound;
 // Light that rays found for the samples that the camera sees.
-@group(3) @binding(6) var<storage, read_write> found: array<FoundRays>;
+@group(3) @binding(6) var<storage, read_write> traced: array<TracedRays>;
 
 @compute @workgroup_size(8, 8)
 fn bounce_base_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
@@ -36,8 +36,8 @@ fn bounce_base_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgr
     let lobes = base_lobes(point);
     if shadow_round.depth == 0u && shadow_round.round == 0u {
         let around = base_lobes_around(lobes);
-        found[found_at(at, FOUND_SPECULAR)].around = around.specular;
-        found[found_at(at, FOUND_BODY)].around = around.diffuse;
+        traced[traced_at(at, TRACED_SPECULAR)].around = around.specular;
+        traced[traced_at(at, TRACED_BODY)].around = around.diffuse;
     }
     let choice = shadow_random(seed, shadow_round, BOUNCE_CHOICE);
     let wi = base_lobes_sample(lobes, choice.x, shadow_random(seed, shadow_round, BOUNCE_DIRECTION));
@@ -48,7 +48,7 @@ fn bounce_base_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgr
         let body = sent.diffuse / (density * way.share);
         var specular = sent.specular / (density * way.share);
         if shadow_round.depth > 0u {
-            // shadow_found.wgsl does it for samples that the camera sees.
+            // shadow_traced.wgsl does it for samples that the camera sees.
             specular = specular * (1.0 - taken) * (1.0 - gratings) + body;
         }
         let start = shadow_normals(shadow_random(seed, shadow_round, BOUNCE_START));

@@ -73,7 +73,7 @@ fn bounce_grating_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_wor
         let axes = mat3x3f(pixel.axis_x, cross(pixel.normal, pixel.axis_x), pixel.normal);
         let fresnel = coated_reflectance(pixel_fresnel(paint), paint.coat, pixel.cos_o);
         let around = fresnel * sent;
-        // Zero of samples that the camera sees: shadow_found.wgsl takes it from all of their light.
+        // Zero of samples that the camera sees: shadow_traced.wgsl takes it from all of their light.
         let leaves = (1.0 - by_scratches) * around * drawn.color / way.share;
         let start = shadow_normals(shadow_random(seed, shadow_round, BOUNCE_START));
         ray = bounce_ray(rays[at], axes * drawn.direction, leaves, around, 0.0, start, shadow_round);

@@ -1,12 +1,12 @@
 // Passes: the filter of the light that rays found, a layer at a time. Twin: image/src/filter.rs, which names the papers and explains
 // the numbers.
-// Needs: found_light.
+// Needs: traced_light.
 //
 // The signals of a layer, red, green, blue and the variance of the luminance, below 0 where there is none, go from texture to texture.
 
 @group(0) @binding(0) var<uniform> settings: FilterSettings;
 @group(0) @binding(1) var<storage, read_write> film: Film;
-@group(0) @binding(2) var<storage, read> film_found: array<FoundPixel>;
+@group(0) @binding(2) var<storage, read> film_traced: array<TracedPixel>;
 @group(0) @binding(3) var guides: texture_2d<u32>;
 @group(0) @binding(4) var shares: texture_2d<f32>;
 @group(0) @binding(5) var bounced: texture_2d<f32>;
@@ -76,7 +76,7 @@ fn alike(own: Guide, slope: vec2f, other: Guide, step: vec2i) -> f32 {
     if all(step == vec2i(0)) {
         return 1.0;
     }
-    if own.object == FOUND_SEVERAL_OBJECTS {
+    if own.object == TRACED_SEVERAL_OBJECTS {
         return select(0.0, 1.0, max(abs(step.x), abs(step.y)) <= settings.outline_px && other.object != 0u);
     }
     let cosine = dot(own.normal, other.normal);
@@ -88,17 +88,17 @@ fn alike(own: Guide, slope: vec2f, other: Guide, step: vec2i) -> f32 {
     return pow(cosine, normal_power(own)) / (1.0 + off * off);
 }
 
-fn layer_at(at: u32) -> FoundLight {
+fn layer_at(at: u32) -> TracedLight {
     if settings.layer == FILTER_DIFFUSE {
-        return film_found[at].diffuse;
+        return film_traced[at].diffuse;
     }
     if settings.layer == FILTER_SPECULAR {
-        return film_found[at].specular;
+        return film_traced[at].specular;
     }
-    return film_found[at].scratches;
+    return film_traced[at].scratches;
 }
 
-// Variance of a ratio of sums over rounds: `ratio_variance` in image/src/found.rs.
+// Variance of a ratio of sums over rounds: `ratio_variance` in image/src/traced.rs.
 fn variance_of(part: vec3f, whole: vec3f, moments: array<f32, 3>) -> f32 {
     let count = f32(settings.rounds);
     let mean = rgb_luminance(whole);
@@ -124,23 +124,23 @@ fn filter_signals(@builtin(global_invocation_id) id: vec3u) {
     let depth_m = film.pixels[at].depth_m;
     let normal = film.pixels[at].normal;
     let guide = Guide(
-        film_found[at].object,
+        film_traced[at].object,
         select(0.0, coverage / max(depth_m, 1e-30), depth_m > 0.0),
         normal * inverseSqrt(max(dot(normal, normal), 1e-30)),
-        film_found[at].roughness / max(coverage, 1.0),
+        film_traced[at].roughness / max(coverage, 1.0),
     );
     textureStore(guides_out, pixel, guide_packed(guide));
     let light = layer_at(at);
     let nothing = vec4f(0.0, 0.0, 0.0, -1.0);
-    let weight = found_rgb(light.weight);
-    let seen = found_rgb(light.seen);
+    let weight = traced_rgb(light.weight);
+    let seen = traced_rgb(light.seen);
     // Of the means over the pixel's samples.
     let per_sample = 1.0 / f32(max(film.pixels[at].samples, 1u));
     let share_variance = min(variance_of(per_sample * seen, per_sample * weight, light.share_moments), MOST_SHARE_VARIANCE);
-    let is_lit = rgb_luminance(found_rgb(light.open)) > 0.0;
-    textureStore(shares_out, pixel, select(nothing, vec4f(found_share(weight, seen), share_variance), is_lit));
-    let around = found_rgb(light.around);
-    let others = found_rgb(light.bounced);
+    let is_lit = rgb_luminance(traced_rgb(light.open)) > 0.0;
+    textureStore(shares_out, pixel, select(nothing, vec4f(traced_share(weight, seen), share_variance), is_lit));
+    let around = traced_rgb(light.around);
+    let others = traced_rgb(light.bounced);
     let mean = select(vec3f(0.0), others / max(around, vec3f(1e-30)), around > vec3f(0.0));
     textureStore(bounced_out, pixel, select(nothing, vec4f(mean, variance_of(per_sample * others, per_sample * around, light.bounced_moments)), rgb_luminance(around) > 0.0));
 }
@@ -286,9 +286,9 @@ fn filter_film(@builtin(global_invocation_id) id: vec3u) {
     let at = id.y * settings.size_px.x + id.x;
     let pixel = vec2u(id.x, id.y + settings.first_row);
     let own = layer_at(at);
-    let light = found_left(found_rgb(own.open), textureLoad(shares, pixel, 0).xyz) + found_rgb(own.around) * textureLoad(bounced, pixel, 0).xyz;
+    let light = traced_left(traced_rgb(own.open), textureLoad(shares, pixel, 0).xyz) + traced_rgb(own.around) * textureLoad(bounced, pixel, 0).xyz;
     if settings.layer == FILTER_DIFFUSE {
-        film.pixels[at].base = found_rgb(film_found[at].rest) + light;
+        film.pixels[at].base = traced_rgb(film_traced[at].rest) + light;
     } else if settings.layer == FILTER_SPECULAR {
         film.pixels[at].base += light;
     } else {

@@ -1,28 +1,28 @@
 // Pass: follows each sample's ray to a source and adds its weight to the light that rays found. A workgroup a group. Twins:
-// cpu/src/shadows.rs, cpu/src/found.rs.
-// Needs: ray_start, found, film.
+// cpu/src/shadows.rs, cpu/src/traced.rs.
+// Needs: ray_start, traced, film.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
 @group(3) @binding(2) var<storage, read> rays: array<ShadowRay>;
-@group(3) @binding(3) var<storage, read_write> found: array<FoundRays>;
+@group(3) @binding(3) var<storage, read_write> traced: array<TracedRays>;
 @group(3) @binding(4) var<uniform> shadow_round: ShadowRound;
 @group(3) @binding(5) var triangle_tree: texture_2d<u32>;
 @group(3) @binding(6) var<storage, read_write> film: Film;
 
 fn add_ray(i: u32, weight: vec3f, is_seen: bool) {
-    let all = found_finite(weight);
+    let all = traced_finite(weight);
     let seen = select(vec3f(0.0), all, is_seen);
-    found[i].weight += all;
-    found[i].seen += seen;
-    found[i].round_weight += rgb_luminance(all);
-    found[i].round_seen += rgb_luminance(seen);
+    traced[i].weight += all;
+    traced[i].seen += seen;
+    traced[i].round_weight += rgb_luminance(all);
+    traced[i].round_seen += rgb_luminance(seen);
     if shadow_round.ends_round != 0u {
-        let x = found[i].round_weight;
-        let y = found[i].round_seen;
-        found[i].share_moments += vec3f(x * x, x * y, y * y);
-        found[i].round_weight = 0.0;
-        found[i].round_seen = 0.0;
+        let x = traced[i].round_weight;
+        let y = traced[i].round_seen;
+        traced[i].share_moments += vec3f(x * x, x * y, y * y);
+        traced[i].round_weight = 0.0;
+        traced[i].round_seen = 0.0;
     }
 }
 
@@ -51,10 +51,10 @@ fn shadow_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         is_seen = hit.triangle == 0u;
     }
     if shadow_round.way == SHADOW_BY_BASE {
-        add_ray(found_at(at, FOUND_SPECULAR), rays[at].specular, is_seen);
-        add_ray(found_at(at, FOUND_BODY), rays[at].body, is_seen);
+        add_ray(traced_at(at, TRACED_SPECULAR), rays[at].specular, is_seen);
+        add_ray(traced_at(at, TRACED_BODY), rays[at].body, is_seen);
     } else {
-        add_ray(found_at(at, found_by(shadow_round.way)), rays[at].specular, is_seen);
+        add_ray(traced_at(at, traced_by(shadow_round.way)), rays[at].specular, is_seen);
     }
     if loops_were_cut() {
         atomicAdd(&film.gave_up, 1u);

@@ -610,7 +610,7 @@ struct BrushedCrossings {
 }
 
 fn brushed_crossings(lobe: BrushedLobe, x: f32, edge: BrushedEdge) -> BrushedCrossings {
-    var found: BrushedCrossings;
+    var traced: BrushedCrossings;
     let a = edge.a;
     let d = edge.b - a;
     let k = lobe.wo.x + x * lobe.wo.z;
@@ -622,8 +622,8 @@ fn brushed_crossings(lobe: BrushedLobe, x: f32, edge: BrushedEdge) -> BrushedCro
     if (value_a > 0.0) != (value_b > 0.0) {
         // Newton's steps start on the side where they do not overshoot.
         let start = select(1.0, 0.0, value_a * curved > 0.0);
-        found.slopes.x = brushed_crossing(lobe, x, k, edge, start);
-        found.signs.x = select(-1.0, 1.0, value_b > value_a);
+        traced.slopes.x = brushed_crossing(lobe, x, k, edge, start);
+        traced.signs.x = select(-1.0, 1.0, value_b > value_a);
     } else if value_a * curved > 0.0 {
         // The edge may cross twice, on both sides of its turning point.
         let d_length = max(length(d), 1e-15);
@@ -633,12 +633,12 @@ fn brushed_crossings(lobe: BrushedLobe, x: f32, edge: BrushedEdge) -> BrushedCro
             let turn = (foot * sine * inverseSqrt(1.0 - sine * sine) - dot(a, d) / d_length) / d_length;
             let value = at_a + turn * step + k * length(a + turn * d);
             if turn > 0.0 && turn < 1.0 && value * curved < 0.0 {
-                found.slopes = vec2f(brushed_crossing(lobe, x, k, edge, 0.0), brushed_crossing(lobe, x, k, edge, 1.0));
-                found.signs = vec2f(-curved, curved);
+                traced.slopes = vec2f(brushed_crossing(lobe, x, k, edge, 0.0), brushed_crossing(lobe, x, k, edge, 1.0));
+                traced.signs = vec2f(-curved, curved);
             }
         }
     }
-    return found;
+    return traced;
 }
 
 fn brushed_crossing(lobe: BrushedLobe, x: f32, k: f32, edge: BrushedEdge, start: f32) -> f32 {

@@ -38,18 +38,18 @@ fn spot_density(angle_rad: f32) -> f32 {
 
 // The middle of the last spot that covers a place in the plane of the rows, in spacings.
 fn spot_middle(at: vec2f) -> vec2f {
-    var found = vec2f(0.0);
+    var traced = vec2f(0.0);
     // Others are a spacing away or further.
     for (var i = 0u; i < 4u; i += 1u) {
         let row = floor(at.y) + select(0.0, 1.0, i < 2u);
         let shift = 0.5 * (row - 2.0 * floor(0.5 * row));
-        found = vec2f(floor(at.x - shift) + shift + select(0.0, 1.0, (i & 1u) == 0u), row);
-        let to = found - at;
+        traced = vec2f(floor(at.x - shift) + shift + select(0.0, 1.0, (i & 1u) == 0u), row);
+        let to = traced - at;
         if dot(to, to) < SPOT_RADIUS * SPOT_RADIUS {
             break;
         }
     }
-    return found;
+    return traced;
 }
 
 // Vector from the middle that grooves lie about to a place, given that from the middle of their field.

@@ -1,4 +1,4 @@
-// Every struct that the host fills or reads. Twin: src/layout.rs; a test holds names, offsets and sizes equal.
+// Every struct that the host fills or reads. Rust for them is made of this file: build/layout.rs.
 // Positions are in metres and relative to the origin that src/vertices.rs chooses, so that f32 keeps micrometres.
 
 /// The view, and what else is the same for every pixel of one step of one strip.
@@ -274,8 +274,8 @@ struct ShadowRay {
     offset_y: f32,              // and down
 }
 
-/// Light that rays found in a layer of a sample: sums over rounds; then light, by shadow_found.wgsl.
-struct FoundRays {
+/// Light that rays found in a layer of a sample: sums over rounds; then light, by shadow_traced.wgsl.
+struct TracedRays {
     weight: vec3f,              // of rays to sources; its mean is the closed form
     round_weight: f32,          // luminances of the round in hand
     seen: vec3f,                // the part of it whose rays see their source
@@ -288,8 +288,8 @@ struct FoundRays {
     bounced_moments: vec3f,     // sums of 1, y, y y: y is the luminance of what a round brings; then x is that of `around`
 }
 
-/// See image/src/found.rs, which documents it. Sums over the samples of a pixel.
-struct FoundLight {
+/// See image/src/traced.rs, which documents it. Sums over the samples of a pixel.
+struct TracedLight {
     open: array<f32, 3>,
     around: array<f32, 3>,
     weight: array<f32, 3>,
@@ -299,13 +299,13 @@ struct FoundLight {
     bounced_moments: array<f32, 3>,
 }
 
-struct FoundPixel {
+struct TracedPixel {
     rest: array<f32, 3>,
     roughness: f32,
     object: u32,
-    diffuse: FoundLight,
-    specular: FoundLight,
-    scratches: FoundLight,
+    diffuse: TracedLight,
+    specular: TracedLight,
+    scratches: TracedLight,
 }
 
 /// A ray from a sample to what may send it light; then what it has met.

@@ -8,7 +8,7 @@ use crate::common::{BUILT_IN, Stage, default_limits, options, plates, scene};
 use hairline_gpu::headless::test_gpu;
 use hairline_gpu::{Canvas, Error, Gpu, RenderOptions, steps};
 use hairline_image::tone_map::{display_code, dither_offset};
-use hairline_image::{Batch, Display, Image, ToneMap, filter_found};
+use hairline_image::{Batch, Display, Image, ToneMap, filter_traced};
 
 const DISPLAY: Display = Display {
     exposure_ev: 0.0,
@@ -129,7 +129,7 @@ fn a_canvas_is_shown_as_the_host_filters_it() {
         gpu.block_on(settled).unwrap();
         let raw = image(&canvas, gpu);
         let mut filtered = raw.clone();
-        filter_found(&mut filtered);
+        filter_traced(&mut filtered);
         let shown = gpu
             .block_on(renderer.read_shown(&canvas, &DISPLAY))
             .unwrap();

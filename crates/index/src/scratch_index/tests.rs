@@ -44,10 +44,10 @@ fn with_width(mut description: Description, layer: usize, width_um: f64) -> Desc
 /// Number of trees that are grown anew.
 fn grown(scene: &Scene, last: (&Scene, &ScratchIndex)) -> usize {
     let shapes = GrooveShapes::new(scene);
-    let plots = plots(scene, &shapes, &last.1.deviations, Some(last));
-    let plots = plots.iter().flatten();
-    plots
-        .filter(|plot| matches!(plot, Plot::New { .. }))
+    let sources = sources(scene, &shapes, &last.1.deviations, Some(last));
+    let sources = sources.iter().flatten();
+    sources
+        .filter(|source| matches!(source, TreeSource::New { .. }))
         .count()
 }
 

@@ -1,6 +1,6 @@
 //! Samples that add up while nothing moves, in the batches and to the picture of `hairline render`.
 
-use hairline_image::{Batch, Batches, Image, filter_found};
+use hairline_image::{Batch, Batches, Image, filter_traced};
 
 use super::View;
 use super::request::Order;
@@ -26,7 +26,7 @@ impl Adding {
         batches.add(image);
         let mean = batches.image().cloned();
         let mut mean = mean.unwrap_or_else(|| unreachable!("one was added"));
-        filter_found(&mut mean);
+        filter_traced(&mut mean);
         (mean, batches.done())
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use hairline_cpu::closed_form::{Prepared, RenderOptions, TILE_PX};
-use hairline_image::{Batch, Batches, Found, FoundPixel, Image};
+use hairline_image::{Batch, Batches, Image, Traced, TracedPixel};
 use hairline_scene::{Scene, Transport};
 use web_time::Instant;
 
@@ -223,9 +223,9 @@ pub(crate) fn put_rows(image: &mut Image, pixels: Range<usize>, part: &Image) {
     image.normal[pixels.clone()].copy_from_slice(&part.normal);
     if let Some(of_part) = &part.found {
         let count = image.pixel_count();
-        let found = image.found.get_or_insert_with(|| Found {
+        let found = image.traced.get_or_insert_with(|| Traced {
             rounds: of_part.rounds,
-            pixels: vec![FoundPixel::default(); count],
+            pixels: vec![TracedPixel::default(); count],
         });
         found.pixels[pixels].copy_from_slice(&of_part.pixels);
     }

@@ -178,7 +178,7 @@ impl StepRenderer for CpuStepRenderer {
             None => (bands.image, step.samples),
             Some(batch) => crew.install(|| self.adding.add(order, batch, bands.image)),
         };
-        image.found = None;
+        image.traced = None;
         let last = Last {
             image,
             step: *step,

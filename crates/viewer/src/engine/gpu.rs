@@ -7,7 +7,7 @@ use egui::ColorImage;
 use hairline_document::DEFAULT_SAMPLES;
 use hairline_gpu::canvas::Canvas;
 use hairline_gpu::{AdapterKind, Error, Gpu, GpuScene, Method, PassTime, RenderOptions, Renderer};
-use hairline_image::{Batch, Image, filter_found};
+use hairline_image::{Batch, Image, filter_traced};
 use hairline_scene::Transport;
 use web_time::Instant;
 
@@ -89,7 +89,7 @@ impl GpuStepRenderer {
             developed(mean)
         } else if order.view.reading.needs_layers() {
             let mut image = canvas.image().await?;
-            filter_found(&mut image);
+            filter_traced(&mut image);
             developed(&image)
         } else if self.is_shared {
             let view = target(&gpu, size_px).await?;

@@ -7,7 +7,7 @@ use std::time::Duration;
 use hairline_document::{Description, description};
 use hairline_editor::navigate;
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, Method, RenderOptions, Renderer};
-use hairline_image::{Animation, Batches, Display, Image, Output, filter_found};
+use hairline_image::{Animation, Batches, Display, Image, Output, filter_traced};
 use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
@@ -280,7 +280,7 @@ pub(super) async fn rehearse(wish: &Wish, built: &Built, stop: &Stop, tell: &dyn
         !(stop.is_asked() || enough || few && share >= GUESS_FROM)
     };
     if let Ok(Some(mut image)) = painter.paint(&built, &scene, wish, &go_on).await {
-        filter_found(&mut image);
+        filter_traced(&mut image);
         guess(1.0);
     }
 }
@@ -353,7 +353,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         let Some(mut image) = image else {
             return Ok(false);
         };
-        filter_found(&mut image);
+        filter_traced(&mut image);
         if stop.is_asked() {
             return Ok(false);
         }

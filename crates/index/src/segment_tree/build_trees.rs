@@ -14,7 +14,7 @@ use crate::watch::Watch;
 type Fill<'a, S> = Box<dyn FnOnce(&mut Vec<S>) + Send + 'a>;
 
 /// Source of a tree.
-pub(crate) enum Plot<'a, S> {
+pub(crate) enum TreeSource<'a, S> {
     /// A tree to be grown over the segments that `fill` appends, `most` at most.
     New { most: usize, fill: Fill<'a, S> },
     /// A tree that was grown before.
@@ -32,31 +32,31 @@ const COPY: usize = 1 << 14;
 ///
 /// # Panics
 /// Beyond 268 million segments.
-pub(crate) fn plant<S: Straight>(
-    objects: Vec<Vec<Plot<S>>>,
+pub(crate) fn build_trees<S: Straight>(
+    objects: Vec<Vec<TreeSource<S>>>,
     last: Option<&SegmentTree<S>>,
     watch: &Watch,
 ) -> Option<SegmentTree<S>> {
     let counts: Vec<usize> = objects.iter().map(Vec::len).collect();
-    let plots: Vec<Plot<S>> = objects.into_iter().flatten().collect();
-    let most = plots.iter().map(|plot| match plot {
-        Plot::New { most, .. } => *most,
-        Plot::Kept(tree) => tree.segments.len(),
+    let sources: Vec<TreeSource<S>> = objects.into_iter().flatten().collect();
+    let most = sources.iter().map(|source| match source {
+        TreeSource::New { most, .. } => *most,
+        TreeSource::Kept(tree) => tree.segments.len(),
     });
     let most = most.sum::<usize>();
     let mut segments = Vec::with_capacity(most);
-    let mut beds = Vec::with_capacity(plots.len());
-    for plot in plots {
+    let mut places = Vec::with_capacity(sources.len());
+    for source in sources {
         if (watch.cancelled)() {
             return None;
         }
         let first = segments.len();
-        let kept = match plot {
-            Plot::New { fill, .. } => {
+        let kept = match source {
+            TreeSource::New { fill, .. } => {
                 fill(&mut segments);
                 None
             }
-            Plot::Kept(tree) => {
+            TreeSource::Kept(tree) => {
                 let last = last?;
                 let own = last.segments[as_usize(&tree.segments)].par_iter();
                 segments.par_extend(own.with_min_len(COPY).copied());
@@ -66,7 +66,7 @@ pub(crate) fn plant<S: Straight>(
         let end = segments.len();
         assert!(end < 1 << LEAF_FIRST_BITS, "more than 268 million segments");
         (watch.progress)(FILL_SHARE * end as f64 / most.max(1) as f64);
-        beds.push((first as u32..end as u32, kept));
+        places.push((first as u32..end as u32, kept));
     }
 
     let (all, done) = (segments.len(), AtomicUsize::new(0));
@@ -77,7 +77,7 @@ pub(crate) fn plant<S: Straight>(
         !(watch.cancelled)()
     };
     let mut rest = segments.as_mut_slice();
-    let beds: Vec<_> = beds
+    let places: Vec<_> = places
         .into_iter()
         .map(|(place, kept)| {
             let (own, others) = std::mem::take(&mut rest).split_at_mut(place.len());
@@ -85,7 +85,7 @@ pub(crate) fn plant<S: Straight>(
             (place, own, kept)
         })
         .collect();
-    let grown: Vec<(Range<u32>, Vec<Piece>)> = beds
+    let grown: Vec<(Range<u32>, Vec<Piece>)> = places
         .into_par_iter()
         .map(|(place, own, kept)| {
             let pieces = match kept {

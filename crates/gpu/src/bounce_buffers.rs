@@ -7,11 +7,11 @@ use crate::error::Error;
 use crate::layout::{BounceRay, ShadowRound};
 use crate::passes::ScenePasses;
 use crate::scan::ScanPasses;
-use crate::strip::{BounceRoom, GROUP, StripRoom};
+use crate::strip::{BounceBuffers, GROUP, StripBuffers};
 
 const RAY_BYTES: u64 = size_of::<BounceRay>() as u64;
 
-impl BounceRoom {
+impl BounceBuffers {
     pub(crate) async fn new(gpu: &Gpu, scans: &ScanPasses) -> Result<Self, Error> {
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let round = size_of::<ShadowRound>() as u64;
@@ -22,8 +22,8 @@ impl BounceRoom {
                 .await?,
             points_max: 1,
             hits: [
-                StripRoom::of_hits(gpu, scans, 1).await?,
-                StripRoom::of_hits(gpu, scans, 1).await?,
+                StripBuffers::of_hits(gpu, scans, 1).await?,
+                StripBuffers::of_hits(gpu, scans, 1).await?,
             ],
             groups_max: 1,
         })
@@ -35,7 +35,7 @@ impl BounceRoom {
         gpu: &Gpu,
         scans: &ScanPasses,
         passes: &ScenePasses,
-        of: &StripRoom,
+        of: &StripBuffers,
         points: u64,
         bounces: u32,
     ) -> Result<(), Error> {
@@ -53,7 +53,7 @@ impl BounceRoom {
         if self.groups_max < groups {
             for hits in &mut self.hits {
                 let wanted = hits.sizes.wanted;
-                *hits = StripRoom::of_hits(gpu, scans, groups).await?;
+                *hits = StripBuffers::of_hits(gpu, scans, groups).await?;
                 hits.sizes.wanted = wanted;
             }
             self.groups_max = groups;
@@ -72,7 +72,7 @@ impl BounceRoom {
     }
 }
 
-impl StripRoom {
+impl StripBuffers {
     /// Room for the hits of rays from the samples of so many groups. No picture is drawn in it, and each sample has a list of its own in place
     /// of each tile.
     async fn of_hits(gpu: &Gpu, scans: &ScanPasses, groups: u32) -> Result<Self, Error> {

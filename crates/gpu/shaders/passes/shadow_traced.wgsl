@@ -1,10 +1,10 @@
-// Pass: converts the sums over rounds of each sample to light, less what layers take of one another. A workgroup a group. Twins: cpu/src/found.rs,
+// Pass: converts the sums over rounds of each sample to light, less what layers take of one another. A workgroup a group. Twins: cpu/src/traced.rs,
 // cpu/src/resolve.rs.
-// Needs: found, sums, pixel_point.
+// Needs: traced, sums, pixel_point.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> base_light: array<BaseLight>;
-@group(3) @binding(2) var<storage, read_write> found: array<FoundRays>;
+@group(3) @binding(2) var<storage, read_write> traced: array<TracedRays>;
 // 3 and 4: sums.wgsl.
 @group(3) @binding(5) var<storage, read_write> film: Film;
 @group(3) @binding(6) var<uniform> shadow_round: ShadowRound;
@@ -19,35 +19,35 @@ fn of_squares(rgb: vec3f, factor: vec3f) -> f32 {
 // A layer whose closed form is `open`, of which the share `kept` reaches the viewer. That of the base knows what it sends of light from all around.
 fn finish(i: u32, is_base: bool, open: vec3f, kept: vec3f) {
     let per_round = 1.0 / f32(shadow_round.rounds);
-    var weight = found[i].weight * per_round;
-    var seen = found[i].seen * per_round;
+    var weight = traced[i].weight * per_round;
+    var seen = traced[i].seen * per_round;
     if all(weight == vec3f(0.0)) {
         // No ray went to what lights it.
         weight = open;
         seen = open;
     }
-    var around = found[i].around;
-    var bounced = found[i].bounced * per_round;
+    var around = traced[i].around;
+    var bounced = traced[i].bounced * per_round;
     if is_base {
         let x = rgb_luminance(around);
-        found[i].bounced_moments *= vec3f(x * x, x, 1.0);
+        traced[i].bounced_moments *= vec3f(x * x, x, 1.0);
     } else {
         around *= per_round;
         // Each ray has a colour of its own; weighed by it, even light looks as all scratches send it together.
-        bounced = select(vec3f(0.0), around * found[i].bounced / max(found[i].open, vec3f(1e-30)), found[i].open > vec3f(0.0));
+        bounced = select(vec3f(0.0), around * traced[i].bounced / max(traced[i].open, vec3f(1e-30)), traced[i].open > vec3f(0.0));
     }
-    found[i].share_moments *= of_squares(weight, kept);
+    traced[i].share_moments *= of_squares(weight, kept);
     // Rays of scratches told the mean over `around`.
-    found[i].bounced_moments *= of_squares(select(vec3f(1.0), around, is_base), select(around * kept, kept, is_base));
-    found[i].open = found_finite(open * kept);
-    found[i].weight = found_finite(weight * kept);
-    found[i].seen = found_finite(seen * kept);
-    found[i].around = found_finite(around * kept);
-    found[i].bounced = max(found_finite(bounced * kept), vec3f(0.0));
+    traced[i].bounced_moments *= of_squares(select(vec3f(1.0), around, is_base), select(around * kept, kept, is_base));
+    traced[i].open = traced_finite(open * kept);
+    traced[i].weight = traced_finite(weight * kept);
+    traced[i].seen = traced_finite(seen * kept);
+    traced[i].around = traced_finite(around * kept);
+    traced[i].bounced = max(traced_finite(bounced * kept), vec3f(0.0));
 }
 
 @compute @workgroup_size(8, 8)
-fn shadow_found(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+fn shadow_traced(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let group = workgroup.y * workgroups.x + workgroup.x;
     if group >= frame.group_count || !group_has(group, lane) {
         return;
@@ -68,12 +68,12 @@ fn shadow_found(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         let even = ScratchSums(sums.all.share, sums.all.share_by_line, vec3f(1.0), sums.all.energy);
         let left = masked(even, objects[points[at].object - 1u].depth_coherence);
         taken = left.taken;
-        finish(found_at(at, FOUND_SCRATCHES), false, sums.all.radiance, left.scratches * base_light[by].fresnel);
+        finish(traced_at(at, TRACED_SCRATCHES), false, sums.all.radiance, left.scratches * base_light[by].fresnel);
     }
     let gratings = grating_sums(group, lane);
     if HAS_GRATINGS {
-        finish(found_at(at, FOUND_GRATINGS), false, gratings.scratches, 1.0 - taken);
+        finish(traced_at(at, TRACED_GRATINGS), false, gratings.scratches, 1.0 - taken);
     }
-    finish(found_at(at, FOUND_SPECULAR), true, base_light[at].specular, 1.0 - under_scratches(gratings, taken).taken);
-    finish(found_at(at, FOUND_BODY), true, base_light[at].body, vec3f(1.0));
+    finish(traced_at(at, TRACED_SPECULAR), true, base_light[at].specular, 1.0 - under_scratches(gratings, taken).taken);
+    finish(traced_at(at, TRACED_BODY), true, base_light[at].body, vec3f(1.0));
 }

@@ -1,9 +1,9 @@
 //! Light that the rays of a sample find in one layer: the share of the closed form that is seen, and the light from other objects
-//! (docs/model.md, section 11). In the picture: [`hairline_image::FoundLight`].
+//! (docs/model.md, section 11). In the picture: [`hairline_image::TracedLight`].
 
 use crate::sampling::luminance;
 use glam::DVec3;
-use hairline_image::FoundLight;
+use hairline_image::TracedLight;
 use std::ops::AddAssign;
 
 /// One layer: of a sample, or summed over several.
@@ -75,11 +75,11 @@ impl LayerLight {
     }
 
     /// Converts the light to the picture's form.
-    pub fn in_picture(&self) -> FoundLight {
+    pub fn in_picture(&self) -> TracedLight {
         let [open, around, weight, seen, bounced] =
             [self.open, self.around, self.weight, self.seen, self.bounced]
                 .map(|rgb| rgb.as_vec3().to_array());
-        FoundLight {
+        TracedLight {
             open,
             around,
             weight,

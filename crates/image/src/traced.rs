@@ -7,17 +7,17 @@ use crate::tone_map::tone_luminance as luminance;
 
 /// Light that rays found in a picture, pixel by pixel.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct Traced {
     /// Number of rays from each pixel to each source of light.
     pub rounds: u32,
     /// Light of each pixel of the image.
-    pub pixels: Vec<FoundPixel>,
+    pub pixels: Vec<TracedPixel>,
 }
 
 /// Light that rays found in a pixel. A shader writes the same struct.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct FoundPixel {
+pub struct TracedPixel {
     /// Light that no ray changes: the background, and that of surfaces that emit. Linear Rec.709 radiance.
     pub rest: [f32; 3],
     /// Perceptual, from 0 to 1.
@@ -25,17 +25,17 @@ pub struct FoundPixel {
     /// The object that is seen, and 1; 0 for the background; [`Self::SEVERAL_OBJECTS`] on edges.
     pub object: u32,
     /// Light of the base's body.
-    pub diffuse: FoundLight,
+    pub diffuse: TracedLight,
     /// Light of the base's surface.
-    pub specular: FoundLight,
+    pub specular: TracedLight,
     /// Light of scratches and gratings.
-    pub scratches: FoundLight,
+    pub scratches: TracedLight,
 }
 
 /// Light that rays found in one layer of a pixel. Linear Rec.709 radiance.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct FoundLight {
+pub struct TracedLight {
     /// Closed form: the light that is sent where nothing hides a source.
     pub open: [f32; 3],
     /// Light that would be sent if radiance 1 came from all around.
@@ -52,7 +52,7 @@ pub struct FoundLight {
     pub bounced_moments: [f32; 3],
 }
 
-impl FoundLight {
+impl TracedLight {
     /// The share of the closed form that is seen, from 0 to 1: the ratio of sums of E. Heitz, S. Hill, M. McGuire, *Combining Analytic Direct
     /// Illumination and Stochastic Shadows*, 2018. It is consistent, never below 0 nor above 1, and exact where all rays or none see their source.
     pub fn share(&self) -> [f32; 3] {
@@ -106,7 +106,7 @@ const LEAST_OF_OTHERS: f32 = 1e-3;
 const MOST_SHARE_VARIANCE: f32 = 0.25;
 
 /// Multiplies a closed form by the shares of its channels. A channel below 0, where a colour lies outside of the gamut, takes the share of the
-/// luminance of the others, so that the result has no negative luminance. Twin: `found_left`.
+/// luminance of the others, so that the result has no negative luminance. Twin: `traced_left`.
 pub(crate) fn left(open: [f32; 3], share: [f32; 3]) -> [f32; 3] {
     let bright = open.map(|value| value.max(0.0));
     let bright_left = std::array::from_fn(|c| bright[c] * share[c]);
@@ -124,7 +124,7 @@ fn ratio(part: f32, all: f32) -> Option<f32> {
     (all > 0.0).then(|| (part / all).clamp(0.0, 1.0))
 }
 
-impl FoundPixel {
+impl TracedPixel {
     /// Stands for the object where samples see several.
     pub const SEVERAL_OBJECTS: u32 = u32::MAX;
 
@@ -166,7 +166,7 @@ impl FoundPixel {
     }
 }
 
-impl Found {
+impl Traced {
     /// Adds the light of further rounds of the same picture.
     pub fn add(&mut self, other: &Self) {
         self.rounds += other.rounds;
@@ -177,7 +177,7 @@ impl Found {
     }
 }
 
-impl FoundLight {
+impl TracedLight {
     /// The variances of the share of luminance that is seen and of the ratio of luminances of `bounced` and `around`, after so many rounds.
     pub(crate) fn variances(&self, rounds: u32) -> [f32; 2] {
         let of_ratio =
@@ -219,11 +219,11 @@ mod tests {
     fn light_lies_between_nothing_and_the_closed_form() {
         let open = [2.0, 3.0, 4.0];
         let of = |weight, seen| {
-            FoundLight {
+            TracedLight {
                 open,
                 weight,
                 seen,
-                ..FoundLight::default()
+                ..TracedLight::default()
             }
             .light()
         };
@@ -239,22 +239,22 @@ mod tests {
 
     #[test]
     fn what_all_rounds_see_stays_to_the_bit() {
-        let pixel = |weight: f32| FoundPixel {
-            scratches: FoundLight {
+        let pixel = |weight: f32| TracedPixel {
+            scratches: TracedLight {
                 open: [0.1, 0.2, 0.3],
                 weight: [weight; 3],
                 seen: [weight; 3],
-                ..FoundLight::default()
+                ..TracedLight::default()
             },
-            ..FoundPixel::default()
+            ..TracedPixel::default()
         };
-        let found = |weight, rounds| Found {
+        let traced = |weight, rounds| Traced {
             rounds,
             pixels: vec![pixel(weight)],
         };
-        let mut sum = found(0.37, 4);
+        let mut sum = traced(0.37, 4);
         for (i, rounds) in [4, 8, 16].into_iter().enumerate() {
-            sum.add(&found(0.11 * i as f32 + 0.1, rounds));
+            sum.add(&traced(0.11 * i as f32 + 0.1, rounds));
         }
         assert_eq!(sum.rounds, 32);
         assert_eq!(sum.pixels[0].light()[1], [0.1, 0.2, 0.3]);
@@ -273,7 +273,7 @@ mod tests {
             let [mut shares, mut squares, mut variances] = [0.0; 3];
             let trials = 4000;
             for _ in 0..trials {
-                let mut light = FoundLight::default();
+                let mut light = TracedLight::default();
                 for _ in 0..ROUNDS {
                     let x = if random() < 0.16 { heavy } else { 1.0 };
                     let y = if random() < 0.5 { x } else { 0.0 };

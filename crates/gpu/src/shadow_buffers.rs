@@ -4,26 +4,26 @@ use wgpu::BufferUsages;
 
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::layout::{FoundRays, ShadowRay, ShadowRound};
+use crate::layout::{ShadowRay, ShadowRound, TracedRays};
 use crate::resources::Resources;
 use crate::sizes::Points;
 
 /// The arrays over samples. They grow to the size that is needed.
-pub(crate) struct ShadowRoom {
+pub(crate) struct ShadowBuffers {
     pub round: wgpu::Buffer,
     pub rays: wgpu::Buffer,
     /// Light that rays found, layer by layer of each sample.
-    pub found: wgpu::Buffer,
-    found_max: u64,
+    pub traced: wgpu::Buffer,
+    traced_max: u64,
     points_max: u64,
     pub picks: wgpu::Buffer,
     picks_bytes: u64,
 }
 
 /// Bytes of a layer of a sample.
-pub(crate) const FOUND_BYTES: u64 = size_of::<FoundRays>() as u64;
+pub(crate) const TRACED_BYTES: u64 = size_of::<TracedRays>() as u64;
 const RAY_BYTES: u64 = size_of::<ShadowRay>() as u64;
-const FOUND_USAGE: BufferUsages = BufferUsages::STORAGE.union(BufferUsages::COPY_DST);
+const TRACED_USAGE: BufferUsages = BufferUsages::STORAGE.union(BufferUsages::COPY_DST);
 /// Bytes of a scratch that is picked, or of the state of a lane of a chunk.
 const PICK_BYTES: u64 = 16;
 /// Picks of a sample that are made at once: each time all pairs are lit once more.
@@ -31,13 +31,13 @@ const PICKS_MOST: u64 = 16;
 /// Largest memory of the picks, unless there is one only.
 const PICKS_BYTES_MOST: u64 = 1 << 28;
 
-impl ShadowRoom {
+impl ShadowBuffers {
     /// All that passes may bind of it.
     pub(crate) fn resources(&self) -> Resources {
         Resources::default()
             .buffer("shadow_round", &self.round)
             .buffer("rays", &self.rays)
-            .buffer("found", &self.found)
+            .buffer("traced", &self.traced)
             .buffer("picks", &self.picks)
     }
 
@@ -48,10 +48,10 @@ impl ShadowRoom {
         Ok(Self {
             round: gpu.buffer("round of shadows", round, uniform).await?,
             rays: gpu.buffer("shadow rays", RAY_BYTES, storage).await?,
-            found: gpu
-                .buffer("what rays found", FOUND_BYTES, FOUND_USAGE)
+            traced: gpu
+                .buffer("what rays found", TRACED_BYTES, TRACED_USAGE)
                 .await?,
-            found_max: 1,
+            traced_max: 1,
             points_max: 1,
             picks: gpu.buffer("picked scratches", PICK_BYTES, storage).await?,
             picks_bytes: PICK_BYTES,
@@ -75,12 +75,12 @@ impl ShadowRoom {
                 .await?;
             self.points_max = points;
         }
-        if self.found_max < points * layers {
-            self.found_max = 0;
-            self.found.destroy();
-            let bytes = points * layers * FOUND_BYTES;
-            self.found = gpu.buffer("what rays found", bytes, FOUND_USAGE).await?;
-            self.found_max = points * layers;
+        if self.traced_max < points * layers {
+            self.traced_max = 0;
+            self.traced.destroy();
+            let bytes = points * layers * TRACED_BYTES;
+            self.traced = gpu.buffer("what rays found", bytes, TRACED_USAGE).await?;
+            self.traced_max = points * layers;
         }
         Ok(())
     }
@@ -111,7 +111,7 @@ impl ShadowRoom {
 
     /// Clears the light that rays found.
     pub(crate) fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
-        encoder.clear_buffer(&self.found, 0, None);
+        encoder.clear_buffer(&self.traced, 0, None);
     }
 
     /// Writes which round is next.
