@@ -124,7 +124,7 @@ fn picture(scene: &hairline_scene::Scene) -> Image {
 
 /// The share of the first object's pixels that differ.
 fn noticed(worn: &Image, without: &Image, display: &Display) -> f64 {
-    let objects = worn.found.iter().flat_map(|found| &found.pixels);
+    let objects = worn.traced.iter().flat_map(|found| &found.pixels);
     let (worn, without) = (worn.beauty(), without.beauty());
     let (mut all, mut differ) = (0, 0);
     for ((pixel, a), b) in objects.zip(&worn.rgb).zip(&without.rgb) {

@@ -169,7 +169,7 @@ pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes),
         normal: part(crate::Layer::Normal)?.rgb,
         alpha: alpha.map(|it| plane(&it)),
         noise: None,
-        found: None,
+        traced: None,
     };
     image.noise = file.noise(path)?;
     check_lengths(&image, path)?;

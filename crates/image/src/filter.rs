@@ -280,7 +280,7 @@ impl Guides {
 /// Filters the signals of a layer; empty where the layer has no noise.
 fn filter_layer(guides: &Guides, traced: &Traced, layer: Layer) -> Vec<Signals> {
     let rounds = traced.rounds;
-    let mut signals: Vec<Signals> = found
+    let mut signals: Vec<Signals> = traced
         .pixels
         .par_iter()
         .map(|pixel| Signals::new(layer.of(pixel), rounds))

@@ -154,7 +154,7 @@ pub(crate) fn picture_from_state(
             false => Some(take(&mut bytes, count)?),
         },
         noise: noise.transpose()?,
-        found: None,
+        traced: None,
     };
     let (exposure_ev, curve) = display;
     let display = Display {

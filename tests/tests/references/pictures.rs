@@ -119,7 +119,7 @@ pub fn picked(image: &Image, size_px: [u32; 2], from: impl Fn(u32, u32) -> [u32;
         places.iter().map(|i| values[*i]).collect()
     }
     Image {
-        found: None,
+        traced: None,
         size_px,
         base: of(&image.base, &places),
         scratches: of(&image.scratches, &places),

@@ -53,7 +53,7 @@ pub(super) fn prepared(scene: &Prepared<'_>, samples: u32, shadows: bool, bounce
 /// A picture's layers alone: without rays there is no light that rays found.
 pub(super) fn alone(image: Image) -> Image {
     Image {
-        found: None,
+        traced: None,
         ..image
     }
 }

@@ -19,7 +19,7 @@ fn no_light(image: &Image) -> Option<String> {
     filter_traced(&mut filtered);
     for (stage, image) in [("found", image), ("filtered", &filtered)] {
         for (i, pixel) in image
-            .found
+            .traced
             .iter()
             .flat_map(|found| &found.pixels)
             .enumerate()

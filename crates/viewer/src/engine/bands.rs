@@ -221,7 +221,7 @@ pub(crate) fn put_rows(image: &mut Image, pixels: Range<usize>, part: &Image) {
     image.density[pixels.clone()].copy_from_slice(&part.density);
     image.depth_m[pixels.clone()].copy_from_slice(&part.depth_m);
     image.normal[pixels.clone()].copy_from_slice(&part.normal);
-    if let Some(of_part) = &part.found {
+    if let Some(of_part) = &part.traced {
         let count = image.pixel_count();
         let found = image.traced.get_or_insert_with(|| Traced {
             rounds: of_part.rounds,
