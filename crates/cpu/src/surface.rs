@@ -1,6 +1,8 @@
 //! Stage 2, surface: the surface under a sample: position, frame, footprint, material with its textures. Twin: surface.wgsl.
 
-use glam::{DMat3, DVec2, DVec3, DVec4};
+mod textured_hit;
+
+use glam::{DMat3, DVec2, DVec3};
 use hairline_index::Hit;
 use hairline_optics::coat::COAT_F0;
 use hairline_optics::facets::{FacetAxes, anisotropic_alpha};
@@ -8,8 +10,9 @@ use hairline_optics::filtered_lobe::PixelSlopes;
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_alpha;
 use hairline_optics::spectrum::Observer;
-use hairline_scene::texture_lookup::{TextureSampler, blend, texture_footprint};
-use hairline_scene::{Mesh, Scene, ScratchTables, Texture};
+use hairline_scene::{Mesh, Scene, ScratchTables};
+
+use textured_hit::TexturedHit;
 
 /// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane. Of a surface under a coat it is that of the
 /// coat; [`SurfacePoint::under_coat`] has that of what is under it.
@@ -206,91 +209,17 @@ pub(crate) fn surface_with_bumps<'a>(
     hit: &Hit,
     bumps: BumpSlopes,
 ) -> SurfacePoint<'a> {
+    let at = TexturedHit::new(scene, hit, to_viewer, &footprint);
+    let (material, side) = (at.material, at.side);
     let mesh = &scene.objects[hit.object as usize].mesh;
-    let triangle = mesh.triangles[hit.triangle as usize];
-    let [u, v] = hit.barycentric;
-    let weights = [1.0 - u - v, u, v];
-    let corners = mesh.corners_m(hit.triangle as usize);
-    let geometric = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    // Either side of a sheet is a surface of its own.
-    let side = if geometric.dot(to_viewer) < 0.0 {
-        -1.0
-    } else {
-        1.0
-    };
-    let normals = triangle.map(|i| mesh.normals[i as usize].as_dvec3());
-    let interpolated = interpolate(weights, normals);
-    let smooth = interpolated
-        .try_normalize()
-        .unwrap_or_else(|| geometric.normalize());
-
     let material_index = mesh.triangle_materials[hit.triangle as usize] as usize;
-    let material = &scene.materials[material_index];
     let optics = &tables.materials[material_index];
-    let axes = footprint(side * smooth);
-    let looked_up_at = |index: Option<usize>, sample: TextureSampler, step: DVec2| {
-        index.map(|i| {
-            let texture = &scene.textures[i];
-            let [a, b, c] = mesh.corner_uvs(triangle, texture);
-            let at = DVec2::new(u, v) + step;
-            let uv = a + (b - a) * at.x + (c - a) * at.y;
-            let uv_area = (b - a).perp_dot(c - a).abs();
-            let texel_scale = texture_footprint(uv_area, &corners, axes);
-            texture.filtered(uv, texel_scale, sample)
-        })
-    };
-    let texture = |index: Option<usize>| looked_up_at(index, Texture::at_level, DVec2::ZERO);
-    let axis_steps = || axes.map(|axis| mesh.barycentric_step(hit.triangle, axis));
-
-    let tangents = || {
-        let tangents = triangle.map(|i| mesh.tangents[i as usize].as_dvec4());
-        let tangent = interpolate(weights, tangents.map(|t| t.truncate()));
-        let tangent =
-            (tangent - smooth * smooth.dot(tangent)).normalize_or(smooth.any_orthonormal_vector());
-        [tangent, smooth.cross(tangent) * tangents[0].w]
-    };
-
-    // A point has one normal.
-    let is_wide = axes != [DVec3::ZERO; 2];
-    // A coat with a normal map of its own turns another way than what is under it.
     let has_coat = material.coat.is_some_and(|coat| coat.weight > 0.0);
+    // A coat with a normal map of its own turns another way than what is under it.
     let as_turns = bumps == BumpSlopes::Turns && !(has_coat && material.has_coat_normals());
-    let mapped = |map: Option<(usize, f64)>| {
-        let none = (smooth, 0.0, [DVec3::ZERO; 2]);
-        let Some((index, scale)) = map else {
-            return none;
-        };
-        let sample: TextureSampler = match as_turns {
-            true => Texture::at_level,
-            false => sample_normals,
-        };
-        let [tangent, bitangent] = tangents();
-        let normal = |texel: DVec4| {
-            let n = texel.truncate() * 2.0 - DVec3::ONE;
-            (tangent * (n.x * scale) + bitangent * (n.y * scale) + smooth * n.z)
-                .normalize_or(smooth)
-        };
-        let looked_up = |step| looked_up_at(Some(index), sample, step);
-        let Some(texel) = looked_up(DVec2::ZERO) else {
-            return none;
-        };
-        let turns = match as_turns {
-            true => axis_steps().map(|step| {
-                let [after, before] =
-                    [2.0 * step, -2.0 * step].map(|step| looked_up(step).map_or(smooth, normal));
-                0.25 * (after - before)
-            }),
-            false => [DVec3::ZERO; 2],
-        };
-        (
-            normal(texel),
-            if is_wide { texel.w * scale.abs() } else { 0.0 },
-            turns,
-        )
-    };
-    let (under_coat, slope_std, bump_turns) = mapped(material.normal_texture);
+    let under_coat = at.mapped(material.normal_texture, as_turns);
     let mut coat = optics.coat_curve.zip(material.coat).map(|(curve, coat)| {
-        let [weight, roughness] = material.coat_textures.map(texture);
+        let [weight, roughness] = material.coat_textures.map(|index| at.texture(index));
         PointCoat {
             weight: coat.weight * weight.map_or(1.0, |t| t.x),
             roughness: coat.roughness * roughness.map_or(1.0, |t| t.y),
@@ -299,101 +228,60 @@ pub(crate) fn surface_with_bumps<'a>(
                 f90: 1.0,
                 curve: &tables.curves[curve as usize],
             },
-            slope_std,
+            slope_std: under_coat.slope_std,
         }
     });
-    let mut normal = under_coat;
+    let mut normal = under_coat.normal;
     if let Some(coat) = coat.as_mut().filter(|coat| coat.weight > 0.0)
         && material.has_coat_normals()
     {
-        (normal, coat.slope_std, _) = mapped(material.coat_normal_texture);
+        let of_coat = at.mapped(material.coat_normal_texture, as_turns);
+        (normal, coat.slope_std) = (of_coat.normal, of_coat.slope_std);
     }
-    let brushed = material.anisotropy.filter(|it| it.strength > 0.0);
-    let anisotropy = brushed.map(|it| {
-        let texel = texture(material.anisotropy_texture);
-        let own = texel.map_or(DVec2::X, |t| t.truncate().truncate() * 2.0 - DVec2::ONE);
-        let turn = DVec2::from_angle(it.direction_deg.to_radians()).rotate(own);
-        let [tangent, bitangent] = tangents();
-        let strength = it.strength * texel.map_or(1.0, |t| t.z);
-        (tangent * turn.x + bitangent * turn.y, strength)
-    });
-    let smooth = side * smooth;
-    let [normal, under_coat] =
-        [normal, under_coat].map(|normal| face_viewer(side * normal, to_viewer));
+    let [normal, normal_under_coat] =
+        [normal, under_coat.normal].map(|normal| face_viewer(side * normal, to_viewer));
     let ([axis_x, axis_y], wo) = frame(normal, to_viewer);
-
-    let mut base_color = DVec3::from(optics.base_color) * mesh.color(triangle, weights).truncate();
-    let mut metallic = optics.metallic;
-    let mut roughness = material.roughness;
-    if let Some(texel) = texture(material.base_color_texture) {
-        base_color *= texel.truncate();
-    }
-    if let Some(texel) = texture(material.metallic_roughness_texture) {
-        roughness *= texel.y;
-        metallic *= texel.z;
-    }
-    let mut emission = texture(material.emission_texture).map_or(DVec3::ONE, |t| t.truncate())
-        * DVec3::from(material.emission);
-    // Most triangles of what is flat have one normal.
-    let is_flat = normals[0] == normals[1] && normals[0] == normals[2];
-    let normal_turns: [DVec3; 2] = std::array::from_fn(|i| {
-        let smooth_turn = match is_flat {
-            true => DVec3::ZERO,
-            false => normal_turn(&normals, interpolated, axis_steps()[i]),
-        };
-        smooth_turn + bump_turns[i]
+    let smooth_turns = at.smooth_turns();
+    let normal_turns = [0, 1].map(|i| {
+        let turn = smooth_turns[i] + under_coat.turns[i];
+        side * DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)
     });
-    let [specular_texel, specular_color_texel] = material.specular_textures.map(texture);
-    let specular = material.specular.weight * specular_texel.map_or(1.0, |t| t.w);
-    let color = DVec3::from(material.specular.color)
-        * specular_color_texel.map_or(DVec3::ONE, |t| t.truncate());
-    let dielectric_f0 = specular * (optics.dielectric_f0 * color).min(DVec3::ONE);
-    let mut f0 = dielectric_f0.lerp(base_color, metallic);
-    let mut f90 = specular + (1.0 - specular) * metallic;
-    if material.is_unlit {
-        emission = base_color;
-        (f0, f90, base_color) = (DVec3::ZERO, 0.0, DVec3::ZERO);
-    }
+    let paint = at.paint(optics);
     SurfacePoint {
         position_m,
         raised_m: raised(position_m, hit, mesh, side),
         axis_x,
         axis_y,
         normal,
-        normal_under_coat: (under_coat != normal).then_some(under_coat),
-        facet: side * geometric.normalize_or(normal),
+        normal_under_coat: (normal_under_coat != normal).then_some(normal_under_coat),
+        facet: side * at.geometric.normalize_or(normal),
         wo,
         distance_m: hit.distance_m,
-        footprint_axes_m: if normal == smooth {
-            axes
-        } else {
-            footprint(normal)
+        footprint_axes_m: match normal == side * at.smooth {
+            true => at.axes,
+            false => footprint(normal),
         },
-        normal_turns: normal_turns
-            .map(|turn| side * DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)),
+        normal_turns,
         fresnel: FresnelRgb {
-            f0: f0.to_array(),
-            f90,
+            f0: paint.f0.to_array(),
+            f90: paint.f90,
             curve: &tables.curves[optics.curve as usize],
         },
-        diffuse: base_color * (1.0 - metallic),
-        metallic,
-        roughness,
-        facets: anisotropy.map(|(way, strength)| {
-            let alpha = ggx_alpha(roughness);
-            let ([axis_x, axis_y], _) = frame(under_coat, to_viewer);
+        diffuse: paint.diffuse,
+        metallic: paint.metallic,
+        roughness: paint.roughness,
+        facets: at.anisotropy().map(|(way, strength)| {
+            let alpha = ggx_alpha(paint.roughness);
+            let ([axis_x, axis_y], _) = frame(normal_under_coat, to_viewer);
             FacetAxes {
                 along: DVec2::new(way.dot(axis_x), way.dot(axis_y)).normalize_or(DVec2::X),
                 alphas: DVec2::new(anisotropic_alpha(alpha, strength), alpha),
             }
         }),
         coat,
-        slope_std,
-        open: material.occlusion_texture.map_or(1.0, |(index, strength)| {
-            let red = texture(Some(index)).map_or(1.0, |texel| texel.x);
-            1.0 + strength * (red - 1.0)
-        }),
-        emission,
+        slope_std: under_coat.slope_std,
+        open: at.open(),
+        emission: paint.emission,
         material: material_index,
         triangle: hit.triangle,
         coherence_um: material.coherence_um,
@@ -462,17 +350,6 @@ fn raised(position_m: DVec3, hit: &Hit, mesh: &Mesh, side: f64) -> DVec3 {
     position_m + rises.sum::<DVec3>()
 }
 
-/// Turn of the interpolated normal of a triangle over a step of the barycentric coordinates. `interpolated` is the normal before it was made a unit
-/// vector.
-fn normal_turn(normals: &[DVec3; 3], interpolated: DVec3, step: DVec2) -> DVec3 {
-    let change = (normals[1] - normals[0]) * step.x + (normals[2] - normals[0]) * step.y;
-    let length2 = interpolated.length_squared();
-    if length2 < 1e-12 {
-        return DVec3::ZERO;
-    }
-    (change - interpolated * (change.dot(interpolated) / length2)) / length2.sqrt()
-}
-
 /// The axes across a normal, and the direction to the viewer in the frame of all three: in its x-z plane. Any x will do where they look along the
 /// normal.
 fn frame(normal: DVec3, to_viewer: DVec3) -> ([DVec3; 2], DVec3) {
@@ -492,23 +369,4 @@ fn face_viewer(normal: DVec3, to_viewer: DVec3) -> DVec3 {
     }
     let tangential = (normal - to_viewer * cos).normalize_or(to_viewer.any_orthonormal_vector());
     to_viewer * MIN_VIEW_COS + tangential * (1.0 - MIN_VIEW_COS * MIN_VIEW_COS).sqrt()
-}
-
-fn interpolate(weights: [f64; 3], corners: [DVec3; 3]) -> DVec3 {
-    corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2]
-}
-
-/// Looks up a normal map; w is the standard deviation of the slopes, over the texels and over the part of the map that the pixel sees.
-fn sample_normals(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -> DVec4 {
-    let (texels, t) = texture.four_texels(level, uv, texels_std);
-    let mut mean = blend(texels, t);
-    let right = (texels[1] - texels[0]).lerp(texels[3] - texels[2], t[1]);
-    let down = (texels[2] - texels[0]).lerp(texels[3] - texels[1], t[0]);
-    let steps2 = [right, down].map(|step| 4.0 * step.truncate().truncate().length_squared());
-    // Variance of the filter in texels, less that of a texel of a level that has averaged others.
-    let variance = texels_std * texels_std / 4f64.powi(level as i32);
-    let seen = (variance - if level > 0 { 1.0 / 12.0 } else { 0.0 }).max(0.0);
-    let up = (mean.z * 2.0 - 1.0).max(0.1);
-    mean.w = (mean.w * mean.w + 0.5 * seen * (steps2[0] + steps2[1]) / (up * up)).sqrt();
-    mean
 }

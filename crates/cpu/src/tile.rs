@@ -1,5 +1,7 @@
 //! A tile of the picture: the stages from the surface to the film, for batches of its points.
 
+mod shade;
+
 use crate::bin::{TILE_PX, TileLists};
 use crate::camera_beam::CameraBeam;
 use crate::counts::Counts;
@@ -8,11 +10,9 @@ use crate::method::PointShader;
 use crate::options::RenderOptions;
 use crate::pixel_parts::{MOST_PARTS, pixel_parts};
 use crate::prepared::Prepared;
-use crate::resolve::{Pixel, PointLight, Sample};
+use crate::resolve::{Pixel, Sample};
 use crate::sample_point::{SamplePoint, SampleView, Shared};
-use crate::shade_base::{PixelBase, transformed_sphere};
-use crate::shade_gratings::ShadedGratings;
-use crate::shade_scratches::{BATCH, Picks, ScratchPoint, ScratchShader};
+use crate::shade_scratches::{BATCH, Picks, ScratchShader};
 use crate::shadows::{HitBuffers, Rounds, Shadows};
 use crate::share_scratches::share_scratches;
 use crate::silhouettes::is_smooth;
@@ -21,7 +21,7 @@ use crate::visibility::{Visibility, center, coverage};
 use glam::{DVec2, DVec3};
 use hairline_image::{Image, Traced, TracedPixel};
 use hairline_index::Hit;
-use hairline_optics::mask::{Masked, ScratchSums};
+use hairline_optics::mask::ScratchSums;
 use hairline_scene::CameraFrame;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -218,153 +218,6 @@ impl<'a> Tile<'a> {
     fn shade(&mut self, column: usize, row: usize) {
         self.shade_unless_cancelled(column, row);
         self.batch.clear();
-    }
-
-    /// Whether it is of no use to go on.
-    fn gives_up(&mut self) -> bool {
-        self.is_cancelled = self.is_cancelled || (self.cancelled)();
-        self.is_cancelled
-    }
-
-    fn shade_unless_cancelled(&mut self, column: usize, row: usize) {
-        if self.gives_up() {
-            return;
-        }
-        let prepared = self.picture.prepared;
-        let is_tiled = matches!(self.picture.by, PictureMethod::Tiles(_));
-        for (point, views) in self.batch.iter().zip(&mut self.views) {
-            if let SampleView::Surface { point: at, hit, .. } = &point.seen {
-                views.look_from(at);
-                if is_tiled && (prepared.is_scratched(hit) || prepared.has_gratings(hit)) {
-                    views.ready_for_scratches(point.scratched(at));
-                }
-            }
-        }
-        self.sums.fill(ScratchSums::default());
-        for (i, point) in self.batch.iter().enumerate() {
-            if let Some(picks) = &mut self.picks
-                && let Some(at) = point.scratched_point(&self.picture.camera, &self.views[i])
-            {
-                picks[i].clear(at.rounds.now.count, at.picks_seed());
-            }
-        }
-        if let PictureMethod::Tiles(lists) = &self.picture.by {
-            let points: Vec<ScratchPoint> = self
-                .batch
-                .iter()
-                .zip(&self.views)
-                .enumerate()
-                .filter_map(|(index, (point, views))| match &point.seen {
-                    SampleView::Surface { point: at, hit, .. }
-                        if prepared.is_scratched(hit)
-                            && matches!(point.scratches, Shared::Among(_)) =>
-                    {
-                        Some(ScratchPoint {
-                            point: point.scratched(at),
-                            object: hit.object,
-                            at_px: point.at_px,
-                            views,
-                            index,
-                        })
-                    }
-                    _ => None,
-                })
-                .collect();
-            if !points.is_empty() {
-                self.shader.shade(
-                    prepared,
-                    &points,
-                    lists.tile(column, row),
-                    &mut self.sums,
-                    self.picks.as_deref_mut(),
-                    &mut self.counts,
-                );
-            }
-        }
-        let environment = prepared.scene.environment.as_ref();
-        let mask = self.picture.options.mask;
-        for i in 0..self.batch.len() {
-            if self.picture.shadows.is_some() && self.gives_up() {
-                return;
-            }
-            let (point, views) = (&self.batch[i], &self.views[i]);
-            let mut sums = match point.scratches {
-                Shared::Among(_) => self.sums[i],
-                Shared::With(leader) => self.sums[leader],
-            };
-            let sample = match &point.seen {
-                SampleView::Background(radiance) => Sample::background(*radiance),
-                SampleView::Surface {
-                    hit,
-                    point: at,
-                    parts,
-                    depth_m,
-                } => {
-                    for ((_, part), views) in parts.iter().zip(&mut self.part_views) {
-                        views.look_from(part);
-                    }
-                    let base = PixelBase::new(at, views, parts, &self.part_views);
-                    let has_gratings = prepared.has_gratings(hit);
-                    let samples = match point.scratches {
-                        Shared::Among(samples) => f64::from(samples),
-                        Shared::With(_) => 0.0,
-                    };
-                    let coherence = prepared.depth_coherence(hit.object);
-                    let (masked, light) = match (&self.picture.by, &self.picture.shadows) {
-                        (PictureMethod::Tiles(_), Some(shadows)) => {
-                            let Some(shadow_point) =
-                                point.shadow_point(&self.picture.camera, views)
-                            else {
-                                continue;
-                            };
-                            let mut light = PointLight {
-                                base: shadows.base(&shadow_point, &base, &mut self.rooms),
-                                ..PointLight::default()
-                            };
-                            if let Some(picks) = &self.picks
-                                && let Some(at) = point.scratched_point(&self.picture.camera, views)
-                                && prepared.is_scratched(hit)
-                            {
-                                light.scratches = shadows.by_picks(&at, &picks[i], &mut self.rooms);
-                                // Exact to the bit if nothing is hidden.
-                                light.scratches.open = sums.radiance.into();
-                                light.scratches = light.scratches.for_samples(samples);
-                            }
-                            if has_gratings {
-                                let picks = &mut self.grating_picks;
-                                let gratings =
-                                    shadows.gratings(&shadow_point, picks, &mut self.rooms);
-                                light.gratings = Some(gratings);
-                            }
-                            (sums.resolve(mask, coherence), light)
-                        }
-                        (PictureMethod::Tiles(_), None) => {
-                            let gratings = has_gratings.then(|| {
-                                ShadedGratings::new(prepared, at, hit.object, views, None)
-                            });
-                            let base = base.radiance(environment, transformed_sphere);
-                            let mut light = PointLight::open(base, &sums, gratings);
-                            light.scratches = light.scratches.for_samples(samples);
-                            (sums.resolve(mask, coherence), light)
-                        }
-                        (PictureMethod::Other(method), _) => {
-                            let masked = method.scratches(at, hit, views);
-                            let base = base.radiance(environment, |lobe, of, sphere| {
-                                method.base_sphere(lobe, of, sphere)
-                            });
-                            sums.radiance = masked.scratches;
-                            let whole = Masked {
-                                kept: 1.0,
-                                ..masked
-                            };
-                            (whole, PointLight::open(base, &sums, None))
-                        }
-                    };
-                    Sample::surface(at, hit.object, &masked, light, *depth_m)
-                }
-            };
-            self.pixels[point.pixel].add(&sample);
-        }
     }
 }
 

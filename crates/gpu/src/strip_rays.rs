@@ -6,7 +6,7 @@ use crate::bounces::{Bounce, Bounces};
 use crate::compute_pass::Workgroups;
 use crate::error::Error;
 use crate::film::Film;
-use crate::frame::{Rounds, View};
+use crate::frame::Rounds;
 use crate::layout::ShadowRound;
 use crate::lights::{self, LightKind};
 use crate::passes::Shade;
@@ -14,25 +14,24 @@ use crate::resources::Resources;
 use crate::shadow_buffers::ShadowBuffers;
 use crate::shadow_picks::Scratched;
 use crate::shadows::Shadows;
-use crate::sizes::{CHUNKS, Points};
+use crate::sizes::CHUNKS;
 use crate::strip::{BounceBuffers, StripBuffers};
-use crate::strip_shader::StripShader;
+use crate::strip_shader::StripRays;
 use crate::variant::Way;
 
-impl StripShader {
+impl StripRays<'_, '_> {
     /// Finds which part of the light of the samples is seen.
-    #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
-    pub(crate) async fn shade_shadows(
+    pub(crate) async fn shadows(
         &self,
-        view: &View<'_>,
         shadows: &Shadows,
         room: &mut StripBuffers,
-        film: &Film,
-        points: Points,
         on: &Scratched,
         rounds: Rounds,
     ) -> Result<(), Error> {
-        let (gpu, groups) = (&self.gpu, &on.groups);
+        let Self {
+            view, film, points, ..
+        } = *self;
+        let (gpu, groups) = (&self.strip.gpu, &on.groups);
         let mut shadow_buffers = match room.shadows.take() {
             Some(shadow_buffers) => shadow_buffers,
             None => ShadowBuffers::new(gpu).await?,
@@ -40,7 +39,9 @@ impl StripShader {
         let layers = shadows.layers;
         shadow_buffers.make_room(gpu, points.most, layers).await?;
         let lanes = room.lanes();
-        self.submit(view, |recording| shadow_buffers.clear(recording.encoder));
+        self.strip.submit(self.view, |recording| {
+            shadow_buffers.clear(recording.encoder)
+        });
         let light_count = view.uploaded.data.light_count;
         let environment = view.scene.environment.iter().map(|_| light_count);
         let kinds = (0..).zip(lights::kinds(view.scene));
@@ -62,7 +63,7 @@ impl StripShader {
                 next.ends_round = (i + 1 == sources.len()).into();
                 shadow_buffers.write(gpu, &next);
                 let resources = of_rays(room, &shadow_buffers, film, shadows);
-                self.submit(view, |recording| {
+                self.strip.submit(self.view, |recording| {
                     shadows.record_base_round(kind, recording, &resources, groups);
                 });
             }
@@ -82,7 +83,7 @@ impl StripShader {
                 }
                 shadow_buffers.write(gpu, &next);
                 let resources = of_rays(room, &shadow_buffers, film, shadows);
-                self.submit(view, |recording| {
+                self.strip.submit(self.view, |recording| {
                     if round == next.first_pick {
                         by.record_picks(recording, &resources, &shadow_buffers, on);
                     }
@@ -95,12 +96,10 @@ impl StripShader {
     }
 
     /// Converts the sums of so many rounds to light.
-    pub(crate) fn finish_traced(
+    pub(crate) fn finish(
         &self,
-        view: &View<'_>,
         shadows: &Shadows,
         room: &StripBuffers,
-        film: &Film,
         groups: &Workgroups,
         rounds: u32,
     ) {
@@ -111,24 +110,27 @@ impl StripShader {
             rounds,
             ..ShadowRound::default()
         };
-        shadow_buffers.write(&self.gpu, &all);
-        self.submit(view, |recording| {
-            let resources = of_rays(room, shadow_buffers, film, shadows);
+        shadow_buffers.write(&self.strip.gpu, &all);
+        self.strip.submit(self.view, |recording| {
+            let resources = of_rays(room, shadow_buffers, self.film, shadows);
             shadows.traced.run(recording, &resources, groups);
         });
     }
 
     /// Finds the light of other objects that the samples send.
-    pub(crate) async fn shade_bounces(
+    pub(crate) async fn bounces(
         &self,
-        view: &View<'_>,
         bounces: &Bounces,
         room: &mut StripBuffers,
-        film: &Film,
-        points: Points,
         on: &Scratched,
     ) -> Result<(), Error> {
-        let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
+        let Self {
+            strip,
+            view,
+            points,
+            ..
+        } = *self;
+        let (gpu, scans, passes) = (&strip.gpu, &strip.scans, &view.uploaded.passes);
         let mut bounce_buffers = match room.bounces.take() {
             Some(bounce_buffers) => bounce_buffers,
             None => Box::new(BounceBuffers::new(gpu, scans).await?),
@@ -165,8 +167,7 @@ impl StripShader {
                     ..ShadowRound::default()
                 };
                 let hits = &mut *bounce_buffers;
-                self.go_on(view, bounces, room, hits, film, points, on, first)
-                    .await?;
+                self.go_on(bounces, room, hits, on, first).await?;
             }
         }
         room.bounces = Some(bounce_buffers);
@@ -174,19 +175,15 @@ impl StripShader {
     }
 
     /// Follows a ray of each sample, one from its hit, and so on.
-    #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
     async fn go_on(
         &self,
-        view: &View<'_>,
         bounces: &Bounces,
         room: &StripBuffers,
         bounce_buffers: &mut BounceBuffers,
-        film: &Film,
-        points: Points,
         on: &Scratched,
         first: ShadowRound,
     ) -> Result<(), Error> {
-        let gpu = &self.gpu;
+        let (gpu, film) = (&self.strip.gpu, self.film);
         let mut on = on.clone();
         for depth in 0..bounces.count {
             let round = match depth {
@@ -209,7 +206,7 @@ impl StripShader {
             };
             bounce_buffers.write(gpu, &round);
             let to = depth as usize % 2;
-            self.submit(view, |recording| {
+            self.strip.submit(self.view, |recording| {
                 let Some(by) = bounce(room, bounce_buffers, film, bounces, &round, &on.groups)
                 else {
                     return;
@@ -223,9 +220,8 @@ impl StripShader {
             });
             let hits = &mut bounce_buffers.hits[to];
             let next = seed(&first, depth + 1);
-            self.shade_hits(view, bounces, hits, film, points, &mut on, next)
-                .await?;
-            self.submit(view, |recording| {
+            self.shade_hits(bounces, hits, &mut on, next).await?;
+            self.strip.submit(self.view, |recording| {
                 if let Some(by) = bounce(room, bounce_buffers, film, bounces, &round, &on.groups) {
                     bounces.record_light(recording, &by);
                 }
@@ -235,32 +231,31 @@ impl StripShader {
     }
 
     /// Shades hits, with shadows; from now on the chunks are theirs.
-    #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
     async fn shade_hits(
         &self,
-        view: &View<'_>,
         bounces: &Bounces,
         hits: &mut StripBuffers,
-        film: &Film,
-        points: Points,
         on: &mut Scratched,
         seed: u32,
     ) -> Result<(), Error> {
-        let (scans, passes) = (&self.scans, &view.uploaded.passes);
+        let Self {
+            strip, view, film, ..
+        } = *self;
+        let (scans, passes) = (&strip.scans, &view.uploaded.passes);
         on.chunks = hits.sizes.workgroups(CHUNKS);
         if bounces.scratches.is_none() {
-            hits.samples.one_chunk_a_group(&self.gpu);
+            hits.samples.one_chunk_a_group(&strip.gpu);
         }
-        self.submit(view, |recording| {
+        self.strip.submit(self.view, |recording| {
             if let Some(scratches) = &bounces.scratches {
                 scratches.record_count(recording, scans, hits, film, &on.groups);
                 let starts = &hits.list_starts;
-                self.size(recording, &scratches.size, starts, &hits.sizes, film);
+                strip.size(recording, &scratches.size, starts, &hits.sizes, film);
                 scratches.record_lists(recording, hits, film, &on.groups);
                 scratches.shade.record_chunks(recording, scans, hits);
             }
             let (size, starts) = (&passes.sizes[CHUNKS], &hits.samples.chunk_starts);
-            self.size(recording, size, starts, &hits.sizes, film);
+            strip.size(recording, size, starts, &hits.sizes, film);
             if let Some(scratches) = &bounces.scratches {
                 scratches.shade.record(recording, hits, &on.chunks);
             }
@@ -276,9 +271,8 @@ impl StripShader {
             now: Batch::all(1),
             seed,
         };
-        self.shade_shadows(view, &bounces.shadows, hits, film, points, on, rounds)
-            .await?;
-        self.finish_traced(view, &bounces.shadows, hits, film, &on.groups, 1);
+        self.shadows(&bounces.shadows, hits, on, rounds).await?;
+        self.finish(&bounces.shadows, hits, &on.groups, 1);
         Ok(())
     }
 }

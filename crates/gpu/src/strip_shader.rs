@@ -36,6 +36,14 @@ pub(crate) struct StripShader {
     pub timing: Timing,
 }
 
+/// A step of a strip whose samples send rays.
+pub(crate) struct StripRays<'s, 'v> {
+    pub strip: &'s StripShader,
+    pub view: &'s View<'v>,
+    pub film: &'s Film,
+    pub points: Points,
+}
+
 impl StripShader {
     pub(crate) async fn new(gpu: &Gpu, layouts: &Layouts) -> Result<Self, Error> {
         let visibility = compiled(gpu, || VisibilityPass::new(gpu, layouts)).await?;
@@ -188,13 +196,17 @@ impl StripShader {
                 now: view.rounds(),
                 seed: 0,
             };
-            self.shade_shadows(view, shadows, room, film, points, &on, rounds)
-                .await?;
+            let rays = StripRays {
+                strip: self,
+                view,
+                film,
+                points,
+            };
+            rays.shadows(shadows, room, &on, rounds).await?;
             if let Some(bounces) = view.bounces() {
-                self.shade_bounces(view, bounces, room, film, points, &on)
-                    .await?;
+                rays.bounces(bounces, room, &on).await?;
             }
-            self.finish_traced(view, shadows, room, film, &on.groups, rounds.now.count);
+            rays.finish(shadows, room, &on.groups, rounds.now.count);
             self.submit(view, |recording| {
                 let resources = room.resources().and(film.resources());
                 let tiles = room.tiles(rows);
