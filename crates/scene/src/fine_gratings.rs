@@ -17,7 +17,7 @@ use std::sync::{Arc, Mutex};
 pub const FINE_PITCH_UM: f64 = 4.0;
 
 /// Part of the key of files: a change of the numbers that a file would hold takes the next one.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 /// Files are deleted, the oldest first, where there are more.
 const MOST_FILES: usize = 200;
 /// Efficiencies that a process keeps.

@@ -88,6 +88,9 @@ struct LayerModes {
 /// Least magnitude of a wave's component along z: at exactly the horizon the field has no direction.
 const LEAST_KZ: f64 = 1e-7;
 
+/// A wave this much weaker at the other side of a layer has faded.
+const FADED: f64 = 1e-2;
+
 fn kz(beta2: Complex64, ky: f64) -> Complex64 {
     let root = (beta2 - ky * ky).sqrt();
     let root = if root.im < 0.0 { -root } else { root };
@@ -291,7 +294,6 @@ impl CoupledWaves {
         let below = Admittance::new(self.below, &self.kx, ky);
         // H from E at the lower side of a layer; none for the medium below.
         let mut by_lower: Option<Matrix> = None;
-        let twice = |m: &Matrix| Matrix::from_fn(m.rows(), m.columns(), |i, j| 2.0 * m[(i, j)]);
         for (i, layer) in self.layers.iter().enumerate().rev() {
             let kz: Vec<Complex64> = layer.beta2.iter().map(|b| kz(*b, ky)).collect();
             let through: Vec<Complex64> = (kz.iter())
@@ -299,23 +301,53 @@ impl CoupledWaves {
                 .collect();
             let [e, h] = layer.fields(&kz, ky);
             let lower = by_lower.map_or_else(|| below.times(&e), |by| &by * &e);
+            if i == 0 {
+                let upper = above.times(&e);
+                return &self.back(&e, &h, [&lower, &upper], &through, by_sent) - sent;
+            }
             // Waves that come up at the lower side, from those that go down at the upper one.
             let down = Matrix::from_fn(n2, n2, |i, j| (h[(i, j)] - lower[(i, j)]) * through[j]);
             let up = Lu::new(&(&h + &lower)).solve(&down);
             let risen = Matrix::from_fn(n2, n2, |i, j| through[i] * up[(i, j)]);
-            if i > 0 {
-                let (e, h) = (&e + &(&e * &risen), &h - &(&h * &risen));
-                // H E^-1, by its transpose.
-                let e = Lu::new(&e.transpose());
-                by_lower = Some(e.solve(&h.transpose()).transpose());
-                continue;
-            }
-            let upper = above.times(&e);
-            let all = &(&h + &upper) + &(&(&upper - &h) * &risen);
-            let down = Lu::new(&all).solve(&twice(by_sent));
-            return &(&e * &(&down + &(&risen * &down))) - sent;
+            let (e, h) = (&e + &(&e * &risen), &h - &(&h * &risen));
+            // H E^-1, by its transpose.
+            let e = Lu::new(&e.transpose());
+            by_lower = Some(e.solve(&h.transpose()).transpose());
         }
         // A flat surface.
         Matrix::from_fn(n2, sent.columns(), |_, _| Complex64::ZERO)
+    }
+    /// Tangential E over the top layer. Waves that fade on their way through it come back too weak to matter: all but a few orders.
+    fn back(
+        &self,
+        e: &Matrix,
+        h: &Matrix,
+        [lower, upper]: [&Matrix; 2],
+        through: &[Complex64],
+        by_sent: &Matrix,
+    ) -> Matrix {
+        let n2 = e.rows();
+        let come_back: Vec<usize> = (0..n2).filter(|i| through[*i].norm() > FADED).collect();
+        let count = come_back.len();
+        let part = |m: &dyn Fn(usize, usize) -> Complex64| {
+            Matrix::from_fn(n2, count, |i, j| m(i, come_back[j]))
+        };
+        // Waves that come up at the lower side, from those that go down at the upper one.
+        let down = part(&|i, j| (h[(i, j)] - lower[(i, j)]) * through[j]);
+        let up = Lu::new(&(h + lower)).solve(&down);
+        let risen = Matrix::from_fn(count, count, |i, j| {
+            through[come_back[i]] * up[(come_back[i], j)]
+        });
+        let by_risen = &part(&|i, j| upper[(i, j)] - h[(i, j)]) * &risen;
+        let mut all = h + upper;
+        for (j, column) in come_back.iter().enumerate() {
+            for i in 0..n2 {
+                all[(i, *column)] += by_risen[(i, j)];
+            }
+        }
+        let twice = Matrix::from_fn(n2, by_sent.columns(), |i, j| 2.0 * by_sent[(i, j)]);
+        let down = Lu::new(&all).solve(&twice);
+        let own = Matrix::from_fn(count, down.columns(), |i, j| down[(come_back[i], j)]);
+        &(e * &down) + &(&part(&|i, j| e[(i, j)]) * &(&risen * &own))
     }
 }

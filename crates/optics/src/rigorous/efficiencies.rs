@@ -53,13 +53,15 @@ pub struct FineGrooves {
     pub medium: Medium,
 }
 
-/// Cosines to the plane across the grooves that are sampled: powers of this one.
-const COS_STEP: f64 = 0.8;
-const COS_COUNT: usize = 6;
+/// Cosines to the plane across the grooves that are sampled: powers of this one. Between two of them wavelengths are shifted by up to a step, and a
+/// metal's index with them: steps are so small that
+/// resonances of silver stay where they are.
+const COS_STEP: f64 = 0.94;
+const COS_COUNT: usize = 19;
 /// Sampled wavelengths: those of the visible, and as far beyond as one step of the cosine shifts them.
-const FIRST_NM: f64 = 300.0;
+const FIRST_NM: f64 = 350.0;
 const STEP_NM: f64 = 10.0;
-const NM_COUNT: usize = 69;
+const NM_COUNT: usize = 49;
 /// Largest distance of sampled incidences, in components across the grooves.
 const INCIDENCE_STEP: f64 = 0.03;
 /// A component across the grooves is this much off where two orders are each other's mirror images, in wavelengths over the pitch.
@@ -81,6 +83,8 @@ pub(super) struct Column {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Efficiencies {
     pitch_um: f64,
+    /// Reflectance of a flat surface, straight from above, at each sampled wavelength.
+    flat: Vec<f64>,
     pub(super) columns: Vec<Column>,
 }
 
@@ -204,8 +208,15 @@ impl Efficiencies {
     }
 
     fn empty(grooves: &FineGrooves) -> Self {
+        let flat = |i| {
+            grooves
+                .medium
+                .reflectance(grooves.above, 1.0, sampled_nm(i))
+        };
         Self {
             pitch_um: grooves.pitch_um,
+            // A medium of the index above has none, and sends nothing.
+            flat: (0..NM_COUNT).map(|i| flat(i).max(1e-9)).collect(),
             columns: (0..NM_COUNT)
                 .map(|i| Column::new(grooves, sampled_nm(i)))
                 .collect(),
@@ -242,9 +253,10 @@ impl Efficiencies {
         let low = (place as usize).min(COS_COUNT - 2);
         let [from, to] = [low, low + 1].map(sampled_cos);
         let share = ((from - cos.max(to)) / (from - to)).clamp(0.0, 1.0);
+        let own = self.flat_at(wavelength_nm);
         let sampled = |i: usize| {
             let scale = sampled_cos(i) / cos.max(1e-9);
-            self.at_cos(i, order, wavelength_nm * scale, across * scale)
+            own * self.over_flat(i, order, wavelength_nm * scale, across * scale)
         };
         if share == 0.0 {
             return sampled(low);
@@ -252,11 +264,25 @@ impl Efficiencies {
         (1.0 - share) * sampled(low) + share * sampled(low + 1)
     }
 
-    fn at_cos(&self, cos: usize, order: i32, wavelength_nm: f64, across: f64) -> f64 {
-        let place = ((wavelength_nm - FIRST_NM) / STEP_NM).clamp(0.0, (NM_COUNT - 1) as f64);
-        let low = (place as usize).min(NM_COUNT - 2);
-        let share = place - low as f64;
-        let at = |i: usize| self.columns[i].at(self.pitch_um, sampled_nm(i), cos, across, order);
+    /// Efficiency over the reflectance of a flat surface, at a sampled cosine: a metal's colour is that of its own wavelength, and not of the one to
+    /// which the cosine shifts it.
+    fn over_flat(&self, cos: usize, order: i32, wavelength_nm: f64, across: f64) -> f64 {
+        let (low, share) = between(wavelength_nm);
+        let at = |i: usize| {
+            self.columns[i].at(self.pitch_um, sampled_nm(i), cos, across, order) / self.flat[i]
+        };
         (1.0 - share) * at(low) + share * at(low + 1)
     }
+
+    fn flat_at(&self, wavelength_nm: f64) -> f64 {
+        let (low, share) = between(wavelength_nm);
+        (1.0 - share) * self.flat[low] + share * self.flat[low + 1]
+    }
+}
+
+/// The sampled wavelength below one, and how far it is from there to the next.
+fn between(wavelength_nm: f64) -> (usize, f64) {
+    let place = ((wavelength_nm - FIRST_NM) / STEP_NM).clamp(0.0, (NM_COUNT - 1) as f64);
+    let low = (place as usize).min(NM_COUNT - 2);
+    (low, place - low as f64)
 }
