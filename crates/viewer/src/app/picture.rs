@@ -91,14 +91,13 @@ impl Viewer {
         frame
     }
 
-    /// Frames an added model, which may be far larger or smaller than the objects before.
-    pub(super) fn frame_what_was_added(&mut self) {
+    /// Frames an added model, which may be far larger or smaller than the objects before, or an added body beside them.
+    pub(super) fn frame_what_was_added(&mut self, ctx: &egui::Context) {
         let objects = &self.work.document.description().objects;
         let built = self.work.engine.built();
         let is_built = built.is_some_and(|built| built.description.objects == *objects);
-        if self.frame_when_built && is_built {
-            self.frame_when_built = false;
-            self.work.frame_selection();
+        if is_built && let Some(command) = self.work.wished_when_built.take() {
+            self.run(ctx, command);
         }
     }
 

@@ -216,6 +216,9 @@ fn buttons(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches, d
                 }
             }
         });
+        if work.can(Command::SavePreset) {
+            super::button(ui, work, Command::SavePreset);
+        }
         for command in [
             Command::Duplicate,
             Command::MoveUp,

@@ -5,6 +5,7 @@
 mod common;
 
 mod at_once;
+mod begin;
 mod brush;
 mod commands;
 mod compare;
