@@ -44,6 +44,7 @@ mod rotation;
 pub mod selection;
 pub mod settings;
 pub mod shown;
+pub mod strength;
 pub mod subject;
 pub mod wear;
 

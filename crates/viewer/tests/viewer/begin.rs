@@ -1,12 +1,13 @@
-//! What an artist begins with: an empty studio, examples, presets of their own.
+//! What an artist begins with: an empty studio, examples, presets of their own, and the strength of a layer.
 
 use crate::common::{
-    self, SMALL, built_in, click_on, description, key, undo, viewer, viewer_with, wait_built,
+    self, SMALL, built_in, click_on, description, drag, key, undo, viewer, viewer_with, wait_built,
 };
+use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use hairline_document::description::Scratches;
+use hairline_document::description::{Amount, Layer, Scratches};
 use hairline_editor::Selection;
 use hairline_viewer::examples::{Example, Examples};
 use hairline_viewer::{Options, Viewer};
@@ -206,4 +207,45 @@ fn presets_of_ones_own_are_saved_given_and_deleted() {
     click_on(&mut harness, "Delete turned of mine");
     click_on(&mut harness, "Delete turned of mine for good");
     assert!(!presets.join("turned of mine.toml").exists());
+}
+
+#[test]
+fn strength_moves_count_width_and_depth_as_one_step() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    select(&mut harness, Selection::Layer(0));
+    let before = description(&harness);
+    let numbers =
+        |harness: &Harness<'static, Viewer>| match &description(harness).scratches[0].layer {
+            Layer::Laid(laid) => match laid.amount {
+                Amount::Count(count) => [count as f64, laid.width_um.mean, laid.depth_nm.mean],
+                Amount::DensityPerM2(_) => panic!("it has a count"),
+            },
+            _ => panic!("it is laid"),
+        };
+    let slider = harness
+        .get_by_role_and_label(Role::Slider, "Strength")
+        .rect();
+    let [from, to] = [0.3, 0.9].map(|x| slider.left_center() + egui::vec2(x * slider.width(), 0.0));
+    let first = numbers(&harness);
+    drag(&mut harness, from, to, 6);
+    let heavy = numbers(&harness);
+    assert!((0..3).all(|i| heavy[i] > first[i]), "{first:?} {heavy:?}");
+    assert_eq!(harness.state().document().undo_label(), Some("Strength"));
+    undo(&mut harness);
+    assert_eq!(*description(&harness), *before);
+    // By keys.
+    harness
+        .get_by_role_and_label(Role::Slider, "Strength")
+        .focus();
+    harness.run_steps(2);
+    key(&mut harness, Key::ArrowLeft);
+    let less = numbers(&harness);
+    assert!(
+        (0..3).all(|i| less[i] <= first[i]) && less != first,
+        "{first:?} {less:?}"
+    );
+    undo(&mut harness);
+    assert_eq!(*description(&harness), *before);
+    common::undo(&mut harness);
 }
