@@ -132,6 +132,7 @@ impl Viewer {
             engine: Engine::start(options.backend, Arc::new(move || wake.request_repaint())),
             notices,
             toolbox: Toolbox::default(),
+            region: None,
             reading: ReadingState::default(),
             free_view: FreeView::default(),
             transport: options.transport,

@@ -61,6 +61,8 @@ pub(crate) enum Command {
     Overlay(Overlay),
     Overlays,
     Shadows,
+    Pause,
+    WholePicture,
     HighContrast,
 }
 
@@ -197,6 +199,9 @@ const TABLE: &[Entry] = &[
     entry(Command::Pick(Tool::Eraser), Group::Tools, "Eraser", Some((PLAIN, Key::E))),
     entry(Command::Pick(Tool::PlaceLight), Group::Tools, "Place light", Some((PLAIN, Key::L))),
     entry(Command::Pick(Tool::PickPart), Group::Tools, "Pick part", Some((PLAIN, Key::P))),
+    entry(Command::Pick(Tool::Region), Group::Tools, "Render region", Some((PLAIN, Key::R))),
+    entry(Command::WholePicture, Group::Tools, "Render all of the picture alike", Some((Modifiers::SHIFT, Key::R))),
+    entry(Command::Pause, Group::Tools, "Pause the rendering", Some((Modifiers::SHIFT, Key::P))),
     entry(Command::BrushSmaller, Group::Tools, "Smaller brush", Some((PLAIN, Key::OpenBracket))),
     entry(Command::BrushLarger, Group::Tools, "Larger brush", Some((PLAIN, Key::CloseBracket))),
     entry(Command::Help, Group::Help, "Keys and mouse", Some((PLAIN, Key::F1))),
@@ -226,6 +231,7 @@ const SECTIONS: &[Command] = &[
     Command::Shadows,
     Command::HighContrast,
     Command::Compare,
+    Command::Pick(Tool::Region),
     Command::BrushSmaller,
 ];
 

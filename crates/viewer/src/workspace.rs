@@ -35,6 +35,8 @@ pub(crate) struct Workspace {
     pub engine: Engine,
     pub notices: Notices,
     pub toolbox: Toolbox,
+    /// Part of the picture's area that is rendered before the rest, in shares of it.
+    pub region: Option<egui::Rect>,
     pub reading: ReadingState,
     pub free_view: FreeView,
     /// Shadows and bounces in this window; no part of the scene.
@@ -201,6 +203,7 @@ impl Workspace {
                 )
             }
             Command::SavePreset => self.preset_name().is_some(),
+            Command::WholePicture => self.region.is_some(),
             Command::FlipSnapshot => !self.snapshots.is_empty(),
             Command::ToggleSolo => matches!(selection, Selection::Layer(_)),
             Command::Deselect => selection != Selection::None || self.toolbox.tool != Tool::Select,
@@ -218,6 +221,7 @@ impl Workspace {
             Command::Overlay(overlay) => Some(self.overlays.is_on(overlay)),
             Command::Overlays => Some(!self.overlays.are_hidden()),
             Command::Shadows => Some(self.transport.shadows),
+            Command::Pause => Some(self.engine.is_paused()),
             Command::HighContrast => Some(self.settings.high_contrast()),
             _ => None,
         }

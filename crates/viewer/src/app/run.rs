@@ -106,6 +106,8 @@ impl Viewer {
                 self.work.settings.set_high_contrast(is_high);
                 crate::style::set(ctx, is_high);
             }
+            Command::Pause => self.work.engine.set_paused(!self.work.engine.is_paused()),
+            Command::WholePicture => self.work.region = None,
             Command::Shadows => self.work.transport.shadows = !self.work.transport.shadows,
         }
     }

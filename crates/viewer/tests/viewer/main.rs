@@ -32,6 +32,7 @@ mod picking;
 mod placing;
 mod reach;
 mod reading;
+mod region;
 mod rest;
 mod shadows;
 mod snapshots;
