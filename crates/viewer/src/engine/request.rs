@@ -278,6 +278,10 @@ impl Shared {
         let state = self.wait_while(self.lock(), patience, |state| {
             !self.is_stopped() && state.order().is_none_or(is_done)
         });
+        // A scene that is forgotten in the middle of its picture leaves no order until the next one is built.
+        let state = self.wait_while(state, Duration::MAX, |state| {
+            !self.is_stopped() && state.order().is_none()
+        });
         state.order().filter(|_| !self.is_stopped())
     }
 

@@ -128,6 +128,24 @@ fn a_new_view_takes_the_place_of_what_is_being_refined() {
     );
 }
 
+#[test]
+fn a_scene_that_is_forgotten_in_the_middle_of_its_picture_is_followed_by_the_next() {
+    let mut engine = Engine::start(Backend::Cpu, Arc::new(|| {}));
+    engine.set_scene(1, description(), PathBuf::new());
+    engine.set_view(View {
+        size_px: [1280, 720],
+        ..view()
+    });
+    let first = wait_for(&mut engine, Engine::latest);
+    assert!(!first.painted.is_final, "it has no middle");
+    engine.forget_scene();
+    // The next one takes long to build.
+    std::thread::sleep(Duration::from_millis(500));
+    engine.set_scene(2, description(), PathBuf::new());
+    let next = wait_for(&mut engine, Engine::latest);
+    assert_eq!(next.built.revision, 2);
+}
+
 /// A part of the picture with an edge of the plate.
 const PART: Region = Region {
     first_px: [60, 24],
