@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 done; 1 the work failed; 2 the command line or the scene is wrong.
 
+mod examples;
 mod window;
 
 use std::path::Path;
@@ -62,6 +63,7 @@ fn run(arguments: &View) -> Result<(), Failure> {
         state_dir: state_dir.or_else(hairline_viewer::state_dir),
         native_dialogs: !arguments.plain_dialogs,
         transport: hairline_console::transport(arguments.shadows, arguments.bounces)?,
+        examples: &examples::EXAMPLES,
     };
     let opened = window::in_one_sentence(|| open(options, renderer))?;
     opened.map_err(|error| match error {

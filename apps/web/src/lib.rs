@@ -55,6 +55,7 @@ pub async fn open(
         state_dir: None,
         native_dialogs: false,
         transport: DEFAULT_TRANSPORT,
+        examples: &hairline_viewer::examples::Examples::NONE,
     };
     let tell = move |reason: &str| {
         let _ = lost.call1(&JsValue::NULL, &JsValue::from_str(reason));

@@ -252,10 +252,12 @@ impl<'a> Work<'a> {
         let shown = meshes.filter(|mesh| !mesh.triangles.is_empty());
         let bounds = shown.map(|mesh| mesh.bounds_m());
         let bounds = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let Some((least, most)) = bounds else {
-            return Ok(());
+        let bounds_m = match bounds {
+            Some((least, most)) => (least.as_dvec3(), most.as_dvec3()),
+            None if described.objects.is_empty() => crate::probe::empty_bounds_m(described),
+            None => return Ok(()),
         };
-        let set = PhotoSet::new(&described.camera, (least.as_dvec3(), most.as_dvec3()));
+        let set = PhotoSet::new(&described.camera, bounds_m);
         if !described.studio.hidden {
             let lights = set.lights(&described.studio);
             scene

@@ -51,6 +51,17 @@ pub fn scene_extent_m(description: &Description) -> f64 {
     position.distance(target) * (0.5 * camera.fov_y_deg.to_radians()).tan()
 }
 
+/// Box in the place of objects in a scene without any: a square on the level of the origin, below the camera's target, as wide as
+/// half of the picture is high.
+pub fn empty_bounds_m(description: &Description) -> (glam::DVec3, glam::DVec3) {
+    let camera = &description.camera;
+    let up = camera.world_up();
+    let target_m = glam::DVec3::from(camera.target_m);
+    let middle_m = target_m - target_m.dot(up) * up;
+    let half_m = 0.5 * scene_extent_m(description) * (glam::DVec3::ONE - up.abs());
+    (middle_m - half_m, middle_m + half_m)
+}
+
 /// Contents of an environment file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EnvironmentSummary {

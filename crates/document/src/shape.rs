@@ -8,7 +8,7 @@ mod rounded_box;
 mod tests;
 pub(crate) mod text;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use hairline_model::surface::Surface;
 
 use crate::description::Shape;
@@ -34,6 +34,16 @@ pub(crate) fn surface(shape: &Shape) -> Surface {
         | Shape::Cylinder { .. }
         | Shape::Torus { .. }
         | Shape::Dome { .. } => profile(shape).turned(FACETS),
+    }
+}
+
+impl Shape {
+    /// The box around it in its own frame.
+    pub fn bounds_m(&self) -> (DVec3, DVec3) {
+        let points_m = surface(self).vertices.into_iter();
+        let boxes = points_m.map(|vertex| (vertex.position_m, vertex.position_m));
+        let around = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        around.unwrap_or_default()
     }
 }
 

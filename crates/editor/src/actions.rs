@@ -3,6 +3,7 @@
 //! Each takes the place of a part in the description; those that move or remove parts also take the selection, and keep it
 //! on the same part. Hand them to [`Document::apply`](crate::Document::apply), which makes one step of each.
 
+pub mod bodies;
 pub mod gratings;
 pub mod layers;
 pub mod lights;
@@ -32,8 +33,8 @@ pub enum ActionError {
         /// The names of the objects that have it.
         users: Vec<String>,
     },
-    /// The only object.
-    #[error("\"{0}\" is the only object; a scene needs one")]
+    /// The only object of a scene without a ground.
+    #[error("\"{0}\" is the only object; a scene needs one, or a ground")]
     LastObject(String),
     /// An empty name where a name is needed.
     #[error("a name must not be empty")]

@@ -20,7 +20,7 @@
 //!
 //! The document is a [`Description`](hairline_document::Description), the scene file itself, so what is edited is what is
 //! saved. Nothing here draws, waits or starts a thread; only opening and saving of a [`Document`], [`autosave`],
-//! [`recent`] and [`settings`] touch files.
+//! [`recent`], [`own_presets`] and [`settings`] touch files.
 
 #![warn(unreachable_pub)]
 
@@ -33,6 +33,7 @@ pub mod grating_presets;
 mod history;
 pub mod maps;
 pub mod navigate;
+pub mod own_presets;
 mod paths;
 pub mod place_light;
 pub mod presets;
@@ -43,6 +44,7 @@ mod rotation;
 pub mod selection;
 pub mod settings;
 pub mod shown;
+pub mod strength;
 pub mod subject;
 pub mod wear;
 

@@ -51,6 +51,7 @@ fn measure(backend: Backend) {
                 state_dir: None,
                 native_dialogs: false,
                 transport: hairline_scene::Transport::DIRECT,
+                examples: &hairline_viewer::examples::Examples::NONE,
             };
             Viewer::new(&context.egui_ctx, None, options).expect("the built-in scene")
         });

@@ -43,6 +43,7 @@ fn main() {
         state_dir: None,
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
+        examples: &hairline_viewer::examples::Examples::NONE,
     };
     let times: Arc<Mutex<Vec<Times>>> = Arc::default();
     let told = Arc::clone(&times);

@@ -15,6 +15,7 @@ use hairline_document::Description;
 use hairline_document::description::Camera;
 use hairline_editor::Document;
 use hairline_editor::bookmarks::Bookmarks;
+use hairline_editor::own_presets::OwnPresets;
 use hairline_editor::settings::Settings;
 use hairline_scene::Transport;
 use web_time::Instant;
@@ -23,6 +24,7 @@ use crate::command::Command;
 use crate::compare::{Compare, Figures};
 use crate::dialogs::{Dialogs, Wish};
 use crate::engine::{Backend, Engine};
+use crate::examples::Examples;
 use crate::export::Export;
 use crate::files::{Files, Purpose};
 use crate::free_view::FreeView;
@@ -54,6 +56,8 @@ pub struct Options {
     pub native_dialogs: bool,
     /// Shadows and bounces, until they are switched.
     pub transport: Transport,
+    /// Scenes to begin with.
+    pub examples: &'static Examples,
 }
 
 /// The whole window.
@@ -65,8 +69,6 @@ pub struct Viewer {
     export: Export,
     model_export: ModelExport,
     compare: Compare,
-    /// Whether the camera frames the next scene that is built.
-    frame_when_built: bool,
     /// The window may close.
     is_closing: bool,
     /// Text that was typed last in the line for a path, until it was of use.
@@ -79,7 +81,6 @@ pub struct Viewer {
     hides_inspector: bool,
     /// A text had the keyboard at the end of the last pass.
     was_typing: bool,
-    built_in: &'static str,
     /// The description that the engine was given last, and when the notes about it were read.
     asked: Option<Arc<Description>>,
     /// Revision of the document that the engine was last told to build.
@@ -110,12 +111,17 @@ impl Viewer {
                 if let Some(Err(error)) = other {
                     notices.error("open", error.to_string());
                 }
-                built_in(options.built_in)?
+                read("built-in scene", options.built_in)?
             }
         };
         let store = options.state_dir.as_ref();
         let mut bookmarks = Bookmarks::new(store.map(|folder| folder.join("views.toml")));
         bookmarks.open(document.path());
+        let presets = store.map(|folder| folder.join("presets"));
+        let (own_presets, wrong) = OwnPresets::load(presets);
+        if !wrong.is_empty() {
+            notices.error("presets", wrong.join("\n"));
+        }
         let settings = Settings::load(store.map(|folder| folder.join("settings.toml")));
         crate::style::set(ctx, settings.high_contrast());
         let wake = ctx.clone();
@@ -126,19 +132,23 @@ impl Viewer {
             engine: Engine::start(options.backend, Arc::new(move || wake.request_repaint())),
             notices,
             toolbox: Toolbox::default(),
+            region: None,
             reading: ReadingState::default(),
             free_view: FreeView::default(),
             transport: options.transport,
             overlays: Overlays::default(),
             gallery: Gallery::default(),
+            examples: options.examples,
             bookmarks,
             settings,
+            own_presets,
             snapshots,
             closed_lens: None,
             missing: Vec::new(),
             model_notes: Vec::new(),
             wanted_picture: None,
             wished: Vec::new(),
+            wished_when_built: None,
         };
         let mut viewer = Self {
             work,
@@ -148,7 +158,6 @@ impl Viewer {
             export: Export::default(),
             model_export: ModelExport::default(),
             compare: Compare::default(),
-            frame_when_built: false,
             is_closing: false,
             typed: None,
             sought: None,
@@ -156,7 +165,6 @@ impl Viewer {
             hides_list: false,
             hides_inspector: false,
             was_typing: false,
-            built_in: options.built_in,
             asked: None,
             asked_revision: 0,
             title: String::new(),
@@ -241,7 +249,7 @@ impl Viewer {
         for path in dropped {
             self.take_file(&ctx, &path);
         }
-        self.frame_what_was_added();
+        self.frame_what_was_added(&ctx);
         while let Some(outcome) = self.files.chosen(ctx.input(|input| input.focused)) {
             self.take_choice(&ctx, outcome);
         }
@@ -407,8 +415,9 @@ fn open(path: &Path) -> Result<Document, hairline_document::Error> {
     }
 }
 
-fn built_in(text: &str) -> Result<Document, hairline_document::Error> {
-    let description = Document::read(text, Path::new("built-in scene"))?;
+/// Reads the text of a scene without a file; errors call it by this name.
+fn read(name: &str, text: &str) -> Result<Document, hairline_document::Error> {
+    let description = Document::read(text, Path::new(name))?;
     Ok(Document::untitled(description, PathBuf::new()))
 }
 

@@ -43,6 +43,7 @@ pub(crate) enum Command {
     ToggleHidden,
     ToggleSolo,
     LightForScratches,
+    SavePreset,
     FrameAll,
     FrameSelection,
     FocusHere,
@@ -60,6 +61,8 @@ pub(crate) enum Command {
     Overlay(Overlay),
     Overlays,
     Shadows,
+    Pause,
+    WholePicture,
     HighContrast,
 }
 
@@ -121,8 +124,8 @@ const PLAIN: Modifiers = Modifiers::NONE;
 /// All commands in the order of the menus.
 #[rustfmt::skip]
 const TABLE: &[Entry] = &[
-    entry(Command::New, Group::File, "New from the built-in scene", Some((COMMAND, Key::N))),
-    entry(Command::Gallery, Group::File, "Scenes…", None),
+    entry(Command::New, Group::File, "New empty studio", Some((COMMAND, Key::N))),
+    entry(Command::Gallery, Group::File, "Examples…", Some((COMMAND_SHIFT, Key::O))),
     entry(Command::Open, Group::File, "Open…", Some((COMMAND, Key::O))),
     entry(Command::Save, Group::File, "Save", Some((COMMAND, Key::S))),
     entry(Command::SaveAs, Group::File, "Save as…", Some((COMMAND_SHIFT, Key::S))),
@@ -145,6 +148,7 @@ const TABLE: &[Entry] = &[
     entry(Command::ToggleSolo, Group::Edit, "Solo, or all", Some((Modifiers::SHIFT, Key::H))),
     entry(Command::ToggleHidden, Group::Edit, "Hide or show", Some((PLAIN, Key::H))),
     entry(Command::LightForScratches, Group::Edit, "Light for the scratches", None),
+    entry(Command::SavePreset, Group::Edit, "Save as a preset…", Some((COMMAND_SHIFT, Key::P))),
     entry(Command::Deselect, Group::Edit, "Select nothing", Some((PLAIN, Key::Escape))),
     entry(Command::FrameAll, Group::View, "Frame all", Some((PLAIN, Key::A))),
     entry(Command::FrameSelection, Group::View, "Frame the selection", Some((PLAIN, Key::F))),
@@ -195,6 +199,9 @@ const TABLE: &[Entry] = &[
     entry(Command::Pick(Tool::Eraser), Group::Tools, "Eraser", Some((PLAIN, Key::E))),
     entry(Command::Pick(Tool::PlaceLight), Group::Tools, "Place light", Some((PLAIN, Key::L))),
     entry(Command::Pick(Tool::PickPart), Group::Tools, "Pick part", Some((PLAIN, Key::P))),
+    entry(Command::Pick(Tool::Region), Group::Tools, "Render region", Some((PLAIN, Key::R))),
+    entry(Command::WholePicture, Group::Tools, "Render all of the picture alike", Some((Modifiers::SHIFT, Key::R))),
+    entry(Command::Pause, Group::Tools, "Pause the rendering", Some((Modifiers::SHIFT, Key::P))),
     entry(Command::BrushSmaller, Group::Tools, "Smaller brush", Some((PLAIN, Key::OpenBracket))),
     entry(Command::BrushLarger, Group::Tools, "Larger brush", Some((PLAIN, Key::CloseBracket))),
     entry(Command::Help, Group::Help, "Keys and mouse", Some((PLAIN, Key::F1))),
@@ -224,6 +231,7 @@ const SECTIONS: &[Command] = &[
     Command::Shadows,
     Command::HighContrast,
     Command::Compare,
+    Command::Pick(Tool::Region),
     Command::BrushSmaller,
 ];
 
@@ -241,7 +249,7 @@ impl Command {
     pub fn is_here(self) -> bool {
         match self {
             Self::Reload | Self::Quit => HAS_DISK,
-            Self::Gallery | Self::CopyLink => HAS_PAGE,
+            Self::CopyLink => HAS_PAGE,
             Self::Turntable | Self::Compare | Self::Read(ReadCommand::Probe) => HAS_THREADS,
             _ => true,
         }

@@ -3,9 +3,11 @@
 mod answer;
 mod ask;
 mod completion;
+mod examples;
 mod fit;
 mod on_disk;
 mod path_line;
+mod preset;
 mod recovery;
 mod thumbnails;
 
@@ -18,7 +20,9 @@ use crate::command::{self, Group};
 use crate::files::Purpose;
 pub(crate) use answer::{Answer, Wish};
 use ask::{Loses, ask};
+pub(crate) use examples::Choice;
 pub(crate) use path_line::PathLine;
+pub(crate) use preset::PresetLine;
 use recovery::Recovery;
 
 /// Question in the window.
@@ -27,6 +31,10 @@ pub(crate) enum Question {
     Unsaved(Wish),
     /// Autosaves of earlier runs that did not end as they should.
     Recover(Recovery),
+    /// The name of a preset.
+    Preset(PresetLine),
+    /// A scene of the examples is to be chosen.
+    Examples(Choice),
     /// The path of a file, where the system has no dialog for it.
     Path(PathLine),
     /// Another program has written the scene file, and there are unsaved changes here.
@@ -97,6 +105,8 @@ impl Question {
         match self {
             Self::Unsaved(wish) => unsaved(ctx, title, wish),
             Self::Recover(recovery) => recovery.show(ctx),
+            Self::Preset(line) => line.show(ctx),
+            Self::Examples(choice) => choice.show(ctx),
             Self::Path(line) => line.show(ctx),
             Self::Changed => on_disk::changed(ctx, title),
             Self::Reload => on_disk::reload(ctx, title),

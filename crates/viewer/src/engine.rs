@@ -46,7 +46,7 @@ pub use backend::Backend;
 pub use build::{BuildStages, Built};
 pub use event::{Event, Wake};
 pub use frame::{Frame, Latency, Painted, Picture};
-pub use view::View;
+pub use view::{Region, View};
 
 pub(crate) use build::ViewBuilder;
 pub(crate) use steps::SHADOW_SAMPLES;
@@ -139,6 +139,16 @@ impl Engine {
         self.shared.is_resting()
     }
 
+    /// Pauses the painting of what comes after the first picture of a view, or goes on with it.
+    pub fn set_paused(&self, is_paused: bool) {
+        self.shared.set_paused(is_paused);
+    }
+
+    /// Whether finer pictures wait until they are wanted again.
+    pub fn is_paused(&self) -> bool {
+        self.shared.is_paused()
+    }
+
     /// The current view.
     pub fn view(&self) -> Option<View> {
         self.shared.view()
@@ -159,6 +169,11 @@ impl Engine {
     /// The newest picture.
     pub fn latest(&self) -> Option<Arc<Frame>> {
         self.shared.frame()
+    }
+
+    /// The newest picture of the view's region, while it is finer than the whole one.
+    pub fn region(&self) -> Option<Arc<Frame>> {
+        self.shared.region_frame()
     }
 
     /// The newest scene that was built.

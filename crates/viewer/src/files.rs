@@ -122,6 +122,7 @@ pub(crate) struct Files {
     native: bool,
     recent: Recent,
     autosaves: Option<PathBuf>,
+    state_dir: Option<PathBuf>,
     autosave: Option<Autosave>,
     started: Instant,
     /// Watch of the scene file and the files that it names.
@@ -150,12 +151,19 @@ impl Files {
             probes: Vec::new(),
             native,
             recent,
+            state_dir: state_dir.clone(),
             autosaves: state_dir.map(|folder| folder.join("autosave")),
             autosave: None,
             started: Instant::now(),
             watch: Watch::start(move || wake.request_repaint()),
             scene_changed: false,
         }
+    }
+
+    /// Folder for the files that examples name.
+    pub fn examples(&self) -> PathBuf {
+        let folder = self.state_dir.clone();
+        folder.unwrap_or_else(std::env::temp_dir).join("examples")
     }
 
     /// Watches the document's files.

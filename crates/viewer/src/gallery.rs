@@ -10,7 +10,7 @@ mod thumb;
 
 use egui::{ColorImage, Rect, TextureHandle, TextureId, TextureOptions, pos2, vec2};
 
-pub(crate) use cards::{SIDE, card, cards, metal_swatches};
+pub(crate) use cards::{SIDE, card, cards, metal_swatches, tile};
 pub(crate) use thumb::{StandIn, Thumb};
 
 /// Width and height of a picture.
@@ -31,7 +31,7 @@ impl Gallery {
         let place = Thumb::all().position(|other| other == thumb)? as u32;
         let sheet = self.sheet.get_or_insert_with(|| {
             // An empty sheet shows nothing, where the program was built with a broken one.
-            let image = sheet().unwrap_or_default();
+            let image = sheet_of(SHEET).unwrap_or_default();
             ctx.load_texture("presets", image, TextureOptions::LINEAR)
         });
         // Half a pixel of the neighbours would be seen at the rim.
@@ -47,9 +47,10 @@ impl Gallery {
     }
 }
 
-fn sheet() -> Option<ColorImage> {
+/// The pixels of a sheet.
+pub(crate) fn sheet_of(jpeg: &[u8]) -> Option<ColorImage> {
     let format = image::ImageFormat::Jpeg;
-    let sheet = image::load_from_memory_with_format(SHEET, format).ok()?;
+    let sheet = image::load_from_memory_with_format(jpeg, format).ok()?;
     let size = [sheet.width() as usize, sheet.height() as usize];
     Some(ColorImage::from_rgb(size, sheet.into_rgb8().as_raw()))
 }

@@ -10,6 +10,7 @@
 //!     state_dir: hairline_viewer::state_dir(),
 //!     native_dialogs: true,
 //!     transport: hairline_document::DEFAULT_TRANSPORT,
+//!     examples: &hairline_viewer::examples::Examples::NONE,
 //! };
 //! hairline_viewer::open(options, Renderer::default()).unwrap();
 //! ```
@@ -25,6 +26,7 @@ mod compare;
 mod device;
 mod dialogs;
 pub mod engine;
+pub mod examples;
 mod export;
 mod files;
 mod fingers;

@@ -20,6 +20,7 @@ mod material;
 pub(crate) mod number;
 mod object;
 mod overrides;
+mod own_presets;
 mod studio;
 
 use egui::Ui;

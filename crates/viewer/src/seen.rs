@@ -25,8 +25,8 @@ pub(crate) fn makes_same_scene(a: &Description, b: &Description) -> bool {
     camera.up == b.camera.up
         && *environment == b.environment
         && *studio == b.studio
-        // The studio turns with the camera.
-        && (studio.hidden || *camera == b.camera)
+        // The studio turns with the camera, and the ground of an empty scene lies before it.
+        && (studio.hidden && !objects.is_empty() || *camera == b.camera)
         && *ground == b.ground
         && alike(objects, &b.objects, |x, y| is_same_object((a, x), (b, y)))
         && alike(scratches, &b.scratches, |x, y| {

@@ -18,6 +18,8 @@ hairline_image::listed! {
         PlaceLight = "Click on an object, or drag over it: the selected light moves so that its highlight falls there";
         /// Click keeps the selected layer to the part of the model that is there.
         PickPart = "Click on a part of an object: the selected layer of scratches lies on that part alone";
+        /// Drag draws the region that is rendered first.
+        Region = "Drag over a part of the picture: it is rendered before the rest. A click gives it up";
     }
     /// Description for a tooltip.
     fn hint;

@@ -11,6 +11,7 @@ mod mouse;
 mod overlays;
 mod pick;
 mod place;
+mod region;
 mod strokes;
 
 use std::time::Duration;
@@ -30,6 +31,10 @@ use strokes::StrokeTool;
 /// State of the picture's area between passes.
 pub(crate) struct Viewport {
     pub canvas: CanvasTexture,
+    /// Picture of the region.
+    pub region_canvas: CanvasTexture,
+    /// Position at which a drag of the region began.
+    region_from: Option<egui::Pos2>,
     stroke: StrokeTool,
     gizmo: Gizmo,
     line_fields: Vec<LineField>,
@@ -52,8 +57,11 @@ const WHEEL_PAUSE_S: f64 = 0.4;
 
 impl Viewport {
     pub fn new(render_state: Option<RenderState>) -> Self {
+        let canvas = CanvasTexture::new(render_state);
         Self {
-            canvas: CanvasTexture::new(render_state),
+            region_canvas: canvas.another(),
+            region_from: None,
+            canvas,
             stroke: StrokeTool::default(),
             gizmo: Gizmo::default(),
             line_fields: Vec::new(),
@@ -99,7 +107,10 @@ impl Viewport {
         if is_held {
             work.document.cancel_drag();
         }
-        if is_held | self.stroke.cancel() || work.free_view.stop() || work.reading.probe.release() {
+        if is_held | self.region_from.take().is_some() | self.stroke.cancel()
+            || work.free_view.stop()
+            || work.reading.probe.release()
+        {
             ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape));
         }
     }

@@ -2,6 +2,7 @@
 
 mod fit;
 mod give;
+mod own;
 mod view;
 
 use std::path::{Path, PathBuf};
@@ -10,18 +11,20 @@ use hairline_document::description::{FileUse, Map};
 use hairline_document::{Description, Error};
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::bookmarks::Bookmarks;
+use hairline_editor::own_presets::OwnPresets;
 use hairline_editor::settings::Settings;
 use hairline_editor::{ActionError, Document, DragKey, Selection, actions};
 use hairline_scene::Transport;
 
 use crate::command::Command;
 use crate::engine::{Backend, Engine};
+use crate::examples::Examples;
 use crate::files::is_same;
 use crate::free_view::FreeView;
 use crate::gallery::Gallery;
 use crate::notices::Notices;
 use crate::overlays::Overlays;
-use crate::platform::HAS_THREADS;
+use crate::platform::{HAS_PAGE, HAS_THREADS};
 use crate::reading::ReadingState;
 use crate::snapshots::Snapshots;
 use crate::tools::{Tool, Toolbox};
@@ -32,14 +35,18 @@ pub(crate) struct Workspace {
     pub engine: Engine,
     pub notices: Notices,
     pub toolbox: Toolbox,
+    /// Part of the picture's area that is rendered before the rest, in shares of it.
+    pub region: Option<egui::Rect>,
     pub reading: ReadingState,
     pub free_view: FreeView,
     /// Shadows and bounces in this window; no part of the scene.
     pub transport: Transport,
     pub overlays: Overlays,
     pub gallery: Gallery,
+    pub examples: &'static Examples,
     pub bookmarks: Bookmarks,
     pub settings: Settings,
+    pub own_presets: OwnPresets,
     pub snapshots: Snapshots,
     /// Opening in millimetres and focus of the camera when depth of field was switched off, to be taken up again.
     pub closed_lens: Option<(f64, Option<f64>)>,
@@ -51,6 +58,8 @@ pub(crate) struct Workspace {
     pub wanted_picture: Option<PictureOf>,
     /// Commands of panels, to be run once all panels are shown.
     pub wished: Vec<Command>,
+    /// Command to be run once the objects are built as they are described.
+    pub wished_when_built: Option<Command>,
 }
 
 impl Workspace {
@@ -163,6 +172,7 @@ impl Workspace {
         let selection = self.selection();
         match command {
             _ if !command.is_here() => false,
+            Command::Gallery => HAS_PAGE || !self.examples.scenes.is_empty(),
             // A page would stand still until the CPU has rendered all of a picture.
             Command::Screenshot => HAS_THREADS || !matches!(self.engine.backend(), Backend::Cpu),
             Command::Undo => self.document.undo_label().is_some(),
@@ -192,6 +202,8 @@ impl Workspace {
                         | Selection::Ground
                 )
             }
+            Command::SavePreset => self.preset_name().is_some(),
+            Command::WholePicture => self.region.is_some(),
             Command::FlipSnapshot => !self.snapshots.is_empty(),
             Command::ToggleSolo => matches!(selection, Selection::Layer(_)),
             Command::Deselect => selection != Selection::None || self.toolbox.tool != Tool::Select,
@@ -209,6 +221,7 @@ impl Workspace {
             Command::Overlay(overlay) => Some(self.overlays.is_on(overlay)),
             Command::Overlays => Some(!self.overlays.are_hidden()),
             Command::Shadows => Some(self.transport.shadows),
+            Command::Pause => Some(self.engine.is_paused()),
             Command::HighContrast => Some(self.settings.high_contrast()),
             _ => None,
         }

@@ -96,6 +96,7 @@ fn open(folder: std::path::PathBuf, loses: bool) {
         state_dir: Some(folder),
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
+        examples: &hairline_viewer::examples::Examples::NONE,
     };
     let opened = window::open_as(options, Renderer::Cpu, |viewer| {
         Box::new(Unlucky {

@@ -44,6 +44,7 @@ impl Layout {
                     state_dir: None,
                     native_dialogs: false,
                     transport: hairline_scene::Transport::DIRECT,
+                    examples: &hairline_viewer::examples::Examples::NONE,
                 };
                 Viewer::new(&context.egui_ctx, None, options).unwrap()
             });

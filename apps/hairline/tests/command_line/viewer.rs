@@ -64,6 +64,7 @@ fn a_view_that_stands_still_is_the_picture_that_is_rendered() {
         filter_std_px: description.render.filter_std_px,
         transport: DEFAULT_TRANSPORT,
         reading: Default::default(),
+        region: None,
     });
     let frame = loop {
         match engine.latest() {

@@ -30,8 +30,8 @@ impl Description {
         }
         each("material", &self.materials, check_material)?;
         unique("material", self.materials.iter().map(|m| m.name.as_str()))?;
-        if self.objects.is_empty() {
-            let right = "must have at least one `[[object]]`";
+        if self.objects.is_empty() && self.ground.is_none() {
+            let right = "must have at least one `[[object]]`, or a `[ground]`";
             return Err(Error::new("object", "found no object", right));
         }
         each("object", &self.objects, check_object)?;

@@ -7,7 +7,9 @@ use hairline_optics::ggx::GGX_MIN_ALPHA;
 use toml::de::DeTable;
 
 use super::table::{Read, Table};
-use super::{Description, Grating, Material, MaterialKind, Scratches};
+use super::{
+    Camera, Description, Grating, Ground, Material, MaterialKind, Render, Scratches, Studio,
+};
 use super::{check, read};
 use crate::error::Error;
 use crate::key_line::{line_of, line_of_key};
@@ -36,24 +38,64 @@ impl Description {
     /// # Errors
     /// Numbers above 2^63 - 1, which TOML does not have.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        let mut text = String::new();
-        for (name, value) in toml::Table::try_from(self)? {
-            let (header, parts) = match value {
-                toml::Value::Array(parts) => (format!("[[{name}]]"), parts),
-                part => (format!("[{name}]"), vec![part]),
-            };
-            for part in parts {
-                text += &format!("{header}\n");
-                for (key, value) in part.as_table().into_iter().flatten() {
-                    text += &format!("{key} = {value}\n");
-                }
-                text.push('\n');
-            }
-        }
+        let mut text = written(toml::Table::try_from(self)?);
         if !self.is_lit() && self.studio.is_none() {
             text += "[studio]\nhidden = true\n\n";
         }
         Ok(text)
+    }
+
+    /// Reads a text of tables `[[material]]`, `[[scratches]]` and `[[light]]` alone into a scene that is empty otherwise, and checks
+    /// their ranges. `name` is what errors call it.
+    ///
+    /// # Errors
+    /// What is wrong with a table, by its line and key.
+    pub fn parts_from_toml(text: &str, name: &Path) -> Result<Self, Error> {
+        check_text(text.len()).map_err(|error| error.at(name, None))?;
+        let root = parse(text, name)?;
+        let read = || {
+            let table = Table::open(&root, "", &PARTS)?;
+            let parts = Self {
+                materials: table.or("material", Vec::new())?,
+                scratches: table.or("scratches", Vec::new())?,
+                lights: table.or("light", Vec::new())?,
+                ..Self::empty()
+            };
+            parts.check()?;
+            Ok(parts)
+        };
+        read().map_err(|error: Error| error.in_scene_file(text, name))
+    }
+
+    /// The text that [`Self::parts_from_toml`] reads to these materials, layers and lights.
+    ///
+    /// # Errors
+    /// As of [`Self::to_toml`].
+    pub fn parts_to_toml(&self) -> Result<String, toml::ser::Error> {
+        let mut tables = toml::Table::try_from(self)?;
+        tables.retain(|name, _| PARTS.contains(&name));
+        Ok(written(tables))
+    }
+
+    /// A studio without objects.
+    fn empty() -> Self {
+        Self {
+            camera: Camera {
+                position_m: [0.0, 0.0, 1.0],
+                ..Camera::default()
+            },
+            render: Render::default(),
+            environment: None,
+            studio: Studio::default(),
+            ground: Some(Ground::default()),
+            materials: Vec::new(),
+            objects: Vec::new(),
+            scratches: Vec::new(),
+            gratings: Vec::new(),
+            lights: Vec::new(),
+            lights_of: None,
+            notes: Vec::new(),
+        }
     }
 
     /// Notes about materials that are rendered rougher than the file states.
@@ -74,6 +116,28 @@ impl Description {
         });
         first.collect()
     }
+}
+
+/// Tables that stand alone in a text of parts.
+const PARTS: [&str; 3] = ["material", "scratches", "light"];
+
+/// The text of some tables.
+fn written(tables: toml::Table) -> String {
+    let mut text = String::new();
+    for (name, value) in tables {
+        let (header, parts) = match value {
+            toml::Value::Array(parts) => (format!("[[{name}]]"), parts),
+            part => (format!("[{name}]"), vec![part]),
+        };
+        for part in parts {
+            text += &format!("{header}\n");
+            for (key, value) in part.as_table().into_iter().flatten() {
+                text += &format!("{key} = {value}\n");
+            }
+            text.push('\n');
+        }
+    }
+    text
 }
 
 impl Scratches {

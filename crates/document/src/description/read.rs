@@ -58,7 +58,10 @@ pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
     }
     if !description.is_lit() && !table.has("studio") {
         description.studio = Studio::default();
-        description.ground.get_or_insert_default();
+        // Without objects a ground is asked for by name: where it is not, they were forgotten.
+        if !description.objects.is_empty() {
+            description.ground.get_or_insert_default();
+        }
     }
     Ok(description)
 }

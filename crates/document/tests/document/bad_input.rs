@@ -562,7 +562,7 @@ fn references_to_nothing() {
         ),
         (
             "",
-            "plate.toml: object: found no object; must have at least one `[[object]]`",
+            "plate.toml: object: found no object; must have at least one `[[object]]`, or a `[ground]`",
         ),
         (
             &format!("{}{}", disk(), disk()),

@@ -158,3 +158,35 @@ fn mistakes_are_named() {
         assert_eq!(error.to_string(), message);
     }
 }
+
+/// A `[ground]` in the place of objects is asked for; where it is not, the objects were forgotten.
+#[test]
+fn an_empty_studio_is_a_scene() {
+    const CAMERA: &str =
+        "[camera]\nposition_m = [0.1, -0.4, 0.3]\ntarget_m = [0.1, 0.2, 0.05]\nup = [0, 0, 1]\n";
+    let text = format!("{CAMERA}[ground]\n");
+    let empty = Description::from_toml(&text, Path::new("a.toml")).unwrap();
+    let again = Description::from_toml(&empty.to_toml().unwrap(), Path::new("a.toml")).unwrap();
+    assert_eq!(again, empty);
+    let scene = built(&empty);
+    assert!(scene.lights.len() > 3, "{} lights", scene.lights.len());
+    let [ground] = &scene.objects[..] else {
+        panic!("{} objects", scene.objects.len())
+    };
+    let (low_m, high_m) = ground.mesh.bounds_m();
+    assert!(low_m.z > -1e-3 && high_m.z < 1e-6, "{low_m} {high_m}");
+    let target_m = glam::Vec2::new(0.1, 0.2);
+    assert!((0.5 * (low_m + high_m).truncate() - target_m).length() < 1e-3);
+    let hidden = built(&Description {
+        ground: Some(Ground {
+            hidden: true,
+            ..Ground::default()
+        }),
+        ..empty
+    });
+    assert!(hidden.objects.is_empty());
+    let error = hairline_document::from_toml(CAMERA, "a.toml", "").unwrap_err();
+    let message =
+        "a.toml: object: found no object; must have at least one `[[object]]`, or a `[ground]`";
+    assert_eq!(error.to_string(), message);
+}

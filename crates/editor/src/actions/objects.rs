@@ -83,7 +83,7 @@ pub fn add_text(
 const TEXT_SHARE: f64 = 0.8;
 
 /// The axis of the world that is nearest to a direction.
-fn nearest_axis(direction: DVec3) -> DVec3 {
+pub(super) fn nearest_axis(direction: DVec3) -> DVec3 {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let signed = axes.into_iter().flat_map(|axis| [axis, -axis]);
     let by_share = |a: &DVec3, b: &DVec3| a.dot(direction).total_cmp(&b.dot(direction));
@@ -154,7 +154,7 @@ pub fn delete(
     selection: Selection,
 ) -> Result<Selection, ActionError> {
     let name = list::get::<Object>(description, index)?.name.clone();
-    if description.objects.len() == 1 {
+    if description.objects.len() == 1 && description.ground.is_none() {
         return Err(ActionError::LastObject(name));
     }
     // What lies on the object goes with it: as if the object had been selected.

@@ -11,12 +11,15 @@ use hairline_editor::autosave::Pending;
 use hairline_editor::document::SaveError;
 
 use super::Viewer;
-use crate::dialogs::{Answer, PathLine, Question, Wish};
+use crate::dialogs::{Answer, PathLine, PresetLine, Question, Wish};
 use crate::files::Purpose;
 use crate::link;
 use crate::platform;
 use crate::snapshots::Snapshots;
 use crate::tools::Tool;
+
+/// The text of a new scene.
+const EMPTY: &str = include_str!("../../assets/empty_studio.toml");
 
 impl Viewer {
     /// Carries out a wish, or first asks about unsaved changes, which it would lose.
@@ -30,8 +33,9 @@ impl Viewer {
 
     pub(super) fn fulfil(&mut self, ctx: &egui::Context, wish: Wish) {
         let opened = match wish {
-            Wish::New => super::built_in(self.built_in),
-            Wish::Open(path) => super::open(&path),
+            Wish::New => super::read("new scene", EMPTY).map_err(|error| error.to_string()),
+            Wish::Example(i) => self.work.examples.open(i, &self.files.examples()),
+            Wish::Open(path) => super::open(&path).map_err(|error| error.to_string()),
             Wish::Quit => {
                 self.is_closing = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
@@ -40,7 +44,7 @@ impl Viewer {
         };
         match opened {
             Ok(document) => self.replace_document(ctx, document),
-            Err(error) => self.tell_wrong_file("open", error.to_string()),
+            Err(why) => self.tell_wrong_file("open", why),
         }
     }
 
@@ -192,6 +196,8 @@ impl Viewer {
         let canvas = &self.viewport.canvas;
         work.snapshots = Snapshots::open(work.document.path(), canvas, ctx);
         work.closed_lens = None;
+        work.region = None;
+        work.wished_when_built = None;
         work.notices.begin_scene();
         work.tell_notes();
         work.bookmarks.open(work.document.path());
@@ -236,12 +242,28 @@ impl Viewer {
                 let line = PathLine::new(purpose, path.display().to_string());
                 self.dialogs.ask(Question::Path(line));
             }
+            Answer::Wish(wish) => self.wish(ctx, wish),
             Answer::Fulfil(wish) => self.fulfil(ctx, wish),
             Answer::Path(purpose, path) => self.take_typed(ctx, purpose, path),
+            Answer::SavePreset(line) => self.save_preset(line),
             Answer::Reload => self.work.reload("was loaded again."),
             Answer::PassOver => self.work.document.pass_over_disk(),
             Answer::AddModel(path, fit_m) => self.add_model(&path, fit_m),
             Answer::Recover(pending) => self.recover(ctx, pending),
+        }
+    }
+
+    /// Keeps what is selected as a preset, or asks for another name.
+    fn save_preset(&mut self, line: PresetLine) {
+        let (name, all_lights) = line.answer();
+        match self.work.save_preset(name, all_lights) {
+            Ok(()) => {
+                let text = format!("Saved the preset {}.", name.trim());
+                self.work.notices.note("preset", text);
+            }
+            Err(error) => self
+                .dialogs
+                .ask(Question::Preset(line.again(error.to_string()))),
         }
     }
 

@@ -8,6 +8,7 @@ use hairline_document::probe::{self, MeshSummary};
 use hairline_editor::actions::{self, layers, objects, pictures};
 
 use super::Viewer;
+use crate::command::Command;
 use crate::dialogs::{PathLine, Question, Wish};
 use crate::files::{Choice, Purpose};
 use crate::platform::HAS_DISK;
@@ -178,7 +179,7 @@ impl Viewer {
 
     /// Adds a model as large as in its file, or fitted to a size.
     pub(super) fn add_model(&mut self, path: &Path, fit_m: Option<f64>) {
-        self.frame_when_built = true;
+        self.work.wished_when_built = Some(Command::FrameSelection);
         let base_dir = self.work.document.base_dir().to_owned();
         self.work.apply("Add a model", |d, _| {
             let selection = objects::add_mesh(d, path, &base_dir);

@@ -29,6 +29,7 @@ impl Viewer {
             let area = Area::new(rect, picture_px, ui.pixels_per_point());
             // Under all that follows: what the mouse does is in it.
             let place = ui.painter().add(Shape::Noop);
+            let region_place = ui.painter().add(Shape::Noop);
             let frame = self.work.engine.latest();
             self.show_over(ui, &area, &response);
             self.ask_engine();
@@ -38,6 +39,10 @@ impl Viewer {
             if let Some(frame) = self.picture_to_draw(frame) {
                 let canvas = &mut self.viewport.canvas;
                 canvas.paint(ui, place, &area, &frame, &wanted);
+                if let Some(part) = self.work.engine.region() {
+                    let canvas = &mut self.viewport.region_canvas;
+                    canvas.paint_region(ui, region_place, &area, &part);
+                }
             } else {
                 if !self.work.engine.has_failed() {
                     ui.put(rect, Busy::size(32.0));
@@ -76,6 +81,7 @@ impl Viewer {
         let work = &mut self.work;
         self.viewport.interact(ui, work, area, response);
         self.viewport.show_overlays(ui, work, area);
+        self.viewport.outline_region(ui, work, area);
         reading::show(ui, work, self.viewport.view, response);
         badges::show(ui, work, response.rect);
     }
@@ -91,14 +97,13 @@ impl Viewer {
         frame
     }
 
-    /// Frames an added model, which may be far larger or smaller than the objects before.
-    pub(super) fn frame_what_was_added(&mut self) {
+    /// Frames an added model, which may be far larger or smaller than the objects before, or an added body beside them.
+    pub(super) fn frame_what_was_added(&mut self, ctx: &egui::Context) {
         let objects = &self.work.document.description().objects;
         let built = self.work.engine.built();
         let is_built = built.is_some_and(|built| built.description.objects == *objects);
-        if self.frame_when_built && is_built {
-            self.frame_when_built = false;
-            self.work.frame_selection();
+        if is_built && let Some(command) = self.work.wished_when_built.take() {
+            self.run(ctx, command);
         }
     }
 
@@ -175,5 +180,6 @@ fn view(work: &Workspace, area: &Area) -> View {
         filter_std_px: description.render.filter_std_px,
         transport: work.wanted_transport(),
         reading: work.reading.wanted(area.frame_px()),
+        region: work.region.map(|region| area.region_px(region)),
     }
 }

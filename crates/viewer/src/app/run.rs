@@ -6,10 +6,11 @@ use hairline_editor::{Selection, navigate};
 
 use super::Viewer;
 use crate::command::{self, Command};
-use crate::dialogs::Wish;
+use crate::dialogs::{Choice, PresetLine, Question, Wish};
 use crate::files::Purpose;
 use crate::free_view::ViewCommand;
 use crate::panels;
+use crate::platform::{self, HAS_PAGE};
 use crate::reading::ReadCommand;
 use crate::tools::Tool;
 
@@ -24,7 +25,11 @@ impl Viewer {
         }
         match command {
             Command::New => self.wish(ctx, Wish::New),
-            Command::Gallery => crate::platform::show_gallery(),
+            Command::Gallery if HAS_PAGE => platform::show_gallery(),
+            Command::Gallery => {
+                let choice = Choice::new(self.work.examples);
+                self.dialogs.ask(Question::Examples(choice));
+            }
             Command::Open => self.ask_path(ctx, Purpose::Open),
             Command::Save => self.save(ctx),
             Command::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
@@ -64,6 +69,7 @@ impl Viewer {
             | Command::ToggleHidden
             | Command::ToggleSolo => self.on_selection(command),
             Command::LightForScratches => self.work.light_for_scratches(),
+            Command::SavePreset => self.ask_preset_name(),
             Command::FrameAll => self.work.frame(None),
             Command::FrameSelection => self.work.frame_selection(),
             Command::FocusHere => match self.viewport.pointed_m(&self.work) {
@@ -100,6 +106,8 @@ impl Viewer {
                 self.work.settings.set_high_contrast(is_high);
                 crate::style::set(ctx, is_high);
             }
+            Command::Pause => self.work.engine.set_paused(!self.work.engine.is_paused()),
+            Command::WholePicture => self.work.region = None,
             Command::Shadows => self.work.transport.shadows = !self.work.transport.shadows,
         }
     }
@@ -137,6 +145,19 @@ impl Viewer {
         };
         let text = format!("{what} ({})", command::key_text(&keys));
         self.work.notices.glance("key", text);
+    }
+
+    fn ask_preset_name(&mut self) {
+        let work = &self.work;
+        let Some(name) = work.preset_name() else {
+            return;
+        };
+        let list = work.own_presets.list().iter();
+        let taken = list.map(|preset| preset.name.clone()).collect();
+        let lights = work.document.description().lights.len();
+        let lights = matches!(work.selection(), Selection::Light(_)).then_some(lights);
+        let line = PresetLine::new(name, taken, lights);
+        self.dialogs.ask(Question::Preset(line));
     }
 
     fn take_snapshot(&mut self) {

@@ -4,12 +4,15 @@ use std::path::PathBuf;
 
 use hairline_editor::autosave::Pending;
 
+use super::preset::PresetLine;
 use crate::files::Purpose;
 
 /// Action that waits for an answer about unsaved changes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Wish {
     New,
+    /// An example, by its index.
+    Example(usize),
     Open(PathBuf),
     Quit,
 }
@@ -23,6 +26,8 @@ pub(crate) enum Answer {
     /// The scene is saved before the wish.
     SaveBefore(Wish),
     Fulfil(Wish),
+    /// A wish, before which unsaved changes are asked about.
+    Wish(Wish),
     SaveOver,
     SaveAs,
     /// A file that is there is written over.
@@ -31,6 +36,8 @@ pub(crate) enum Answer {
     Rename(Purpose, PathBuf),
     /// A path was typed.
     Path(Purpose, PathBuf),
+    /// What is selected becomes a preset of this name.
+    SavePreset(PresetLine),
     Reload,
     /// The text that another program has written is ignored.
     PassOver,

@@ -260,6 +260,7 @@ mod tests {
             .unwrap();
         let view = View {
             reading: Default::default(),
+            region: None,
             camera: built.scene.camera,
             size_px: [128, 96],
             display: Display {
@@ -273,7 +274,11 @@ mod tests {
             },
         };
         let built = Arc::new(built);
-        Order { built, view }
+        Order {
+            built,
+            view,
+            is_region: false,
+        }
     }
 
     fn shown(renderer: &mut CpuStepRenderer, order: &Order, step: &Step) -> Vec<RenderedStep> {

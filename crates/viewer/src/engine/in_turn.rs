@@ -75,6 +75,9 @@ impl InTurn {
             Painter::Cpu(painter) => {
                 let (renderer, progress) = &mut **painter;
                 let pause = self.pause.before(progress, &order)?;
+                if progress.is_at(&order) && shared.is_paused() {
+                    return None;
+                }
                 if !pause.is_zero() {
                     return Some(pause);
                 }
@@ -88,7 +91,11 @@ impl InTurn {
             }
             #[cfg(target_arch = "wasm32")]
             Painter::Gpu(task) => {
-                let pause = self.pause.before(&task.at_rest()?.progress, &order)?;
+                let progress = &task.at_rest()?.progress;
+                let pause = self.pause.before(progress, &order)?;
+                if progress.is_at(&order) && shared.is_paused() {
+                    return None;
+                }
                 if pause.is_zero() {
                     // The task wakes the interface when it is done.
                     task.go_on(shared, order);

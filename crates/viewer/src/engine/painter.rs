@@ -16,7 +16,7 @@ use super::pace::Coarseness;
 use super::request::{Order, Shared};
 use super::step_painter::{StepPainter, Turn};
 use super::step_renderer::StepRenderer;
-use super::steps::Step;
+use super::steps::{Step, steps};
 #[cfg(not(target_arch = "wasm32"))]
 use super::{Backend, Event};
 
@@ -98,8 +98,12 @@ pub(super) struct Progress {
     done: Option<Order>,
     /// The finer ones that are left.
     steps: Vec<Step>,
-    /// Number of steps at first.
-    steps_first: usize,
+    /// Those that there were at first.
+    first_steps: Vec<Step>,
+    /// Pictures of the view's region that are left. They come before the others.
+    region_steps: Vec<Step>,
+    /// Whether the last picture that was finished is one of the region.
+    is_in_region: bool,
 }
 
 impl Progress {
@@ -108,25 +112,45 @@ impl Progress {
             step_painter: StepPainter::new(shared, kind),
             done: None,
             steps: Vec::new(),
-            steps_first: 0,
+            first_steps: Vec::new(),
+            region_steps: Vec::new(),
+            is_in_region: false,
         }
     }
 
     /// Whether there is something finer to come of the same.
     pub fn has_more(&self) -> bool {
-        !self.steps.is_empty()
+        !self.steps.is_empty() || !self.region_steps.is_empty()
     }
 
-    /// Whether what comes next is left, for other work has the cores.
+    /// Whether what comes next is left: it is paused, or other work has the cores.
     #[cfg(not(target_arch = "wasm32"))]
     fn rests(&self, shared: &Shared) -> bool {
-        let next = self.steps.first();
-        shared.is_resting() && next.is_some_and(Step::is_refinement)
+        let next = self.region_steps.first().or(self.steps.first());
+        shared.is_paused() || shared.is_resting() && next.is_some_and(Step::is_refinement)
+    }
+
+    /// Begins with the region of an order, in the middle of its pictures. Sums of the whole picture that were begun give way to those of
+    /// the region, and begin anew after it.
+    fn begin_region(&mut self, renderer: &impl StepRenderer, order: &Order) {
+        self.region_steps.clear();
+        if let Some(part) = order.of_region().filter(|_| !self.steps.is_empty()) {
+            self.region_steps = region_steps(renderer, &part);
+            let left = std::mem::take(&mut self.steps);
+            let first = self.first_steps.iter();
+            let is_left = |step: &&Step| step.is_refinement() || left.contains(step);
+            self.steps = first.filter(is_left).copied().collect();
+        }
     }
 
     /// Whether `order` is being painted already, exposure and all.
     pub fn is_at(&self, order: &Order) -> bool {
         self.done.as_ref().is_some_and(|done| done.is_same(order))
+    }
+
+    /// Whether the renderer has the whole picture of `last`, to be shown as `order` wants it. After a region it has not.
+    fn can_show_again(&self, last: &Order, order: &Order) -> bool {
+        !self.is_in_region || last.view.is_shown_as(&order.view)
     }
 
     /// Paints the first picture of an order that is new; else the finer ones until something newer is wanted or it is `until`.
@@ -137,36 +161,98 @@ impl Progress {
         order: Order,
         until: Option<Instant>,
     ) -> Result<(), hairline_gpu::Error> {
-        let step_painter = &mut self.step_painter;
         match &self.done {
-            Some(last) if last.has_same_pixels(&order) => {
+            Some(last) if last.has_same_pixels(&order) && self.can_show_again(last, &order) => {
+                let has_same_region = last.view.region == order.view.region;
                 if !last.view.is_shown_as(&order.view)
                     && let Some(shown) = renderer.show_again(&order).await?
                 {
                     let is_final = self.steps.is_empty();
+                    let step_painter = &mut self.step_painter;
                     step_painter.put(shared, &order, shown, is_final, Duration::ZERO, None);
                 }
                 self.done = Some(order.clone());
-                while let Some(&step) = self.steps.first() {
-                    let turn = match self.steps.len() {
-                        1 => Turn::Last,
-                        _ => Turn::Between,
-                    };
-                    let painting = step_painter.paint(shared, renderer, &order, &step, turn, until);
-                    if !painting.await? {
-                        break;
-                    }
-                    self.steps.remove(0);
+                if !has_same_region {
+                    self.begin_region(renderer, &order);
+                }
+                if self.refine_region(shared, renderer, &order, until).await? {
+                    self.refine(shared, renderer, &order, until).await?;
                 }
             }
             _ => {
                 // The first picture of a movement comes at once; in a movement pictures are as fine as they can be in time.
-                let begins = self.done.is_none() || self.steps.len() < self.steps_first;
-                self.steps = step_painter.first(shared, renderer, &order, begins).await?;
-                self.steps_first = self.steps.len();
+                let is_refined = self.is_in_region || self.steps.len() < self.first_steps.len();
+                let begins = self.done.is_none() || is_refined;
+                let painting = (self.step_painter).first(shared, renderer, &order, begins);
+                self.steps = painting.await?;
+                self.first_steps.clone_from(&self.steps);
+                self.is_in_region = false;
+                self.begin_region(renderer, &order);
                 self.done = Some(order);
             }
         }
         Ok(())
     }
+
+    /// Paints the pictures of the region that are left; false if something else is wanted before they are done.
+    async fn refine_region(
+        &mut self,
+        shared: &Shared,
+        renderer: &mut impl StepRenderer,
+        order: &Order,
+        until: Option<Instant>,
+    ) -> Result<bool, hairline_gpu::Error> {
+        let Some(part) = order.of_region() else {
+            return Ok(true);
+        };
+        while let Some(&step) = self.region_steps.first() {
+            self.is_in_region = true;
+            let turn = Turn::Between;
+            let painting = (self.step_painter).paint(shared, renderer, &part, &step, turn, until);
+            if !painting.await? {
+                return Ok(false);
+            }
+            self.region_steps.remove(0);
+        }
+        Ok(true)
+    }
+
+    /// Paints the finer pictures that are left, until something else is wanted.
+    async fn refine(
+        &mut self,
+        shared: &Shared,
+        renderer: &mut impl StepRenderer,
+        order: &Order,
+        until: Option<Instant>,
+    ) -> Result<(), hairline_gpu::Error> {
+        while let Some(&step) = self.steps.first() {
+            let turn = match self.steps.len() {
+                1 => Turn::Last,
+                _ => Turn::Between,
+            };
+            let painting = (self.step_painter).paint(shared, renderer, order, &step, turn, until);
+            if !painting.await? {
+                break;
+            }
+            self.is_in_region = false;
+            self.steps.remove(0);
+        }
+        Ok(())
+    }
+}
+
+/// The pictures of a region, all of its own size.
+fn region_steps(renderer: &impl StepRenderer, part: &Order) -> Vec<Step> {
+    let size_px = part.view.size_px;
+    let nothing = Step {
+        size_px: [0, 0],
+        samples: 1,
+        thin: 1,
+        transport: renderer.backend().counts_in_motion(part.view.transport),
+        batch: None,
+    };
+    let samples = renderer.best_samples();
+    let mut all = steps(renderer.kind(), samples, size_px, &nothing, &part.view);
+    all.retain(|step| step.is_whole(&part.view));
+    all
 }

@@ -29,6 +29,8 @@ struct State {
     sketch: Option<Arc<Built>>,
     view: Option<View>,
     frame: Option<Arc<Frame>>,
+    /// The newest picture of a region.
+    region_frame: Option<Arc<Frame>>,
     events: Vec<Event>,
     /// Revision of the newest scene that the interface ordered.
     asked: u64,
@@ -46,6 +48,7 @@ impl State {
         Some(Order {
             built: Arc::clone(self.sketch.as_ref().or(self.built.as_ref())?),
             view: self.view?,
+            is_region: false,
         })
     }
 
@@ -82,6 +85,7 @@ pub(super) struct Shared {
     news: Condvar,
     stopped: AtomicBool,
     resting: AtomicBool,
+    paused: AtomicBool,
     backend: Mutex<Backend>,
     wake: Wake,
 }
@@ -91,6 +95,8 @@ pub(super) struct Shared {
 pub(super) struct Order {
     pub built: Arc<Built>,
     pub view: View,
+    /// Whether the view is that of a region alone.
+    pub is_region: bool,
 }
 
 impl Order {
@@ -99,9 +105,21 @@ impl Order {
         Arc::ptr_eq(&self.built, &other.built) && self.view.has_same_pixels(&other.view)
     }
 
-    /// Whether the orders are the same, with exposure, tone curve and all.
+    /// Whether the orders are the same, with exposure, tone curve, region and all.
     pub fn is_same(&self, other: &Self) -> bool {
-        self.has_same_pixels(other) && self.view.is_shown_as(&other.view)
+        self.has_same_pixels(other)
+            && self.view.is_shown_as(&other.view)
+            && self.view.region == other.view.region
+    }
+
+    /// The order for the region of the view, if it has one. A sketch has none: what it is a sketch of is on the way.
+    pub fn of_region(&self) -> Option<Self> {
+        let view = self.view.of_region().filter(|_| !self.built.is_sketch())?;
+        Some(Self {
+            built: Arc::clone(&self.built),
+            view,
+            is_region: true,
+        })
     }
 }
 
@@ -112,6 +130,7 @@ impl Shared {
             news: Condvar::new(),
             stopped: AtomicBool::new(false),
             resting: AtomicBool::new(false),
+            paused: AtomicBool::new(false),
             backend: Mutex::new(backend),
             wake,
         }
@@ -152,7 +171,8 @@ impl Shared {
     pub fn forget_scene(&self) {
         let mut state = self.lock();
         state.forgotten = state.asked;
-        (state.built, state.sketch, state.frame) = (None, None, None);
+        (state.built, state.sketch) = (None, None);
+        (state.frame, state.region_frame) = (None, None);
         drop(state);
         self.news.notify_all();
     }
@@ -176,7 +196,11 @@ impl Shared {
     pub fn is_outdated(&self, order: &Order, on_cores: bool) -> bool {
         let state = self.lock();
         let is_building = state.is_building || state.wanted_scene.is_some();
-        on_cores && is_building || state.order().is_none_or(|newest| !newest.is_same(order))
+        let newest = match order.is_region {
+            true => state.order().and_then(|newest| newest.of_region()),
+            false => state.order(),
+        };
+        on_cores && is_building || newest.is_none_or(|newest| !newest.is_same(order))
     }
 
     /// Takes the scene that is to be built next, if there is one.
@@ -254,6 +278,10 @@ impl Shared {
         let state = self.wait_while(self.lock(), patience, |state| {
             !self.is_stopped() && state.order().is_none_or(is_done)
         });
+        // A scene that is forgotten in the middle of its picture leaves no order until the next one is built.
+        let state = self.wait_while(state, Duration::MAX, |state| {
+            !self.is_stopped() && state.order().is_none()
+        });
         state.order().filter(|_| !self.is_stopped())
     }
 
@@ -266,6 +294,32 @@ impl Shared {
         let is_awaited = state.is_awaited;
         drop(state);
         self.tell(is_awaited);
+    }
+
+    pub fn put_region_frame(&self, frame: Frame) {
+        let mut state = self.lock();
+        if frame.built.revision <= state.forgotten {
+            return;
+        }
+        state.region_frame = Some(Arc::new(frame));
+        let is_awaited = state.is_awaited;
+        drop(state);
+        self.tell(is_awaited);
+    }
+
+    /// The newest picture of the region that is wanted, until the whole picture is as fine.
+    pub fn region_frame(&self) -> Option<Arc<Frame>> {
+        let state = self.lock();
+        let wanted = state.order()?.of_region()?;
+        let part = state.region_frame.clone()?;
+        let is_wanted = Arc::ptr_eq(&part.built, &wanted.built)
+            && part.view.has_same_pixels(&wanted.view)
+            && part.view.is_shown_as(&wanted.view);
+        let whole = &state.frame.as_ref()?.painted;
+        let is_finer = !whole.is_final && part.painted.samples > whole.samples
+            || whole.size_px != state.view?.size_px
+            || whole.thin > 1;
+        (is_wanted && is_finer).then_some(part)
     }
 
     pub fn put_event(&self, event: Event) {
@@ -344,6 +398,14 @@ impl Shared {
 
     pub fn set_resting(&self, is_resting: bool) {
         self.resting.store(is_resting, Ordering::Relaxed);
+    }
+
+    pub fn is_paused(&self) -> bool {
+        self.paused.load(Ordering::Relaxed)
+    }
+
+    pub fn set_paused(&self, is_paused: bool) {
+        self.paused.store(is_paused, Ordering::Relaxed);
     }
 
     pub fn is_stopped(&self) -> bool {

@@ -113,7 +113,7 @@ impl StepPainter {
             Turn::First => false,
             Turn::Between | Turn::Last => {
                 let rests = shared.is_resting() && step.is_refinement();
-                rests || shared.is_outdated(order, on_cores)
+                rests || shared.is_paused() || shared.is_outdated(order, on_cores)
             }
         };
         let interrupted = || {
@@ -189,7 +189,7 @@ impl StepPainter {
             let last = shared.frame()?;
             last.painted.latency
         });
-        shared.put_frame(Frame {
+        let frame = Frame {
             number: self.number,
             built: Arc::clone(&order.built),
             view: order.view,
@@ -208,6 +208,10 @@ impl StepPainter {
                 passes: shown.passes,
                 latency,
             },
-        });
+        };
+        match order.is_region {
+            true => shared.put_region_frame(frame),
+            false => shared.put_frame(frame),
+        }
     }
 }

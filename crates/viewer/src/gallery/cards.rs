@@ -1,7 +1,8 @@
 //! Choices with their pictures.
 
 use egui::{
-    Align2, Color32, FontId, Grid, Id, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2,
+    Align2, Color32, FontId, Grid, Id, Rect, Response, Role, Sense, TextureId, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 use hairline_editor::presets::MaterialPreset;
 use hairline_image::tone_map::srgb_from_linear;
@@ -54,18 +55,41 @@ pub(crate) fn card(
     name: &'static str,
     is_selected: bool,
 ) -> Response {
-    let size = vec2(side + 8.0, side + 24.0);
     let is_given = thumb.given_name().is_some();
     let sense = match is_given {
         true => Sense::click_and_drag(),
         false => Sense::click(),
     };
-    let (rect, response) = ui.allocate_exact_size(size, sense);
+    let shown = gallery.picture(ui.ctx(), thumb);
+    let size = vec2(side, side);
+    let (response, picture) = tile(ui, shown, size, name, sense, is_selected);
     if is_given {
         response.dnd_set_drag_payload(thumb);
     }
+    if let Thumb::Material(MaterialPreset::Metal(metal), _) = thumb
+        && ui.is_rect_visible(picture)
+    {
+        let at = picture.right_bottom() - vec2(10.0, 10.0);
+        ui.painter()
+            .circle_filled(at, 8.0, Color32::from_black_alpha(160));
+        ui.painter().circle_filled(at, 6.5, color(metal));
+    }
+    response
+}
+
+/// A picture with a name below it; returns where the picture is, too.
+pub(crate) fn tile(
+    ui: &mut Ui,
+    picture: Option<(TextureId, Rect)>,
+    picture_size: Vec2,
+    name: &str,
+    sense: Sense,
+    is_selected: bool,
+) -> (Response, Rect) {
+    let size = picture_size + vec2(8.0, 24.0);
+    let (rect, response) = ui.allocate_exact_size(size, sense);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, name));
-    let shown = gallery.picture(ui.ctx(), thumb);
+    let place = Rect::from_min_size(rect.min + vec2(4.0, 4.0), picture_size);
     if ui.is_rect_visible(rect) {
         let visuals = ui.style().interact_selectable(&response, is_selected);
         if is_selected || response.hovered() || response.has_focus() {
@@ -77,18 +101,11 @@ pub(crate) fn card(
                 egui::StrokeKind::Inside,
             );
         }
-        let picture = Rect::from_min_size(rect.min + vec2(4.0, 4.0), vec2(side, side));
-        if let Some((texture, part)) = shown {
-            ui.painter().image(texture, picture, part, Color32::WHITE);
+        if let Some((texture, part)) = picture {
+            ui.painter().image(texture, place, part, Color32::WHITE);
         }
-        if let Thumb::Material(MaterialPreset::Metal(metal), _) = thumb {
-            let at = picture.right_bottom() - vec2(10.0, 10.0);
-            ui.painter()
-                .circle_filled(at, 8.0, Color32::from_black_alpha(160));
-            ui.painter().circle_filled(at, 6.5, color(metal));
-        }
-        let middle = pos2(rect.center().x, picture.max.y + 10.0);
-        let font = FontId::proportional(fitting(ui, name, side));
+        let middle = pos2(rect.center().x, place.max.y + 10.0);
+        let font = FontId::proportional(fitting(ui, name, picture_size.x));
         ui.painter().text(
             middle,
             Align2::CENTER_CENTER,
@@ -97,7 +114,7 @@ pub(crate) fn card(
             visuals.text_color(),
         );
     }
-    response
+    (response, place)
 }
 
 /// The size of letters in which a name fits below its picture.

@@ -301,7 +301,7 @@ const HINT: &str =
 
 /// The codes of a picture on the sheet.
 fn on_sheet(place: usize) -> Vec<u8> {
-    let sheet = super::sheet().unwrap();
+    let sheet = super::sheet_of(super::SHEET).unwrap();
     let side = SIDE_PX as usize;
     let [x0, y0] = [place % COLUMNS as usize, place / COLUMNS as usize].map(|i| i * side);
     let pixels = (0..side * side).map(|i| (x0 + i % side, y0 + i / side));

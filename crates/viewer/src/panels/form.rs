@@ -186,6 +186,15 @@ impl<'a> Form<'a> {
         }
     }
 
+    /// A slider between two extremes, without a number.
+    pub fn between(&mut self, label: &str, tooltip: &str, value: &mut f64) {
+        self.row(label, tooltip, |ui, text| {
+            ui.spacing_mut().slider_width = ui.available_width() - 12.0;
+            let slider = Slider::new(value, 0.0..=1.0).show_value(false);
+            ui.add(slider).labelled_by(text.id).changed()
+        });
+    }
+
     /// A linear colour, each channel in [0, 1].
     pub fn color(&mut self, key: &Key, value: &mut [f64; 3]) {
         let range = range(key, self.diagonal_m);

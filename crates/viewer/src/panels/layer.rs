@@ -7,6 +7,7 @@ use hairline_document::description::{
 use hairline_document::schema;
 use hairline_editor::Selection;
 use hairline_editor::presets::LayerPreset;
+use hairline_editor::strength::{set_strength, strength};
 use hairline_optics::section::Section;
 
 use super::form::Form;
@@ -39,6 +40,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         "If a layer is solo, only solo layers are seen",
         &mut layer.solo,
     );
+    strength_row(&mut form, work, &mut layer, index);
     let picks = layer_place::show(&mut form, &mut layer, index, names);
     profile(&mut form, &mut layer.profile);
     match &mut layer.layer {
@@ -67,6 +69,25 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     }
     strokes(ui, work, index, &layer);
     buttons(ui, work, index, &layer, diagonal_m);
+}
+
+/// A row for the strength. A drag counts from the layer before it: small steps would add up their roundings.
+fn strength_row(form: &mut Form, work: &Workspace, layer: &mut Scratches, index: usize) {
+    let diagonal_m = form.diagonal_m;
+    let Some(before) = strength(layer, diagonal_m) else {
+        return;
+    };
+    let mut wanted = before;
+    let tooltip = "From barely there to heavy: count, width and depth together, as the grades of wear have them. \
+                   Ten times as many scratches are 1.25 times as wide and 1.15 times as deep";
+    form.between("Strength", tooltip, &mut wanted);
+    if wanted != before {
+        let first = work.document.before_drag();
+        if let Some(first) = first.and_then(|d| d.scratches.get(index)) {
+            layer.clone_from(first);
+        }
+        set_strength(layer, diagonal_m, wanted);
+    }
 }
 
 /// A row for the cross section. Depths of a file's own are one more choice.
@@ -216,6 +237,9 @@ fn buttons(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches, d
                 }
             }
         });
+        if work.can(Command::SavePreset) {
+            super::button(ui, work, Command::SavePreset);
+        }
         for command in [
             Command::Duplicate,
             Command::MoveUp,

@@ -122,6 +122,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
                 parts::duplicate(d, Selection::Light(index))
             });
         }
+        super::button(ui, work, Command::SavePreset);
         super::button(ui, work, Command::Delete);
     });
 }

@@ -1,7 +1,7 @@
 //! A material.
 
 use egui::Ui;
-use hairline_document::description::{Cover, MaterialKind, MetalColor};
+use hairline_document::description::{Cover, Material, MaterialKind, MetalColor};
 use hairline_document::schema;
 use hairline_editor::actions::materials;
 use hairline_editor::presets::MaterialPreset;
@@ -9,6 +9,7 @@ use hairline_optics::metal::Metal;
 use hairline_scene::{Anisotropy, Coat, Specular};
 
 use super::form::{Form, NAME};
+use super::own_presets;
 use crate::command::Command;
 use crate::gallery::{StandIn, Thumb, cards, metal_swatches};
 use crate::workspace::Workspace;
@@ -219,16 +220,14 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     ui.horizontal_wrapped(|ui| {
         ui.menu_button("Replace by a preset…", |ui| {
             let stand_in = work.stand_in(None);
-            if let Some(preset) = material_cards(ui, work, stand_in) {
+            if let Some(material) = material_cards(ui, work, stand_in) {
                 work.document.edit("Material preset", |d| {
                     let name = d.materials[index].name.clone();
-                    d.materials[index] = hairline_document::description::Material {
-                        name,
-                        ..preset.material()
-                    };
+                    d.materials[index] = Material { name, ..material };
                 });
             }
         });
+        super::button(ui, work, Command::SavePreset);
         super::button(ui, work, Command::Duplicate);
         super::button(ui, work, Command::Delete);
     });
@@ -242,13 +241,16 @@ pub(super) fn metals() -> impl Iterator<Item = (Metal, String)> {
     })
 }
 
-/// Cards of all materials to begin with.
+/// Cards of all materials to begin with, and the user's own.
 pub(super) fn material_cards(
     ui: &mut Ui,
     work: &mut Workspace,
     stand_in: StandIn,
-) -> Option<MaterialPreset> {
+) -> Option<Material> {
     let choices =
         MaterialPreset::all().map(|p| (p, Thumb::Material(p, stand_in), p.name(), p.tooltip()));
-    cards(ui, &mut work.gallery, "materials", choices)
+    let ours = cards(ui, &mut work.gallery, "materials", choices);
+    let own = own_presets::show(ui, work, |parts| !parts.materials.is_empty());
+    ours.map(MaterialPreset::material)
+        .or_else(|| work.own_material(own?))
 }

@@ -8,7 +8,7 @@ use hairline_document::schema;
 use super::form::Form;
 use crate::command::{self, Command, Group};
 use crate::files::Files;
-use crate::platform::HAS_DISK;
+use crate::platform::{HAS_DISK, HAS_PAGE};
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
@@ -106,7 +106,11 @@ fn tools(work: &Workspace, is_comparing: bool) -> Vec<BarTool> {
             )
         },
     ]);
-    tools.retain(|tool| tool.command.is_here());
+    // A desktop has them in the menu alone.
+    tools.retain(|tool| match tool.command {
+        Command::Gallery => HAS_PAGE,
+        command => command.is_here(),
+    });
     tools
 }
 

@@ -12,7 +12,7 @@ use hairline_editor::wear::{self, Wear};
 
 use super::form::{Form, NAME};
 use super::material::material_cards;
-use super::overrides;
+use super::{overrides, own_presets};
 use crate::command::Command;
 use crate::gallery::{SIDE, Thumb, card, cards};
 use crate::parts::ObjectPart;
@@ -114,12 +114,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
 /// The presets of materials as a menu. A material of the scene that is equal to the preset is taken again.
 fn make_of(ui: &mut Ui, work: &mut Workspace, object: usize) {
     let stand_in = work.stand_in(Some(object));
-    if let Some(preset) = material_cards(ui, work, stand_in) {
-        work.give(
-            Thumb::Material(preset, stand_in),
-            object,
-            ObjectPart::default(),
-        );
+    if let Some(material) = material_cards(ui, work, stand_in) {
+        work.make_of(object, material);
     }
 }
 
@@ -128,6 +124,10 @@ pub(super) fn add_layer(ui: &mut Ui, work: &mut Workspace, object: usize) {
     let stand_in = work.stand_in(Some(object));
     let thumbs = LayerPreset::ALL.map(|p| (Thumb::Layer(p, stand_in), p.name(), p.tooltip()));
     give_cards(ui, work, object, "layers", &thumbs);
+    let own = own_presets::show(ui, work, |parts| !parts.scratches.is_empty());
+    if let Some(preset) = own {
+        work.give_own_layers(preset, object);
+    }
 }
 
 /// The presets of gratings as a menu.

@@ -4,12 +4,13 @@ use egui::{RichText, StrokeKind, Ui};
 use hairline_document::Description;
 use hairline_document::description::Map;
 use hairline_editor::Selection;
-use hairline_editor::actions::{gratings, layers, lights, materials, objects, parts};
+use hairline_editor::actions::{bodies, gratings, layers, lights, materials, objects, parts};
 use hairline_editor::maps;
 use hairline_editor::presets::{LightPreset, ShapePreset};
 
 use super::material::material_cards;
 use super::object::{add_grating, add_layer};
+use super::own_presets;
 use crate::command::Command;
 use crate::gallery::{Thumb, cards};
 use crate::parts::ObjectPart;
@@ -227,12 +228,15 @@ fn section(ui: &mut Ui, title: &str, add: impl FnOnce(&mut Ui)) {
 fn add_shape(ui: &mut Ui, work: &mut Workspace) {
     let choices = ShapePreset::ALL.map(|p| (p, Thumb::Shape(p), p.name(), p.tooltip()));
     if let Some(preset) = cards(ui, &mut work.gallery, "shapes", choices) {
-        let diagonal_m = work.diagonal_m(None);
+        let there_m = work.there_m();
         let bounds_m = work.bounds_m(work.selected_object());
         work.apply("Add an object", |d, _| match preset {
             ShapePreset::Text => objects::add_text(d, bounds_m),
-            _ => objects::add_shape(d, preset.shape(diagonal_m), None),
+            _ => bodies::add(d, preset, &there_m),
         });
+        if !there_m.is_empty() && preset != ShapePreset::Text {
+            work.wished_when_built = Some(Command::FrameAll);
+        }
     }
 }
 
@@ -246,15 +250,19 @@ fn add_light(ui: &mut Ui, work: &mut Workspace) {
             Ok(lights::add(d, light))
         });
     }
+    let own = own_presets::show(ui, work, |parts| !parts.lights.is_empty());
+    if let Some(preset) = own {
+        work.add_own_lights(preset);
+    }
 }
 
 fn add_material(ui: &mut Ui, work: &mut Workspace) {
     let stand_in = work.stand_in(None);
-    if let Some(preset) = material_cards(ui, work, stand_in) {
+    if let Some(material) = material_cards(ui, work, stand_in) {
         // The selected object is made of the new material.
         let object = work.selected_object();
         work.apply("Add a material", |d, _| {
-            let selection = materials::add(d, preset.material());
+            let selection = materials::add(d, material);
             let name = d.materials.last().map(|material| material.name.clone());
             if let Some(object) = object.and_then(|object| d.objects.get_mut(object)) {
                 object.material = name;

@@ -10,6 +10,7 @@ use super::{inspector, menu, outliner, status};
 use crate::command::{Command, Group};
 use crate::files::Files;
 use crate::fingers::{TARGET, TEXT};
+use crate::platform::HAS_PAGE;
 use crate::viewport::Viewport;
 use crate::workspace::Workspace;
 
@@ -86,7 +87,8 @@ fn top(ui: &mut Ui, work: &mut Workspace, files: &Files) -> Option<PathBuf> {
                 Command::TakeSnapshot => "Snapshot",
                 _ => command.label(),
             };
-            if command.is_here()
+            let is_here = command != Command::Gallery || HAS_PAGE;
+            if is_here
                 && ui
                     .add_enabled(work.can(command), Button::new(name))
                     .clicked()

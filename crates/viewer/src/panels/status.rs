@@ -30,6 +30,7 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, viewport: &Viewport) {
                     .on_hover_text("What renders the picture");
             });
             transport(ui, work);
+            pause(ui, work);
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                 progress(ui, &work.engine, viewport);
             });
@@ -44,7 +45,7 @@ fn progress(ui: &mut Ui, engine: &Engine, viewport: &Viewport) {
     match engine.latest() {
         Some(frame) => {
             let is_stale = viewport.canvas.is_stale();
-            parts.extend(picture(&frame, is_stale, engine.is_resting()));
+            parts.extend(picture(&frame, is_stale, engine));
             details += &times(&frame);
         }
         None => parts.push(before_the_first(engine).to_owned()),
@@ -78,6 +79,7 @@ pub(super) fn summary(engine: &Engine, viewport: &Viewport) -> String {
     let is_stale = viewport.canvas.is_stale();
     let what = activity(&frame, is_stale);
     match frame.painted.left.filter(|_| !is_stale) {
+        _ if engine.is_paused() && !frame.painted.is_final => format!("paused: {what}"),
         Some(_) if engine.is_resting() => "paused while an export runs".to_owned(),
         Some(left) => format!("{} left: {what}", rough(left)),
         None => what,
@@ -94,15 +96,25 @@ pub(crate) fn before_the_first(engine: &Engine) -> &'static str {
 }
 
 /// Size, time and state of the picture.
-fn picture(frame: &Frame, is_stale: bool, is_resting: bool) -> Vec<String> {
+fn picture(frame: &Frame, is_stale: bool, engine: &Engine) -> Vec<String> {
     let painted = &frame.painted;
     let [width, height] = painted.size_px;
+    let part = engine.region().filter(|part| part.number > frame.number);
+    let (what, left) = match &part {
+        Some(part) => (
+            format!("region: {}", activity(part, false)),
+            part.painted.left,
+        ),
+        None => (activity(frame, is_stale), painted.left),
+    };
     let mut parts = vec![
         format!("{width} × {height}, {}", milliseconds(painted.time)),
-        activity(frame, is_stale),
+        what,
     ];
-    if let Some(left) = painted.left.filter(|_| !is_stale) {
-        parts.push(match is_resting {
+    if engine.is_paused() && !painted.is_final {
+        parts.push("paused".to_owned());
+    } else if let Some(left) = left.filter(|_| !is_stale) {
+        parts.push(match engine.is_resting() {
             true => "paused while an export runs".to_owned(),
             false => format!("{} left", rough(left)),
         });
@@ -159,6 +171,18 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
         (false, 1) if painted.size_px == frame.view.size_px => "smoothing edges".to_owned(),
         (false, 1) => "refining".to_owned(),
         (false, samples) => format!("refining, {samples} samples"),
+    }
+}
+
+/// A button that pauses what comes after the first picture, or goes on with it.
+fn pause(ui: &mut Ui, work: &mut Workspace) {
+    let is_paused = work.engine.is_paused();
+    let word = if is_paused { "Go on" } else { "Pause" };
+    let button = ui.button(word).on_hover_text(
+        "Whether pictures become finer while nothing moves. A new view or a change is shown once, coarsely, all the same (Shift+P)",
+    );
+    if button.clicked() {
+        work.wished.push(Command::Pause);
     }
 }
 

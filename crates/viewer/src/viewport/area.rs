@@ -5,6 +5,8 @@ use glam::DVec2;
 use hairline_document::description;
 use hairline_scene::Camera;
 
+use crate::engine::Region;
+
 /// The picture's area on the screen, in points.
 #[derive(Clone, Copy)]
 pub(crate) struct Area {
@@ -38,6 +40,39 @@ impl Area {
     pub fn frame_px(&self) -> [u32; 2] {
         let size = self.frame.size() * self.pixels_per_point;
         [size.x, size.y].map(|side| (side.round() as u32).clamp(1, 8192))
+    }
+
+    /// A rectangle of the area, in shares of it, as a region of its pixels. It has a few at least.
+    pub fn region_px(&self, share: Rect) -> Region {
+        const LEAST_PX: u32 = 16;
+        let whole = self.size_px();
+        let least = whole.map(|side| side.min(LEAST_PX));
+        let end = |share: f32, side: u32| (share.clamp(0.0, 1.0) * side as f32).round() as u32;
+        let side = |i: usize, from: f32, to: f32| {
+            let from = end(from, whole[i]).min(whole[i] - least[i]);
+            (from, end(to, whole[i]).max(from + least[i]) - from)
+        };
+        let (x, width) = side(0, share.min.x, share.max.x);
+        let (y, height) = side(1, share.min.y, share.max.y);
+        Region {
+            first_px: [x, y],
+            size_px: [width, height],
+        }
+    }
+
+    /// Place of a region in points.
+    pub fn region_rect(&self, region: Region) -> Rect {
+        let points = |px: [u32; 2]| egui::vec2(px[0] as f32, px[1] as f32) / self.pixels_per_point;
+        Rect::from_min_size(
+            self.rect.min + points(region.first_px),
+            points(region.size_px),
+        )
+    }
+
+    /// A rectangle in points as shares of the area.
+    pub fn share(&self, rect: Rect) -> Rect {
+        let of = |at: egui::Pos2| ((at - self.rect.min) / self.rect.size()).to_pos2();
+        Rect::from_min_max(of(rect.min), of(rect.max))
     }
 
     /// Width and height of the frame in points, which navigation and projection count in: they need ratios only.

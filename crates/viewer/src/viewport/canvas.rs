@@ -87,6 +87,17 @@ impl CanvasTexture {
         ui.painter().set(place, Shape::Vec(shapes));
     }
 
+    /// Draws the picture of a region over its part of the area.
+    pub fn paint_region(&mut self, ui: &egui::Ui, place: ShapeIdx, area: &Area, part: &Frame) {
+        let (Some(id), Some(region)) = (self.texture(ui.ctx(), part), part.view.region) else {
+            return;
+        };
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let rect = area.region_rect(region);
+        ui.painter()
+            .set(place, Shape::image(id, rect, whole, Color32::WHITE));
+    }
+
     /// Whether the picture drawn last is of another view, and has been for long enough to be noticed.
     pub fn is_stale(&self) -> bool {
         self.is_stale
@@ -230,6 +241,7 @@ mod tests {
             filter_std_px: 0.5,
             transport: hairline_scene::Transport::DIRECT,
             reading: Default::default(),
+            region: None,
         });
         loop {
             engine.work();

@@ -35,7 +35,8 @@ impl Viewport {
         let is_free = !alt && !shift && !self.is_shielded;
         self.place_by_drag(work, area, response, is_free);
         // Alt orbits with any tool, as in every other program.
-        let is_held = is_brush || self.is_placing;
+        let draws_region = tool == Tool::Region;
+        let is_held = is_brush || self.is_placing || draws_region;
         let orbits = response.dragged_by(PointerButton::Primary) && !shift && (!is_held || alt)
             || response.dragged_by(PointerButton::Secondary);
         let pans = response.dragged_by(PointerButton::Middle)
@@ -57,6 +58,8 @@ impl Viewport {
         let is_in_hand = is_brush && !alt && !is_shielded && fingers.is_none();
         let hand = (is_in_hand, &self.canvas);
         self.stroke.interact(ui, work, area, response, hand);
+        let is_in_hand = draws_region && !alt && !is_shielded && fingers.is_none();
+        self.drag_region(work, area, response, is_in_hand);
         if pans && moved != DVec2::ZERO {
             let key = DragKey::of("pan");
             work.move_view("Pan", Some(key), |camera| {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use hairline_document::Description;
+use hairline_document::{Description, probe};
 use hairline_editor::actions::materials;
 use hairline_editor::brush::BrushSettings;
 use hairline_editor::shown::{LITTLE, Shown};
@@ -87,6 +87,9 @@ impl Workspace {
         let Some(built) = self.engine.built() else {
             return navigate::corners(UNKNOWN_M.0, UNKNOWN_M.1).to_vec();
         };
+        if let Some((low_m, high_m)) = self.empty_bounds_m() {
+            return navigate::corners(low_m, high_m).to_vec();
+        }
         let of = |objects: &[usize]| -> Vec<DVec3> {
             let objects = objects.iter().filter_map(|i| built.scene.objects.get(*i));
             let points = objects.flat_map(|object| object.mesh.extreme_points_m());
@@ -106,7 +109,11 @@ impl Workspace {
 
     /// The objects that the scene is about.
     fn subject(&self) -> Vec<usize> {
-        hairline_editor::subject::objects(self.document.description(), &self.boxes_m())
+        let description = self.document.description();
+        if description.objects.is_empty() {
+            return Vec::new();
+        }
+        hairline_editor::subject::objects(description, &self.boxes_m())
     }
 
     /// The box around an object, or around all that the scene is about, in metres: as it was built last.
@@ -116,7 +123,23 @@ impl Workspace {
             let subject = self.subject();
             self.bounds_of(|i| subject.contains(&i))
         })
+        .or_else(|| self.empty_bounds_m())
         .unwrap_or(UNKNOWN_M)
+    }
+
+    /// The box in the place of objects, where there are none.
+    fn empty_bounds_m(&self) -> Option<(DVec3, DVec3)> {
+        let description = self.document.description();
+        let is_empty = description.objects.is_empty();
+        is_empty.then(|| probe::empty_bounds_m(description))
+    }
+
+    /// The box around each object that the scene is about.
+    pub fn there_m(&self) -> Vec<(DVec3, DVec3)> {
+        let subject = self.subject().into_iter();
+        subject
+            .filter_map(|own| self.bounds_of(|i| i == own))
+            .collect()
     }
 
     /// The box around all objects, where they are built as they are described.
@@ -124,7 +147,8 @@ impl Workspace {
         let objects = &self.document.description().objects;
         let built = self.engine.built()?;
         let is_built = built.description.objects == *objects;
-        is_built.then(|| self.bounds_of(|i| i < objects.len()))?
+        let bounds_m = is_built.then(|| self.bounds_of(|i| i < objects.len()))?;
+        bounds_m.or_else(|| self.empty_bounds_m())
     }
 
     /// Replaces the scene's lights by lights that show its scratches.

@@ -90,6 +90,7 @@ pub fn built_in(text: &'static str) -> Options {
         state_dir: None,
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
+        examples: &hairline_viewer::examples::Examples::NONE,
     }
 }
 

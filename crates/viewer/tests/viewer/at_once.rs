@@ -20,6 +20,7 @@ fn exposure_is_applied_while_a_picture_refines() {
                 shadows: true,
                 bounces: 1,
             },
+            examples: &hairline_viewer::examples::Examples::NONE,
         },
         [1280.0, 800.0],
         0.5,

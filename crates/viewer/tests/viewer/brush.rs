@@ -257,6 +257,7 @@ fn the_first_stroke_is_seen(scene: &'static str) {
         state_dir: None,
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
+        examples: &hairline_viewer::examples::Examples::NONE,
     };
     // A small picture, without the panels.
     let mut harness = common::viewer_of(options, [300.0, 220.0]);

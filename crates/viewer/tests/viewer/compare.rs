@@ -22,6 +22,7 @@ fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
         state_dir: None,
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
+        examples: &hairline_viewer::examples::Examples::NONE,
     };
     let mut harness = common::viewer_in(options, [640.0, 400.0], 0.5);
     common::wait_built(&mut harness);

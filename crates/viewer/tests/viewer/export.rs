@@ -151,6 +151,7 @@ fn a_picture_of_a_gpu_is_what_its_renderer_makes() {
         state_dir: None,
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
+        examples: &hairline_viewer::examples::Examples::NONE,
     };
     let mut harness = common::viewer_in(options, [760.0, 600.0], 0.25);
     // Else both would compile the same shaders, side by side.

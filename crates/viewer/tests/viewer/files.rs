@@ -148,6 +148,7 @@ fn what_a_crash_left_is_offered_and_recovered() {
         state_dir: Some(folder.path().to_owned()),
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
+        examples: &hairline_viewer::examples::Examples::NONE,
     };
     let mut harness = viewer_with(options());
     let document = harness.state_mut().document_mut();

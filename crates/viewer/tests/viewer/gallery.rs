@@ -96,6 +96,7 @@ fn a_map_in_the_box_is_named_in_the_scene() {
             state_dir: None,
             native_dialogs: false,
             transport: hairline_scene::Transport::DIRECT,
+            examples: &hairline_viewer::examples::Examples::NONE,
         });
         wait_built(&mut harness);
         select(&mut harness, Selection::Environment);

@@ -113,6 +113,7 @@ fn is_framed(scene: &str, object: &str) {
             state_dir: None,
             native_dialogs: false,
             transport: hairline_scene::Transport::DIRECT,
+            examples: &hairline_viewer::examples::Examples::NONE,
         },
         [1440.0, 860.0],
     );

@@ -14,6 +14,7 @@ fn options(backend: Backend) -> Options {
         state_dir: None,
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
+        examples: &hairline_viewer::examples::Examples::NONE,
     }
 }
 

@@ -5,6 +5,7 @@
 mod common;
 
 mod at_once;
+mod begin;
 mod brush;
 mod commands;
 mod compare;
@@ -31,6 +32,7 @@ mod picking;
 mod placing;
 mod reach;
 mod reading;
+mod region;
 mod rest;
 mod shadows;
 mod snapshots;

@@ -410,6 +410,7 @@ fn wear_that_was_laid_for_an_opened_model_is_its_grade() {
         state_dir: None,
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
+        examples: &hairline_viewer::examples::Examples::NONE,
     });
     let document = harness.state_mut().document_mut();
     // Its surroundings take seconds to blur, for each size of the model anew.

@@ -76,6 +76,7 @@ fn high_contrast_is_kept() {
             state_dir: Some(folder.path().to_owned()),
             native_dialogs: false,
             transport: hairline_scene::Transport::DIRECT,
+            examples: &hairline_viewer::examples::Examples::NONE,
         })
     };
     let is_black = |harness: &Harness<'static, Viewer>| {
@@ -149,9 +150,7 @@ fn the_keyboard_is_seen_and_the_first_press_in_a_menu_marks_its_first_item() {
         harness.run_steps(3);
         key(&mut harness, Key::ArrowDown);
         harness.run_steps(2);
-        let item = harness
-            .get_by_label_contains("New from the built-in scene")
-            .rect();
+        let item = harness.get_by_label_contains("New empty studio").rect();
         let color = harness
             .ctx
             .style_of(egui::Theme::Dark)

@@ -22,6 +22,7 @@ fn viewer(scene: &'static str, backend: Backend, size: [f32; 2]) -> Harness<'sta
         state_dir: None,
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
+        examples: &hairline_viewer::examples::Examples::NONE,
     };
     let mut harness = viewer_in(options, size, PIXELS_PER_POINT);
     wait_built(&mut harness);

@@ -77,6 +77,7 @@ fn views_are_kept_and_found_again() {
             state_dir: Some(folder.path().join("state")),
             native_dialogs: false,
             transport: hairline_scene::Transport::DIRECT,
+            examples: &hairline_viewer::examples::Examples::NONE,
         });
         wait_built(&mut harness);
         harness

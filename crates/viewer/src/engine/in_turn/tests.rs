@@ -11,7 +11,7 @@ use hairline_image::{Display, ToneMap};
 use hairline_scene::{Camera, Lens, Transport};
 use web_time::Instant;
 
-use super::super::{Backend, Engine, Frame, Picture, View};
+use super::super::{Backend, Engine, Frame, Picture, Region, SHADOW_SAMPLES, View};
 
 /// A loaded machine is slow.
 const PATIENCE: Duration = Duration::from_secs(600);
@@ -28,6 +28,7 @@ fn description() -> Arc<Description> {
 fn view() -> View {
     View {
         reading: Default::default(),
+        region: None,
         camera: Camera {
             position_m: DVec3::new(0.0, -0.21, 0.18),
             target_m: DVec3::ZERO,
@@ -125,4 +126,137 @@ fn a_new_view_takes_the_place_of_what_is_being_refined() {
         pixels(&back) == still,
         "what was begun from elsewhere is in it"
     );
+}
+
+#[test]
+fn a_scene_that_is_forgotten_in_the_middle_of_its_picture_is_followed_by_the_next() {
+    let mut engine = Engine::start(Backend::Cpu, Arc::new(|| {}));
+    engine.set_scene(1, description(), PathBuf::new());
+    engine.set_view(View {
+        size_px: [1280, 720],
+        ..view()
+    });
+    let first = wait_for(&mut engine, Engine::latest);
+    assert!(!first.painted.is_final, "it has no middle");
+    engine.forget_scene();
+    // The next one takes long to build.
+    std::thread::sleep(Duration::from_millis(500));
+    engine.set_scene(2, description(), PathBuf::new());
+    let next = wait_for(&mut engine, Engine::latest);
+    assert_eq!(next.built.revision, 2);
+}
+
+/// A part of the picture with an edge of the plate.
+const PART: Region = Region {
+    first_px: [60, 24],
+    size_px: [50, 30],
+};
+
+/// Works until something is there.
+fn wait_for<T>(engine: &mut Engine, what: impl Fn(&Engine) -> Option<T>) -> T {
+    let start = Instant::now();
+    loop {
+        assert!(start.elapsed() < PATIENCE, "it did not come");
+        let pause = engine.work();
+        if let Some(there) = what(engine) {
+            return there;
+        }
+        std::thread::sleep(pause.unwrap_or(Duration::from_millis(1)));
+    }
+}
+
+#[test]
+fn a_region_is_finished_before_the_rest_begins() {
+    let mut engine = Engine::start_in_turn(Arc::new(|| {}));
+    engine.set_scene(1, description(), PathBuf::new());
+    let shadowed = View {
+        transport: Transport {
+            shadows: true,
+            bounces: 0,
+        },
+        size_px: [320, 180],
+        ..view()
+    };
+    engine.set_view(View {
+        region: Some(PART),
+        ..shadowed
+    });
+    let part = wait_for(&mut engine, |engine| {
+        engine
+            .region()
+            .filter(|part| part.painted.samples == SHADOW_SAMPLES)
+    });
+    assert_eq!(part.painted.size_px, PART.size_px);
+    let whole = engine.latest().unwrap();
+    assert!(whole.painted.of_samples.is_none(), "{:?}", whole.painted);
+    // The rest follows, and then there is one picture.
+    let whole = last_picture(&mut engine);
+    assert_eq!(whole.painted.samples, SHADOW_SAMPLES);
+    assert!(engine.region().is_none());
+    assert_eq!(engine.work(), None);
+}
+
+#[test]
+fn a_region_shows_what_the_whole_picture_has_there() {
+    let mut engine = Engine::start_in_turn(Arc::new(|| {}));
+    engine.set_scene(1, description(), PathBuf::new());
+    engine.set_view(View {
+        region: Some(PART),
+        ..view()
+    });
+    let part = wait_for(&mut engine, |engine| {
+        engine.region().filter(|part| part.painted.samples > 1)
+    });
+    let whole = pixels(&last_picture(&mut engine));
+    let [x, y] = PART.first_px.map(|px| px as usize);
+    let [width, height] = PART.size_px.map(|px| px as usize);
+    let there = (y..y + height).flat_map(|y| whole[y * 160 + x..][..width].to_vec());
+    let off = std::iter::zip(there, pixels(&part)).map(|(a, b)| u32::from(a.g().abs_diff(b.g())));
+    let mean = f64::from(off.sum::<u32>()) / (width * height) as f64;
+    // Samples on edges are others.
+    assert!(mean < 2.0, "{mean} codes off");
+}
+
+#[test]
+fn a_region_that_is_drawn_or_given_up_between_two_pictures_ends_in_the_same_picture() {
+    let mut engine = Engine::start_in_turn(Arc::new(|| {}));
+    wanted(&engine);
+    let alone = pixels(&last_picture(&mut engine));
+    for region in [Some(PART), None] {
+        let mut moved = view();
+        moved.camera.position_m.x += 0.05;
+        engine.set_view(moved);
+        wait_for(&mut engine, |engine| {
+            engine
+                .latest()
+                .filter(|frame| frame.view.camera == moved.camera)
+        });
+        engine.set_view(View {
+            region: Some(PART),
+            ..view()
+        });
+        wait_for(&mut engine, Engine::region);
+        engine.set_view(View { region, ..view() });
+        assert!(pixels(&last_picture(&mut engine)) == alone, "{region:?}");
+    }
+}
+
+#[test]
+fn a_pause_leaves_the_first_picture_until_it_ends() {
+    let mut engine = Engine::start_in_turn(Arc::new(|| {}));
+    engine.set_paused(true);
+    engine.set_scene(1, description(), PathBuf::new());
+    engine.set_view(View {
+        size_px: [640, 360],
+        ..view()
+    });
+    let first = wait_for(&mut engine, Engine::latest);
+    assert!(!first.painted.is_final);
+    for _ in 0..50 {
+        engine.work();
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert_eq!(engine.latest().unwrap().number, first.number);
+    engine.set_paused(false);
+    assert!(last_picture(&mut engine).painted.is_final);
 }

@@ -1,0 +1,102 @@
+//! The question for the name of a preset.
+
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
+use egui::{Context, Id, Key, Modal, Response, TextEdit};
+
+use super::answer::Answer;
+
+/// Name of a preset, as it is typed.
+pub(crate) struct PresetLine {
+    name: String,
+    /// Names that are taken.
+    taken: Vec<String>,
+    /// Number of lights in the scene, where all of them may go into the preset.
+    lights: Option<usize>,
+    all_lights: bool,
+    /// Reason why the name before was of no use.
+    refused: Option<String>,
+    /// The line was not shown yet.
+    is_new: bool,
+}
+
+impl PresetLine {
+    pub fn new(name: String, taken: Vec<String>, lights: Option<usize>) -> Self {
+        Self {
+            name,
+            taken,
+            lights: lights.filter(|count| *count > 1),
+            all_lights: false,
+            refused: None,
+            is_new: true,
+        }
+    }
+
+    /// Asks again, and says why.
+    pub fn again(self, why: String) -> Self {
+        Self {
+            refused: Some(why),
+            is_new: true,
+            ..self
+        }
+    }
+
+    /// Shows the line; none until there is an answer.
+    pub(super) fn show(&mut self, ctx: &Context) -> Option<Answer> {
+        let modal = Modal::new(Id::unique("preset")).show(ctx, |ui| {
+            ui.set_width(420.0);
+            ui.heading("Save as a preset");
+            let label = ui.label("Name");
+            let edit = TextEdit::singleline(&mut self.name).desired_width(f32::INFINITY);
+            let response = ui.add(edit).labelled_by(label.id);
+            if response.changed() {
+                self.refused = None;
+            }
+            let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            if std::mem::take(&mut self.is_new) {
+                select_all(&response, self.name.chars().count());
+            }
+            if !entered && ctx.memory(|memory| memory.focused().is_none()) {
+                response.request_focus();
+            }
+            if let Some(count) = self.lights {
+                let text = format!("All {count} lights of the scene");
+                ui.checkbox(&mut self.all_lights, text);
+            }
+            if let Some(refused) = &self.refused {
+                ui.colored_label(ui.visuals().error_fg_color, refused);
+            } else if self.taken.iter().any(|taken| *taken == self.name.trim()) {
+                ui.weak("The preset of that name is replaced.");
+            }
+            ui.add_space(8.0);
+            ui.horizontal(|ui| {
+                let save = ui.button("Save the preset").clicked() || entered;
+                (save, ui.button("Cancel").clicked())
+            })
+            .inner
+        });
+        let should_close = modal.should_close();
+        match modal.inner {
+            (true, _) => Some(Answer::SavePreset(Self {
+                name: self.name.clone(),
+                taken: std::mem::take(&mut self.taken),
+                refused: None,
+                ..*self
+            })),
+            (false, cancel) => (cancel || should_close).then_some(Answer::Cancel),
+        }
+    }
+
+    /// The name, and whether all lights are meant.
+    pub fn answer(&self) -> (&str, bool) {
+        (&self.name, self.all_lights)
+    }
+}
+
+/// Selects the text of a line: what is typed takes its place.
+fn select_all(response: &Response, count: usize) {
+    let mut state = TextEditState::load(&response.ctx, response.id).unwrap_or_default();
+    let all = CCursorRange::two(CCursor::new(0), CCursor::new(count));
+    state.cursor.set_char_range(Some(all));
+    state.store(&response.ctx, response.id);
+}
