@@ -14,6 +14,7 @@ pub static SCRATCHES: Section = Section::many("scratches", "Scratches", "a layer
     Choice::new("spun", "Equal arcs that sweep from the axis to the rim, all turning the same way: ground wafers, spiral-brushed watch parts.", &[&COUNT, &DENSITY_PER_M2, &SEED, &LENGTH_M, &WIDTH_UM, &DEPTH_NM, &AXIS, &CENTER_M, &JITTER_DEG, &TOOL_PER_M]),
     Choice::new("swirl", "Arcs around many centres strewn over the surface: the cobweb on a polished or machine-washed car.", &[&COUNT, &DENSITY_PER_M2, &SEED, &LENGTH_M, &WIDTH_UM, &DEPTH_NM, &SWIRL_PER_M]),
     Choice::new("drawn", "Along the strokes of a brush: a rag's way, a child's coin.", &[&LENGTH_M, &WIDTH_UM, &DEPTH_NM, &SEED, &JITTER_DEG]),
+    Choice::new("curve", "One scratch along a smooth curve through points: an engraved line.", &[&CURVE_POINTS_M, &CLOSED, &WIDTH_UM, &DEPTH_NM, &SEED]),
     Choice::new("file", "Your own list of straight scratches.", &[&FILE]),
 ]);
 
@@ -160,6 +161,17 @@ pub static SWIRL_PER_M: Key = CURVATURE_PER_M
     .sizes(25.0, 8.0)
     .range_words("mean ±10000, not 0; spread 0 to 10000")
     .means("One over the distance to the centres.");
+
+pub static CURVE_POINTS_M: Key = Key::new("points_m", Form::Points(3))
+    .unit("m")
+    .within(-1000.0, 1000.0)
+    .range_words("2 to 4096 points, ±1000 each; 3 or more with `closed`")
+    .means("What the curve goes through, on or near the surface, in the object's own frame. A point farther from the object than the object is large is refused.")
+    .control("Point", linear(-1.0, 1.0).sized(), "A point that the curve goes through, in the object's own frame. It is moved onto the surface.");
+
+pub static CLOSED: Key = Key::new("closed", Form::Flag)
+    .flag(false)
+    .means("The curve comes back to its first point.");
 
 pub static FILE: Key = Key::new("file", Form::File)
     .range_words("CSV, UTF-8")

@@ -15,6 +15,11 @@ const MOST_IDLE_STEPS: usize = 128;
 /// A field that turns by more than 60 degrees at once has no direction there: a pole, or a ridge with both sides facing it.
 const TURN_BACK_COS: f64 = 0.5;
 
+/// Longest way on the surface between two points over their distance: on a curved surface it is longer than the straight line.
+pub(super) const LONGEST_WAY: f64 = 4.0;
+/// Share of a way by which it may miss its end and still arrives.
+const MISSED: f64 = 1e-3;
+
 /// A place on the surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeshPoint {
@@ -24,7 +29,7 @@ pub(super) struct MeshPoint {
 
 /// A straight piece within one triangle.
 #[derive(Clone, Copy, Debug)]
-struct StraightPiece {
+pub(super) struct StraightPiece {
     start_m: DVec3,
     end_m: DVec3,
     triangle: u32,
@@ -84,15 +89,8 @@ impl<'a> Walker<'a> {
             .rev()
             .map(StraightPiece::reversed)
             .collect();
-        let mut ahead = ahead.into_iter();
         // A straight scratch has no joint at its seed.
-        if let (Some(last), Some(first)) = (pieces.last_mut(), ahead.as_slice().first())
-            && last.continues_straight(first)
-        {
-            last.end_m = first.end_m;
-            ahead.next();
-        }
-        pieces.extend(ahead);
+        join(&mut pieces, ahead);
         self.append(pieces, Course::Open, segments)
     }
 
@@ -106,6 +104,38 @@ impl<'a> Walker<'a> {
     ) {
         let (pieces, _) = self.walk(start, guide, false, length_m);
         self.append(pieces, Course::Open, segments);
+    }
+
+    /// Adds the way on the surface to a near place to the last run of pieces. Where no way leads over an edge between them, that run ends
+    /// there, and a new one begins on its other side.
+    pub(super) fn go(&self, from: MeshPoint, to: MeshPoint, runs: &mut Vec<Vec<StraightPiece>>) {
+        let (ahead, arrives) = self.towards(from, to);
+        let run = runs.last_mut();
+        match run {
+            Some(run) => join(run, ahead),
+            None => runs.push(ahead),
+        }
+        if !arrives {
+            let (back, _) = self.towards(to, from);
+            runs.push(
+                back.into_iter()
+                    .rev()
+                    .map(StraightPiece::reversed)
+                    .collect(),
+            );
+        }
+    }
+
+    /// The way to a near place, and whether it arrives.
+    fn towards(&self, from: MeshPoint, to: MeshPoint) -> (Vec<StraightPiece>, bool) {
+        let guide = Guide::Towards { end_m: to.point_m };
+        let distance_m = from.point_m.distance(to.point_m);
+        let (pieces, _) = self.walk(from, &guide, false, LONGEST_WAY * distance_m);
+        let missed_m = pieces
+            .last()
+            .map_or(distance_m, |last| last.end_m.distance(to.point_m));
+        let arrives = missed_m < self.shortest_piece_m + MISSED * distance_m;
+        (pieces, arrives)
     }
 
     fn walk(
@@ -206,7 +236,7 @@ impl<'a> Walker<'a> {
     }
 
     /// Rounds pieces to segments and appends them, without those too short to matter.
-    fn append(
+    pub(super) fn append(
         &self,
         pieces: Vec<StraightPiece>,
         course: Course,
@@ -252,6 +282,18 @@ impl<'a> Walker<'a> {
             triangle,
         }
     }
+}
+
+/// Adds pieces to those that end where they begin.
+pub(super) fn join(pieces: &mut Vec<StraightPiece>, ahead: Vec<StraightPiece>) {
+    let mut ahead = ahead.into_iter();
+    if let (Some(last), Some(first)) = (pieces.last_mut(), ahead.as_slice().first())
+        && last.continues_straight(first)
+    {
+        last.end_m = first.end_m;
+        ahead.next();
+    }
+    pieces.extend(ahead);
 }
 
 /// The length along an arc of `reach_m` at which a scratch is back where it started, with the direction in which it started.

@@ -203,7 +203,7 @@ fn wrong_types() {
     );
     assert_eq!(
         scratches("count = 5"),
-        "plate.toml:15: scratches[0]: `pattern` is missing; must be one of `random`, `parallel`, `circular`, `radial`, `spun`, `swirl`, `drawn` and `file`"
+        "plate.toml:15: scratches[0]: `pattern` is missing; must be one of `random`, `parallel`, `circular`, `radial`, `spun`, `swirl`, `drawn`, `curve` and `file`"
     );
 }
 
@@ -750,4 +750,33 @@ fn strokes() {
         light("kind = \"sphere\"\nhidden = true\ncenter_m = [0, 0, 1]\nradius_m = -1")
             .contains("radius_m")
     );
+}
+
+#[test]
+fn curves_that_are_none() {
+    for (rest, expected) in [
+        (
+            "points_m = [[0, 0, 0]]",
+            "18: scratches[0].points_m: found 1 points; must be from 2 to 4096",
+        ),
+        (
+            "points_m = [[0, 0, 0], [0.01, 0, 0]]\nclosed = true",
+            "18: scratches[0].points_m: found 2 points; must be from 3 to 4096",
+        ),
+        (
+            "points_m = [[0, 0, 0], [0.01, 1001, 0]]",
+            "18: scratches[0].points_m[1][1]: found 1001; must be from -1000 to 1000",
+        ),
+        (
+            "points_m = [[0, 0, 0], [1, 0, 0]]",
+            "18: scratches[0].points_m[1]: found a point 9.200e-1 m off the object; must be at most 2.263e-1 m off, in metres of the object's own frame",
+        ),
+        (
+            "count = 3",
+            "18: scratches[0].count: pattern `curve` has no such key; it belongs to `random`, `parallel`, `circular`, `radial`, `spun` and `swirl`",
+        ),
+    ] {
+        let found = scratches(&format!("pattern = \"curve\"\n{rest}\n"));
+        assert_eq!(found, format!("plate.toml:{expected}"));
+    }
 }

@@ -195,7 +195,7 @@ class ScratchesKeys(Table):
     _absent = {"hidden": False, "solo": False, "profile": "rectangle", "strokes": ()}
 
     pattern: str
-    """``"random"``, ``"parallel"``, ``"circular"``, ``"radial"``, ``"spun"``, ``"swirl"``, ``"drawn"``, ``"file"``."""
+    """``"random"``, ``"parallel"``, ``"circular"``, ``"radial"``, ``"spun"``, ``"swirl"``, ``"drawn"``, ``"curve"``, ``"file"``."""
     object: str
     """What they lie on. Range: name of an object."""
     material: Optional[str] = _default()
@@ -236,6 +236,10 @@ class ScratchesKeys(Table):
     """Direction of the axis. Default: ``[0, 0, 1]``. Range: not zero."""
     center_m: Optional[Vector] = _default()
     """A point on the axis. Unit: m. Default: ``[0, 0, 0]``. Range: ±1000 each."""
+    points_m: Optional[Union[Sequence[Vector], ArrayLike]] = _default()
+    """What the curve goes through, on or near the surface, in the object's own frame. A point farther from the object than the object is large is refused. Unit: m. Range: 2 to 4096 points, ±1000 each; 3 or more with ``closed``."""
+    closed: Optional[bool] = _default()
+    """The curve comes back to its first point. Default: ``false``."""
     file: Optional[Union[Path, core.ScratchArray]] = _default()
     """One straight scratch a row, commas between. Range: CSV, UTF-8."""
 

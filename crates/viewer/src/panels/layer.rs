@@ -2,7 +2,7 @@
 
 use egui::Ui;
 use hairline_document::description::{
-    Amount, Around, Distribution, Laid, Layer, Pattern, Scratches,
+    Amount, Around, Distribution, Engraved, Laid, Layer, Line, Pattern, Scratches,
 };
 use hairline_document::schema;
 use hairline_editor::Selection;
@@ -51,6 +51,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             form.number(&schema::scratches::JITTER_DEG, &mut brushed.jitter_deg);
             form.seed(&mut brushed.seed);
         }
+        Layer::Engraved(engraved) => engraved_rows(&mut form, engraved),
         Layer::Listed(listed) => form.custom("File", "", |ui, _| {
             ui.add(egui::Label::new(listed.file.display().to_string()).truncate());
             false
@@ -125,6 +126,21 @@ fn laid_rows(form: &mut Form, laid: &mut Laid) {
         }
     }
     form.seed(&mut laid.seed);
+}
+
+fn engraved_rows(form: &mut Form, engraved: &mut Engraved) {
+    match &mut engraved.line {
+        Line::Curve { points_m, closed } => {
+            form.toggle("Closed", schema::scratches::CLOSED.meaning, closed);
+            for (i, point_m) in points_m.iter_mut().enumerate() {
+                form.numbered(&schema::scratches::CURVE_POINTS_M, i, point_m);
+            }
+        }
+    }
+    form.section("Look");
+    form.distribution(&schema::scratches::WIDTH_UM, &mut engraved.width_um);
+    form.distribution(&schema::scratches::DEPTH_NM, &mut engraved.depth_nm);
+    form.seed(&mut engraved.seed);
 }
 
 fn curvature(form: &mut Form, value: &mut Distribution) {
