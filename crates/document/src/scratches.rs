@@ -18,6 +18,7 @@ mod laying;
 mod listed;
 mod memory;
 mod neighbours;
+mod outlines;
 mod painted;
 mod place;
 mod random;
@@ -235,7 +236,7 @@ impl<'a> Plan<'a> {
                 (Box::new(painted), count)
             }
             Layer::Engraved(engraved) => {
-                let engraving = Engraving::new(loader, engraved, table)?;
+                let engraving = Engraving::new(loader, engraved, table, base_dir)?;
                 let count = engraving.count();
                 (Box::new(engraving), count)
             }

@@ -177,6 +177,7 @@ fn estimated_bytes(description: &Description) -> usize {
         .map(|layer| match &layer.layer {
             Layer::Engraved(engraved) => match &engraved.line {
                 Line::Curve { points_m, .. } => size_of_val(&points_m[..]),
+                Line::Text { .. } | Line::Svg { .. } => 0,
             },
             _ => 0,
         });

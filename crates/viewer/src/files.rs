@@ -65,6 +65,7 @@ impl Purpose {
             Self::Find(FileUse::Map) => Self::Environment.filter(),
             Self::Find(FileUse::Mesh(_)) => Self::AddModel.filter(),
             Self::Find(FileUse::ScratchList(_)) => ("Lists of scratches", &["csv"]),
+            Self::Find(FileUse::Drawing(_)) => ("Drawings", &["svg"]),
             Self::Find(_) | Self::Picture(_) => {
                 ("Pictures", &["png", "jpg", "jpeg", "webp", "hdr", "exr"])
             }

@@ -134,7 +134,8 @@ impl<'a> Work<'a> {
     fn stamps(&self, table: &description::Scratches) -> Vec<Stamp> {
         let list = match &table.layer {
             Layer::Listed(listed) => Some(&listed.file),
-            Layer::Laid(_) | Layer::Brushed(_) | Layer::Engraved(_) => None,
+            Layer::Engraved(engraved) => engraved.line.file(),
+            Layer::Laid(_) | Layer::Brushed(_) => None,
         };
         let files = list.into_iter().chain(table.place.files());
         files

@@ -1,10 +1,13 @@
 //! Layers of engraved lines.
 
+use std::path::PathBuf;
+
 use serde::Serialize;
 
 use super::keyed::kinds;
 use super::ranges::{Check, check_seed};
 use super::scratches::Distribution;
+use super::shapes::check_letters;
 use super::table::Table;
 use crate::error::Error;
 use crate::schema::{Key, scratches};
@@ -37,12 +40,36 @@ pub enum Line {
         /// Whether it comes back to its first point.
         closed: bool,
     },
+    /// `"text"`: the outlines of letters.
+    Text {
+        /// Up to 200 characters of the built-in font, Ubuntu Light: Latin, Greek, Cyrillic. Required.
+        text: String,
+        /// Height of capitals. Required.
+        height_m: f64,
+        /// The middle, on or near the surface, in the object's own frame.
+        center_m: [f64; 3],
+        /// The way that it is read, in the object's own frame.
+        direction: [f64; 3],
+    },
+    /// `"svg"`: the outlines of a drawing.
+    Svg {
+        /// An SVG file, relative to the scene file. Required.
+        file: PathBuf,
+        /// The largest extent of its outlines. Required.
+        fit_m: f64,
+        /// The middle, on or near the surface, in the object's own frame.
+        center_m: [f64; 3],
+        /// The way from left to right, in the object's own frame.
+        direction: [f64; 3],
+    },
 }
 
 kinds! { Line,
     /// Value of `pattern` for it.
     name {
         "curve" => Curve { points_m: scratches::CURVE_POINTS_M, closed: scratches::CLOSED },
+        "text" => Text { text: scratches::TEXT, height_m: scratches::CAPITALS_M, center_m: scratches::MIDDLE_M, direction: scratches::READING },
+        "svg" => Svg { file: scratches::DRAWING, fit_m: scratches::EXTENT_M, center_m: scratches::MIDDLE_M, direction: scratches::READING },
     }
 }
 
@@ -75,6 +102,8 @@ impl Engraved {
         let way = format!("{key}.{}", self.line.key().name);
         match &self.line {
             Line::Curve { points_m, closed } => check_points(&way, points_m.len(), *closed),
+            Line::Text { text, .. } => check_letters(&way, text),
+            Line::Svg { .. } => Ok(()),
         }
     }
 }
@@ -84,6 +113,16 @@ impl Line {
     pub(crate) fn key(&self) -> &'static Key {
         match self {
             Self::Curve { .. } => &scratches::CURVE_POINTS_M,
+            Self::Text { .. } => &scratches::TEXT,
+            Self::Svg { .. } => &scratches::DRAWING,
+        }
+    }
+
+    /// The file that it is read from.
+    pub(crate) fn file(&self) -> Option<&PathBuf> {
+        match self {
+            Self::Svg { file, .. } => Some(file),
+            _ => None,
         }
     }
 }

@@ -285,7 +285,7 @@ fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
         let file = table.required(scratches::FILE.name)?;
         return Ok(Layer::Listed(Listed { file }));
     }
-    if pattern == "curve" {
+    if matches!(pattern, "curve" | "text" | "svg") {
         return Ok(Layer::Engraved(Engraved::read(pattern, table)?));
     }
     let seed = table.value(&scratches::SEED)?;

@@ -86,29 +86,25 @@ impl Ground {
         off.length() <= BESIDE_M || beside.length() <= BESIDE_SINE * off.length()
     }
 
-    /// Refuses points that are farther than `most_m` from the box about the object; `key` is the way to them.
+    /// Refuses a point that is farther than `most_m` from the box about the object; `key` is the way to it.
     pub(super) fn refuse_far(
         &self,
-        points_m: &[[f64; 3]],
+        point: [f64; 3],
         most_m: f64,
-        key: &str,
+        key: impl FnOnce() -> String,
     ) -> Result<(), Error> {
         let (least, most) = self.mesh.bounds_m();
         let (least, most) = (least.as_dvec3(), most.as_dvec3());
-        for (i, point) in points_m.iter().enumerate() {
-            let point_m = self.point_in_world_m(*point);
-            let off_m = point_m.distance(point_m.clamp(least, most));
-            if off_m > most_m {
-                return Err(Error::new(
-                    format!("{key}[{i}]"),
-                    format!("found a point {off_m:.3e} m off the object"),
-                    format!(
-                        "must be at most {most_m:.3e} m off, in metres of the object's own frame"
-                    ),
-                ));
-            }
+        let point_m = self.point_in_world_m(point);
+        let off_m = point_m.distance(point_m.clamp(least, most));
+        match off_m <= most_m {
+            true => Ok(()),
+            false => Err(Error::new(
+                key(),
+                format!("found a point {off_m:.3e} m off the object"),
+                format!("must be at most {most_m:.3e} m off, in metres of the object's own frame"),
+            )),
         }
-        Ok(())
     }
 
     /// Length that lies `normal` standard deviations from the mean, limited to lengths that fit the surface.

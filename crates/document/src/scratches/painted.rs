@@ -240,8 +240,10 @@ impl Path {
 pub(super) fn check(strokes: &[Stroke], key: &str, ground: &Ground) -> Result<(), Error> {
     for (i, stroke) in strokes.iter().enumerate() {
         let most_m = ground.diagonal_m.max(REACH * stroke.radius_m);
-        let key = format!("{key}.strokes[{i}].points_m");
-        ground.refuse_far(&stroke.points_m, most_m, &key)?;
+        for (j, point) in stroke.points_m.iter().enumerate() {
+            let key = || format!("{key}.strokes[{i}].points_m[{j}]");
+            ground.refuse_far(*point, most_m, key)?;
+        }
     }
     Ok(())
 }

@@ -106,6 +106,32 @@ impl<'a> Walker<'a> {
         self.append(pieces, Course::Open, segments);
     }
 
+    /// The place at a distance straight ahead, and the direction there; none where the surface ends before.
+    pub(super) fn ahead(
+        &self,
+        start: MeshPoint,
+        direction: DVec3,
+        length_m: f64,
+    ) -> Option<(MeshPoint, DVec3)> {
+        let guide = Guide::Free {
+            seed_direction: direction,
+            curvature_per_m: 0.0,
+        };
+        let (pieces, _) = self.walk(start, &guide, false, length_m);
+        let lengths_m = pieces.iter().map(StraightPiece::length_m);
+        let missed_m = length_m - lengths_m.sum::<f64>();
+        let last = pieces.last()?;
+        let place = MeshPoint {
+            triangle: last.triangle,
+            point_m: last.end_m,
+        };
+        // Shorter ones have no direction.
+        let mut long = pieces.iter().rev();
+        let long = long.find(|piece| piece.length_m() > self.shortest_piece_m);
+        let direction = long.map_or(direction, |it| (it.end_m - it.start_m).normalize());
+        (missed_m <= MISSED * length_m).then_some((place, direction))
+    }
+
     /// Adds the way on the surface to a near place to the last run of pieces. Where no way leads over an edge between them, that run ends
     /// there, and a new one begins on its other side.
     pub(super) fn go(&self, from: MeshPoint, to: MeshPoint, runs: &mut Vec<Vec<StraightPiece>>) {
@@ -267,20 +293,28 @@ impl<'a> Walker<'a> {
 
     /// A piece of a triangle with the shading normal at its middle.
     pub(super) fn segment(&self, start_m: DVec3, end_m: DVec3, triangle: u32) -> Segment {
-        let corners_m = self.mesh.corners_m(triangle as usize);
-        let facet_normal = facet::normal(corners_m);
-        let weights = facet::barycentric(corners_m, facet_normal, (start_m + end_m) / 2.0);
-        let corners = self.mesh.triangles[triangle as usize];
-        let normal: DVec3 = (0..3)
-            .map(|i| self.mesh.normals[corners[i] as usize].as_dvec3() * weights[i])
-            .sum();
-        let normal: Vec3 = normal.normalize_or(facet_normal).as_vec3();
+        let middle = MeshPoint {
+            triangle,
+            point_m: (start_m + end_m) / 2.0,
+        };
         Segment {
             start_m: start_m.as_vec3(),
             end_m: end_m.as_vec3(),
-            normal,
+            normal: self.normal(&middle).as_vec3(),
             triangle,
         }
+    }
+
+    /// The shading normal.
+    pub(super) fn normal(&self, at: &MeshPoint) -> DVec3 {
+        let corners_m = self.mesh.corners_m(at.triangle as usize);
+        let facet_normal = facet::normal(corners_m);
+        let weights = facet::barycentric(corners_m, facet_normal, at.point_m);
+        let corners = self.mesh.triangles[at.triangle as usize];
+        let normal: DVec3 = (0..3)
+            .map(|i| self.mesh.normals[corners[i] as usize].as_dvec3() * weights[i])
+            .sum();
+        normal.normalize_or(facet_normal)
     }
 }
 
@@ -342,6 +376,10 @@ impl StraightPiece {
             end_m: self.start_m,
             ..self
         }
+    }
+
+    fn length_m(&self) -> f64 {
+        self.start_m.distance(self.end_m)
     }
 
     /// Whether the next piece goes on in the same triangle and the same direction.

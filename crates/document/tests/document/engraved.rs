@@ -9,9 +9,18 @@ const PLANE: &str = "{ plane = { size_m = [0.2, 0.2] } }";
 const SPHERE: &str = "{ sphere = { radius_m = 0.05 } }";
 const BOX: &str = "{ box = { size_m = [0.1, 0.1, 0.1] } }";
 
+/// A square of 20 units about a circle, and a line that is drawn by a transform; a text, which is no shape.
+const MARK: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="40">
+<rect x="10" y="10" width="20" height="20" fill="none" stroke="black"/>
+<circle cx="20" cy="20" r="5"/>
+<g transform="translate(10 12)"><path d="M 0 0 H 20" stroke="red"/></g>
+<text x="1" y="1">a</text>
+</svg>"#;
+
 /// An object with an engraved layer, loaded from what is written of what was read.
 fn engraved(shape: &str, keys: &str) -> Object {
     let dir = temporary_dir();
+    std::fs::write(dir.path().join("mark.svg"), MARK).unwrap();
     let path = dir.path().join("scene.toml");
     let text = scene_with(&format!(
         "{}[[scratches]]\nobject = \"it\"\nwidth_um = 8.0\ndepth_nm = 300.0\n{keys}",
@@ -126,4 +135,61 @@ fn a_curve_goes_on_behind_a_sharp_edge_and_ends_at_a_rim() {
     );
     let last = object.segments[object.segments.len() - 1].end_m;
     assert!(last.distance(Vec3::new(0.1, 0.02, 0.0)) < 1e-3, "{last}");
+}
+
+#[test]
+fn a_drawing_is_a_scratch_for_each_outline() {
+    let keys = "pattern = \"svg\"\nfile = \"mark.svg\"\nfit_m = 0.04\ncenter_m = [0.03, 0, 0]\ndirection = [0, 1, 0]";
+    let object = engraved(PLANE, keys);
+    let closed: Vec<bool> = object.scratches.iter().map(|it| it.closed).collect();
+    assert_eq!(closed, [true, true, false]);
+    let at = |it: &Segment| it.start_m - Vec3::new(0.03, 0.0, 0.0);
+    let [square, circle, line] = [0, 1, 2].map(|i| pieces(&object, &object.scratches[i]));
+    assert!(
+        square
+            .iter()
+            .all(|it| (at(it).abs().max_element() - 0.02).abs() < 1e-6)
+    );
+    // The arcs of a circle in SVG are cubic curves, within 0.03 %.
+    assert!(
+        circle
+            .iter()
+            .all(|it| (at(it).length() - 0.01).abs() < 5e-6)
+    );
+    // Two units below the upper side, which is to the left of the way to the right.
+    assert!(line.iter().all(|it| (at(it).x + 0.016).abs() < 1e-6));
+}
+
+#[test]
+fn letters_stand_upright_along_their_line() {
+    let keys = "pattern = \"text\"\ntext = \"No. 1\"\nheight_m = 0.01";
+    let object = engraved(PLANE, keys);
+    // N, two of o, the dot, 1.
+    assert_eq!(object.scratches.len(), 5);
+    assert!(object.scratches.iter().all(|it| it.closed));
+    let n = pieces(&object, &object.scratches[0]);
+    let [low, high] =
+        [f32::min, f32::max].map(|pick| n.iter().map(|it| it.start_m.y).reduce(pick).unwrap());
+    assert!(
+        (low + 0.005).abs() < 1e-6 && (high - 0.005).abs() < 1e-6,
+        "{low} {high}"
+    );
+    let middle = |i: usize| {
+        let it = pieces(&object, &object.scratches[i]);
+        it.iter().map(|it| it.start_m.x).sum::<f32>() / it.len() as f32
+    };
+    assert!(middle(0) < middle(1) && middle(3) < middle(4));
+}
+
+#[test]
+fn a_line_of_text_goes_around_a_cylinder() {
+    let keys = "pattern = \"text\"\ntext = \"AAAAAAAAAAAAAAAAAAAA\"\nheight_m = 0.01\ncenter_m = [0.03, 0, 0]\ndirection = [0, 1, 0]";
+    let object = engraved("{ cylinder = { radius_m = 0.03, height_m = 0.1 } }", keys);
+    let is_behind = |it: &Segment| it.start_m.x < -0.01;
+    assert!(object.segments.iter().any(is_behind));
+    for it in &object.segments[..] {
+        let radius_m = it.start_m.truncate().length();
+        assert!((radius_m - 0.03).abs() < 5e-5, "{radius_m}");
+        assert!(it.start_m.z.abs() < 0.00501);
+    }
 }

@@ -80,6 +80,8 @@ pub fn title(layer: &Scratches) -> &str {
         (None, Layer::Brushed(_)) => "drawn scratches",
         (None, Layer::Engraved(engraved)) => match engraved.line {
             Line::Curve { .. } => "curve",
+            Line::Text { .. } => "text",
+            Line::Svg { .. } => "drawing",
         },
         (None, Layer::Laid(laid)) => match laid.pattern {
             Pattern::Random { .. } => "random scratches",
