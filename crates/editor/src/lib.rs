@@ -34,6 +34,7 @@ mod history;
 pub mod maps;
 pub mod navigate;
 mod paths;
+pub mod pen;
 pub mod place_light;
 pub mod presets;
 pub mod quantity;

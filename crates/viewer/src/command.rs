@@ -53,6 +53,8 @@ pub(crate) enum Command {
     Pick(Tool),
     BrushSmaller,
     BrushLarger,
+    EngraveText,
+    EngraveDrawing,
     Deselect,
     Help,
     Read(ReadCommand),
@@ -193,10 +195,13 @@ const TABLE: &[Entry] = &[
     entry(Command::Pick(Tool::Select), Group::Tools, "Select", Some((PLAIN, Key::V))),
     entry(Command::Pick(Tool::Brush), Group::Tools, "Brush", Some((PLAIN, Key::B))),
     entry(Command::Pick(Tool::Eraser), Group::Tools, "Eraser", Some((PLAIN, Key::E))),
+    entry(Command::Pick(Tool::Pen), Group::Tools, "Pen", Some((PLAIN, Key::D))),
     entry(Command::Pick(Tool::PlaceLight), Group::Tools, "Place light", Some((PLAIN, Key::L))),
     entry(Command::Pick(Tool::PickPart), Group::Tools, "Pick part", Some((PLAIN, Key::P))),
     entry(Command::BrushSmaller, Group::Tools, "Smaller brush", Some((PLAIN, Key::OpenBracket))),
     entry(Command::BrushLarger, Group::Tools, "Larger brush", Some((PLAIN, Key::CloseBracket))),
+    entry(Command::EngraveText, Group::Tools, "Engrave a text", None),
+    entry(Command::EngraveDrawing, Group::Tools, "Engrave a drawing (SVG)…", None),
     entry(Command::Help, Group::Help, "Keys and mouse", Some((PLAIN, Key::F1))),
 ];
 
@@ -225,6 +230,7 @@ const SECTIONS: &[Command] = &[
     Command::HighContrast,
     Command::Compare,
     Command::BrushSmaller,
+    Command::EngraveText,
 ];
 
 /// The commands that are here, in the order of the menus.

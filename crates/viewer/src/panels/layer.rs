@@ -65,6 +65,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     if picks {
         work.toolbox.tool = Tool::PickPart;
     }
+    if matches!(layer.layer, Layer::Engraved(_)) {
+        super::button(ui, work, Command::Pick(Tool::Pen));
+    }
     strokes(ui, work, index, &layer);
     buttons(ui, work, index, &layer, diagonal_m);
 }

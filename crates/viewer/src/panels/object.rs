@@ -128,6 +128,10 @@ pub(super) fn add_layer(ui: &mut Ui, work: &mut Workspace, object: usize) {
     let stand_in = work.stand_in(Some(object));
     let thumbs = LayerPreset::ALL.map(|p| (Thumb::Layer(p, stand_in), p.name(), p.tooltip()));
     give_cards(ui, work, object, "layers", &thumbs);
+    ui.separator();
+    for command in [Command::EngraveText, Command::EngraveDrawing] {
+        super::button(ui, work, command);
+    }
 }
 
 /// The presets of gratings as a menu.
