@@ -8,6 +8,7 @@
 
 mod camera;
 mod check;
+mod engraved;
 mod files;
 mod gratings;
 pub(crate) mod hint;
@@ -41,6 +42,7 @@ use values::{Named, is_default, serialize_named, serialize_scale};
 
 pub use camera::Camera;
 pub use check::STROKE_POINTS;
+pub use engraved::{Engraved, Line};
 pub use files::FileUse;
 pub use gratings::{Grating, GratingTheory, GroovePattern, UvAxis};
 pub use light_kind::LightKind;

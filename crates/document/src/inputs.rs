@@ -59,6 +59,7 @@ impl Description {
                     format!("the mesh of object \"{name}\"")
                 }
                 FileUse::ScratchList(i) => format!("the list of scratches[{i}]"),
+                FileUse::Drawing(i) => format!("the drawing of scratches[{i}]"),
                 FileUse::ScratchPicture(i) => format!("a picture of scratches[{i}]"),
                 FileUse::GratingPicture(i) => format!("a picture of grating[{i}]"),
                 FileUse::LightPicture(i) => format!("the picture of light[{i}]"),

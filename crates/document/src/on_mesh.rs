@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3};
 use hairline_scene::{Mesh, Object, SectionId};
 
 use crate::arrays::{Arrays, MeshArrays};
-use crate::description::{self, standings};
+use crate::description::{self, Layer, standings};
 use crate::error::Error;
 use crate::loader::Loader;
 use crate::scratches::{Ground, PlaceInputs, Table, lay, put_together};
@@ -110,6 +110,15 @@ fn refuse_parts(layer: &description::Scratches, key: &str) -> Result<(), Error> 
         ("material", layer.material.is_some()),
         ("node", layer.node.is_some()),
     ];
+    if let Layer::Engraved(engraved) = &layer.layer
+        && let Some(file) = engraved.line.file()
+    {
+        return Err(Error::new(
+            format!("{key}.{}", engraved.line.key().name),
+            format!("found the drawing \"{}\"", file.display()),
+            "must be another pattern where scratches are laid on a mesh in memory",
+        ));
+    }
     match keys.iter().find(|(_, is_there)| *is_there) {
         None => Ok(()),
         Some((name, _)) => Err(Error::new(

@@ -6,8 +6,10 @@
 //! stream of its own, so the result depends neither on the number of threads nor, for the first ones, on the count.
 
 mod closest;
+mod curve;
 mod cut;
 mod edges;
+mod engraved;
 mod erase;
 mod facet;
 mod ground;
@@ -16,6 +18,7 @@ mod laying;
 mod listed;
 mod memory;
 mod neighbours;
+mod outlines;
 mod painted;
 mod place;
 mod random;
@@ -32,6 +35,7 @@ use crate::description::{Amount, Layer, Stroke};
 use crate::error::Error;
 use crate::loader::{Loader, Stage};
 
+use engraved::Engraving;
 use erase::Eraser;
 pub(crate) use ground::Ground;
 pub use laying::LISTED_RANGES;
@@ -231,6 +235,11 @@ impl<'a> Plan<'a> {
                 let count = painted.count();
                 (Box::new(painted), count)
             }
+            Layer::Engraved(engraved) => {
+                let engraving = Engraving::new(loader, engraved, table, base_dir)?;
+                let count = engraving.count();
+                (Box::new(engraving), count)
+            }
             Layer::Listed(listed) => {
                 let listed = match loader.arrays.scratches(&listed.file) {
                     Some(arrays) => Listed::of_arrays(loader, arrays, &table.key, ground)?,
@@ -273,6 +282,7 @@ impl<'a> Plan<'a> {
             let key = match self.table.layer {
                 Layer::Listed(_) => "file",
                 Layer::Brushed(_) => "strokes",
+                Layer::Engraved(engraved) => engraved.line.key().name,
                 Layer::Laid(laid) => match laid.amount {
                     Amount::Count(_) => "count",
                     Amount::DensityPerM2(_) => "density_per_m2",

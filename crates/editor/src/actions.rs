@@ -13,7 +13,7 @@ pub mod parts;
 pub mod pictures;
 pub mod studio;
 
-mod list;
+pub(crate) mod list;
 
 use std::path::Path;
 

@@ -265,7 +265,7 @@ fn two_digits(x: f64) -> f64 {
 }
 
 /// Exponent of the largest power of ten that is no larger, but not below the smallest step in metres.
-fn decimal_step(largest: f64) -> i32 {
+pub(crate) fn decimal_step(largest: f64) -> i32 {
     let exponent = largest.log10().floor();
     match exponent.is_finite() {
         true => exponent.clamp(-12.0, 3.0) as i32,
@@ -274,7 +274,7 @@ fn decimal_step(largest: f64) -> i32 {
 }
 
 /// `x` as a short decimal number: the nearest multiple of 10^`exponent`.
-fn rounded(x: f64, exponent: i32) -> f64 {
+pub(crate) fn rounded(x: f64, exponent: i32) -> f64 {
     match exponent < 0 {
         true => (x * 10_f64.powi(-exponent)).round() / 10_f64.powi(-exponent),
         false => (x / 10_f64.powi(exponent)).round() * 10_f64.powi(exponent),

@@ -6,7 +6,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use hairline_document::Description;
-use hairline_document::description::Stroke;
+use hairline_document::description::{Layer, Line, Stroke};
 
 use crate::Selection;
 
@@ -171,11 +171,24 @@ fn estimated_bytes(description: &Description) -> usize {
         .iter()
         .flat_map(|layer| &layer.strokes);
     let stroke_bytes = strokes.map(|s| size_of::<Stroke>() + size_of_val(&s.points_m[..]));
+    let curves = description
+        .scratches
+        .iter()
+        .map(|layer| match &layer.layer {
+            Layer::Engraved(engraved) => match &engraved.line {
+                Line::Curve { points_m, .. } => size_of_val(&points_m[..]),
+                Line::Text { .. } | Line::Svg { .. } => 0,
+            },
+            _ => 0,
+        });
     let lights = description
         .lights
         .iter()
         .map(|light| size_of_val(light.kind.vertices_m()));
-    TABLE_BYTES * (1 + tables) + stroke_bytes.sum::<usize>() + lights.sum::<usize>()
+    TABLE_BYTES * (1 + tables)
+        + stroke_bytes.sum::<usize>()
+        + curves.sum::<usize>()
+        + lights.sum::<usize>()
 }
 
 #[cfg(test)]

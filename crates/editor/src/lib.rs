@@ -35,6 +35,7 @@ pub mod maps;
 pub mod navigate;
 pub mod own_presets;
 mod paths;
+pub mod pen;
 pub mod place_light;
 pub mod presets;
 pub mod quantity;

@@ -258,7 +258,7 @@ impl Viewer {
         let has_popup = egui::Popup::is_any_open(&ctx);
         self.viewport.shield(&ctx, has_popup);
         if !self.is_asking() {
-            self.viewport.cancel_on_escape(&ctx, &mut self.work);
+            self.viewport.take_keys(&ctx, &mut self.work);
         }
         // Escape closes popups and ends typing, and egui has taken the keyboard from a text by now.
         let escape_is_taken = has_popup || self.was_typing;

@@ -54,6 +54,8 @@ pub(crate) enum Command {
     Pick(Tool),
     BrushSmaller,
     BrushLarger,
+    EngraveText,
+    EngraveDrawing,
     Deselect,
     Help,
     Read(ReadCommand),
@@ -197,6 +199,7 @@ const TABLE: &[Entry] = &[
     entry(Command::Pick(Tool::Select), Group::Tools, "Select", Some((PLAIN, Key::V))),
     entry(Command::Pick(Tool::Brush), Group::Tools, "Brush", Some((PLAIN, Key::B))),
     entry(Command::Pick(Tool::Eraser), Group::Tools, "Eraser", Some((PLAIN, Key::E))),
+    entry(Command::Pick(Tool::Pen), Group::Tools, "Pen", Some((PLAIN, Key::D))),
     entry(Command::Pick(Tool::PlaceLight), Group::Tools, "Place light", Some((PLAIN, Key::L))),
     entry(Command::Pick(Tool::PickPart), Group::Tools, "Pick part", Some((PLAIN, Key::P))),
     entry(Command::Pick(Tool::Region), Group::Tools, "Render region", Some((PLAIN, Key::R))),
@@ -204,6 +207,8 @@ const TABLE: &[Entry] = &[
     entry(Command::Pause, Group::Tools, "Pause the rendering", Some((Modifiers::SHIFT, Key::P))),
     entry(Command::BrushSmaller, Group::Tools, "Smaller brush", Some((PLAIN, Key::OpenBracket))),
     entry(Command::BrushLarger, Group::Tools, "Larger brush", Some((PLAIN, Key::CloseBracket))),
+    entry(Command::EngraveText, Group::Tools, "Engrave a text", None),
+    entry(Command::EngraveDrawing, Group::Tools, "Engrave a drawing (SVG)…", None),
     entry(Command::Help, Group::Help, "Keys and mouse", Some((PLAIN, Key::F1))),
 ];
 
@@ -233,6 +238,7 @@ const SECTIONS: &[Command] = &[
     Command::Compare,
     Command::Pick(Tool::Region),
     Command::BrushSmaller,
+    Command::EngraveText,
 ];
 
 /// The commands that are here, in the order of the menus.

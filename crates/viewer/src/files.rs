@@ -30,6 +30,8 @@ pub(crate) enum Purpose {
     Screenshot,
     Turntable,
     ExportModel,
+    /// A drawing to be engraved.
+    Drawing,
     /// A file that the scene names and that is not there.
     Find(FileUse),
     /// A mask, a map or the picture of a light.
@@ -47,6 +49,7 @@ impl Purpose {
             Self::Screenshot => "Save a picture",
             Self::Turntable => "Export a turntable: name of the first frame",
             Self::ExportModel => "Export the model with its scratches",
+            Self::Drawing => "Engrave a drawing",
             Self::Find(_) => "Find the file",
             Self::Picture(_) => "Choose a picture",
         }
@@ -65,6 +68,7 @@ impl Purpose {
             Self::Find(FileUse::Map) => Self::Environment.filter(),
             Self::Find(FileUse::Mesh(_)) => Self::AddModel.filter(),
             Self::Find(FileUse::ScratchList(_)) => ("Lists of scratches", &["csv"]),
+            Self::Drawing | Self::Find(FileUse::Drawing(_)) => ("Drawings", &["svg"]),
             Self::Find(_) | Self::Picture(_) => {
                 ("Pictures", &["png", "jpg", "jpeg", "webp", "hdr", "exr"])
             }
@@ -84,9 +88,12 @@ impl Purpose {
         let stem = document.path().and_then(Path::file_stem);
         let stem = stem.map_or("scene".into(), |stem| stem.to_string_lossy());
         match self {
-            Self::Open | Self::AddModel | Self::Environment | Self::Find(_) | Self::Picture(_) => {
-                String::new()
-            }
+            Self::Open
+            | Self::AddModel
+            | Self::Environment
+            | Self::Drawing
+            | Self::Find(_)
+            | Self::Picture(_) => String::new(),
             Self::SaveAs => format!("{stem}.toml"),
             Self::Screenshot => format!("{stem}.png"),
             Self::Turntable => format!("{stem}-turntable.png"),

@@ -59,6 +59,7 @@ fn what(description: &Description, of: FileUse, path: &Path) -> &'static str {
         FileUse::Map => "environment map",
         FileUse::Mesh(_) => "model",
         FileUse::ScratchList(_) => "list of scratches",
+        FileUse::Drawing(_) => "drawing",
         FileUse::ScratchPicture(i) => {
             let layer = description.scratches.get(i);
             match is_it(layer.and_then(|layer| layer.place.mask.as_ref())) {

@@ -14,6 +14,8 @@ hairline_image::listed! {
         Brush = "Drag over an object to lay scratches along the stroke";
         /// Dragging removes scratches of the selected layer.
         Eraser = "Drag over an object to take scratches of the selected layer away";
+        /// Clicks set the points of an engraved line.
+        Pen = "Click on an object to set the points of an engraved line; Enter or a double click ends it. Drag a point to move it, Delete takes it away";
         /// Click or drag moves the selected light so that its highlight falls there.
         PlaceLight = "Click on an object, or drag over it: the selected light moves so that its highlight falls there";
         /// Click keeps the selected layer to the part of the model that is there.

@@ -9,6 +9,7 @@ pub(crate) mod lens;
 mod line_field;
 mod mouse;
 mod overlays;
+mod pen;
 mod pick;
 mod place;
 mod region;
@@ -26,6 +27,7 @@ pub(crate) use area::{Area, camera};
 use canvas::CanvasTexture;
 use gizmo::Gizmo;
 use line_field::LineField;
+use pen::PenTool;
 use strokes::StrokeTool;
 
 /// State of the picture's area between passes.
@@ -36,6 +38,7 @@ pub(crate) struct Viewport {
     /// Position at which a drag of the region began.
     region_from: Option<egui::Pos2>,
     stroke: StrokeTool,
+    pen: PenTool,
     gizmo: Gizmo,
     line_fields: Vec<LineField>,
     /// The largest time of the interface's own passes of late, for the status line.
@@ -63,6 +66,7 @@ impl Viewport {
             region_from: None,
             canvas,
             stroke: StrokeTool::default(),
+            pen: PenTool::default(),
             gizmo: Gizmo::default(),
             line_fields: Vec::new(),
             interface_time: Duration::ZERO,
@@ -98,12 +102,19 @@ impl Viewport {
         Some(pick::surface(work, &area, pos)?.point_m)
     }
 
-    /// Cancels the drag of a handle or the brush by Escape. To be asked before the commands: else it means to select nothing.
-    pub fn cancel_on_escape(&mut self, ctx: &egui::Context, work: &mut Workspace) {
+    /// Keys of what is in hand, to be asked before the commands.
+    pub fn take_keys(&mut self, ctx: &egui::Context, work: &mut Workspace) {
+        self.cancel_on_escape(ctx, work);
+        self.pen.take_keys(ctx, work);
+    }
+
+    /// Cancels the drag of a handle, a point or the brush by Escape: else it means to select nothing.
+    fn cancel_on_escape(&mut self, ctx: &egui::Context, work: &mut Workspace) {
         if !ctx.input(|input| input.key_pressed(egui::Key::Escape)) {
             return;
         }
-        let is_held = self.gizmo.cancel() | std::mem::take(&mut self.is_placing);
+        let is_held =
+            self.gizmo.cancel() | self.pen.cancel() | std::mem::take(&mut self.is_placing);
         if is_held {
             work.document.cancel_drag();
         }

@@ -1,5 +1,6 @@
 //! Workspace of all panels: the edited scene, its renderer, its view, and messages about it.
 
+mod engrave;
 mod fit;
 mod give;
 mod own;

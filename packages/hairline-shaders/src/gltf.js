@@ -233,7 +233,7 @@ class HairlineScratches {
       const [material, below] = JSON.parse(part);
       const own = meshes.filter((mesh) => (material === null || mesh.material.name === material) && (below === null || isBelow(mesh, node, below)));
       // All of them, as a layer's seed counts with those before it.
-      const rows = described.map((row, i) => ({ ...row, solo: false, hidden: !shown.includes(layers[i]) || partOf(layers[i]) !== part }));
+      const rows = described.map((row, i) => ({ ...row, solo: false, hidden: row.hidden || !shown.includes(layers[i]) || partOf(layers[i]) !== part }));
       try {
         return new Scratches(await beside('lay', { mesh: together(own, node), layers: rows, options: { metresPerUnit, files } }));
       } catch ({ message }) {
@@ -246,6 +246,10 @@ class HairlineScratches {
   /** A layer without the part that it lies on; what it names is added to `files`. */
   async described(given, number, extension, files) {
     const { laid, material, node, ...layer } = given;
+    if (layer.pattern === 'svg') {
+      this.warn(`not drawn: a layer of pattern svg on "${layer.object}"`);
+      return { ...layer, file: 'drawing.svg', hidden: true };
+    }
     if (layer.pattern === 'file') {
       const list = layer.file;
       layer.file = `list ${number}`;

@@ -134,6 +134,7 @@ impl<'a> Work<'a> {
     fn stamps(&self, table: &description::Scratches) -> Vec<Stamp> {
         let list = match &table.layer {
             Layer::Listed(listed) => Some(&listed.file),
+            Layer::Engraved(engraved) => engraved.line.file(),
             Layer::Laid(_) | Layer::Brushed(_) => None,
         };
         let files = list.into_iter().chain(table.place.files());

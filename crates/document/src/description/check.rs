@@ -150,6 +150,7 @@ fn check_scratches(it: &Scratches, key: &str) -> Check {
             check_drawn(brushed.seed, brushed.sizes(), key)?;
             scratches::JITTER_DEG.check(key, &brushed.jitter_deg)?;
         }
+        Layer::Engraved(engraved) => engraved.check_at(key)?,
         Layer::Listed(_) => {}
     }
     check_profile(&it.profile, key)?;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{Description, GroovePattern, Layer, Map, Surface};
+use super::{Description, GroovePattern, Layer, Line, Map, Surface};
 
 /// Use of a file in a scene; numbers are those of the tables that name it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +13,8 @@ pub enum FileUse {
     Mesh(usize),
     /// The list of a layer of `[[scratches]]`.
     ScratchList(usize),
+    /// The drawing of a layer of `[[scratches]]`.
+    Drawing(usize),
     /// A picture of where the scratches of a layer are.
     ScratchPicture(usize),
     /// A picture of a `[[grating]]`.
@@ -36,8 +38,16 @@ macro_rules! walk {
             }
         }
         for (i, scratches) in $description.scratches.$iter().enumerate() {
-            if let Layer::Listed(listed) = &$($mutable)? scratches.layer {
-                files.push((FileUse::ScratchList(i), &$($mutable)? listed.file));
+            match &$($mutable)? scratches.layer {
+                Layer::Listed(listed) => {
+                    files.push((FileUse::ScratchList(i), &$($mutable)? listed.file));
+                }
+                Layer::Engraved(engraved) => {
+                    if let Line::Svg { file, .. } = &$($mutable)? engraved.line {
+                        files.push((FileUse::Drawing(i), file));
+                    }
+                }
+                Layer::Laid(_) | Layer::Brushed(_) => {}
             }
             let place = &$($mutable)? scratches.place;
             let pictures = place.mask.$iter().chain(place.density.$iter());

@@ -8,8 +8,8 @@ use super::lens;
 use super::ranges::Check;
 use super::table::{Held, Read, Table, Value, number, wrong_type};
 use super::{
-    Amount, Around, Brush, Brushed, Cover, Description, Distribution, Environment, Laid, Layer,
-    LayerPlaces, Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render,
+    Amount, Around, Brush, Brushed, Cover, Description, Distribution, Engraved, Environment, Laid,
+    Layer, LayerPlaces, Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render,
     Scratches, Stroke, Studio, Surface,
 };
 use crate::error::Error;
@@ -287,6 +287,9 @@ fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
     if pattern == "file" {
         let file = table.required(scratches::FILE.name)?;
         return Ok(Layer::Listed(Listed { file }));
+    }
+    if matches!(pattern, "curve" | "text" | "svg") {
+        return Ok(Layer::Engraved(Engraved::read(pattern, table)?));
     }
     let seed = table.value(&scratches::SEED)?;
     let sizes = sizes(table)?;

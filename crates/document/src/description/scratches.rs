@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use hairline_optics::section::Section;
 use serde::{Serialize, Serializer};
 
+use super::engraved::Engraved;
 use super::keyed::kinds;
 use super::place::LayerPlaces;
 use super::ranges::{Check, Numbers, Take};
@@ -102,6 +103,8 @@ pub enum Layer {
     Laid(Laid),
     /// `pattern = "drawn"`
     Brushed(Brushed),
+    /// Along lines that are given.
+    Engraved(Engraved),
     /// `pattern = "file"`
     Listed(Listed),
 }
@@ -112,6 +115,7 @@ impl Layer {
         match self {
             Self::Laid(laid) => Some(laid.seed),
             Self::Brushed(brushed) => Some(brushed.seed),
+            Self::Engraved(engraved) => Some(engraved.seed),
             Self::Listed(_) => None,
         }
     }
@@ -121,6 +125,7 @@ impl Layer {
         match self {
             Self::Laid(laid) => laid.pattern.name(),
             Self::Brushed(_) => "drawn",
+            Self::Engraved(engraved) => engraved.line.name(),
             Self::Listed(_) => "file",
         }
     }
@@ -130,6 +135,7 @@ impl Layer {
         match self {
             Self::Laid(laid) => Some(&mut laid.seed),
             Self::Brushed(brushed) => Some(&mut brushed.seed),
+            Self::Engraved(engraved) => Some(&mut engraved.seed),
             Self::Listed(_) => None,
         }
     }

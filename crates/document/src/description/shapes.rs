@@ -158,21 +158,7 @@ impl Shape {
                 let what = "`height_m` and the extent along y";
                 at_most(&way(&shape::SWEEP_ROUNDING_M), *rounding_m, most, what)
             }
-            Self::Text { line, .. } => {
-                let count = line.chars().count();
-                if line.trim().is_empty() || count > CHARACTERS_MOST {
-                    let found = format!("found {count} characters");
-                    let right = format!("must be 1 to {CHARACTERS_MOST}, not blank");
-                    return Err(Error::new(way(&shape::LINE), found, right));
-                }
-                let missing = text::missing(line);
-                if !missing.is_empty() {
-                    let found = format!("found {missing:?}");
-                    let right = "must be characters of the font, Ubuntu Light, in one line";
-                    return Err(Error::new(way(&shape::LINE), found, right));
-                }
-                Ok(())
-            }
+            Self::Text { line, .. } => check_letters(&way(&shape::LINE), line),
             Self::Lathe { profile_m, .. } if profile_m.len() < 2 => {
                 let found = format!("found {} points", profile_m.len());
                 let right = "must be at least two";
@@ -192,6 +178,23 @@ fn half_of_the_most(sweep: &Table) -> Result<f64, Error> {
 
 /// Characters of a text.
 const CHARACTERS_MOST: usize = 200;
+
+/// Refuses a line of text that the built-in font cannot write; `key` is the way to it.
+pub(super) fn check_letters(key: &str, line: &str) -> Check {
+    let count = line.chars().count();
+    if line.trim().is_empty() || count > CHARACTERS_MOST {
+        let found = format!("found {count} characters");
+        let right = format!("must be 1 to {CHARACTERS_MOST}, not blank");
+        return Err(Error::new(key, found, right));
+    }
+    let missing = text::missing(line);
+    if !missing.is_empty() {
+        let found = format!("found {missing:?}");
+        let right = "must be characters of the font, Ubuntu Light, in one line";
+        return Err(Error::new(key, found, right));
+    }
+    Ok(())
+}
 
 fn at_most(key: &str, value: f64, most: f64, what: &str) -> Check {
     match value <= most {

@@ -263,6 +263,12 @@ held! {
     String: Initial::Text(text) => text.to_owned();
 }
 
+impl Held for PathBuf {
+    fn initial(_: Initial) -> Option<Self> {
+        None
+    }
+}
+
 impl<const N: usize> Held for [f64; N] {
     fn initial(initial: Initial) -> Option<Self> {
         match initial {

@@ -12,7 +12,7 @@ pub(super) const LAID: &str = "laid";
 /// Contents that a key may name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Named {
-    /// A picture or an environment: a number among the extension's `files`.
+    /// A picture, a drawing or an environment: a number among the extension's `files`.
     File,
     /// A list of scratches: accessors.
     Scratches,
@@ -45,10 +45,12 @@ fn of_table<'v>(
     let Some(members) = value.as_object_mut() else {
         return;
     };
+    let is_drawing = members.get("pattern").is_some_and(|it| it == "svg");
     for (key, value) in members {
         let way = format!("{way}.{key}");
         let named = match (table, key.as_str()) {
             ("object", "mesh") => Named::Model,
+            ("scratches", "file") if is_drawing => Named::File,
             ("scratches", "file") => Named::Scratches,
             ("scratches", "where") => {
                 of_table("where", &way, value, found);
@@ -94,6 +96,6 @@ mod tests {
                 count += usize::from(is_file);
             }
         }
-        assert_eq!(count, 8);
+        assert_eq!(count, 9);
     }
 }

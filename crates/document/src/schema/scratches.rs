@@ -15,6 +15,9 @@ pub static SCRATCHES: Section = Section::many("scratches", "Scratches", "a layer
     Choice::new("swirl", "Arcs around many centres strewn over the surface: the cobweb on a polished or machine-washed car.", &[&COUNT, &DENSITY_PER_M2, &SEED, &LENGTH_M, &WIDTH_UM, &DEPTH_NM, &SWIRL_PER_M]),
     Choice::new("drawn", "Along the strokes of a brush: a rag's way, a child's coin.", &[&LENGTH_M, &WIDTH_UM, &DEPTH_NM, &SEED, &JITTER_DEG]),
     Choice::new("file", "Your own list of straight scratches.", &[&FILE]),
+    Choice::new("curve", "One scratch along a smooth curve through points: an engraved line.", &[&CURVE_POINTS_M, &CLOSED, &WIDTH_UM, &DEPTH_NM, &SEED]),
+    Choice::new("text", "The outlines of letters, each a scratch: a number, a name.", &[&TEXT, &CAPITALS_M, &MIDDLE_M, &READING, &WIDTH_UM, &DEPTH_NM, &SEED]),
+    Choice::new("svg", "The outlines of a drawing, each a scratch: a mark, an ornament.", &[&DRAWING, &EXTENT_M, &MIDDLE_M, &READING, &WIDTH_UM, &DEPTH_NM, &SEED]),
 ]);
 
 pub static OBJECT: Key = Key::new("object", Form::Text)
@@ -160,6 +163,62 @@ pub static SWIRL_PER_M: Key = CURVATURE_PER_M
     .sizes(25.0, 8.0)
     .range_words("mean ±10000, not 0; spread 0 to 10000")
     .means("One over the distance to the centres.");
+
+pub static CURVE_POINTS_M: Key = Key::new("points_m", Form::Points(3))
+    .unit("m")
+    .within(-1000.0, 1000.0)
+    .range_words("2 to 4096 points, ±1000 each; 3 or more with `closed`")
+    .means("What the curve goes through, on or near the surface, in the object's own frame. A point farther from the object than the object is large is refused.")
+    .control("Point", linear(-1.0, 1.0).sized(), "A point that the curve goes through, in the object's own frame. It is moved onto the surface.");
+
+pub static CLOSED: Key = Key::new("closed", Form::Flag)
+    .flag(false)
+    .means("The curve comes back to its first point.");
+
+pub static TEXT: Key = Key::new("text", Form::Text)
+    .range_words("1 to 200 characters")
+    .means("What is engraved. The font is built in, Ubuntu Light: Latin, Greek, Cyrillic.");
+
+pub static CAPITALS_M: Key = Key::new("height_m", Form::Number)
+    .unit("m")
+    .size()
+    .means("The height of capitals.")
+    .control("Height", log(2e-3, 0.5).sized(), "The height of capitals. In small letters the lines bend quickly, so that they glitter instead of drawing streaks.");
+
+pub static DRAWING: Key = Key::new("file", Form::File)
+    .range_words("`.svg`")
+    .means("The drawing. All of its shapes are outlined, however they are filled; letters must be paths, and pictures are left out.");
+
+pub static EXTENT_M: Key = Key::new("fit_m", Form::Number)
+    .unit("m")
+    .size()
+    .means("The largest extent of its outlines.")
+    .control(
+        "Size",
+        log(2e-3, 1.0).sized(),
+        "The width of the drawing, or its height if that is larger.",
+    );
+
+pub static MIDDLE_M: Key = Key::new("center_m", Form::Numbers(3))
+    .unit("m")
+    .is(Initial::Numbers(&[0.0, 0.0, 0.0]))
+    .within(-1000.0, 1000.0)
+    .means("Where its middle is, on or near the surface.")
+    .control(
+        "Middle",
+        linear(-1.0, 1.0).sized(),
+        "Where its middle is, in the object's own frame. It is moved onto the surface.",
+    );
+
+pub static READING: Key = Key::new("direction", Form::Numbers(3))
+    .is(Initial::Numbers(&[1.0, 0.0, 0.0]))
+    .direction()
+    .means("The way from its left to its right, laid flat on the surface.")
+    .control(
+        "Direction",
+        linear(-1.0, 1.0),
+        "The way from its left to its right, in the object's own frame.",
+    );
 
 pub static FILE: Key = Key::new("file", Form::File)
     .range_words("CSV, UTF-8")

@@ -11,11 +11,18 @@ use super::neighbours::Neighbours;
 use super::random::Stream;
 use super::walk::{MeshPoint, Walker, shortest_piece_m};
 use crate::description::Distribution;
+use crate::error::Error;
 
 /// Half of the usual coherence width.
 const SHORTEST_M: f64 = 10e-6;
 /// A longer scratch only goes over itself again; relative to the object's diagonal.
 const LONGEST: f64 = 100.0;
+
+/// Least sine at which a point's nearest place counts as beside the point and not below it: the point is then over a rim. Edges
+/// of a right angle are no rims.
+const BESIDE_SINE: f64 = 0.9;
+/// Nearer than this, the direction is rounding.
+const BESIDE_M: f64 = 1e-7;
 
 /// A mesh with all data that laying needs.
 #[derive(Debug)]
@@ -70,6 +77,34 @@ impl Ground {
     /// The nearest places on the surface.
     pub(super) fn closest(&self) -> &Closest {
         self.closest.get_or_init(|| Closest::new(self.mesh.clone()))
+    }
+
+    /// Whether the nearest place to a point is below it, and not beside it on a rim.
+    pub(super) fn is_under(&self, spot: &MeshPoint, point_m: DVec3) -> bool {
+        let off = point_m - spot.point_m;
+        let beside = Facet::new(&self.mesh, spot.triangle).in_plane(off);
+        off.length() <= BESIDE_M || beside.length() <= BESIDE_SINE * off.length()
+    }
+
+    /// Refuses a point that is farther than `most_m` from the box about the object; `key` is the way to it.
+    pub(super) fn refuse_far(
+        &self,
+        point: [f64; 3],
+        most_m: f64,
+        key: impl FnOnce() -> String,
+    ) -> Result<(), Error> {
+        let (least, most) = self.mesh.bounds_m();
+        let (least, most) = (least.as_dvec3(), most.as_dvec3());
+        let point_m = self.point_in_world_m(point);
+        let off_m = point_m.distance(point_m.clamp(least, most));
+        match off_m <= most_m {
+            true => Ok(()),
+            false => Err(Error::new(
+                key(),
+                format!("found a point {off_m:.3e} m off the object"),
+                format!("must be at most {most_m:.3e} m off, in metres of the object's own frame"),
+            )),
+        }
     }
 
     /// Length that lies `normal` standard deviations from the mean, limited to lengths that fit the surface.

@@ -75,7 +75,7 @@ pub(super) trait Laying: Sync {
 
 /// Profile whose sizes lie `normals` standard deviations from their means, times factors.
 pub(super) fn scratch_profile(
-    [_, width_um, depth_nm]: [Distribution; 3],
+    [width_um, depth_nm]: [Distribution; 2],
     normals: [f64; 2],
     [width, depth]: [f64; 2],
 ) -> Profile {

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::ground::Ground;
 use super::guide::Guide;
 use super::laying::{Groove, LISTED_SIZES, Laying};
-use super::walk::{Course, MeshPoint, Walker};
+use super::walk::{Course, LONGEST_WAY, MeshPoint, Walker};
 use crate::arrays::ScratchArrays;
 use crate::error::Error;
 use crate::loader::Loader;
@@ -26,8 +26,6 @@ const MORE_COLUMNS: &str = "scratch,nx,ny,nz";
 /// Largest distance of a scratch's end from the surface, relative to the diagonal of the object: a list for the ideal shape fits its
 /// facets.
 const OFF_SURFACE: f64 = 0.01;
-/// Longest way on the surface between two points over their distance: on a curved surface it is longer than the straight line.
-const LONGEST_WAY: f64 = 4.0;
 
 /// A row of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -19,11 +19,6 @@ use crate::error::Error;
 
 /// Largest distance of the surface from the brush, in the brush's radii.
 const REACH: f64 = 2.0;
-/// Least sine at which a point's nearest place counts as beside the point and not below it: the point is then over a rim. Edges
-/// of a right angle are no rims.
-const BESIDE_SINE: f64 = 0.9;
-/// Nearer than this, the direction is rounding.
-const BESIDE_M: f64 = 1e-7;
 
 /// A layer's description with the ground that it goes on.
 pub(super) struct Painted<'a> {
@@ -110,11 +105,8 @@ impl<'a> Painted<'a> {
         let most_m = REACH * radius_m;
         let (spot, distance_m) = self.ground.closest().find_within(touch.point_m, most_m)?;
         let facet = Facet::new(&self.ground.mesh, spot.triangle);
-        let off = touch.point_m - spot.point_m;
-        let is_beside =
-            off.length() > BESIDE_M && facet.in_plane(off).length() > BESIDE_SINE * off.length();
         let is_near = distance_m <= most_m && facet.normal.dot(touch.normal) >= 0.0;
-        (is_near && !is_beside).then_some(spot)
+        (is_near && self.ground.is_under(&spot, touch.point_m)).then_some(spot)
     }
 }
 
@@ -141,7 +133,11 @@ impl Laying for Painted<'_> {
             walker.lay(seed, &guide, length_m, segments);
         }
         Groove {
-            profile: scratch_profile(self.layer.sizes(), [width, depth], [path.width, path.depth]),
+            profile: scratch_profile(
+                [self.layer.width_um, self.layer.depth_nm],
+                [width, depth],
+                [path.width, path.depth],
+            ),
             course: Course::Open,
         }
     }
@@ -242,22 +238,11 @@ impl Path {
 /// Refuses strokes with points far from the surface, which belong to another object or to another unit. A stroke may go over the
 /// rim, and an object may shrink under it: as far as the object is large.
 pub(super) fn check(strokes: &[Stroke], key: &str, ground: &Ground) -> Result<(), Error> {
-    let (least, most) = ground.mesh.bounds_m();
-    let (least, most) = (least.as_dvec3(), most.as_dvec3());
     for (i, stroke) in strokes.iter().enumerate() {
         let most_m = ground.diagonal_m.max(REACH * stroke.radius_m);
         for (j, point) in stroke.points_m.iter().enumerate() {
-            let point_m = ground.point_in_world_m(*point);
-            let off_m = point_m.distance(point_m.clamp(least, most));
-            if off_m > most_m {
-                return Err(Error::new(
-                    format!("{key}.strokes[{i}].points_m[{j}]"),
-                    format!("found a point {off_m:.3e} m off the object"),
-                    format!(
-                        "must be at most {most_m:.3e} m off, in metres of the object's own frame"
-                    ),
-                ));
-            }
+            let key = || format!("{key}.strokes[{i}].points_m[{j}]");
+            ground.refuse_far(*point, most_m, key)?;
         }
     }
     Ok(())

@@ -32,7 +32,7 @@ impl Laying for Strewn<'_> {
         let length_m = self.ground.scratch_length_m(&laid.length_m, length);
         let guide = self.guide(seed, seed_angle_rad, curvature, jitter);
         Groove {
-            profile: scratch_profile(laid.sizes(), [width, depth], [1.0; 2]),
+            profile: scratch_profile([laid.width_um, laid.depth_nm], [width, depth], [1.0; 2]),
             course: walker.lay(seed, &guide, length_m, segments),
         }
     }

@@ -15,6 +15,11 @@ const MOST_IDLE_STEPS: usize = 128;
 /// A field that turns by more than 60 degrees at once has no direction there: a pole, or a ridge with both sides facing it.
 const TURN_BACK_COS: f64 = 0.5;
 
+/// Longest way on the surface between two points over their distance: on a curved surface it is longer than the straight line.
+pub(super) const LONGEST_WAY: f64 = 4.0;
+/// Share of a way by which it may miss its end and still arrives.
+const MISSED: f64 = 1e-3;
+
 /// A place on the surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeshPoint {
@@ -24,7 +29,7 @@ pub(super) struct MeshPoint {
 
 /// A straight piece within one triangle.
 #[derive(Clone, Copy, Debug)]
-struct StraightPiece {
+pub(super) struct StraightPiece {
     start_m: DVec3,
     end_m: DVec3,
     triangle: u32,
@@ -84,15 +89,8 @@ impl<'a> Walker<'a> {
             .rev()
             .map(StraightPiece::reversed)
             .collect();
-        let mut ahead = ahead.into_iter();
         // A straight scratch has no joint at its seed.
-        if let (Some(last), Some(first)) = (pieces.last_mut(), ahead.as_slice().first())
-            && last.continues_straight(first)
-        {
-            last.end_m = first.end_m;
-            ahead.next();
-        }
-        pieces.extend(ahead);
+        join(&mut pieces, ahead);
         self.append(pieces, Course::Open, segments)
     }
 
@@ -106,6 +104,64 @@ impl<'a> Walker<'a> {
     ) {
         let (pieces, _) = self.walk(start, guide, false, length_m);
         self.append(pieces, Course::Open, segments);
+    }
+
+    /// The place at a distance straight ahead, and the direction there; none where the surface ends before.
+    pub(super) fn ahead(
+        &self,
+        start: MeshPoint,
+        direction: DVec3,
+        length_m: f64,
+    ) -> Option<(MeshPoint, DVec3)> {
+        let guide = Guide::Free {
+            seed_direction: direction,
+            curvature_per_m: 0.0,
+        };
+        let (pieces, _) = self.walk(start, &guide, false, length_m);
+        let lengths_m = pieces.iter().map(StraightPiece::length_m);
+        let missed_m = length_m - lengths_m.sum::<f64>();
+        let last = pieces.last()?;
+        let place = MeshPoint {
+            triangle: last.triangle,
+            point_m: last.end_m,
+        };
+        // Shorter ones have no direction.
+        let mut long = pieces.iter().rev();
+        let long = long.find(|piece| piece.length_m() > self.shortest_piece_m);
+        let direction = long.map_or(direction, |it| (it.end_m - it.start_m).normalize());
+        (missed_m <= MISSED * length_m).then_some((place, direction))
+    }
+
+    /// Adds the way on the surface to a near place to the last run of pieces. Where no way leads over an edge between them, that run ends
+    /// there, and a new one begins on its other side.
+    pub(super) fn go(&self, from: MeshPoint, to: MeshPoint, runs: &mut Vec<Vec<StraightPiece>>) {
+        let (ahead, arrives) = self.towards(from, to);
+        let run = runs.last_mut();
+        match run {
+            Some(run) => join(run, ahead),
+            None => runs.push(ahead),
+        }
+        if !arrives {
+            let (back, _) = self.towards(to, from);
+            runs.push(
+                back.into_iter()
+                    .rev()
+                    .map(StraightPiece::reversed)
+                    .collect(),
+            );
+        }
+    }
+
+    /// The way to a near place, and whether it arrives.
+    fn towards(&self, from: MeshPoint, to: MeshPoint) -> (Vec<StraightPiece>, bool) {
+        let guide = Guide::Towards { end_m: to.point_m };
+        let distance_m = from.point_m.distance(to.point_m);
+        let (pieces, _) = self.walk(from, &guide, false, LONGEST_WAY * distance_m);
+        let missed_m = pieces
+            .last()
+            .map_or(distance_m, |last| last.end_m.distance(to.point_m));
+        let arrives = missed_m < self.shortest_piece_m + MISSED * distance_m;
+        (pieces, arrives)
     }
 
     fn walk(
@@ -206,7 +262,7 @@ impl<'a> Walker<'a> {
     }
 
     /// Rounds pieces to segments and appends them, without those too short to matter.
-    fn append(
+    pub(super) fn append(
         &self,
         pieces: Vec<StraightPiece>,
         course: Course,
@@ -237,21 +293,41 @@ impl<'a> Walker<'a> {
 
     /// A piece of a triangle with the shading normal at its middle.
     pub(super) fn segment(&self, start_m: DVec3, end_m: DVec3, triangle: u32) -> Segment {
-        let corners_m = self.mesh.corners_m(triangle as usize);
-        let facet_normal = facet::normal(corners_m);
-        let weights = facet::barycentric(corners_m, facet_normal, (start_m + end_m) / 2.0);
-        let corners = self.mesh.triangles[triangle as usize];
-        let normal: DVec3 = (0..3)
-            .map(|i| self.mesh.normals[corners[i] as usize].as_dvec3() * weights[i])
-            .sum();
-        let normal: Vec3 = normal.normalize_or(facet_normal).as_vec3();
+        let middle = MeshPoint {
+            triangle,
+            point_m: (start_m + end_m) / 2.0,
+        };
         Segment {
             start_m: start_m.as_vec3(),
             end_m: end_m.as_vec3(),
-            normal,
+            normal: self.normal(&middle).as_vec3(),
             triangle,
         }
     }
+
+    /// The shading normal.
+    pub(super) fn normal(&self, at: &MeshPoint) -> DVec3 {
+        let corners_m = self.mesh.corners_m(at.triangle as usize);
+        let facet_normal = facet::normal(corners_m);
+        let weights = facet::barycentric(corners_m, facet_normal, at.point_m);
+        let corners = self.mesh.triangles[at.triangle as usize];
+        let normal: DVec3 = (0..3)
+            .map(|i| self.mesh.normals[corners[i] as usize].as_dvec3() * weights[i])
+            .sum();
+        normal.normalize_or(facet_normal)
+    }
+}
+
+/// Adds pieces to those that end where they begin.
+pub(super) fn join(pieces: &mut Vec<StraightPiece>, ahead: Vec<StraightPiece>) {
+    let mut ahead = ahead.into_iter();
+    if let (Some(last), Some(first)) = (pieces.last_mut(), ahead.as_slice().first())
+        && last.continues_straight(first)
+    {
+        last.end_m = first.end_m;
+        ahead.next();
+    }
+    pieces.extend(ahead);
 }
 
 /// The length along an arc of `reach_m` at which a scratch is back where it started, with the direction in which it started.
@@ -300,6 +376,10 @@ impl StraightPiece {
             end_m: self.start_m,
             ..self
         }
+    }
+
+    fn length_m(&self) -> f64 {
+        self.start_m.distance(self.end_m)
     }
 
     /// Whether the next piece goes on in the same triangle and the same direction.

@@ -3,6 +3,7 @@
 use earcut::Earcut;
 use glam::{DVec2, DVec3, Vec2};
 use hairline_model::surface::{Surface, Vertex};
+use kurbo::{BezPath, PathEl, Point};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::{FontRef, MetadataProvider};
@@ -60,51 +61,140 @@ pub(super) fn size(text: &str) -> [f64; 2] {
 /// A closed line of points, without the first one again.
 type Contour = Vec<DVec2>;
 
-/// The outlines of each character, with the first one's origin at 0.
-fn letters(text: &str, height_m: f64) -> Vec<Vec<Contour>> {
+/// A letter of a line, in units of the font.
+pub(crate) struct Letter {
+    /// Its outlines, from its own origin.
+    pub outline: BezPath,
+    /// Its origin in the line.
+    pub x: f64,
+    /// The way to the origin of the next one.
+    pub advance: f64,
+}
+
+/// A line of text, in units of the font.
+pub(crate) struct Line {
+    pub letters: Vec<Letter>,
+    pub capital_height: f64,
+}
+
+/// The outlines of each character that the font has.
+pub(crate) fn line(text: &str) -> Line {
     let font = font();
     let unscaled = Size::unscaled();
     let metrics = font.metrics(unscaled, LocationRef::default());
     let capital = metrics
         .cap_height
         .expect("the font that is built in has one");
-    let m_per_unit = height_m / f64::from(capital);
     let charmap = font.charmap();
     let advances = font.glyph_metrics(unscaled, LocationRef::default());
     let outlines = font.outline_glyphs();
-    let mut x_units = 0.0;
+    let mut x = 0.0;
     let letters = text.chars().filter_map(|c| {
         let glyph = charmap.map(c)?;
-        let mut pen = Pen {
-            contours: Vec::new(),
-            m_per_unit,
-            origin: DVec2::new(x_units, 0.0),
-            at: DVec2::ZERO,
-        };
-        x_units += f64::from(advances.advance_width(glyph).unwrap_or(0.0));
+        let advance = f64::from(advances.advance_width(glyph).unwrap_or(0.0));
+        let mut pen = Pen(BezPath::new());
+        let origin = x;
+        x += advance;
         let settings = DrawSettings::unhinted(unscaled, LocationRef::default());
         outlines.get(glyph)?.draw(settings, &mut pen).ok()?;
-        for contour in &mut pen.contours {
+        Some(Letter {
+            outline: pen.0,
+            x: origin,
+            advance,
+        })
+    });
+    Line {
+        letters: letters.collect(),
+        capital_height: f64::from(capital),
+    }
+}
+
+/// Takes outlines.
+struct Pen(BezPath);
+
+fn units(x: f32, y: f32) -> Point {
+    Point::new(x.into(), y.into())
+}
+
+impl OutlinePen for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.move_to(units(x, y));
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.0.line_to(units(x, y));
+    }
+
+    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
+        self.0.quad_to(units(cx, cy), units(x, y));
+    }
+
+    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
+        self.0.curve_to(units(ax, ay), units(bx, by), units(x, y));
+    }
+
+    fn close(&mut self) {
+        self.0.close_path();
+    }
+}
+
+/// The outlines of each character in straight pieces, with the first one's origin at 0.
+fn letters(text: &str, height_m: f64) -> Vec<Vec<Contour>> {
+    let line = line(text);
+    let m_per_unit = height_m / line.capital_height;
+    let letters = line.letters.iter().map(|letter| {
+        let mut contours = Contours {
+            contours: Vec::new(),
+            m_per_unit,
+            origin: DVec2::new(letter.x, 0.0),
+            at: DVec2::ZERO,
+        };
+        letter.outline.iter().for_each(|part| contours.add(part));
+        let mut contours = contours.contours;
+        for contour in &mut contours {
             contour.dedup();
             if contour.first() == contour.last() {
                 contour.pop();
             }
         }
-        pen.contours.retain(|contour| contour.len() > 2);
-        Some(pen.contours)
+        contours.retain(|contour| contour.len() > 2);
+        contours
     });
     letters.collect()
 }
 
-/// Takes outlines in units of the font.
-struct Pen {
+/// Parts outlines in units of the font into straight pieces.
+struct Contours {
     contours: Vec<Contour>,
     m_per_unit: f64,
     origin: DVec2,
     at: DVec2,
 }
 
-impl Pen {
+impl Contours {
+    fn add(&mut self, part: PathEl) {
+        let units = |point: Point| DVec2::new(point.x, point.y);
+        match part {
+            PathEl::MoveTo(to) => {
+                self.contours.push(Vec::new());
+                self.push(units(to));
+            }
+            PathEl::LineTo(to) => self.push(units(to)),
+            PathEl::QuadTo(b, c) => {
+                let (a, b, c) = (self.at, units(b), units(c));
+                self.curve(|t| a.lerp(b, t).lerp(b.lerp(c, t), t));
+            }
+            PathEl::CurveTo(b, c, d) => {
+                let (a, b, c, d) = (self.at, units(b), units(c), units(d));
+                self.curve(|t| {
+                    let (ab, bc, cd) = (a.lerp(b, t), b.lerp(c, t), c.lerp(d, t));
+                    ab.lerp(bc, t).lerp(bc.lerp(cd, t), t)
+                });
+            }
+            PathEl::ClosePath => {}
+        }
+    }
+
     fn push(&mut self, to: DVec2) {
         self.at = to;
         let point_m = (self.origin + to) * self.m_per_unit;
@@ -119,36 +209,6 @@ impl Pen {
             self.push(at(f64::from(i) / f64::from(CURVE_PIECES)));
         }
     }
-}
-
-fn units(x: f32, y: f32) -> DVec2 {
-    DVec2::new(x.into(), y.into())
-}
-
-impl OutlinePen for Pen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.contours.push(Vec::new());
-        self.push(units(x, y));
-    }
-
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.push(units(x, y));
-    }
-
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        let (a, b, c) = (self.at, units(cx, cy), units(x, y));
-        self.curve(|t| a.lerp(b, t).lerp(b.lerp(c, t), t));
-    }
-
-    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
-        let (a, b, c, d) = (self.at, units(ax, ay), units(bx, by), units(x, y));
-        self.curve(|t| {
-            let (ab, bc, cd) = (a.lerp(b, t), b.lerp(c, t), c.lerp(d, t));
-            ab.lerp(bc, t).lerp(bc.lerp(cd, t), t)
-        });
-    }
-
-    fn close(&mut self) {}
 }
 
 /// Twice the area within a contour, positive where it runs counter-clockwise.

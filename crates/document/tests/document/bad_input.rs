@@ -7,6 +7,8 @@ use hairline_document::Loader;
 fn message(rest: &str) -> String {
     let dir = temporary_dir();
     std::fs::write(dir.path().join("empty.csv"), "").unwrap();
+    let blank = "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'/>";
+    std::fs::write(dir.path().join("blank.svg"), blank).unwrap();
     hairline_document::from_toml(&scene_with(rest), "plate.toml", dir.path())
         .map(|_| "it loads".to_owned())
         .unwrap_or_else(|error| error.to_string())
@@ -203,7 +205,7 @@ fn wrong_types() {
     );
     assert_eq!(
         scratches("count = 5"),
-        "plate.toml:15: scratches[0]: `pattern` is missing; must be one of `random`, `parallel`, `circular`, `radial`, `spun`, `swirl`, `drawn` and `file`"
+        "plate.toml:15: scratches[0]: `pattern` is missing; must be one of `random`, `parallel`, `circular`, `radial`, `spun`, `swirl`, `drawn`, `file`, `curve`, `text` and `svg`"
     );
 }
 
@@ -750,4 +752,74 @@ fn strokes() {
         light("kind = \"sphere\"\nhidden = true\ncenter_m = [0, 0, 1]\nradius_m = -1")
             .contains("radius_m")
     );
+}
+
+#[test]
+fn curves_that_are_none() {
+    for (rest, expected) in [
+        (
+            "points_m = [[0, 0, 0]]",
+            "18: scratches[0].points_m: found 1 points; must be from 2 to 4096",
+        ),
+        (
+            "points_m = [[0, 0, 0], [0.01, 0, 0]]\nclosed = true",
+            "18: scratches[0].points_m: found 2 points; must be from 3 to 4096",
+        ),
+        (
+            "points_m = [[0, 0, 0], [0.01, 1001, 0]]",
+            "18: scratches[0].points_m[1][1]: found 1001; must be from -1000 to 1000",
+        ),
+        (
+            "points_m = [[0, 0, 0], [1, 0, 0]]",
+            "18: scratches[0].points_m[1]: found a point 9.200e-1 m off the object; must be at most 2.263e-1 m off, in metres of the object's own frame",
+        ),
+        (
+            "count = 3",
+            "18: scratches[0].count: pattern `curve` has no such key; it belongs to `random`, `parallel`, `circular`, `radial`, `spun` and `swirl`",
+        ),
+    ] {
+        let found = scratches(&format!("pattern = \"curve\"\n{rest}\n"));
+        assert_eq!(found, format!("plate.toml:{expected}"));
+    }
+}
+
+#[test]
+fn letters_and_drawings_that_are_none() {
+    for (rest, expected) in [
+        (
+            "pattern = \"text\"\ntext = \" \"\nheight_m = 0.01",
+            "18: scratches[0].text: found 1 characters; must be 1 to 200, not blank",
+        ),
+        (
+            "pattern = \"text\"\ntext = \"\u{4e00}\"\nheight_m = 0.01",
+            "18: scratches[0].text: found \"\u{4e00}\"; must be characters of the font, Ubuntu Light, in one line",
+        ),
+        (
+            "pattern = \"text\"\ntext = \"a\"\nheight_m = 0.01\ndirection = [0, 0, 1]",
+            "20: scratches[0].direction: found [0.0, 0.0, 1.0], which stands upright on the surface; must lead along it",
+        ),
+        (
+            "pattern = \"text\"\ntext = \"a\"\nheight_m = 0.01\ncenter_m = [0, 1, 0]",
+            "20: scratches[0].center_m: found a point 9.200e-1 m off the object; must be at most 2.263e-1 m off, in metres of the object's own frame",
+        ),
+    ] {
+        let found = scratches(&format!("{rest}\n"));
+        assert_eq!(found, format!("plate.toml:{expected}"));
+    }
+    for (file, why) in [
+        ("none.svg", "cannot be read"),
+        ("empty.csv", "is no drawing"),
+        ("blank.svg", "has no outlines"),
+    ] {
+        let rest = format!("pattern = \"svg\"\nfile = \"{file}\"\nfit_m = 0.01\n");
+        let found = scratches(&rest);
+        assert!(
+            found.starts_with("plate.toml:18: scratches[0].file: \""),
+            "{found}"
+        );
+        assert!(found.contains(why), "{found}");
+        assert!(found.ends_with(
+            "must be an SVG file with shapes, relative to the scene file; letters as paths"
+        ));
+    }
 }

@@ -144,7 +144,7 @@ fn edit(it: &mut Description, random: &mut Pcg64, dir: &Path) -> String {
         7 => match &mut layer.layer {
             Layer::Laid(laid) => laid.width_um.mean = random.random_range(1.0..5.0),
             Layer::Brushed(brushed) => brushed.length_m.mean = random.random_range(0.005..0.02),
-            Layer::Listed(_) => {}
+            Layer::Engraved(_) | Layer::Listed(_) => {}
         },
         8 => layer.strokes.push(Stroke {
             points_m: vec![point(random), point(random)],

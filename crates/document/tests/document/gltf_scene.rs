@@ -35,6 +35,7 @@ scratches = [
     { object = "plate", pattern = "file", file = "list.csv", profile = [1.0, 0.7, 0.0, -0.3, 0.0] },
     { object = "box", pattern = "drawn", strokes = [{ points_m = [[0.0, 0.0, 0.015], [0.01, 0.012, 0.015]], radius_m = 0.004, density_per_m = 900.0 }] },
     { object = "box", pattern = "parallel", density_per_m2 = 20000.0, where = { edges = 0.8 }, hidden = true },
+    { object = "plate", pattern = "svg", file = "mark.svg", fit_m = 0.03, center_m = [0.01, 0.0, 0.0] },
 ]
 grating = [
     { object = "dvd", pattern = "circular", pitch_um = 0.74, mask = "maps/mask.png", tile_m = 0.03 },
@@ -64,6 +65,8 @@ fn whole() -> (tempfile::TempDir, Description) {
     write("box.png", &png([2, 2], [90, 180, 220, 255]));
     let list = "x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm\n-0.04,0.01,0,0.05,0.02,0,4.25,130\n0.1234567e-1,0,0,0,0.03,0,2.1,99.5\n";
     write("list.csv", list.as_bytes());
+    let mark = "<svg xmlns='http://www.w3.org/2000/svg'><circle cx='3' cy='3' r='2'/></svg>";
+    write("mark.svg", mark.as_bytes());
     let description = Description::from_toml(WHOLE, Path::new("whole.toml")).unwrap();
     (dir, description)
 }
@@ -547,7 +550,7 @@ fn a_wrong_extension_is_named_and_the_model_is_shown_plain() {
         ),
         (
             |it| it["scratches"][1]["where"]["mask"] = json!(77),
-            "scratches[1].where.mask: found 77; must be below 4, the number of its `files`",
+            "scratches[1].where.mask: found 77; must be below 5, the number of its `files`",
         ),
         (
             |it| it["files"][0]["bufferView"] = json!(7777),

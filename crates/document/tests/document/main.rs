@@ -8,6 +8,7 @@ mod bad_input;
 mod builder;
 mod description;
 mod draco;
+mod engraved;
 mod gltf;
 mod gltf_scene;
 mod left_out;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use hairline_document::gltf_scene::VERSION;
 use hairline_document::schema::{
-    Bounds, Choice, Form, Initial, Key, LARGEST_M, SECTIONS, SMALLEST_M, Section,
+    Bounds, Choice, Form, Initial, Key, LARGEST_M, SECTIONS, SMALLEST_M, Section, scratches,
 };
 use serde_json::{Map, Value, json};
 
@@ -411,7 +411,9 @@ fn json_value(section: &Section, key: &Key) -> Value {
     let many = |items: Value, count: usize| json!({ "type": "array", "items": items, "minItems": count, "maxItems": count });
     let mut value = match (section.name, key.name) {
         ("object", "mesh") => json!({ "type": "string" }),
-        ("scratches", "file") => json!({ "$ref": "#/$defs/list" }),
+        ("scratches", "file") if std::ptr::eq(key, &scratches::FILE) => {
+            json!({ "$ref": "#/$defs/list" })
+        }
         ("material", "cover") => json!({ "$ref": "#/$defs/cover" }),
         ("object", "shape") => json!({ "$ref": "#/$defs/shape" }),
         ("object", "overrides") => {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use hairline_document::Description;
 use hairline_document::description::LARGEST_SEED;
-use hairline_document::description::{Layer, Listed, Object, Pattern, Scratches, standings};
+use hairline_document::description::{Layer, Line, Listed, Object, Pattern, Scratches, standings};
 
 use super::{ActionError, list};
 use crate::{Selection, paths};
@@ -78,6 +78,11 @@ pub fn title(layer: &Scratches) -> &str {
         (Some(name), _) => name,
         (None, Layer::Listed(_)) => "scratches of a file",
         (None, Layer::Brushed(_)) => "drawn scratches",
+        (None, Layer::Engraved(engraved)) => match engraved.line {
+            Line::Curve { .. } => "curve",
+            Line::Text { .. } => "text",
+            Line::Svg { .. } => "drawing",
+        },
         (None, Layer::Laid(laid)) => match laid.pattern {
             Pattern::Random { .. } => "random scratches",
             Pattern::Parallel { .. } => "parallel scratches",

@@ -8,7 +8,7 @@ use crate::Selection;
 use crate::selection::{after_removal, after_swap};
 
 /// A part of a description that stands in a list.
-pub(super) trait ListedPart: Clone + 'static {
+pub(crate) trait ListedPart: Clone + 'static {
     /// Name of the kind in errors.
     const WHAT: &'static str;
     /// [`Self::WHAT`] with its article.
@@ -33,7 +33,7 @@ pub(super) trait ListedPart: Clone + 'static {
 }
 
 /// The part at a place.
-pub(super) fn get<P: ListedPart>(
+pub(crate) fn get<P: ListedPart>(
     description: &Description,
     index: usize,
 ) -> Result<&P, ActionError> {
@@ -42,7 +42,7 @@ pub(super) fn get<P: ListedPart>(
 }
 
 /// The part at a place, to change.
-pub(super) fn get_mut<P: ListedPart>(
+pub(crate) fn get_mut<P: ListedPart>(
     description: &mut Description,
     index: usize,
 ) -> Result<&mut P, ActionError> {

@@ -195,7 +195,7 @@ class ScratchesKeys(Table):
     _absent = {"hidden": False, "solo": False, "profile": "rectangle", "strokes": ()}
 
     pattern: str
-    """``"random"``, ``"parallel"``, ``"circular"``, ``"radial"``, ``"spun"``, ``"swirl"``, ``"drawn"``, ``"file"``."""
+    """``"random"``, ``"parallel"``, ``"circular"``, ``"radial"``, ``"spun"``, ``"swirl"``, ``"drawn"``, ``"file"``, ``"curve"``, ``"text"``, ``"svg"``."""
     object: str
     """What they lie on. Range: name of an object."""
     material: Optional[str] = _default()
@@ -238,6 +238,16 @@ class ScratchesKeys(Table):
     """A point on the axis. Unit: m. Default: ``[0, 0, 0]``. Range: ±1000 each."""
     file: Optional[Union[Path, core.ScratchArray]] = _default()
     """One straight scratch a row, commas between. Range: CSV, UTF-8."""
+    points_m: Optional[Union[Sequence[Vector], ArrayLike]] = _default()
+    """What the curve goes through, on or near the surface, in the object's own frame. A point farther from the object than the object is large is refused. Unit: m. Range: 2 to 4096 points, ±1000 each; 3 or more with ``closed``."""
+    closed: Optional[bool] = _default()
+    """The curve comes back to its first point. Default: ``false``."""
+    text: Optional[str] = _default()
+    """What is engraved. The font is built in, Ubuntu Light: Latin, Greek, Cyrillic. Range: 1 to 200 characters."""
+    height_m: Optional[float] = _default()
+    """The height of capitals. Unit: m. Range: 1e-5 to 1000."""
+    fit_m: Optional[float] = _default()
+    """The largest extent of its outlines. Unit: m. Range: 1e-5 to 1000."""
 
 
 class Grating(Table):

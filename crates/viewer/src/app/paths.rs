@@ -55,6 +55,7 @@ impl Viewer {
                 self.export.take_path(work, purpose, path, has_asked);
             }
             Purpose::ExportModel => self.export_model(ctx, path, has_asked),
+            Purpose::Drawing => self.work.engrave_drawing(&absolute(path)),
             Purpose::Find(_) => self.take_found(path),
             Purpose::Picture(of) => {
                 let base_dir = self.work.document.base_dir().to_owned();
@@ -121,11 +122,12 @@ impl Viewer {
             "glb" | "gltf" => self.probe(ctx, Purpose::AddModel, path),
             "hdr" | "exr" => self.probe(ctx, Purpose::Environment, path),
             "csv" => self.add_list(path),
+            "svg" => self.work.engrave_drawing(&absolute(path)),
             _ => self.work.notices.error(
                 "file",
                 format!(
                     "{}: is none of the files that can be dropped here: scenes (.toml), models (.glb, .gltf), \
-                     environment maps (.hdr, .exr) and lists of scratches (.csv)",
+                     environment maps (.hdr, .exr), lists of scratches (.csv) and drawings (.svg)",
                     path.display()
                 ),
             ),

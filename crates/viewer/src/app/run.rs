@@ -91,6 +91,8 @@ impl Viewer {
             Command::Pick(tool) => self.work.toolbox.tool = tool,
             Command::BrushSmaller => self.work.scale_brush(1.0 / BRUSH_STEP),
             Command::BrushLarger => self.work.scale_brush(BRUSH_STEP),
+            Command::EngraveText => self.work.engrave_text(),
+            Command::EngraveDrawing => self.ask_path(ctx, Purpose::Drawing),
             // One thing at a time: the tool first.
             Command::Deselect if self.work.toolbox.tool != Tool::Select => {
                 self.work.toolbox.tool = Tool::Select;

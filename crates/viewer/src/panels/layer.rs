@@ -1,8 +1,10 @@
 //! A layer of scratches.
 
+use std::path::Path;
+
 use egui::Ui;
 use hairline_document::description::{
-    Amount, Around, Distribution, Laid, Layer, Pattern, Scratches,
+    Amount, Around, Distribution, Engraved, Laid, Layer, Line, Pattern, Scratches,
 };
 use hairline_document::schema;
 use hairline_editor::Selection;
@@ -53,10 +55,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             form.number(&schema::scratches::JITTER_DEG, &mut brushed.jitter_deg);
             form.seed(&mut brushed.seed);
         }
-        Layer::Listed(listed) => form.custom("File", "", |ui, _| {
-            ui.add(egui::Label::new(listed.file.display().to_string()).truncate());
-            false
-        }),
+        Layer::Engraved(engraved) => engraved_rows(&mut form, engraved),
+        Layer::Listed(listed) => file_row(&mut form, &listed.file),
     }
     work.choose_picture(form.wanted());
     if let Some(change) = form.change() {
@@ -66,6 +66,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     }
     if picks {
         work.toolbox.tool = Tool::PickPart;
+    }
+    if matches!(layer.layer, Layer::Engraved(_)) {
+        super::button(ui, work, Command::Pick(Tool::Pen));
     }
     strokes(ui, work, index, &layer);
     buttons(ui, work, index, &layer, diagonal_m);
@@ -146,6 +149,55 @@ fn laid_rows(form: &mut Form, laid: &mut Laid) {
         }
     }
     form.seed(&mut laid.seed);
+}
+
+fn file_row(form: &mut Form, file: &Path) {
+    form.custom("File", "", |ui, _| {
+        ui.add(egui::Label::new(file.display().to_string()).truncate());
+        false
+    });
+}
+
+fn engraved_rows(form: &mut Form, engraved: &mut Engraved) {
+    match &mut engraved.line {
+        Line::Curve { points_m, closed } => {
+            form.toggle("Closed", schema::scratches::CLOSED.meaning, closed);
+            for (i, point_m) in points_m.iter_mut().enumerate() {
+                form.numbered(&schema::scratches::CURVE_POINTS_M, i, point_m);
+            }
+        }
+        Line::Text {
+            text,
+            height_m,
+            center_m,
+            direction,
+        } => {
+            let mut typed = text.clone();
+            form.text("Text", schema::scratches::TEXT.meaning, &mut typed);
+            // While it is typed anew nothing may be left.
+            if !typed.trim().is_empty() {
+                *text = typed;
+            }
+            form.number(&schema::scratches::CAPITALS_M, height_m);
+            form.vector(&schema::scratches::MIDDLE_M, center_m);
+            form.vector(&schema::scratches::READING, direction);
+        }
+        Line::Svg {
+            file,
+            fit_m,
+            center_m,
+            direction,
+        } => {
+            file_row(form, file);
+            form.number(&schema::scratches::EXTENT_M, fit_m);
+            form.vector(&schema::scratches::MIDDLE_M, center_m);
+            form.vector(&schema::scratches::READING, direction);
+        }
+    }
+    form.section("Look");
+    form.distribution(&schema::scratches::WIDTH_UM, &mut engraved.width_um);
+    form.distribution(&schema::scratches::DEPTH_NM, &mut engraved.depth_nm);
+    form.seed(&mut engraved.seed);
 }
 
 fn curvature(form: &mut Form, value: &mut Distribution) {

@@ -128,6 +128,10 @@ pub(super) fn add_layer(ui: &mut Ui, work: &mut Workspace, object: usize) {
     if let Some(preset) = own {
         work.give_own_layers(preset, object);
     }
+    ui.separator();
+    for command in [Command::EngraveText, Command::EngraveDrawing] {
+        super::button(ui, work, command);
+    }
 }
 
 /// The presets of gratings as a menu.

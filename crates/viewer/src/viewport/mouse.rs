@@ -34,9 +34,10 @@ impl Viewport {
 
         let is_free = !alt && !shift && !self.is_shielded;
         self.place_by_drag(work, area, response, is_free);
+        self.pen.drag(ui, work, area, response, is_free);
         // Alt orbits with any tool, as in every other program.
         let draws_region = tool == Tool::Region;
-        let is_held = is_brush || self.is_placing || draws_region;
+        let is_held = is_brush || self.is_placing || draws_region || self.pen.is_held();
         let orbits = response.dragged_by(PointerButton::Primary) && !shift && (!is_held || alt)
             || response.dragged_by(PointerButton::Secondary);
         let pans = response.dragged_by(PointerButton::Middle)
@@ -113,12 +114,18 @@ impl Viewport {
         });
     }
 
-    fn click(&self, work: &mut Workspace, area: &Area, response: &Response) {
+    fn click(&mut self, work: &mut Workspace, area: &Area, response: &Response) {
         let Some(pos) = response.interact_pointer_pos() else {
             return;
         };
         // A press on a handle that moved nothing.
         if self.gizmo.has_pointer() {
+            return;
+        }
+        if work.toolbox.tool == Tool::Pen {
+            if response.clicked() && !work.reading.probe.click(area.rect, pos) {
+                self.pen.click(work, area, pos, response.double_clicked());
+            }
             return;
         }
         let hit = pick::surface(work, area, pos);

@@ -41,6 +41,7 @@ impl Viewport {
         } else {
             self.gizmo = Gizmo::default();
         }
+        self.pen.show(ui, work, area);
         show_names(ui, work, area);
     }
 }

@@ -27,6 +27,7 @@ mod numbers;
 mod on_disk;
 mod panels;
 mod panics;
+mod pen;
 mod phone;
 mod picking;
 mod placing;

@@ -1,0 +1,304 @@
+//! The pen: a click sets a point of an engraved line, a drag moves one, and Delete takes one away.
+
+use egui::{Color32, Context, CursorIcon, Key, Modifiers, PointerButton, Pos2, Response, Ui};
+use glam::DVec3;
+use hairline_document::Description;
+use hairline_editor::{DragKey, Selection, pen};
+
+use super::lens::Lens;
+use super::{Area, ink, pick};
+use crate::engine::Built;
+use crate::tools::Tool;
+use crate::workspace::Workspace;
+
+/// Distance from a point at which the pointer is on it, points of the screen.
+const REACH: f32 = 9.0;
+const LINE: Color32 = Color32::from_rgb(255, 230, 150);
+const CHOSEN: Color32 = Color32::from_rgb(255, 140, 90);
+
+/// The pen in the hand.
+#[derive(Default)]
+pub(super) struct PenTool {
+    /// The object and the place that a line begins at: it becomes one at its second point.
+    begun: Option<(usize, DVec3)>,
+    /// The layer whose line the next click goes on with.
+    open: Option<usize>,
+    /// A layer and the point of it that Delete takes away.
+    chosen: Option<(usize, usize)>,
+    /// The point that is dragged.
+    held: Option<usize>,
+}
+
+/// The selected layer, if it has points.
+struct Points {
+    layer: usize,
+    object: usize,
+    /// World space.
+    points_m: Vec<DVec3>,
+}
+
+impl Points {
+    fn of(description: &Description, selection: Selection) -> Option<Self> {
+        let Selection::Layer(layer) = selection else {
+            return None;
+        };
+        let object = selection.object(description)?;
+        let world_from_object = description.objects[object].world_from_object();
+        let points = pen::points_m(&description.scratches[layer]).iter();
+        let points_m: Vec<_> = points
+            .map(|point| world_from_object.transform_point3((*point).into()))
+            .collect();
+        (!points_m.is_empty()).then_some(Self {
+            layer,
+            object,
+            points_m,
+        })
+    }
+
+    /// The point under the pointer.
+    fn at(&self, lens: &Lens, pos: Pos2) -> Option<usize> {
+        let distance = |point_m: &DVec3| lens.project(*point_m).map(|it| it.distance(pos));
+        let distances = self.points_m.iter().map(distance).enumerate();
+        let near = distances.filter_map(|(i, distance)| Some((i, distance?)));
+        near.filter(|(_, distance)| *distance <= REACH)
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(i, _)| i)
+    }
+}
+
+impl PenTool {
+    /// Whether a drag belongs to a point.
+    pub fn is_held(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// Ends the line; whether there was one.
+    fn end(&mut self) -> bool {
+        self.begun.take().is_some() | self.open.take().is_some()
+    }
+
+    /// Lets go of a point; whether one was held.
+    pub fn cancel(&mut self) -> bool {
+        self.held.take().is_some()
+    }
+
+    /// Keys of the pen, to be asked before the commands: Enter and Escape end the line, Delete takes the chosen point away.
+    pub fn take_keys(&mut self, ctx: &Context, work: &mut Workspace) {
+        if work.toolbox.tool != Tool::Pen || ctx.text_edit_focused() {
+            return;
+        }
+        self.follow(work);
+        let is_pressed = |key| ctx.input(|input| input.key_pressed(key));
+        let take = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        for key in [Key::Enter, Key::Escape] {
+            if is_pressed(key) && self.end() {
+                take(key);
+            }
+        }
+        for key in [Key::Delete, Key::Backspace] {
+            if let Some((layer, point)) = self.chosen
+                && take(key)
+            {
+                work.apply("Remove a point", |d, _| pen::remove_point(d, layer, point));
+                self.chosen = point.checked_sub(1).map(|before| (layer, before));
+                self.follow(work);
+            }
+        }
+    }
+
+    /// Forgets what the selection or an undone step has left behind.
+    fn follow(&mut self, work: &Workspace) {
+        if work.toolbox.tool != Tool::Pen {
+            *self = Self::default();
+            return;
+        }
+        let description = work.document.description();
+        let points = Points::of(description, work.selection());
+        let is_selected = |layer: usize| points.as_ref().is_some_and(|it| it.layer == layer);
+        let is_curve = |layer: &usize| pen::curve(&description.scratches[*layer]).is_some();
+        self.open = self
+            .open
+            .filter(|layer| is_selected(*layer) && is_curve(layer));
+        self.chosen = self.chosen.filter(|(layer, point)| {
+            is_selected(*layer)
+                && is_curve(layer)
+                && points.as_ref().is_some_and(|it| *point < it.points_m.len())
+        });
+    }
+
+    /// Moves the point that a drag began on, if the drag `is_free` for it.
+    pub fn drag(
+        &mut self,
+        ui: &Ui,
+        work: &mut Workspace,
+        area: &Area,
+        response: &Response,
+        is_free: bool,
+    ) {
+        self.follow(work);
+        if !response.dragged_by(PointerButton::Primary) {
+            self.held = None;
+            return;
+        }
+        let points = Points::of(work.document.description(), work.selection());
+        let Some(points) = points.filter(|_| work.toolbox.tool == Tool::Pen) else {
+            return;
+        };
+        let lens = Lens::new(&work.camera(), area);
+        if response.drag_started_by(PointerButton::Primary) && is_free {
+            let origin = ui.input(|input| input.pointer.press_origin());
+            self.held = origin.and_then(|pos| points.at(&lens, pos));
+            self.chosen = self.held.map(|point| (points.layer, point)).or(self.chosen);
+            work.document.end_drag();
+        }
+        let pos = response.interact_pointer_pos();
+        let hit = pos.and_then(|pos| pick::surface(work, area, pos));
+        if let (Some(point), Some(hit)) = (self.held, hit)
+            && hit.object == points.object
+        {
+            let key = DragKey::of(("pen", points.layer, point));
+            work.drag("Move a point", key, |d| {
+                pen::move_point(d, points.layer, point, hit.point_m);
+            });
+        }
+    }
+
+    /// Takes up a click, which may be the second one of a double click.
+    pub fn click(&mut self, work: &mut Workspace, area: &Area, pos: Pos2, is_double: bool) {
+        if is_double {
+            self.end();
+            return;
+        }
+        self.follow(work);
+        let lens = Lens::new(&work.camera(), area);
+        let description = work.document.description().clone();
+        let points = Points::of(&description, work.selection());
+        if let Some(points) = &points
+            && let Some(point) = points.at(&lens, pos)
+        {
+            self.click_point(work, points, point);
+            return;
+        }
+        let hit = pick::surface(work, area, pos);
+        let Some(hit) = hit.filter(|hit| hit.object < description.objects.len()) else {
+            return;
+        };
+        match (self.open, self.begun) {
+            (Some(layer), _) => {
+                let object = points.map(|it| it.object);
+                if object != Some(hit.object) {
+                    let text = "The line is on another object: Enter or a double click ends it.";
+                    work.notices.note("pen", text);
+                    return;
+                }
+                work.apply("Add a point", |d, _| pen::add_point(d, layer, hit.point_m));
+            }
+            (None, Some((object, from_m))) if object == hit.object => {
+                self.begun = None;
+                let ends_m = [from_m, hit.point_m];
+                work.apply("Engrave a line", |d, _| pen::begin(d, object, ends_m));
+                if let Selection::Layer(layer) = work.selection() {
+                    self.open = Some(layer);
+                }
+            }
+            (None, _) => {
+                self.begun = Some((hit.object, hit.point_m));
+                self.chosen = None;
+                return;
+            }
+        }
+        let points = Points::of(work.document.description(), work.selection());
+        self.chosen = points.map(|it| (it.layer, it.points_m.len() - 1));
+    }
+
+    /// The first point of an open line closes it; others are chosen.
+    fn click_point(&mut self, work: &mut Workspace, points: &Points, point: usize) {
+        if self.open == Some(points.layer) && point == 0 && points.points_m.len() > 2 {
+            work.apply("Close the line", |d, _| pen::close(d, points.layer));
+            self.end();
+        }
+        self.chosen = Some((points.layer, point));
+    }
+
+    /// Draws the selected line and its points, and the way to the pointer.
+    pub fn show(&mut self, ui: &mut Ui, work: &Workspace, area: &Area) {
+        self.follow(work);
+        if work.toolbox.tool != Tool::Pen {
+            return;
+        }
+        let lens = Lens::new(&work.camera(), area);
+        let painter = ui.painter().with_clip_rect(area.rect);
+        let pointer = ui.input(|input| input.pointer.latest_pos());
+        let pointer = pointer.filter(|_| ui.rect_contains_pointer(area.rect));
+        let points = Points::of(work.document.description(), work.selection());
+        let last_m = match (&points, self.open, self.begun) {
+            (Some(points), Some(_), _) => points.points_m.last().copied(),
+            (_, _, begun) => begun.map(|(_, place_m)| place_m),
+        };
+        if let (Some(from), Some(to)) = (last_m.and_then(|it| lens.project(it)), pointer) {
+            ink::segment(&painter, [from, to], 1.0, LINE.gamma_multiply(0.6));
+        }
+        if let Some((_, place_m)) = self.begun
+            && let Some(at) = lens.project(place_m)
+        {
+            ink::dot(&painter, at, 4.0, CHOSEN);
+        }
+        let near = match (&points, pointer) {
+            (Some(points), Some(pos)) => points.at(&lens, pos),
+            _ => None,
+        };
+        if pointer.is_some() {
+            ui.set_cursor_icon(match near.or(self.held) {
+                Some(_) => CursorIcon::Grab,
+                None => CursorIcon::Crosshair,
+            });
+        }
+        let Some(points) = points else {
+            return;
+        };
+        let description = work.document.description();
+        if let Some(built) = work.engine.built()
+            && pen::curve(&description.scratches[points.layer]).is_some()
+        {
+            for way in ways(&built, &points, &lens) {
+                ink::line(&painter, way, 1.0, LINE);
+            }
+        }
+        for (i, point_m) in points.points_m.iter().enumerate() {
+            let Some(at) = lens.project(*point_m) else {
+                continue;
+            };
+            let is_chosen = self.chosen == Some((points.layer, i));
+            let radius = if near == Some(i) { 6.0 } else { 4.0 };
+            ink::dot(&painter, at, radius, if is_chosen { CHOSEN } else { LINE });
+        }
+    }
+}
+
+/// The scratches of a layer on the screen, where they face the eye.
+fn ways(built: &Built, points: &Points, lens: &Lens) -> Vec<Vec<Pos2>> {
+    let Some(object) = built.scene.objects.get(points.object) else {
+        return Vec::new();
+    };
+    let mut ways: Vec<Vec<Pos2>> = Vec::new();
+    let of_layer = object.scratches.iter();
+    for scratch in of_layer.filter(|it| it.layer as usize == points.layer) {
+        let mut way: Vec<Pos2> = Vec::new();
+        for segment in
+            &object.segments[scratch.segments.start as usize..scratch.segments.end as usize]
+        {
+            let end_m = segment.end_m.as_dvec3();
+            let is_seen = segment.normal.as_dvec3().dot(lens.eye_m() - end_m) > 0.0;
+            if !is_seen {
+                ways.push(std::mem::take(&mut way));
+                continue;
+            }
+            let ends_m = [segment.start_m.as_dvec3(), end_m];
+            let from = if way.is_empty() { 0 } else { 1 };
+            way.extend(ends_m[from..].iter().filter_map(|it| lens.project(*it)));
+        }
+        ways.push(way);
+    }
+    ways.retain(|way| way.len() > 1);
+    ways
+}
