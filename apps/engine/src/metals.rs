@@ -37,6 +37,12 @@ pub fn curve_of(metal: Option<String>) -> Result<u32, JsError> {
     Ok(base_tables::curve_of(metal))
 }
 
+/// The curve of a dielectric of a refractive index among those of the base.
+#[wasm_bindgen(js_name = dielectricCurve)]
+pub fn dielectric_curve(ior: f64) -> u32 {
+    base_tables::dielectric_curve(ior)
+}
+
 /// Texels of the table of grooves in a metal, or in one given by its colour. `profile` is the key of a layer, as JSON; of `rows` see `Tree`.
 ///
 /// # Errors

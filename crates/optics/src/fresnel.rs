@@ -72,13 +72,27 @@ pub fn schlick_weight(cos_theta: f64) -> f64 {
     m2 * m2 * m
 }
 
+/// The share of the way from the reflectance at normal incidence to 1 that a dielectric's reflectance has gone at an angle: the weight of 1 - f0 in
+/// f0 + (1 - f0) w.
+pub fn dielectric_weight(cos_theta: f64, ior: f64) -> f64 {
+    let f0 = dielectric(1.0, ior);
+    (dielectric(cos_theta, ior) - f0) / (1.0 - f0)
+}
+
+/// The refractive index, 1 or more, of a dielectric that reflects `f0` at normal incidence; none has it from 1 on.
+pub fn dielectric_ior(f0: f64) -> Option<f64> {
+    let root = f0.max(0.0).sqrt();
+    (root < 1.0).then(|| 2.0 / (1.0 - root) - 1.0)
+}
+
 /// The cosine between either of two unit directions and their half vector.
 pub fn half_vector_cos(wi: DVec3, wo: DVec3) -> f64 {
     0.5 * (wi + wo).length()
 }
 
-/// Fresnel reflectance over the angle, in linear Rec.709: F(c) = t(c) + s(c) F0, with t in three channels and one s for all. A measured surface has
-/// its whole reflectance in t, and s = 0. Schlick's curve, t = (1 - c)^5 and s = 1 - t, serves every F0.
+/// Fresnel reflectance over the angle, in linear Rec.709: F(c) = t(c) F90 + s(c) F0, with t in three channels and one s for all. A measured surface has
+/// its whole reflectance in t, and s = 0. A dielectric has its [weight](dielectric_weight) in t, and s = 1 - t; Schlick's curve, which serves every
+/// F0, has t = (1 - c)^5.
 #[derive(Clone, Debug)]
 pub struct FresnelCurve {
     nodes: Vec<[f32; 4]>,
@@ -94,20 +108,24 @@ impl FresnelCurve {
         })
     }
 
-    /// The curve of a dielectric of refractive index `ior`, seen from vacuum.
+    /// The curve of a dielectric of refractive index `ior`, seen from vacuum, for its F0 under factors and colours.
     pub fn dielectric(ior: f64) -> Self {
-        Self::new(|cos_theta| [dielectric(cos_theta, ior); 3])
+        Self::of_weight(|cos_theta| dielectric_weight(cos_theta, ior))
     }
 
     /// Schlick's, for every F0.
     pub fn schlick() -> &'static Self {
-        static CURVE: LazyLock<FresnelCurve> = LazyLock::new(|| {
-            FresnelCurve::of_parts(|cos_theta| {
-                let weight = schlick_weight(cos_theta);
-                [weight, weight, weight, 1.0 - weight]
-            })
-        });
+        static CURVE: LazyLock<FresnelCurve> =
+            LazyLock::new(|| FresnelCurve::of_weight(schlick_weight));
         &CURVE
+    }
+
+    /// The curve that goes from F0 to F90 by a weight.
+    fn of_weight(weight: impl Fn(f64) -> f64) -> Self {
+        Self::of_parts(|cos_theta| {
+            let weight = weight(cos_theta);
+            [weight, weight, weight, 1.0 - weight]
+        })
     }
 
     fn of_parts(parts: impl Fn(f64) -> [f64; 4]) -> Self {
@@ -150,14 +168,14 @@ pub(crate) fn fresnel_node_cos(i: usize) -> f64 {
 pub struct FresnelRgb<'a> {
     /// Reflectance at normal incidence.
     pub f0: [f64; 3],
-    /// Reflectance at grazing incidence of Schlick's curve: a factor on t. 1 of all other curves.
+    /// Reflectance at grazing incidence: a factor on t. 1 but for a dielectric whose reflection has a factor.
     pub f90: f64,
     /// Curve of the reflectance over the angle.
     pub curve: &'a FresnelCurve,
 }
 
 impl FresnelRgb<'_> {
-    /// Schlick's curve: glTF's metallic-roughness model, and metals given by a colour.
+    /// Schlick's curve: metals given by a colour.
     pub fn schlick(f0: [f64; 3]) -> FresnelRgb<'static> {
         FresnelRgb {
             f0,
@@ -228,9 +246,11 @@ mod tests {
     #[test]
     fn curves_are_the_equations() {
         let worst = |curve: &FresnelCurve, exact: &dyn Fn(f64) -> [f64; 3]| {
+            let (f0, f90) = (exact(1.0), 1.0);
+            let fresnel = FresnelRgb { f0, f90, curve };
             (0..5000).fold(0.0_f64, |worst, i| {
                 let c = (f64::from(i) / 4999.0).powi(2);
-                let error = |ch: usize| curve.lookup(c)[ch] / exact(c)[ch] - 1.0;
+                let error = |ch: usize| fresnel.eval(c)[ch] / exact(c)[ch] - 1.0;
                 (0..3).fold(worst, |worst, ch| worst.max(error(ch).abs()))
             })
         };
@@ -256,13 +276,10 @@ mod tests {
         for (roughness, cos_o) in [(0.1, 0.3), (0.4, 0.7), (0.6, 1.0), (0.9, 0.4)] {
             let gold = FresnelCurve::new(|c| Metal::Gold.reflectance_rgb(c));
             let glass = FresnelCurve::dielectric(1.5);
-            for curve in [&gold, &glass] {
-                let fresnel = FresnelRgb {
-                    f0: [0.0; 3],
-                    f90: 1.0,
-                    curve,
-                };
-                let exact = ggx_mean(cos_o, ggx_alpha(roughness), 200, |c| curve.lookup(c));
+            for (curve, f0) in [(&gold, [0.0; 3]), (&glass, [0.04; 3])] {
+                let f90 = 1.0;
+                let fresnel = FresnelRgb { f0, f90, curve };
+                let exact = ggx_mean(cos_o, ggx_alpha(roughness), 200, |c| fresnel.eval(c));
                 let got = fresnel.albedo(roughness, cos_o);
                 for ch in 0..3 {
                     let error = got[ch] / exact[ch] - 1.0;

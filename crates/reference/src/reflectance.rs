@@ -5,7 +5,7 @@ use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::coat::COAT_F0;
 use hairline_optics::cover::Cover;
 use hairline_optics::facets::Facets;
-use hairline_optics::fresnel::{dielectric, schlick_weight};
+use hairline_optics::fresnel::{dielectric_weight, schlick_weight};
 use hairline_optics::ggx::{ggx_alpha, ggx_mean};
 use hairline_optics::metal::Metal;
 use hairline_optics::spectrum::Observer;
@@ -40,7 +40,7 @@ struct FacetParts {
     s: f64,
 }
 
-/// Reflectance of a surface at normal incidence, and that to which Schlick's curve rises: 1 for all other curves.
+/// Reflectance of a surface at normal incidence, and that to which it rises: 1 but for a dielectric whose reflection has a factor.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ReflectanceEnds {
     pub f0: DVec3,
@@ -200,17 +200,12 @@ impl Reflectance {
 
     /// Reflectance parts of a facet. Metals have no body: nothing asks for their albedo, and the value here is white's.
     fn parts(&self, cos_theta: f64) -> FacetParts {
-        match self.reflector {
-            Reflector::Dielectric(ior) => FacetParts {
-                t: dielectric(cos_theta, ior),
-                s: 0.0,
-            },
-            Reflector::Schlick => {
-                let t = schlick_weight(cos_theta);
-                FacetParts { t, s: 1.0 - t }
-            }
-            Reflector::Metal(_) | Reflector::Covered(..) => FacetParts { t: 1.0, s: 0.0 },
-        }
+        let t = match self.reflector {
+            Reflector::Dielectric(ior) => dielectric_weight(cos_theta, ior),
+            Reflector::Schlick => schlick_weight(cos_theta),
+            Reflector::Metal(_) | Reflector::Covered(..) => 1.0,
+        };
+        FacetParts { t, s: 1.0 - t }
     }
 
     /// Reflectance of a facet.

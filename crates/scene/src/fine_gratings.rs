@@ -6,6 +6,7 @@ use crate::grating::Grating;
 use crate::scene::{Base, Material};
 use hairline_image::output::write_atomically;
 use hairline_optics::cover::Cover;
+use hairline_optics::fresnel::dielectric_ior;
 use hairline_optics::grating::Grating as Row;
 use hairline_optics::metal::Metal;
 use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
@@ -35,8 +36,7 @@ pub fn fine_grooves(grating: &Grating, material: &Material) -> Option<FineGroove
             Some(Medium::Metal(Metal::Aluminium))
         }
         Base::MetallicRoughness { .. } => {
-            let root = material.dielectric_f0.sqrt();
-            Some(Medium::Dielectric((1.0 + root) / (1.0 - root)))
+            dielectric_ior(material.dielectric_f0).map(Medium::Dielectric)
         }
     };
     let medium = medium.filter(|_| grating.is_rigorous)?;

@@ -6,7 +6,7 @@ use crate::groove_shapes::GrooveShapes;
 use crate::scene::{Base, Material, Scene};
 use hairline_optics::coat::COAT_IOR;
 use hairline_optics::cover::Cover;
-use hairline_optics::fresnel::FresnelCurve;
+use hairline_optics::fresnel::{FresnelCurve, dielectric_ior};
 use hairline_optics::grating::{Grating as Row, RigorousGrating};
 use hairline_optics::groove_spectrum::GrooveSpectrum;
 use hairline_optics::metal::Metal;
@@ -40,13 +40,13 @@ pub struct MaterialOptics {
 /// The surface whose reflectance a curve tabulates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reflector {
-    /// Schlick's approximation, which serves every colour.
+    /// Schlick's approximation, for metals that are given by a colour.
     Schlick,
     /// A metal's measured refractive index.
     Metal(Metal),
     /// A metal's measured refractive index, under a clear plate.
     Covered(Metal, Cover),
-    /// A dielectric's refractive index.
+    /// A dielectric's refractive index. The metal of a mix has the weight of its dielectric.
     Dielectric(f64),
 }
 
@@ -57,6 +57,11 @@ impl Reflector {
             Base::Metal(metal) => Self::Metal(metal),
             Base::Covered { metal, cover } => Self::Covered(metal, cover),
             Base::Dielectric { ior, .. } => Self::Dielectric(ior),
+            Base::MetallicRoughness { metallic, .. }
+                if metallic < 1.0 || material.metallic_roughness_texture.is_some() =>
+            {
+                dielectric_ior(material.dielectric_f0).map_or(Self::Schlick, Self::Dielectric)
+            }
             _ => Self::Schlick,
         }
     }

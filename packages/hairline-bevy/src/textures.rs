@@ -9,13 +9,15 @@ use bevy::render::render_resource::{
 };
 use hairline_engine::base_tables::{self, Texels};
 use hairline_engine::{GratingTexels, ScratchTexels, scratch_table, scratch_tree};
+use hairline_optics::coat::COAT_IOR;
+use hairline_optics::fresnel::dielectric_ior;
 use hairline_optics::metal::Metal;
 use hairline_optics::section::GrooveShape;
 use hairline_optics::table::ENGINE_COLUMNS;
 
 use crate::{MOST_GRATINGS, Scratched, ScratchedMaterial, Scratches, Settings};
 
-/// Makes [`ScratchedMaterial`]s, with textures of 0.35 MB for all. Each metal has 0.3 to 4 MB for each shape of its grooves, by the deepest of them, and
+/// Makes [`ScratchedMaterial`]s, with textures of 0.9 MB for all. Each metal has 0.3 to 4 MB for each shape of its grooves, by the deepest of them, and
 /// each grating up to 4 MB. All are made once.
 #[derive(Resource, Clone)]
 pub struct ScratchedTextures(Arc<Shared>);
@@ -57,7 +59,7 @@ impl FromWorld for ScratchedTextures {
 
 impl ScratchedTextures {
     /// Makes a material for a mesh, in whose frame `scratches` are. A `metal` gives colour, spectrum, and how reflectance goes with the angle; none is a
-    /// metal or a lacquer by `base_color` and `metallic`. Where the base has a clear coat, scratches lie in it. Takes 0.1 s for a metal's first.
+    /// metal or a lacquer by `base_color`, `metallic` and `reflectance` as they are here. Where the base has a clear coat, scratches lie in it. Takes 0.1 s for a metal's first.
     pub fn material(
         &self,
         metal: Option<Metal>,
@@ -65,8 +67,7 @@ impl ScratchedTextures {
         scratches: &Scratches,
     ) -> ScratchedMaterial {
         let extension = self.extension(metal, base.clearcoat > 0.0, scratches);
-        let base = of_metal(metal, base);
-        ScratchedMaterial { base, extension }
+        of_metal(metal, base, extension)
     }
 
     pub(crate) fn extension(
@@ -88,7 +89,7 @@ impl ScratchedTextures {
             gratings: [Mat4::ZERO; MOST_GRATINGS],
             grating_count: gratings.len() as u32,
             curve: base_tables::curve_of(metal),
-            coat_curve: Metal::ALL.len() as u32 + 1,
+            coat_curve: base_tables::dielectric_curve(COAT_IOR),
             light_radius_m: Scratched::LIGHT_RADIUS_M,
         };
         for (i, (numbers, grating)) in settings.gratings.iter_mut().zip(gratings).enumerate() {
@@ -161,17 +162,23 @@ impl ScratchedTextures {
     }
 }
 
-/// The standard material of a metal.
-pub(crate) fn of_metal(metal: Option<Metal>, base: StandardMaterial) -> StandardMaterial {
-    let Some(metal) = metal else {
-        return base;
-    };
-    let [red, green, blue] = metal.reflectance_rgb(1.0).map(|channel| channel as f32);
-    StandardMaterial {
-        base_color: Color::linear_rgb(red, green, blue),
-        metallic: 1.0,
-        ..base
+/// Material of a metal, or of what its standard material says.
+pub(crate) fn of_metal(
+    metal: Option<Metal>,
+    mut base: StandardMaterial,
+    mut extension: Scratched,
+) -> ScratchedMaterial {
+    if let Some(metal) = metal {
+        let [red, green, blue] = metal.reflectance_rgb(1.0).map(|channel| channel as f32);
+        base.base_color = Color::linear_rgb(red, green, blue);
+        base.metallic = 1.0;
+    } else if base.metallic < 1.0 || base.metallic_roughness_texture.is_some() {
+        // As Bevy has it: 0.5 is glass.
+        let f0 = 0.16 * f64::from(base.reflectance).powi(2);
+        let ior = dielectric_ior(f0).expect("a reflectance is 1 at most");
+        extension.settings.curve = base_tables::dielectric_curve(ior);
     }
+    ScratchedMaterial { base, extension }
 }
 
 fn words(size: [u32; 2], texels: &[[u32; 4]]) -> Image {

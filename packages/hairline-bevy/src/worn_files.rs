@@ -294,10 +294,10 @@ impl GltfExtensionHandler for WornFiles {
                 },
             };
             known.insert((number, is_coated), extension.clone());
-            let base = of_metal(object.metal, base.clone());
             let from_metres = from_object * Mat4::from_scale(Vec3::splat(1.0 / scale));
             extension.settings.metres_from_mesh = from_metres.inverse() * from_mesh;
-            let material = self.textures.add(ScratchedMaterial { base, extension });
+            let material = of_metal(object.metal, base.clone(), extension);
+            let material = self.textures.add(material);
             let mut mesh = world.entity_mut(mesh);
             mesh.remove::<MeshMaterial3d<StandardMaterial>>();
             mesh.insert(MeshMaterial3d(material));

@@ -87,7 +87,7 @@ MATERIALS = {
     "alpha": (see_through, 0.02),
     "half alpha": (lambda: stage.material("glassy", base_color=(0.8, 0.2, 0.2), roughness=0.6, alpha=0.5), 0.02),
     "coat": (lambda: stage.material("coated", base_color=(0.6, 0.1, 0.1), roughness=0.6, coat_weight=1.0, coat_roughness=0.15), 0.02),
-    # glTF has Schlick's curve, Cycles Fresnel's: of an index of 2 it reflects 16 % more at 60 degrees. The body is dark, so this is seen.
+    # At 60 degrees Fresnel's equations reflect 16 % more of an index of 2 than Schlick's curve. The body is dark, so this would be seen.
     "refractive index 2": (lambda: stage.material("dense", base_color=(0.1, 0.1, 0.1), roughness=0.3, ior=2.0), 0.05),
     "specular level 1": (lambda: stage.material("shiny", base_color=(0.1, 0.1, 0.1), roughness=0.3, specular_ior_level=1.0), 0.05),
     "specular level 0": (lambda: stage.material("dull", base_color=(0.5, 0.5, 0.5), roughness=0.3, specular_ior_level=0.0), 0.02),

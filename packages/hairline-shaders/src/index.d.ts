@@ -25,8 +25,10 @@ export class Tables {
  * and colours of metals need it first.
  */
 export function loadTables(url?: string | URL): Promise<Tables>;
-/** `curve` of FresnelRgb; null: Schlick's. */
+/** `curve` of FresnelRgb; null: Schlick's, of a metal by its colour. */
 export function curveOf(metal: Metal | null): number;
+/** `curve` of FresnelRgb of a dielectric of a refractive index. */
+export function dielectricCurve(ior: number): number;
 
 /** Cross section of grooves: a name, or 2 to 64 depths over the deepest one, from the middle to the rim. */
 export type GrooveProfile = 'rectangle' | 'v' | 'round' | 'shoulders' | number[];

@@ -4,4 +4,4 @@ export { Tables, loadTables } from './tables.js';
 export { makeScratchTables, scratchTables } from './table.js';
 export { Scratches, layScratches, readScratches, scratchTree } from './scratches.js';
 export { Grating, layGratings, loadGrating } from './gratings.js';
-export { curveOf, metalColor, metals } from './metals.js';
+export { curveOf, dielectricCurve, metalColor, metals } from './metals.js';

@@ -14,5 +14,5 @@ export function curveOf(metal) {
   return curve(metal ?? undefined);
 }
 
-/** The curve of a dielectric of refractive index 1.5, of which clear coats are. */
-export const dielectricCurve = 1 + metals.length;
+/** The curve of a dielectric of a refractive index, for FresnelRgb. */
+export { dielectricCurve } from '../engine/engine.js';

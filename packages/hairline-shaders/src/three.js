@@ -12,7 +12,7 @@ import { Scratches, layScratches, readScratches, scratchTree } from './scratches
 import { noScratches, scratchTables } from './table.js';
 import { COHERENCE_UM } from './data.js';
 import { beside } from './beside.js';
-import { curveOf, metalColor } from './metals.js';
+import { curveOf, dielectricCurve, metalColor } from './metals.js';
 import { Grating, isByUv } from './gratings.js';
 import { mapsOf, preparedCount } from './environment.js';
 import { ScratchedLightingModel, isBent } from './three_lighting.js';
@@ -147,17 +147,17 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
   /** Nodes whose values are those of the material that is drawn: programs are shared by all materials of a kind. */
   nodes() {
     const { shapes, albedo, curves } = texturesOf(this.tables);
-    const { tree, curve } = this.hairline;
+    const { tree } = this.hairline;
     const field = (grating) => new Matrix4().fromArray(grating.numbers);
     const checked = new WeakSet();
     return {
       shapes: texture(shapes), albedo: texture(albedo), curves: texture(curves),
       table: texture(this.table()).onObjectUpdate(({ material }) => material.table()),
       tree: tree && texture(tree).onObjectUpdate(({ material }) => material.hairline.tree),
-      curve: uniform(curve).onObjectUpdate(({ material, object }) => {
+      curve: uniform(this.curve()).onObjectUpdate(({ material, object }) => {
         if (!checked.has(object)) material.check(object);
         checked.add(object);
-        return material.hairline.curve;
+        return material.curve();
       }),
       metresPerUnit: uniform(this.metresPerUnit).onObjectUpdate(({ material }) => material.metresPerUnit),
       gratings: this.gratings.map((grating, i) => ({
@@ -165,6 +165,13 @@ export class ScratchedNodeMaterial extends MeshPhysicalNodeMaterial {
         field: uniform(field(grating)).onObjectUpdate(({ material }) => field(material.gratings[i])),
       })),
     };
+  }
+
+  /** The curve of its reflectance: a metal's, or a dielectric's by its index, which a metal in part shares. */
+  curve() {
+    const { metal, metalness, metalnessMap, metalnessNode, hairline, ior } = this;
+    const isMetal = metal !== null || (metalness >= 1 && !metalnessMap && !metalnessNode);
+    return isMetal ? hairline.curve : dielectricCurve(ior);
   }
 
   /** The spectra of the scratches: a coat, in which they lie, has no colour of its own. */

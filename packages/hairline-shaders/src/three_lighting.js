@@ -58,7 +58,8 @@ function viewFromObject(object, metresPerUnit) {
   return mat3(...[0, 1, 2].map((i) => varying(whole.element(i).xyz)));
 }
 
-/** Reflectance of every clear coat at normal incidence. */
+/** Refractive index of every clear coat, and its reflectance at normal incidence. */
+const COAT_IOR = 1.5;
 const COAT_F0 = 0.04;
 
 /** Variance of the slopes that a normal map gives a pixel, beside those of the smooth normals. */
@@ -115,7 +116,7 @@ export class ScratchedLightingModel extends PhysicalLightingModel {
       top = { ...place, normal_view: clearcoatNormalView };
       this.coat = baseOf(top, {
         roughness: material.clearcoatRoughnessNode ? float(material.clearcoatRoughnessNode) : materialClearcoatRoughness, f0: vec3(COAT_F0), f90: 1,
-        mixed: vec4(0), curve: dielectricCurve, hasMap: material.clearcoatNormalMap !== null || material.clearcoatNormalNode !== null,
+        mixed: vec4(0), curve: dielectricCurve(COAT_IOR), hasMap: material.clearcoatNormalMap !== null || material.clearcoatNormalNode !== null,
       });
       this.coatSpecular = vec3(0).toVar();
     }

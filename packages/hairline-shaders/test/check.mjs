@@ -22,6 +22,9 @@ assert.deepEqual([tables.shapes, tables.albedo, tables.curves].map(({ data, widt
 // Schlick's curve first: the fifth power of one less the cosine.
 const atHalf = Math.round(Math.SQRT1_2 * 127);
 assert.ok(Math.abs(tables.curves.data[4 * atHalf] - (1 - (atHalf / 127) ** 2) ** 5) < 1e-6);
+// Fresnel's equations at 60 degrees: 0.0892 of an index of 1.5, which is 0.04 straight on.
+const of15 = 4 * 128 * 9 * hairline.dielectricCurve(1.5) + 4 * Math.round(Math.SQRT1_2 * 127);
+assert.ok(Math.abs(tables.curves.data[of15] + 0.04 * tables.curves.data[of15 + 3] - 0.0892) < 1e-3);
 const [gold, goldIn] = timed(() => hairline.scratchTables('gold', { shapes: [{ profile: 'rectangle', widthClass: 0 }], tableRows: 64 }));
 assert.equal(gold.texels.length, 4 * gold.columns * 64);
 // A wider light sends more, and copper's red is more than its blue.

@@ -20,6 +20,7 @@ mod mirrored;
 mod penumbra;
 mod picture;
 mod pictures;
+mod plastics;
 mod published;
 mod random;
 mod scenes;

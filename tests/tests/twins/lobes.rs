@@ -48,9 +48,14 @@ fn tables() -> [Table<'static>; 4] {
     [ltc, albedo, sptd, curves]
 }
 
-/// Schlick's, and gold's.
-static CURVES: LazyLock<[FresnelCurve; 2]> =
-    LazyLock::new(|| [FresnelCurve::schlick().clone(), Metal::Gold.fresnel_curve()]);
+/// Schlick's, gold's and glass'.
+static CURVES: LazyLock<[FresnelCurve; 3]> = LazyLock::new(|| {
+    [
+        FresnelCurve::schlick().clone(),
+        Metal::Gold.fresnel_curve(),
+        FresnelCurve::dielectric(1.5),
+    ]
+});
 
 /// Reflectances of dielectrics, half metals and perfect mirrors.
 fn schlick() -> FresnelRgb<'static> {
@@ -102,7 +107,7 @@ fn fresnel() {
     let mut random = Sequence(1);
     let mut rows = Vec::new();
     for c in [-1.0, 0.0, -0.0, 1e-30, 1e-6, 0.5, 1.0 - 6e-8, 1.0, 2.0] {
-        for curve in [0.0, 1.0] {
+        for curve in [0.0, 1.0, 2.0] {
             rows.push([c, 0.04, curve, 0.5, 1.0]);
         }
     }
@@ -110,7 +115,7 @@ fn fresnel() {
         rows.push([
             random.next() * random.next(),
             random.next(),
-            random.next().round(),
+            (2.0 * random.next()).round(),
             random.next(),
             random.next(),
         ]);

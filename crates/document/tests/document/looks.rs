@@ -156,7 +156,10 @@ fn extensions_change_what_a_surface_reflects() {
     let plastic = r#""pbrMetallicRoughness":{"metallicFactor":0}"#;
     assert_eq!(material(plastic).dielectric_f0, 0.04);
     assert!(!material(plastic).has_specular());
-    assert_eq!(Reflector::new(&material(plastic)), Reflector::Schlick);
+    assert_eq!(
+        Reflector::new(&material(plastic)),
+        Reflector::Dielectric(1.5)
+    );
     // 0 is a mirror under its own colour; what is no refractive index is one, too.
     for (ior, f0) in [
         (3.0, 0.25),

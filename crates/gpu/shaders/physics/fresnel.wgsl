@@ -8,7 +8,7 @@ const FRESNEL_CURVE_ROWS: u32 = 9u;
 
 struct FresnelRgb {
     at_normal: vec3f,
-    at_grazing: f32,            // of Schlick's curve; 1 of all others
+    at_grazing: f32,            // 1 but for a dielectric whose reflection has a factor
     curve: u32,
 }
 

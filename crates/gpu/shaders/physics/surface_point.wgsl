@@ -18,7 +18,7 @@ struct SurfacePoint {
     turn_y: vec2f,
     leaves: f32,                // how far the surface may be off the plane of shading for each length along it
     f0: vec3f,
-    f90: f32,                   // of Schlick's curve: reflectance at grazing incidence
+    f90: f32,                   // reflectance at grazing incidence
     curve: u32,                 // of the reflectance over the angle
     diffuse: vec3f,             // albedo of the body, times the share that is no metal
     metallic: f32,              // share of the surface that is a metal
