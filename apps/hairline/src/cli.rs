@@ -197,6 +197,9 @@ pub struct Render {
     /// Render again whenever the scene or one of its files changes, until Ctrl-C.
     #[arg(long, conflicts_with_all = ["frames", "turntable", "zoom", "animation", "stability"])]
     pub watch: bool,
+    /// Render all `[[look]]`s of the scene, each to NAME-LOOK.png for -o NAME.png (or .exr).
+    #[arg(long, conflicts_with_all = ["frames", "turntable", "zoom", "animation", "stability", "bands", "labels"])]
+    pub looks: bool,
     /// Many pictures in place of one.
     #[command(flatten)]
     pub sequence: SequenceFlags,

@@ -16,6 +16,7 @@ mod keyed;
 mod lens;
 mod light_kind;
 mod lights;
+mod looks;
 mod overrides;
 mod parse;
 mod place;
@@ -45,6 +46,7 @@ pub use files::FileUse;
 pub use gratings::{Grating, GratingTheory, GroovePattern, UvAxis};
 pub use light_kind::LightKind;
 pub use lights::{Cone, Light};
+pub use looks::Look;
 pub use overrides::Override;
 pub use place::LayerPlaces;
 pub use ranges::LARGEST_SEED;
@@ -87,6 +89,9 @@ pub struct Description {
     /// `[[light]]`.
     #[serde(rename = "light", skip_serializing_if = "Vec::is_empty")]
     pub lights: Vec<Light>,
+    /// `[[look]]`: other cameras, exposures and lights of the same objects.
+    #[serde(rename = "look", skip_serializing_if = "Vec::is_empty")]
+    pub looks: Vec<Look>,
     /// The model whose own lights the `lights` were made of, as its object names it. Not part of the file.
     #[serde(skip)]
     pub lights_of: Option<PathBuf>,

@@ -62,6 +62,7 @@ impl Description {
                 FileUse::ScratchPicture(i) => format!("a picture of scratches[{i}]"),
                 FileUse::GratingPicture(i) => format!("a picture of grating[{i}]"),
                 FileUse::LightPicture(i) => format!("the picture of light[{i}]"),
+                FileUse::Look(i) => format!("a file of look[{i}]"),
             };
             add(what, file_of(&path));
         }

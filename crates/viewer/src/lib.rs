@@ -32,6 +32,7 @@ mod free_view;
 mod gallery;
 mod jobs;
 mod link;
+mod looks;
 mod loss;
 mod missing;
 mod model_export;
@@ -49,6 +50,7 @@ mod script;
 mod seen;
 mod snapshots;
 mod style;
+mod thumbnail;
 mod tools;
 mod viewport;
 #[cfg(not(target_arch = "wasm32"))]

@@ -75,6 +75,6 @@ fn what(description: &Description, of: FileUse, path: &Path) -> &'static str {
                 _ => "mask",
             }
         }
-        FileUse::LightPicture(_) => "picture",
+        FileUse::LightPicture(_) | FileUse::Look(_) => "picture",
     }
 }

@@ -2,6 +2,7 @@
 
 mod fit;
 mod give;
+mod looks;
 mod view;
 
 use std::path::{Path, PathBuf};
@@ -19,6 +20,7 @@ use crate::engine::{Backend, Engine};
 use crate::files::is_same;
 use crate::free_view::FreeView;
 use crate::gallery::Gallery;
+use crate::looks::Looks;
 use crate::notices::Notices;
 use crate::overlays::Overlays;
 use crate::platform::HAS_THREADS;
@@ -41,6 +43,7 @@ pub(crate) struct Workspace {
     pub bookmarks: Bookmarks,
     pub settings: Settings,
     pub snapshots: Snapshots,
+    pub looks: Looks,
     /// Opening in millimetres and focus of the camera when depth of field was switched off, to be taken up again.
     pub closed_lens: Option<(f64, Option<f64>)>,
     /// Files that the scene names and that were not there when it was to be built.
@@ -179,6 +182,7 @@ impl Workspace {
                         | Selection::Grating(_)
                         | Selection::Light(_)
                         | Selection::Material(_)
+                        | Selection::Look(_)
                 )
             }
             Command::ToggleHidden => {
@@ -193,6 +197,7 @@ impl Workspace {
                 )
             }
             Command::FlipSnapshot => !self.snapshots.is_empty(),
+            Command::NextLook => !self.document.description().looks.is_empty(),
             Command::ToggleSolo => matches!(selection, Selection::Layer(_)),
             Command::Deselect => selection != Selection::None || self.toolbox.tool != Tool::Select,
             Command::Reload => self.document.path().is_some(),

@@ -104,8 +104,14 @@ impl Goals {
 /// NAME-0001.png for NAME.png: as many digits as the last one needs, so that names sort as the frames do.
 fn numbered(path: &Path, number: u32, last: u32) -> PathBuf {
     let digits = last.to_string().len().max(4);
+    with_suffix(path, &format!("{number:0digits$}"))
+}
+
+/// NAME-SUFFIX.png for NAME.png.
+pub fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_owned();
-    name.push(format!("-{number:0digits$}"));
+    name.push("-");
+    name.push(suffix);
     if let Some(ending) = path.extension() {
         name.push(".");
         name.push(ending);

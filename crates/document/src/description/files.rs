@@ -19,6 +19,8 @@ pub enum FileUse {
     GratingPicture(usize),
     /// The picture of a `[[light]]`.
     LightPicture(usize),
+    /// The map of the environment of a `[[look]]`, or the picture of one of its lights.
+    Look(usize),
 }
 
 /// One walk, to be read and to be changed.
@@ -54,6 +56,16 @@ macro_rules! walk {
         for (i, light) in $description.lights.$iter().enumerate() {
             let picture = light.picture.$iter();
             files.extend(picture.map(|file| (FileUse::LightPicture(i), file)));
+        }
+        for (i, look) in $description.looks.$iter().enumerate() {
+            if let Some(environment) = &$($mutable)? look.environment
+                && let Map::File(file) = &$($mutable)? environment.map
+            {
+                files.push((FileUse::Look(i), file));
+            }
+            let pictures = look.lights.$iter();
+            let pictures = pictures.flat_map(|light| light.picture.$iter());
+            files.extend(pictures.map(|file| (FileUse::Look(i), file)));
         }
         files
     }};

@@ -360,14 +360,35 @@ fn everything() -> Description {
                 two_sided: false,
             }),
         ],
+        looks: Vec::new(),
         lights_of: None,
         notes: Vec::new(),
     }
 }
 
+/// The same with looks: one of all that a look keeps, and one of a name alone.
+fn everything_with_looks() -> Description {
+    let mut it = everything();
+    let all = Look {
+        exposure_ev: Some(0.5),
+        studio: Some(Studio::default()),
+        ..Look::of("all".to_owned(), &it)
+    };
+    let none = Look {
+        name: "none \"quoted\"".to_owned(),
+        camera: None,
+        exposure_ev: None,
+        environment: None,
+        studio: None,
+        lights: Vec::new(),
+    };
+    it.looks = vec![all, none];
+    it
+}
+
 #[test]
 fn whatever_is_saved_loads_again_to_the_same() {
-    let everything = everything();
+    let everything = everything_with_looks();
     let text = everything.to_toml().unwrap();
     assert_eq!(parsed(&text), everything, "{text}");
     let mut least = everything;
@@ -378,6 +399,7 @@ fn whatever_is_saved_loads_again_to_the_same() {
     least.scratches.clear();
     least.gratings.clear();
     least.lights.clear();
+    least.looks.clear();
     assert_eq!(parsed(&least.to_toml().unwrap()), least);
 }
 
