@@ -170,9 +170,19 @@ pub struct Render {
     /// is not seen.
     #[arg(long)]
     pub transparent: bool,
+    /// Leave the ground out but for the shadows on it, as a black whose alpha is the share of its light that objects hide. A scene without a ground
+    /// gets one.
+    #[arg(long)]
+    pub shadows_only: bool,
+    /// Put a picture behind the objects (.png, .jpg, .webp), in the place of the environment; in a .png alone.
+    #[arg(long, value_name = "PICTURE")]
+    pub behind: Option<PathBuf>,
+    /// Bits of each channel of a .png, in place of the scene's. [default: 8]
+    #[arg(long, value_name = "BITS", value_parser = clap::builder::PossibleValuesParser::new(["8", "16"]).map(|it| if it == "16" { 16 } else { 8 }))]
+    pub png_bits: Option<u32>,
     /// Render bands of the spectrum in place of colours, a channel each: from A to B nm by equal steps. Writes an .exr. What has a colour and no spectrum
     /// is refused: lamps must be grey or have a temperature, surfaces be grey or measured metals.
-    #[arg(long, value_name = "A:B:STEP", value_parser = parse_bands, conflicts_with_all = ["frames", "labels", "watch", "transparent"])]
+    #[arg(long, value_name = "A:B:STEP", value_parser = parse_bands, conflicts_with_all = ["frames", "labels", "watch", "transparent", "shadows_only", "behind"])]
     pub bands: Option<Bands>,
     /// Write which scratches each pixel shows too, to an .exr by the convention of Cryptomatte.
     #[arg(long, value_name = "FILE")]

@@ -32,14 +32,14 @@ use motion::Motion;
 /// Loads, renders and writes.
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     let method = arguments.method.method()?;
-    let task = Task {
+    let mut task = Task {
         mask: method.mask,
         method: plugged(&method),
         backend: arguments.backend.into(),
         samples: arguments.samples,
         transport: transport(arguments.shadows, arguments.bounces, &method)?,
         is_filtered: arguments.filter == Switch::On,
-        is_transparent: arguments.transparent,
+        is_transparent: false,
     };
     let motion = Motion::of(&arguments.sequence, arguments.time)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
@@ -65,6 +65,10 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         highlight: arguments.highlight.as_ref(),
         is_lit_for_scratches: arguments.scene_flags.show_scratches,
         wear: arguments.scene_flags.wear,
+        transparent: arguments.transparent,
+        shadows_only: arguments.shadows_only,
+        behind: arguments.behind.as_deref(),
+        png_bits: arguments.png_bits,
         interrupt: None,
     };
     let mut outputs = target.paths();
@@ -77,11 +81,15 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         exposure_ev: loaded.scene.camera.exposure_ev,
         tone_map: loaded.scene.render.tone_map,
     };
+    task.is_transparent = loaded.description.cuts_out() && arguments.bands.is_none();
+    let finish = loaded.finish.clone();
     let notes = notes(&task, &method);
     let write_shown = |output: &Output, image: &Image, display: &Display| -> Result<(), Failure> {
+        let output = output.clone().finished(&finish);
         Ok(output.write_image_with_notes(image, display, &notes)?)
     };
     let write = |output: &Output, image: &Image, notes: &Notes| -> Result<(), Failure> {
+        let output = output.clone().finished(&finish);
         Ok(output.write_image_with_notes(image, &display, notes)?)
     };
     let terminal = Terminal::default();

@@ -110,6 +110,29 @@ pub struct Render {
     /// `"neutral"` (default), `"agx"`, `"aces"` or `"none"`.
     #[serde(serialize_with = "serialize_named")]
     pub tone_map: ToneMap,
+    /// Whether pictures have an alpha.
+    #[serde(skip_serializing_if = "is_default")]
+    pub transparent: bool,
+    /// A picture behind the objects.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub behind: Option<PathBuf>,
+    /// Bits of each channel of a PNG: 8 or 16.
+    #[serde(skip_serializing_if = "is_plain_depth")]
+    pub png_bits: u32,
+}
+
+fn is_plain_depth(png_bits: &u32) -> bool {
+    *png_bits == crate::schema::render::PNG_BITS.initial::<u32>()
+}
+
+impl Description {
+    /// Whether nothing but objects and shadows is seen in pictures, so that they have an alpha.
+    pub fn cuts_out(&self) -> bool {
+        let ground = self.ground.as_ref();
+        self.render.transparent
+            || self.render.behind.is_some()
+            || ground.is_some_and(|ground| ground.shadows_only && !ground.hidden)
+    }
 }
 
 /// `[environment]`

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use png::{BitDepth, ColorType, Compression, Encoder, Filter, SrgbRenderingIntent, Writer};
 
 use crate::output::{check_writable, write_atomically};
-use crate::png::quantize_image;
-use crate::{Display, Error, Image};
+use crate::png::quantize_finished;
+use crate::{Display, Error, Finish, Image};
 
 /// Largest number of frames in a second: viewers take delays below 10 ms for a mistake, and show more frames slower than
 /// asked.
@@ -20,6 +20,7 @@ pub struct Animation {
     left: u32,
     writer: Writer<Shared>,
     bytes: Shared,
+    finish: Finish,
 }
 
 impl Animation {
@@ -45,7 +46,7 @@ impl Animation {
     }
 
     /// Begins an animation of `frames` pictures, `fps` of them in a second (1 to [`FPS_MAX`]), that repeats without end. With `has_alpha` each of
-    /// them has [`Image::alpha`].
+    /// them has [`Image::alpha`], and so has the animation unless a picture is behind.
     ///
     /// # Errors
     /// As [`Animation::check`]; [`Error::CannotWrite`] for no frames or an empty picture.
@@ -55,10 +56,11 @@ impl Animation {
         frames: u32,
         fps: u16,
         has_alpha: bool,
+        finish: &Finish,
     ) -> Result<Self, Error> {
         Self::check(path)?;
         let bytes = Shared::default();
-        let color = if has_alpha {
+        let color = if has_alpha && finish.behind.is_none() {
             ColorType::Rgba
         } else {
             ColorType::Rgb
@@ -71,6 +73,7 @@ impl Animation {
             left: frames,
             writer: writer.map_err(|error| refused(path, &error))?,
             bytes,
+            finish: finish.clone(),
         })
     }
 
@@ -83,7 +86,8 @@ impl Animation {
     /// If the frame has another size.
     pub fn add(&mut self, frame: &Image, display: &Display) -> Result<(), Error> {
         assert_eq!(frame.size_px, self.size_px, "frames of different sizes");
-        let codes = quantize_image(frame, display).map_err(|reason| Error::CannotWrite {
+        let codes = quantize_finished(frame, display, &self.finish);
+        let codes = codes.map_err(|reason| Error::CannotWrite {
             path: self.path.clone(),
             reason,
         })?;
@@ -173,6 +177,7 @@ impl std::io::Write for Shared {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::png::quantize_image;
     use image::AnimationDecoder;
     use image::codecs::png::PngDecoder;
     use std::fs::File;
@@ -187,7 +192,8 @@ mod tests {
     }
 
     fn animation(path: &Path, frames: u32) -> Animation {
-        Animation::begin(path, SIZE_PX, frames, 25, false).unwrap_or_else(|error| panic!("{error}"))
+        Animation::begin(path, SIZE_PX, frames, 25, false, &Finish::default())
+            .unwrap_or_else(|error| panic!("{error}"))
     }
 
     #[test]
@@ -241,7 +247,7 @@ mod tests {
         let path = folder.path().join("clear.apng");
         let mut clear = grey(0.2);
         clear.alpha = Some(vec![0.4; 35]);
-        let mut writer = Animation::begin(&path, SIZE_PX, 2, 25, true).unwrap();
+        let mut writer = Animation::begin(&path, SIZE_PX, 2, 25, true, &Finish::default()).unwrap();
         writer.add(&clear, &Display::default()).unwrap();
         assert!(writer.add(&grey(0.2), &Display::default()).is_err());
         assert!(

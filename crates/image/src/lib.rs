@@ -14,6 +14,7 @@
 #![warn(unreachable_pub)]
 
 mod animation;
+mod backdrop;
 mod bands;
 mod batches;
 pub mod cryptomatte;
@@ -33,6 +34,7 @@ mod temporary;
 pub mod tone_map;
 
 pub use animation::{Animation, FPS_MAX};
+pub use backdrop::Backdrop;
 pub use bands::BandImage;
 pub use batches::{BATCH_ROUNDS, BATCH_SAMPLES, Batch, Batches, add_batch};
 pub use error::Error;
@@ -42,5 +44,6 @@ pub use filter::filter_found;
 pub use found::{Found, FoundLight, FoundPixel};
 pub use layers::{HeldLayer, Layers, Referred};
 pub use output::{Format, Output};
+pub use png::Finish;
 pub use primaries::{Primaries, ToRec709, in_gamut};
 pub use tone_map::{Display, ToneMap};

@@ -57,6 +57,7 @@ fn what(description: &Description, of: FileUse, path: &Path) -> &'static str {
     let is_it = |file: Option<&PathBuf>| file.is_some_and(|file| file == path);
     match of {
         FileUse::Map => "environment map",
+        FileUse::Behind => "picture behind",
         FileUse::Mesh(_) => "model",
         FileUse::ScratchList(_) => "list of scratches",
         FileUse::ScratchPicture(i) => {

@@ -20,8 +20,6 @@ pub struct Goals {
     pub animation: Option<PathBuf>,
     /// Frames in a second.
     pub fps: u16,
-    /// Whether the animation has alpha.
-    pub has_alpha: bool,
 }
 
 impl Goals {
@@ -76,7 +74,6 @@ impl Goals {
             pictures,
             animation,
             fps: flags.fps.unwrap_or(DEFAULT_FPS),
-            has_alpha: arguments.transparent,
         })
     }
 

@@ -21,6 +21,10 @@ impl Description {
     pub fn check(&self) -> Result<(), Error> {
         self.camera.check_at("camera")?;
         self.render.check_keys("render")?;
+        if !matches!(self.render.png_bits, 8 | 16) {
+            let found = format!("found {}", self.render.png_bits);
+            return Err(Error::new("render.png_bits", found, "must be 8 or 16"));
+        }
         if let Some(environment) = &self.environment {
             check_environment(environment, "environment")?;
         }

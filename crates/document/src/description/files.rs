@@ -9,6 +9,8 @@ use super::{Description, GroovePattern, Layer, Map, Surface};
 pub enum FileUse {
     /// The map of `[environment]`.
     Map,
+    /// The picture behind the objects.
+    Behind,
     /// The mesh of an `[[object]]`.
     Mesh(usize),
     /// The list of a layer of `[[scratches]]`.
@@ -32,6 +34,8 @@ macro_rules! walk {
         {
             files.push((FileUse::Map, file));
         }
+        let behind = $description.render.behind.$iter();
+        files.extend(behind.map(|file| (FileUse::Behind, file)));
         for (i, object) in $description.objects.$iter().enumerate() {
             if let Surface::Mesh(file) = &$($mutable)? object.surface {
                 files.push((FileUse::Mesh(i), file));

@@ -100,8 +100,8 @@ pub(super) fn keys_without_effect(
 impl Read for Render {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         // `gather` was a key of earlier versions: see `keys_without_effect`.
-        let known = [&render::SIZE_PX, &render::FILTER_STD_PX, &render::TONE_MAP];
-        let known = [&known.map(|key| key.name)[..], &["gather"]].concat();
+        let known = render::RENDER.keys.iter().map(|key| key.name);
+        let known: Vec<_> = known.chain(["gather"]).collect();
         let table = Table::read(value, key, &known)?;
         Self::read_keys(&table)
     }
@@ -111,6 +111,9 @@ keyed! { Render: Default {
     size_px: render::SIZE_PX,
     filter_std_px: render::FILTER_STD_PX,
     tone_map: render::TONE_MAP,
+    transparent: render::TRANSPARENT,
+    behind: render::BEHIND,
+    png_bits: render::PNG_BITS,
 } }
 
 impl Read for Environment {

@@ -69,6 +69,7 @@ fn of_table<'v>(
             ("object", "mesh") => Named::Model,
             ("scratches", "file") => Named::Scratches,
             ("environment", "file")
+            | ("render", "behind")
             | ("where", "mask" | "density")
             | ("grating", "mask" | "directions")
             | ("light", "picture") => Named::File,
@@ -108,6 +109,6 @@ mod tests {
                 count += usize::from(is_file);
             }
         }
-        assert_eq!(count, 8);
+        assert_eq!(count, 9);
     }
 }

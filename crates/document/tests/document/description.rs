@@ -208,6 +208,9 @@ fn everything() -> Description {
             size_px: [1, 16_384],
             filter_std_px: 0.7,
             tone_map: ToneMap::Agx,
+            transparent: true,
+            behind: Some("sky.png".into()),
+            png_bits: 16,
         },
         environment: Some(Environment {
             map: Map::File("a.exr".into()),
@@ -223,6 +226,7 @@ fn everything() -> Description {
         ground: Some(Ground {
             color: [0.4; 3],
             height_m: Some(-0.5),
+            shadows_only: true,
             ..Ground::default()
         }),
         materials: kinds

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use egui::{DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
+use egui::{Checkbox, DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
 use hairline_image::{BATCH_SAMPLES, Batches};
 
 use super::work::{Expected, Motion, Turns};
@@ -51,6 +51,8 @@ pub(super) struct ExportContext {
     pub is_view_free: bool,
     /// Whether the window shows a snapshot in the place of the scene.
     pub is_snapshot: bool,
+    /// Whether the scene says that its pictures have an alpha.
+    pub cuts_out: bool,
     /// What is known of the pictures beforehand.
     pub expected: Expected,
 }
@@ -144,8 +146,13 @@ impl Form {
                     ui.end_row();
                 }
                 ui.label("");
-                ui.checkbox(&mut self.is_transparent, "Transparent background")
-                    .on_hover_text(
+                let mut is_transparent = self.is_transparent || scene.cuts_out;
+                let transparent = Checkbox::new(&mut is_transparent, "Transparent background");
+                let transparent = ui.add_enabled(!scene.cuts_out, transparent);
+                if transparent.changed() {
+                    self.is_transparent = is_transparent;
+                }
+                transparent.on_hover_text(
                         "PNG and EXR get an alpha channel: the share of each pixel that objects cover. The environment lights \
                          them and is not seen",
                     );

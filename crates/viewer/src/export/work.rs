@@ -7,7 +7,7 @@ use std::time::Duration;
 use hairline_document::{Description, description};
 use hairline_editor::navigate;
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, Method, RenderOptions, Renderer};
-use hairline_image::{Animation, Batches, Display, Image, Output, filter_found};
+use hairline_image::{Animation, Batches, Display, Finish, Image, Output, filter_found};
 use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
@@ -300,6 +300,11 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
     let mut seen = built.seen_from(&wish.scene(built, &wish.at(0).camera));
     let opened = Painter::open(wish, &seen).await;
     let mut painter = opened.map_err(|error| error.to_string())?;
+    let backdrop = wish.description.backdrop(&wish.base_dir);
+    let finish = Finish {
+        is_deep: wish.description.render.png_bits == 16,
+        behind: (backdrop.map_err(|error| error.to_string())?).map(Arc::new),
+    };
     let begin = || {
         Animation::begin(
             &wish.path,
@@ -307,6 +312,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
             wish.frames(),
             FPS,
             wish.is_transparent,
+            &finish,
         )
     };
     let animation = wish.is_animation().then(begin).transpose();
@@ -318,7 +324,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
             Some(_) => None,
             None => {
                 let output = Output::check(&wish.frame_path(frame));
-                Some(output.map_err(|error| error.to_string())?)
+                Some(output.map_err(|error| error.to_string())?.finished(&finish))
             }
         };
         let go_on = |share: f64| {
@@ -360,7 +366,13 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         if wish.is_transparent {
             let batches = wish.batches(&scene.camera);
             let all = batches.map_or(wish.samples, |it| it.samples());
-            image.alpha = Some(hairline_cpu::alpha(&scene, &seen.triangles, all, all));
+            let mut alpha = hairline_cpu::alpha(&scene, &seen.triangles, all, all);
+            if wish.transport.shadows {
+                let shadows = hairline_cpu::caught_shadows(&scene, all, &|| stop.is_asked());
+                let pixels = alpha.iter_mut().zip(shadows.unwrap_or_default());
+                pixels.for_each(|(alpha, shadow)| *alpha += shadow);
+            }
+            image.alpha = Some(alpha);
         }
         let written = match (&mut animation, &output) {
             (Some(animation), _) => animation.add(&image, &wish.display()),
