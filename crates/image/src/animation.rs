@@ -1,10 +1,11 @@
-//! Animated PNG (the third edition of the PNG specification): frames as a display shows them, 8 bits a channel, sRGB, without
-//! loss. What shows no animations shows the first frame.
+//! Animations: frames as a display shows them, 8 bits a channel, sRGB. An animated PNG (the third edition of the PNG specification) is without
+//! loss; what shows no animations shows its first frame. MPEG-4 is made by another program ([`crate::mp4`]).
 
 use std::path::{Path, PathBuf};
 
 use png::{BitDepth, ColorType, Compression, Encoder, Filter, SrgbRenderingIntent, Writer};
 
+use crate::mp4::Mp4;
 use crate::output::{check_writable, write_atomically};
 use crate::png::quantize_finished;
 use crate::{Display, Error, Finish, Image};
@@ -13,34 +14,42 @@ use crate::{Display, Error, Finish, Image};
 /// asked.
 pub const FPS_MAX: u16 = 100;
 
-/// An animation in the making. It is kept in memory, compressed, until [`Animation::finish`]: the file is whole or not there.
+/// An animation in the making. The file is whole or not there: an animated PNG is kept in memory, compressed, until [`Animation::finish`].
 pub struct Animation {
     path: PathBuf,
     size_px: [u32; 2],
     left: u32,
-    writer: Writer<Shared>,
-    bytes: Shared,
+    to: Encoded,
     finish: Finish,
 }
 
+enum Encoded {
+    Apng {
+        writer: Box<Writer<Shared>>,
+        bytes: Shared,
+    },
+    Mp4(Mp4),
+}
+
 impl Animation {
-    /// Whether the file name ends in .apng, in either case.
+    /// Whether the file name ends in .apng or .mp4, in either case.
     pub fn is_asked_by(path: &Path) -> bool {
-        path.extension()
-            .is_some_and(|ending| ending.eq_ignore_ascii_case("apng"))
+        has_ending(path, "apng") || Mp4::is_asked_by(path)
     }
 
-    /// Checks a path before the work that is to go there: .apng or .png, the folder, the right to write. Leaves nothing behind
-    /// and an existing file as it is.
+    /// Checks a path before the work that is to go there: .apng, .png or .mp4, the folder, the right to write, and for .mp4 the program that makes
+    /// it. Leaves nothing behind and an existing file as it is.
     ///
     /// # Errors
     /// [`Error::NoAnimation`], [`Error::CannotWrite`].
     pub fn check(path: &Path) -> Result<(), Error> {
-        let is_png = |ending: &std::ffi::OsStr| ending.eq_ignore_ascii_case("png");
-        if !Self::is_asked_by(path) && !path.extension().is_some_and(is_png) {
+        if !Self::is_asked_by(path) && !has_ending(path, "png") {
             return Err(Error::NoAnimation {
                 path: path.to_owned(),
             });
+        }
+        if Mp4::is_asked_by(path) {
+            Mp4::check(path)?;
         }
         check_writable(path)
     }
@@ -49,7 +58,7 @@ impl Animation {
     /// them has [`Image::alpha`], and so has the animation unless a picture is behind.
     ///
     /// # Errors
-    /// As [`Animation::check`]; [`Error::CannotWrite`] for no frames or an empty picture.
+    /// As [`Animation::check`]; [`Error::CannotWrite`] for no frames or an empty picture, and for alpha in an .mp4.
     pub fn begin(
         path: &Path,
         size_px: [u32; 2],
@@ -59,20 +68,34 @@ impl Animation {
         finish: &Finish,
     ) -> Result<Self, Error> {
         Self::check(path)?;
-        let bytes = Shared::default();
-        let color = if has_alpha && finish.behind.is_none() {
-            ColorType::Rgba
-        } else {
-            ColorType::Rgb
-        };
+        let has_alpha = has_alpha && finish.behind.is_none();
         let fps = fps.clamp(1, FPS_MAX);
-        let writer = header(bytes.clone(), size_px, color, frames, fps);
+        let to = match Mp4::is_asked_by(path) {
+            true if has_alpha => {
+                let reason = "an .mp4 has no alpha: leave the transparent background out, put a picture behind, or end the name in .apng";
+                return Err(Error::CannotWrite {
+                    path: path.to_owned(),
+                    reason: reason.to_owned(),
+                });
+            }
+            true => Encoded::Mp4(Mp4::begin(path, size_px, fps)?),
+            false => {
+                let bytes = Shared::default();
+                let color = if has_alpha {
+                    ColorType::Rgba
+                } else {
+                    ColorType::Rgb
+                };
+                let writer = header(bytes.clone(), size_px, color, frames, fps);
+                let writer = Box::new(writer.map_err(|error| refused(path, &error))?);
+                Encoded::Apng { writer, bytes }
+            }
+        };
         Ok(Self {
             path: path.to_owned(),
             size_px,
             left: frames,
-            writer: writer.map_err(|error| refused(path, &error))?,
-            bytes,
+            to,
             finish: finish.clone(),
         })
     }
@@ -91,8 +114,13 @@ impl Animation {
             path: self.path.clone(),
             reason,
         })?;
-        let written = self.writer.write_image_data(&codes);
-        written.map_err(|error| refused(&self.path, &error))?;
+        match &mut self.to {
+            Encoded::Mp4(mp4) => mp4.add(&codes)?,
+            Encoded::Apng { writer, .. } => {
+                let written = writer.write_image_data(&codes);
+                written.map_err(|error| refused(&self.path, &error))?;
+            }
+        }
         self.left = self.left.saturating_sub(1);
         Ok(())
     }
@@ -102,22 +130,26 @@ impl Animation {
     /// # Errors
     /// [`Error::CannotWrite`], also where frames are missing.
     pub fn finish(self) -> Result<(), Error> {
-        let Self {
-            path,
-            left,
-            writer,
-            bytes,
-            ..
-        } = self;
+        let Self { path, left, to, .. } = self;
         if left > 0 {
             return Err(Error::CannotWrite {
                 path,
                 reason: format!("{left} frames are missing"),
             });
         }
-        writer.finish().map_err(|error| refused(&path, &error))?;
-        write_atomically(&path, &bytes.take())
+        match to {
+            Encoded::Mp4(mp4) => mp4.finish(),
+            Encoded::Apng { writer, bytes } => {
+                writer.finish().map_err(|error| refused(&path, &error))?;
+                write_atomically(&path, &bytes.take())
+            }
+        }
     }
+}
+
+fn has_ending(path: &Path, wanted: &str) -> bool {
+    path.extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case(wanted))
 }
 
 fn header(

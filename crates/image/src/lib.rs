@@ -27,6 +27,7 @@ pub mod held;
 mod layers;
 mod listed;
 pub mod metrics;
+mod mp4;
 pub mod output;
 pub mod png;
 mod primaries;

@@ -181,7 +181,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 }
 
 /// The regular file to replace or make. A symbolic link stays one: the file that it leads to is replaced.
-fn resolve(path: &Path) -> Result<PathBuf, Error> {
+pub(crate) fn resolve(path: &Path) -> Result<PathBuf, Error> {
     let refuse = |reason: &str| Error::CannotWrite {
         path: path.to_owned(),
         reason: reason.to_owned(),

@@ -58,7 +58,7 @@ impl Goals {
         {
             let path = path.display();
             return Err(Failure::Input(anyhow!(
-                "{path}: animations are written as animated PNG: end it in .apng"
+                "{path}: animations are written as animated PNG or as MPEG-4: end it in .apng or .mp4"
             )));
         }
         if let Some(path) = &animation {

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use hairline_document::{Description, description};
-use hairline_editor::navigate;
+use hairline_editor::navigate::{self, Turns};
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, Method, RenderOptions, Renderer};
 use hairline_image::{Animation, Batches, Display, Finish, Image, Output, filter_found};
 use hairline_scene::{Camera, Scene, Transport};
@@ -27,16 +27,8 @@ pub(super) enum Motion {
     },
 }
 
-/// What a turntable turns.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Turns {
-    /// Objects, before the camera and under the lights.
-    Object,
-    Camera,
-}
-
 impl Motion {
-    /// Path of a picture, counted from 0: NAME.png, or NAME-0001.png and on; NAME.apng has all of them.
+    /// Path of a picture, counted from 0: NAME.png, or NAME-0001.png and on; NAME.apng and NAME.mp4 have all of them.
     pub fn path(self, path: &Path, frame: u32) -> PathBuf {
         match self {
             Self::Turntable { .. } if self.is_animation(path) => path.to_owned(),
@@ -125,22 +117,17 @@ impl Wish {
         } = self.motion
         {
             let angle_rad = f64::from(frame) / f64::from(frames.max(1)) * degrees.to_radians();
-            match turns {
-                Turns::Camera => navigate::turn(&mut moved.camera, angle_rad),
-                Turns::Object => navigate::turn_surroundings(&mut moved, angle_rad),
-            }
+            navigate::turn_table(&mut moved, turns, angle_rad);
         }
         moved
     }
 
-    fn turns_object(&self) -> bool {
-        matches!(
-            self.motion,
-            Motion::Turntable {
-                turns: Turns::Object,
-                ..
-            }
-        )
+    /// Whether a scene is built for each picture.
+    fn moves_scene(&self) -> bool {
+        match self.motion {
+            Motion::Turntable { turns, .. } => turns != Turns::Camera,
+            Motion::Still => false,
+        }
     }
 
     /// Waits for work on the wish's device, which only a thread may.
@@ -333,7 +320,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         };
         let now = wish.at(frame);
         let camera = now.camera.clone();
-        let turned = match wish.turns_object() && frame > 0 {
+        let turned = match wish.moves_scene() && frame > 0 {
             true => {
                 let cancelled = || stop.is_asked();
                 let (now, asked) = (Arc::new(now), Instant::now());
