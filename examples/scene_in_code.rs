@@ -40,6 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             0.05,
         )],
         objects: vec![scratched_square(0.004)],
+        shadow_catcher: None,
         lights: vec![Light::sphere(DVec3::new(0.0, 0.12, 0.36), 0.03, [200.0; 3])],
         notes: Vec::new(),
     };

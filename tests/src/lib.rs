@@ -69,6 +69,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
         textures: Arc::default(),
         observer: Default::default(),
         materials: vec![Material::plain("base".into(), base, 0.05)],
+        shadow_catcher: None,
         objects: vec![Object {
             name: "square".into(),
             mesh: Arc::new(mesh),

@@ -9,6 +9,7 @@ use hairline_console::{Backend, EXIT_CODES, Switch, View};
 use hairline_document::DEFAULT_SAMPLES;
 use hairline_document::schema::camera::EXPOSURE_EV;
 use hairline_document::schema::object::TIME_S;
+use hairline_editor::navigate;
 use hairline_editor::wear::Wear;
 use hairline_image::{FPS_MAX, Layer, ToneMap};
 
@@ -170,9 +171,19 @@ pub struct Render {
     /// is not seen.
     #[arg(long)]
     pub transparent: bool,
+    /// Leave the ground out but for the shadows on it, as a black whose alpha is the share of its light that objects hide. A scene without a ground
+    /// gets one.
+    #[arg(long)]
+    pub shadows_only: bool,
+    /// Put a picture behind the objects (.png, .jpg, .webp), in the place of the environment; in a .png alone.
+    #[arg(long, value_name = "PICTURE")]
+    pub behind: Option<PathBuf>,
+    /// Bits of each channel of a .png, in place of the scene's. [default: 8]
+    #[arg(long, value_name = "BITS", value_parser = clap::builder::PossibleValuesParser::new(["8", "16"]).map(|it| if it == "16" { 16 } else { 8 }))]
+    pub png_bits: Option<u32>,
     /// Render bands of the spectrum in place of colours, a channel each: from A to B nm by equal steps. Writes an .exr. What has a colour and no spectrum
     /// is refused: lamps must be grey or have a temperature, surfaces be grey or measured metals.
-    #[arg(long, value_name = "A:B:STEP", value_parser = parse_bands, conflicts_with_all = ["frames", "labels", "watch", "transparent"])]
+    #[arg(long, value_name = "A:B:STEP", value_parser = parse_bands, conflicts_with_all = ["frames", "labels", "watch", "transparent", "shadows_only", "behind"])]
     pub bands: Option<Bands>,
     /// Write which scratches each pixel shows too, to an .exr by the convention of Cryptomatte.
     #[arg(long, value_name = "FILE")]
@@ -197,6 +208,9 @@ pub struct Render {
     /// Render again whenever the scene or one of its files changes, until Ctrl-C.
     #[arg(long, conflicts_with_all = ["frames", "turntable", "zoom", "animation", "stability"])]
     pub watch: bool,
+    /// Render all `[[look]]`s of the scene, each to NAME-LOOK.png for -o NAME.png (or .exr).
+    #[arg(long, conflicts_with_all = ["frames", "turntable", "zoom", "animation", "stability", "bands", "labels"])]
+    pub looks: bool,
     /// Many pictures in place of one.
     #[command(flatten)]
     pub sequence: SequenceFlags,
@@ -213,6 +227,18 @@ pub enum Turns {
     Camera,
     /// The objects, before the camera and under the lights
     Object,
+    /// Lights, studio and environment, about objects and camera that stand still
+    Lights,
+}
+
+impl From<Turns> for navigate::Turns {
+    fn from(turns: Turns) -> Self {
+        match turns {
+            Turns::Camera => Self::Camera,
+            Turns::Object => Self::Object,
+            Turns::Lights => Self::Lights,
+        }
+    }
 }
 
 /// A sequence of pictures on a way of the camera.
@@ -220,7 +246,7 @@ pub enum Turns {
 #[command(next_help_heading = "Sequences")]
 pub struct SequenceFlags {
     /// Number of pictures, NAME-0001.png and on for -o NAME.png (or .exr), on the path that --turntable and --zoom give, or through the times of
-    /// --time A:B. For -o NAME.apng one animation.
+    /// --time A:B. For -o NAME.apng or NAME.mp4 one animation.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: Option<u32>,
     /// Turn the camera about its target, around its `up`, by so many degrees in all, counter-clockwise seen from above.
@@ -228,7 +254,7 @@ pub struct SequenceFlags {
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = parse_turn)]
     pub turntable: Option<f64>,
     /// What --turntable turns. `object`: lights and environment go round with the camera, so that objects turn before it and the light on a floor
-    /// stands still. Each frame is a scene of its own then.
+    /// stands still. `lights`: they go round objects and camera that stand still. Each frame is a scene of its own then.
     #[arg(
         long,
         value_name = "WHAT",
@@ -240,7 +266,7 @@ pub struct SequenceFlags {
     /// between. 1 is the scene's own view; 1:8 comes within an eighth of the distance, where the target is 8 times as large.
     #[arg(long, value_name = "A:B", value_parser = parse_zoom)]
     pub zoom: Option<[f64; 2]>,
-    /// Write one animated PNG (.apng or .png), in place of numbered pictures; with -o NAME.png both.
+    /// Write one animated PNG (.apng or .png), or MPEG-4 (.mp4) by ffmpeg on PATH, in place of numbered pictures; with -o NAME.png both.
     #[arg(long, value_name = "FILE")]
     pub animation: Option<PathBuf>,
     /// Frames of the animation in a second. [default: 30]

@@ -1,6 +1,7 @@
 //! `hairline render`: a scene file to a picture, or to a sequence of them.
 
 mod goals;
+mod looks;
 mod motion;
 mod sequence;
 mod steadiness;
@@ -31,18 +32,19 @@ use motion::Motion;
 /// Loads, renders and writes.
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     let method = arguments.method.method()?;
-    let task = Task {
+    let mut task = Task {
         mask: method.mask,
         method: plugged(&method),
         backend: arguments.backend.into(),
         samples: arguments.samples,
         transport: transport(arguments.shadows, arguments.bounces, &method)?,
         is_filtered: arguments.filter == Switch::On,
-        is_transparent: arguments.transparent,
+        is_transparent: false,
     };
     let motion = Motion::of(&arguments.sequence, arguments.time)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
     let target = match &motion {
+        None if arguments.looks => Target::Looks,
         None => Target::One(single(arguments)?),
         Some(motion) => Target::Many(motion, Goals::check(arguments, motion.frames)?),
     };
@@ -63,6 +65,10 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         highlight: arguments.highlight.as_ref(),
         is_lit_for_scratches: arguments.scene_flags.show_scratches,
         wear: arguments.scene_flags.wear,
+        transparent: arguments.transparent,
+        shadows_only: arguments.shadows_only,
+        behind: arguments.behind.as_deref(),
+        png_bits: arguments.png_bits,
         interrupt: None,
     };
     let mut outputs = target.paths();
@@ -75,12 +81,20 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         exposure_ev: loaded.scene.camera.exposure_ev,
         tone_map: loaded.scene.render.tone_map,
     };
+    task.is_transparent = loaded.description.cuts_out() && arguments.bands.is_none();
+    let finish = loaded.finish.clone();
     let notes = notes(&task, &method);
+    let write_shown = |output: &Output, image: &Image, display: &Display| -> Result<(), Failure> {
+        let output = output.clone().finished(&finish);
+        Ok(output.write_image_with_notes(image, display, &notes)?)
+    };
     let write = |output: &Output, image: &Image, notes: &Notes| -> Result<(), Failure> {
+        let output = output.clone().finished(&finish);
         Ok(output.write_image_with_notes(image, &display, notes)?)
     };
     let terminal = Terminal::default();
     match target {
+        Target::Looks => looks::run(&mut loaded, arguments, (task, &terminal), &write_shown),
         Target::One(output) => {
             let scene = &loaded.scene;
             if let Some(cli::Bands(bands_nm)) = &arguments.bands {
@@ -129,7 +143,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
                 return Ok(());
             }
             let so_far = format!("{samples} of {wanted}");
-            let mut notes = notes;
+            let mut notes = notes.clone();
             notes.insert("samples".to_owned(), so_far.clone());
             write(&output, &image, &notes)?;
             let name = output.path().display();
@@ -138,7 +152,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         }
         Target::Many(motion, goals) => {
             let stability = arguments.sequence.stability;
-            let write = |output: &Output, image: &Image| write(output, image, &notes);
+            let write = |output: &Output, image: &Image| write_shown(output, image, &display);
             sequence::run(
                 &mut loaded,
                 motion,
@@ -234,6 +248,8 @@ fn nothing_seen(image: &Image) -> Option<&'static str> {
 /// Destination of pictures.
 enum Target<'a> {
     One(Output),
+    /// A picture of each look, whose names the scene has.
+    Looks,
     Many(&'a Motion, Goals),
 }
 
@@ -241,6 +257,7 @@ impl Target<'_> {
     fn paths(&self) -> Vec<&Path> {
         match self {
             Self::One(output) => vec![output.path()],
+            Self::Looks => Vec::new(),
             Self::Many(_, goals) => {
                 let pictures = goals.pictures.iter().map(Output::path);
                 pictures.chain(goals.animation.as_deref()).collect()

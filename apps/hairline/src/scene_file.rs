@@ -1,6 +1,7 @@
 //! Loads a scene for the command line: the file, the flags' changes to it, and the progress of reading.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::anyhow;
 use glam::Vec3;
@@ -11,7 +12,7 @@ use hairline_document::inputs::{Input, is_same_file};
 use hairline_document::{Loader, SceneBuilder, Stage, reading};
 use hairline_editor::subject;
 use hairline_editor::wear::{Wear, set_wear};
-use hairline_image::ToneMap;
+use hairline_image::{Finish, ToneMap};
 use hairline_memory::budget_bytes;
 use hairline_scene::Scene;
 
@@ -41,6 +42,14 @@ pub struct Overrides<'a> {
     pub is_lit_for_scratches: bool,
     /// Wear of the objects that the scene is about.
     pub wear: Option<Wear>,
+    /// Whether pictures have an alpha.
+    pub transparent: bool,
+    /// Whether the ground is seen by its shadows alone.
+    pub shadows_only: bool,
+    /// A picture behind the objects.
+    pub behind: Option<&'a Path>,
+    /// Bits of each channel of a PNG.
+    pub png_bits: Option<u32>,
     /// Ends the reading with an error; none where nobody listens.
     pub interrupt: Option<&'a Interrupt>,
 }
@@ -53,6 +62,8 @@ pub struct Loaded {
     pub description: Description,
     /// Folder from which paths in the scene start.
     pub folder: PathBuf,
+    /// What its PNGs have besides the colours.
+    pub finish: Finish,
     /// Builder of the scene, which keeps its parts.
     builder: SceneBuilder,
 }
@@ -93,6 +104,22 @@ fn give_wear(description: &mut Description, scene: &Scene, wear: Wear) {
     }
 }
 
+/// Cuts the objects out by the flags.
+fn cut_out(description: &mut Description, overrides: &Overrides<'_>) {
+    let render = &mut description.render;
+    render.transparent |= overrides.transparent;
+    render.png_bits = overrides.png_bits.unwrap_or(render.png_bits);
+    if let Some(behind) = overrides.behind {
+        // Not relative to the scene.
+        let path = std::path::absolute(behind);
+        render.behind = Some(path.unwrap_or_else(|_| behind.to_owned()));
+    }
+    if overrides.shadows_only {
+        let ground = description.ground.get_or_insert_default();
+        (ground.shadows_only, ground.hidden) = (true, false);
+    }
+}
+
 /// Reads a scene file, or the built-in scene where there is none. `outputs` are the files that will be written: none of them may be
 /// one that the scene is made from.
 pub fn load(
@@ -102,6 +129,7 @@ pub fn load(
 ) -> Result<Loaded, Failure> {
     let mut source = Source::read(path)?;
     let mut description = source.description()?;
+    cut_out(&mut description, overrides);
     let inputs = description.inputs(&source.folder);
     refuse_inputs(outputs, path, &inputs)?;
     if let Some(size_px) = overrides.size_px {
@@ -148,6 +176,10 @@ pub fn load(
     let mut builder = SceneBuilder::new();
     let built = builder.build(&loader, &description, &source.folder);
     let mut scene = built.map_err(wrong)?;
+    let finish = Finish {
+        is_deep: description.render.png_bits == 16,
+        behind: (description.backdrop(&source.folder).map_err(wrong)?).map(Arc::new),
+    };
     if let Some(wear) = overrides.wear {
         give_wear(&mut description, &scene, wear);
         scene = (builder.build(&loader, &description, &source.folder)).map_err(wrong)?;
@@ -180,6 +212,7 @@ pub fn load(
         scene,
         description,
         folder: source.folder,
+        finish,
         builder,
     })
 }

@@ -24,6 +24,7 @@ mod alpha;
 mod bin;
 mod bounces;
 mod camera_beam;
+mod caught_shadows;
 pub mod closed_form;
 mod counts;
 pub mod draft;
@@ -52,4 +53,5 @@ mod unrounded;
 mod visibility;
 
 pub use alpha::alpha;
+pub use caught_shadows::caught_shadows;
 pub use unrounded::unrounded_light;

@@ -275,7 +275,7 @@ impl<'a> Work<'a> {
         };
         let surface = surface.with_materials_from(scene.materials.len() as u32);
         scene.materials.push(convert::material(&material));
-        scene.objects.push(Object {
+        let object = Object {
             name: object.name,
             mesh: surface.mesh.clone(),
             scratches: Arc::default(),
@@ -283,7 +283,11 @@ impl<'a> Work<'a> {
             parts: Arc::default(),
             gratings: Vec::new(),
             is_lamp: false,
-        });
+        };
+        match ground.shadows_only {
+            true => scene.shadow_catcher = Some(object),
+            false => scene.objects.push(object),
+        }
         surfaces.push(surface);
         Ok(())
     }

@@ -36,6 +36,7 @@ pub(crate) fn without_surfaces(description: &Description) -> Scene {
         materials: description.materials.iter().map(material).collect(),
         observer: Observer::default(),
         objects: Vec::new(),
+        shadow_catcher: None,
         lights: lights.map(description::Light::in_scene).collect(),
         notes: description.notes.clone(),
     }

@@ -17,6 +17,7 @@ mod keyed;
 mod lens;
 mod light_kind;
 mod lights;
+mod looks;
 mod overrides;
 mod parse;
 mod place;
@@ -47,6 +48,7 @@ pub use files::FileUse;
 pub use gratings::{Grating, GratingTheory, GroovePattern, UvAxis};
 pub use light_kind::LightKind;
 pub use lights::{Cone, Light};
+pub use looks::Look;
 pub use overrides::Override;
 pub use place::LayerPlaces;
 pub use ranges::LARGEST_SEED;
@@ -89,6 +91,9 @@ pub struct Description {
     /// `[[light]]`.
     #[serde(rename = "light", skip_serializing_if = "Vec::is_empty")]
     pub lights: Vec<Light>,
+    /// `[[look]]`: other cameras, exposures and lights of the same objects.
+    #[serde(rename = "look", skip_serializing_if = "Vec::is_empty")]
+    pub looks: Vec<Look>,
     /// The model whose own lights the `lights` were made of, as its object names it. Not part of the file.
     #[serde(skip)]
     pub lights_of: Option<PathBuf>,
@@ -107,6 +112,29 @@ pub struct Render {
     /// `"neutral"` (default), `"agx"`, `"aces"` or `"none"`.
     #[serde(serialize_with = "serialize_named")]
     pub tone_map: ToneMap,
+    /// Whether pictures have an alpha.
+    #[serde(skip_serializing_if = "is_default")]
+    pub transparent: bool,
+    /// A picture behind the objects.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub behind: Option<PathBuf>,
+    /// Bits of each channel of a PNG: 8 or 16.
+    #[serde(skip_serializing_if = "is_plain_depth")]
+    pub png_bits: u32,
+}
+
+fn is_plain_depth(png_bits: &u32) -> bool {
+    *png_bits == crate::schema::render::PNG_BITS.initial::<u32>()
+}
+
+impl Description {
+    /// Whether nothing but objects and shadows is seen in pictures, so that they have an alpha.
+    pub fn cuts_out(&self) -> bool {
+        let ground = self.ground.as_ref();
+        self.render.transparent
+            || self.render.behind.is_some()
+            || ground.is_some_and(|ground| ground.shadows_only && !ground.hidden)
+    }
 }
 
 /// `[environment]`

@@ -51,6 +51,7 @@ impl Description {
             let path = base_dir.join(file);
             let what = match used_for {
                 FileUse::Map => "its environment".to_owned(),
+                FileUse::Behind => "the picture behind its objects".to_owned(),
                 FileUse::Mesh(i) => {
                     let name = shown(&self.objects[i].name);
                     for (what, file) in mesh_file::names(&path) {
@@ -63,6 +64,7 @@ impl Description {
                 FileUse::ScratchPicture(i) => format!("a picture of scratches[{i}]"),
                 FileUse::GratingPicture(i) => format!("a picture of grating[{i}]"),
                 FileUse::LightPicture(i) => format!("the picture of light[{i}]"),
+                FileUse::Look(i) => format!("a file of look[{i}]"),
             };
             add(what, file_of(&path));
         }

@@ -19,6 +19,7 @@
 #![warn(unreachable_pub)]
 
 mod arrays;
+mod backdrop;
 mod bands;
 mod builder;
 mod convert;

@@ -175,6 +175,7 @@ impl Description {
                 ground,
             ],
             lights: lamps,
+            looks: Vec::new(),
             lights_of: Some(name),
             notes,
         })

@@ -10,6 +10,7 @@ pub mod grating;
 pub mod ground;
 pub mod key;
 pub mod light;
+pub mod look;
 pub mod material;
 pub mod object;
 pub mod overrides;
@@ -25,7 +26,7 @@ pub use key::{Bounds, Control, Form, Initial, Key, LARGEST_M, SMALLEST_M, Slider
 pub use section::{Choice, Section};
 
 /// All tables of the scene file, and the tables in them.
-pub static SECTIONS: [&Section; 15] = [
+pub static SECTIONS: [&Section; 16] = [
     &camera::CAMERA,
     &render::RENDER,
     &environment::ENVIRONMENT,
@@ -41,4 +42,5 @@ pub static SECTIONS: [&Section; 15] = [
     &stroke::STROKES,
     &grating::GRATING,
     &light::LIGHT,
+    &look::LOOK,
 ];

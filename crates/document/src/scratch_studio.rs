@@ -36,6 +36,7 @@ pub(crate) const DARK_GROUND: Ground = Ground {
     color: [0.02, 0.02, 0.021],
     roughness: 0.55,
     height_m: None,
+    shadows_only: false,
 };
 
 impl Description {

@@ -7,6 +7,7 @@ pub mod bodies;
 pub mod gratings;
 pub mod layers;
 pub mod lights;
+pub mod looks;
 pub mod materials;
 pub mod objects;
 pub mod parts;

@@ -40,13 +40,43 @@ pub fn turn(camera: &mut Camera, angle_rad: f64) {
     .give(camera);
 }
 
+/// What a turntable turns.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Turns {
+    /// The camera, about its target.
+    #[default]
+    Camera,
+    /// The objects, before the camera and under the lights.
+    Object,
+    /// Lights, studio and environment, about objects and camera that stand still.
+    Lights,
+}
+
+/// Turns a turntable.
+pub fn turn_table(scene: &mut Description, turns: Turns, angle_rad: f64) {
+    match turns {
+        Turns::Camera => turn(&mut scene.camera, angle_rad),
+        Turns::Object => turn_surroundings(scene, angle_rad),
+        Turns::Lights => {
+            turn_lights(scene, angle_rad);
+            let rotation_deg = &mut scene.studio.rotation_deg;
+            *rotation_deg = (*rotation_deg + angle_rad.to_degrees()) % 360.0;
+        }
+    }
+}
+
 /// Turns camera, lights and environment as [`turn`] does, and the objects alone stay: seen by the camera, these turn, as on a turntable, and the
 /// mirror images of lights stand still on a floor.
 pub fn turn_surroundings(scene: &mut Description, angle_rad: f64) {
-    let middle = DVec3::from(scene.camera.target_m);
-    let rotation = DQuat::from_axis_angle(unit_up(&scene.camera), angle_rad);
     // A studio stands about the camera.
     turn(&mut scene.camera, angle_rad);
+    turn_lights(scene, angle_rad);
+}
+
+/// Turns lights and environment about the axis of [`turn`].
+fn turn_lights(scene: &mut Description, angle_rad: f64) {
+    let middle = DVec3::from(scene.camera.target_m);
+    let rotation = DQuat::from_axis_angle(unit_up(&scene.camera), angle_rad);
     for light in &mut scene.lights {
         turn_about(light, middle, rotation);
     }

@@ -28,6 +28,8 @@ pub enum Selection {
     Grating(usize),
     /// A `[[light]]`.
     Light(usize),
+    /// A `[[look]]`.
+    Look(usize),
 }
 
 impl Selection {
@@ -45,6 +47,7 @@ impl Selection {
             Self::Layer(i) => i < description.scratches.len(),
             Self::Grating(i) => i < description.gratings.len(),
             Self::Light(i) => i < description.lights.len(),
+            Self::Look(i) => i < description.looks.len(),
         }
     }
 
@@ -59,6 +62,7 @@ impl Selection {
             Self::Layer(_) => last(description.scratches.len(), Self::Layer),
             Self::Grating(_) => last(description.gratings.len(), Self::Grating),
             Self::Light(_) => last(description.lights.len(), Self::Light),
+            Self::Look(_) => last(description.looks.len(), Self::Look),
             _ => Self::None,
         }
     }

@@ -31,6 +31,7 @@ pub(crate) fn scene_of(object: Object, coherence_um: f64) -> Scene {
         }],
         observer: Default::default(),
         objects: vec![object],
+        shadow_catcher: None,
         lights: Vec::new(),
         notes: Vec::new(),
     }

@@ -49,7 +49,7 @@ impl ShadowBuffers {
             round: gpu.buffer("round of shadows", round, uniform).await?,
             rays: gpu.buffer("shadow rays", RAY_BYTES, storage).await?,
             traced: gpu
-                .buffer("what rays found", TRACED_BYTES, TRACED_USAGE)
+                .buffer("what rays traced", TRACED_BYTES, TRACED_USAGE)
                 .await?,
             traced_max: 1,
             points_max: 1,
@@ -79,7 +79,7 @@ impl ShadowBuffers {
             self.traced_max = 0;
             self.traced.destroy();
             let bytes = points * layers * TRACED_BYTES;
-            self.traced = gpu.buffer("what rays found", bytes, TRACED_USAGE).await?;
+            self.traced = gpu.buffer("what rays traced", bytes, TRACED_USAGE).await?;
             self.traced_max = points * layers;
         }
         Ok(())

@@ -1,76 +1,102 @@
-//! Animated PNG (the third edition of the PNG specification): frames as a display shows them, 8 bits a channel, sRGB, without
-//! loss. What shows no animations shows the first frame.
+//! Animations: frames as a display shows them, 8 bits a channel, sRGB. An animated PNG (the third edition of the PNG specification) is without
+//! loss; what shows no animations shows its first frame. MPEG-4 is made by another program ([`crate::mp4`]).
 
 use std::path::{Path, PathBuf};
 
 use png::{BitDepth, ColorType, Compression, Encoder, Filter, SrgbRenderingIntent, Writer};
 
+use crate::mp4::Mp4;
 use crate::output::{check_writable, write_atomically};
-use crate::png::quantize_image;
-use crate::{Display, Error, Image};
+use crate::png::quantize_finished;
+use crate::{Display, Error, Finish, Image};
 
 /// Largest number of frames in a second: viewers take delays below 10 ms for a mistake, and show more frames slower than
 /// asked.
 pub const FPS_MAX: u16 = 100;
 
-/// An animation in the making. It is kept in memory, compressed, until [`Animation::finish`]: the file is whole or not there.
+/// An animation in the making. The file is whole or not there: an animated PNG is kept in memory, compressed, until [`Animation::finish`].
 pub struct Animation {
     path: PathBuf,
     size_px: [u32; 2],
     left: u32,
-    writer: Writer<Shared>,
-    bytes: Shared,
+    to: Encoded,
+    finish: Finish,
+}
+
+enum Encoded {
+    Apng {
+        writer: Box<Writer<Shared>>,
+        bytes: Shared,
+    },
+    Mp4(Mp4),
 }
 
 impl Animation {
-    /// Whether the file name ends in .apng, in either case.
+    /// Whether the file name ends in .apng or .mp4, in either case.
     pub fn is_asked_by(path: &Path) -> bool {
-        path.extension()
-            .is_some_and(|ending| ending.eq_ignore_ascii_case("apng"))
+        has_ending(path, "apng") || Mp4::is_asked_by(path)
     }
 
-    /// Checks a path before the work that is to go there: .apng or .png, the folder, the right to write. Leaves nothing behind
-    /// and an existing file as it is.
+    /// Checks a path before the work that is to go there: .apng, .png or .mp4, the folder, the right to write, and for .mp4 the program that makes
+    /// it. Leaves nothing behind and an existing file as it is.
     ///
     /// # Errors
     /// [`Error::NoAnimation`], [`Error::CannotWrite`].
     pub fn check(path: &Path) -> Result<(), Error> {
-        let is_png = |ending: &std::ffi::OsStr| ending.eq_ignore_ascii_case("png");
-        if !Self::is_asked_by(path) && !path.extension().is_some_and(is_png) {
+        if !Self::is_asked_by(path) && !has_ending(path, "png") {
             return Err(Error::NoAnimation {
                 path: path.to_owned(),
             });
+        }
+        if Mp4::is_asked_by(path) {
+            Mp4::check(path)?;
         }
         check_writable(path)
     }
 
     /// Begins an animation of `frames` pictures, `fps` of them in a second (1 to [`FPS_MAX`]), that repeats without end. With `has_alpha` each of
-    /// them has [`Image::alpha`].
+    /// them has [`Image::alpha`], and so has the animation unless a picture is behind.
     ///
     /// # Errors
-    /// As [`Animation::check`]; [`Error::CannotWrite`] for no frames or an empty picture.
+    /// As [`Animation::check`]; [`Error::CannotWrite`] for no frames or an empty picture, and for alpha in an .mp4.
     pub fn begin(
         path: &Path,
         size_px: [u32; 2],
         frames: u32,
         fps: u16,
         has_alpha: bool,
+        finish: &Finish,
     ) -> Result<Self, Error> {
         Self::check(path)?;
-        let bytes = Shared::default();
-        let color = if has_alpha {
-            ColorType::Rgba
-        } else {
-            ColorType::Rgb
-        };
+        let has_alpha = has_alpha && finish.behind.is_none();
         let fps = fps.clamp(1, FPS_MAX);
-        let writer = header(bytes.clone(), size_px, color, frames, fps);
+        let to = match Mp4::is_asked_by(path) {
+            true if has_alpha => {
+                let reason = "an .mp4 has no alpha: leave the transparent background out, put a picture behind, or end the name in .apng";
+                return Err(Error::CannotWrite {
+                    path: path.to_owned(),
+                    reason: reason.to_owned(),
+                });
+            }
+            true => Encoded::Mp4(Mp4::begin(path, size_px, fps)?),
+            false => {
+                let bytes = Shared::default();
+                let color = if has_alpha {
+                    ColorType::Rgba
+                } else {
+                    ColorType::Rgb
+                };
+                let writer = header(bytes.clone(), size_px, color, frames, fps);
+                let writer = Box::new(writer.map_err(|error| refused(path, &error))?);
+                Encoded::Apng { writer, bytes }
+            }
+        };
         Ok(Self {
             path: path.to_owned(),
             size_px,
             left: frames,
-            writer: writer.map_err(|error| refused(path, &error))?,
-            bytes,
+            to,
+            finish: finish.clone(),
         })
     }
 
@@ -83,12 +109,18 @@ impl Animation {
     /// If the frame has another size.
     pub fn add(&mut self, frame: &Image, display: &Display) -> Result<(), Error> {
         assert_eq!(frame.size_px, self.size_px, "frames of different sizes");
-        let codes = quantize_image(frame, display).map_err(|reason| Error::CannotWrite {
+        let codes = quantize_finished(frame, display, &self.finish);
+        let codes = codes.map_err(|reason| Error::CannotWrite {
             path: self.path.clone(),
             reason,
         })?;
-        let written = self.writer.write_image_data(&codes);
-        written.map_err(|error| refused(&self.path, &error))?;
+        match &mut self.to {
+            Encoded::Mp4(mp4) => mp4.add(&codes)?,
+            Encoded::Apng { writer, .. } => {
+                let written = writer.write_image_data(&codes);
+                written.map_err(|error| refused(&self.path, &error))?;
+            }
+        }
         self.left = self.left.saturating_sub(1);
         Ok(())
     }
@@ -98,22 +130,26 @@ impl Animation {
     /// # Errors
     /// [`Error::CannotWrite`], also where frames are missing.
     pub fn finish(self) -> Result<(), Error> {
-        let Self {
-            path,
-            left,
-            writer,
-            bytes,
-            ..
-        } = self;
+        let Self { path, left, to, .. } = self;
         if left > 0 {
             return Err(Error::CannotWrite {
                 path,
                 reason: format!("{left} frames are missing"),
             });
         }
-        writer.finish().map_err(|error| refused(&path, &error))?;
-        write_atomically(&path, &bytes.take())
+        match to {
+            Encoded::Mp4(mp4) => mp4.finish(),
+            Encoded::Apng { writer, bytes } => {
+                writer.finish().map_err(|error| refused(&path, &error))?;
+                write_atomically(&path, &bytes.take())
+            }
+        }
     }
+}
+
+fn has_ending(path: &Path, wanted: &str) -> bool {
+    path.extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case(wanted))
 }
 
 fn header(
@@ -173,6 +209,7 @@ impl std::io::Write for Shared {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::png::quantize_image;
     use image::AnimationDecoder;
     use image::codecs::png::PngDecoder;
     use std::fs::File;
@@ -187,7 +224,8 @@ mod tests {
     }
 
     fn animation(path: &Path, frames: u32) -> Animation {
-        Animation::begin(path, SIZE_PX, frames, 25, false).unwrap_or_else(|error| panic!("{error}"))
+        Animation::begin(path, SIZE_PX, frames, 25, false, &Finish::default())
+            .unwrap_or_else(|error| panic!("{error}"))
     }
 
     #[test]
@@ -241,7 +279,7 @@ mod tests {
         let path = folder.path().join("clear.apng");
         let mut clear = grey(0.2);
         clear.alpha = Some(vec![0.4; 35]);
-        let mut writer = Animation::begin(&path, SIZE_PX, 2, 25, true).unwrap();
+        let mut writer = Animation::begin(&path, SIZE_PX, 2, 25, true, &Finish::default()).unwrap();
         writer.add(&clear, &Display::default()).unwrap();
         assert!(writer.add(&grey(0.2), &Display::default()).is_err());
         assert!(

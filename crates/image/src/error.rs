@@ -14,7 +14,7 @@ pub enum Error {
         path: PathBuf,
     },
     /// The path of an animation does not end in the name of a format of animations that can be written.
-    #[error("{}: animations are written as animated PNG: end it in .apng or .png", path.display())]
+    #[error("{}: animations are written as animated PNG or as MPEG-4: end it in .apng, .png or .mp4", path.display())]
     NoAnimation {
         /// The output path.
         path: PathBuf,

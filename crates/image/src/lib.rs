@@ -14,6 +14,7 @@
 #![warn(unreachable_pub)]
 
 mod animation;
+mod backdrop;
 mod bands;
 mod batches;
 pub mod cryptomatte;
@@ -25,6 +26,7 @@ pub mod held;
 mod layers;
 mod listed;
 pub mod metrics;
+mod mp4;
 pub mod output;
 pub mod png;
 mod primaries;
@@ -33,6 +35,7 @@ pub mod tone_map;
 mod traced;
 
 pub use animation::{Animation, FPS_MAX};
+pub use backdrop::Backdrop;
 pub use bands::BandImage;
 pub use batches::{BATCH_ROUNDS, BATCH_SAMPLES, Batch, Batches, add_batch};
 pub use error::Error;
@@ -41,6 +44,7 @@ pub use film::{Image, Layer, Noise, Picture};
 pub use filter::filter_traced;
 pub use layers::{HeldLayer, Layers, Referred};
 pub use output::{Format, Output};
+pub use png::Finish;
 pub use primaries::{Primaries, ToRec709, in_gamut};
 pub use tone_map::{Display, ToneMap};
 pub use traced::{Traced, TracedLight, TracedPixel};

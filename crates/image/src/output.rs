@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::exr_file::{self, Notes};
-use crate::{Display, Error, Image, Picture, held, png, temporary};
+use crate::{Display, Error, Finish, Image, Picture, held, png, temporary};
 
 /// A picture format that can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +39,7 @@ impl Format {
 pub struct Output {
     path: PathBuf,
     format: Format,
+    finish: Finish,
 }
 
 impl Output {
@@ -53,6 +54,7 @@ impl Output {
         Ok(Self {
             path: path.to_owned(),
             format,
+            finish: Finish::default(),
         })
     }
 
@@ -61,6 +63,16 @@ impl Output {
         Self {
             path: PathBuf::from("-"),
             format: Format::Png,
+            finish: Finish::default(),
+        }
+    }
+
+    /// The same with what a PNG has besides the colours.
+    #[must_use]
+    pub fn finished(self, finish: &Finish) -> Self {
+        Self {
+            finish: finish.clone(),
+            ..self
         }
     }
 
@@ -99,7 +111,7 @@ impl Output {
         notes: &Notes,
     ) -> Result<(), Error> {
         let encoded = match self.format {
-            Format::Png => png::encode_image(image, display),
+            Format::Png => png::encode_image(image, display, &self.finish),
             Format::Exr => exr_file::encode_image(image, notes),
         };
         self.write_encoded(encoded)
@@ -169,7 +181,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 }
 
 /// The regular file to replace or make. A symbolic link stays one: the file that it leads to is replaced.
-fn resolve(path: &Path) -> Result<PathBuf, Error> {
+pub(crate) fn resolve(path: &Path) -> Result<PathBuf, Error> {
     let refuse = |reason: &str| Error::CannotWrite {
         path: path.to_owned(),
         reason: reason.to_owned(),

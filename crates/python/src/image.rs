@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use hairline_image::{BandImage, Display, Format, Layer, Layers, Notes, Output, exr_file, png};
+use hairline_image::{
+    BandImage, Display, Finish, Format, Layer, Layers, Notes, Output, exr_file, png,
+};
 use hairline_work::reference::identity;
 use numpy::ndarray::{ArrayView2, ArrayView3, Axis};
 use numpy::{
@@ -322,7 +324,7 @@ impl Image {
         tone_map: Option<&str>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let display = self.display(exposure_ev, tone_map)?;
-        let encoded = py.detach(|| png::encode_image(&self.image, &display));
+        let encoded = py.detach(|| png::encode_image(&self.image, &display, &Finish::default()));
         let bytes = encoded.map_err(|reason| errors::of_work(py, &reason))?;
         Ok(PyBytes::new(py, &bytes))
     }

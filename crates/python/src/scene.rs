@@ -342,7 +342,7 @@ impl Built {
             samples,
             transport,
             is_filtered: true,
-            is_transparent: transparent,
+            is_transparent: transparent || self.description.cuts_out(),
         };
         let notes = task.notes();
         let ended = watched::run(host, |told| {

@@ -70,6 +70,8 @@ pub struct Scene {
     pub observer: Observer,
     /// Objects in world space.
     pub objects: Vec<Object>,
+    /// A ground that is seen by the shadows on it alone: no renderer sees it, and pictures get its shadows as alpha.
+    pub shadow_catcher: Option<Object>,
     /// Area lights, without those of the environment: see [`Scene::all_lights`].
     pub lights: Vec<Light>,
     /// Notes on the scene file and its models for the author, a line each: a key that has no effect any more, a part of a model that is not shown.

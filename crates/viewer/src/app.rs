@@ -29,6 +29,7 @@ use crate::export::Export;
 use crate::files::{Files, Purpose};
 use crate::free_view::FreeView;
 use crate::gallery::Gallery;
+use crate::looks::Looks;
 use crate::loss::WindowLoss;
 use crate::missing;
 use crate::model_export::ModelExport;
@@ -143,6 +144,7 @@ impl Viewer {
             settings,
             own_presets,
             snapshots,
+            looks: Looks::default(),
             closed_lens: None,
             missing: Vec::new(),
             model_notes: Vec::new(),
@@ -297,6 +299,7 @@ impl Viewer {
         let area = self.show_picture(ui);
         let is_building = self.work.engine.is_building();
         let above_strip = self.work.snapshots.above_strip(area);
+        let above_strip = self.work.looks.above_strip(above_strip);
         self.work.notices.show(&ctx, above_strip, is_building);
         if let Some((of, path)) = missing::show(&ctx, &self.work, area) {
             self.sought = Some(path);

@@ -158,6 +158,7 @@ impl Export {
             has_lens: has_lens(description),
             is_view_free: work.free_view.is_free(),
             is_snapshot: work.snapshots.cover(),
+            cuts_out: description.cuts_out(),
             expected: self.expected(ctx, work, &form),
         };
         let answer = form.show(ctx, &scene);
@@ -214,12 +215,12 @@ impl Export {
             }
         }
         Wish {
+            is_transparent: form.is_transparent || description.cuts_out(),
             description,
             base_dir: work.document.base_dir().to_owned(),
             size_px: form.size_px,
             samples: form.samples,
             transport: work.wanted_transport(),
-            is_transparent: form.is_transparent,
             motion: form.motion(),
             path: form.path(),
             backend: work.engine.backend(),

@@ -63,7 +63,7 @@ impl Purpose {
             Self::AddModel => ("glTF models", &["glb", "gltf"]),
             Self::Environment => ("Environment maps", &["hdr", "exr"]),
             Self::Screenshot => ("Pictures", &["png", "exr"]),
-            Self::Turntable => ("Pictures and animations", &["png", "exr", "apng"]),
+            Self::Turntable => ("Pictures and animations", &["png", "exr", "apng", "mp4"]),
             Self::ExportModel => ("glTF models", &["glb"]),
             Self::Find(FileUse::Map) => Self::Environment.filter(),
             Self::Find(FileUse::Mesh(_)) => Self::AddModel.filter(),

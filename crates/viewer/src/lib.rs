@@ -34,6 +34,7 @@ mod free_view;
 mod gallery;
 mod jobs;
 mod link;
+mod looks;
 mod loss;
 mod missing;
 mod model_export;
@@ -51,6 +52,7 @@ mod script;
 mod seen;
 mod snapshots;
 mod style;
+mod thumbnail;
 mod tools;
 mod viewport;
 #[cfg(not(target_arch = "wasm32"))]

@@ -57,6 +57,7 @@ fn what(description: &Description, of: FileUse, path: &Path) -> &'static str {
     let is_it = |file: Option<&PathBuf>| file.is_some_and(|file| file == path);
     match of {
         FileUse::Map => "environment map",
+        FileUse::Behind => "picture behind",
         FileUse::Mesh(_) => "model",
         FileUse::ScratchList(_) => "list of scratches",
         FileUse::Drawing(_) => "drawing",
@@ -76,6 +77,6 @@ fn what(description: &Description, of: FileUse, path: &Path) -> &'static str {
                 _ => "mask",
             }
         }
-        FileUse::LightPicture(_) => "picture",
+        FileUse::LightPicture(_) | FileUse::Look(_) => "picture",
     }
 }

@@ -16,6 +16,7 @@ mod groove_pattern;
 mod layer;
 mod layer_place;
 mod light;
+mod look;
 mod material;
 pub(crate) mod number;
 mod object;

@@ -19,6 +19,7 @@ pub(crate) fn makes_same_scene(a: &Description, b: &Description) -> bool {
         scratches,
         gratings,
         lights,
+        looks: _,
         lights_of: _,
         notes: _,
     } = a;

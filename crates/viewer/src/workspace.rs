@@ -3,6 +3,7 @@
 mod engrave;
 mod fit;
 mod give;
+mod looks;
 mod own;
 mod view;
 
@@ -23,6 +24,7 @@ use crate::examples::Examples;
 use crate::files::is_same;
 use crate::free_view::FreeView;
 use crate::gallery::Gallery;
+use crate::looks::Looks;
 use crate::notices::Notices;
 use crate::overlays::Overlays;
 use crate::platform::{HAS_PAGE, HAS_THREADS};
@@ -49,6 +51,7 @@ pub(crate) struct Workspace {
     pub settings: Settings,
     pub own_presets: OwnPresets,
     pub snapshots: Snapshots,
+    pub looks: Looks,
     /// Opening in millimetres and focus of the camera when depth of field was switched off, to be taken up again.
     pub closed_lens: Option<(f64, Option<f64>)>,
     /// Files that the scene names and that were not there when it was to be built.
@@ -190,6 +193,7 @@ impl Workspace {
                         | Selection::Grating(_)
                         | Selection::Light(_)
                         | Selection::Material(_)
+                        | Selection::Look(_)
                 )
             }
             Command::ToggleHidden => {
@@ -206,6 +210,7 @@ impl Workspace {
             Command::SavePreset => self.preset_name().is_some(),
             Command::WholePicture => self.region.is_some(),
             Command::FlipSnapshot => !self.snapshots.is_empty(),
+            Command::NextLook => !self.document.description().looks.is_empty(),
             Command::ToggleSolo => matches!(selection, Selection::Layer(_)),
             Command::Deselect => selection != Selection::None || self.toolbox.tool != Tool::Select,
             Command::Reload => self.document.path().is_some(),

@@ -211,7 +211,13 @@ impl<'a> Painter<'a> {
         let Rendered {
             samples, wanted, ..
         } = rendered;
-        let alpha = hairline_cpu::alpha(scene, self.triangles(), samples, wanted);
+        let mut alpha = hairline_cpu::alpha(scene, self.triangles(), samples, wanted);
+        if self.task.transport.shadows
+            && let Some(shadows) = hairline_cpu::caught_shadows(scene, wanted, is_stopped)
+        {
+            let pixels = alpha.iter_mut().zip(shadows);
+            pixels.for_each(|(alpha, shadow)| *alpha += shadow);
+        }
         rendered.image.alpha = Some(alpha);
         Ok(rendered)
     }

@@ -20,8 +20,6 @@ pub struct Goals {
     pub animation: Option<PathBuf>,
     /// Frames in a second.
     pub fps: u16,
-    /// Whether the animation has alpha.
-    pub has_alpha: bool,
 }
 
 impl Goals {
@@ -60,7 +58,7 @@ impl Goals {
         {
             let path = path.display();
             return Err(Failure::Input(anyhow!(
-                "{path}: animations are written as animated PNG: end it in .apng"
+                "{path}: animations are written as animated PNG or as MPEG-4: end it in .apng or .mp4"
             )));
         }
         if let Some(path) = &animation {
@@ -76,7 +74,6 @@ impl Goals {
             pictures,
             animation,
             fps: flags.fps.unwrap_or(DEFAULT_FPS),
-            has_alpha: arguments.transparent,
         })
     }
 
@@ -104,8 +101,14 @@ impl Goals {
 /// NAME-0001.png for NAME.png: as many digits as the last one needs, so that names sort as the frames do.
 fn numbered(path: &Path, number: u32, last: u32) -> PathBuf {
     let digits = last.to_string().len().max(4);
+    with_suffix(path, &format!("{number:0digits$}"))
+}
+
+/// NAME-SUFFIX.png for NAME.png.
+pub fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_owned();
-    name.push(format!("-{number:0digits$}"));
+    name.push("-");
+    name.push(suffix);
     if let Some(ending) = path.extension() {
         name.push(".");
         name.push(ending);

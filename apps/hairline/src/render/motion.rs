@@ -4,9 +4,9 @@ use anyhow::anyhow;
 use glam::DVec3;
 use hairline_document::schema::Bounds;
 use hairline_document::{Description, description};
-use hairline_editor::navigate;
+use hairline_editor::navigate::{self, Turns};
 
-use crate::cli::{SequenceFlags, Turns};
+use crate::cli::SequenceFlags;
 use crate::scene_file::set_time;
 use hairline_work::failure::Failure;
 
@@ -66,7 +66,7 @@ impl Motion {
         Ok(Some(Self {
             frames,
             turn_deg: flags.turntable.unwrap_or(0.0),
-            turns: flags.turns,
+            turns: flags.turns.into(),
             zoom: flags.zoom.unwrap_or([1.0, 1.0]),
             times_s,
         }))
@@ -95,7 +95,7 @@ impl Motion {
     /// frame is the end of the zoom.
     pub fn position_m(&self, camera: &description::Camera, frame: u32) -> DVec3 {
         let mut camera = camera.clone();
-        if self.turn_deg != 0.0 {
+        if self.turn_deg != 0.0 && self.turns != Turns::Lights {
             navigate::turn(&mut camera, self.turned_rad(frame));
         }
         let come = self.come(frame);
@@ -115,8 +115,8 @@ impl Motion {
         if let Some(time_s) = self.time_s(frame) {
             set_time(scene, time_s);
         }
-        if self.turns == Turns::Object {
-            navigate::turn_surroundings(scene, self.turned_rad(frame));
+        if self.turns != Turns::Camera {
+            navigate::turn_table(scene, self.turns, self.turned_rad(frame));
         }
     }
 

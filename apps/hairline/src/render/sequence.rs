@@ -36,7 +36,9 @@ pub fn run(
     };
     let begin = |path| {
         let size_px = scene.render.size_px;
-        Animation::begin(path, size_px, motion.frames, goals.fps, goals.has_alpha)
+        let has_alpha = task.is_transparent;
+        let (frames, finish) = (motion.frames, &loaded.finish);
+        Animation::begin(path, size_px, frames, goals.fps, has_alpha, finish)
     };
     let mut frames = Frames {
         motion,

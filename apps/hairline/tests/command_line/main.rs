@@ -12,6 +12,7 @@ mod compare;
 mod documents;
 mod export;
 mod labels;
+mod looks;
 mod method;
 mod models;
 mod opengl;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::common::{SCRATCHED, folder_with, hairline, names_in, stderr_of, stdout_of};
+use crate::common::{SCRATCHED, command, folder_with, hairline, names_in, stderr_of, stdout_of};
 use hairline_image::{exr_file, png};
 
 fn folder_with_scene() -> tempfile::TempDir {
@@ -72,6 +72,61 @@ fn a_turntable_turns_the_camera_or_the_objects() {
     assert_eq!(camera.depth_m, object.depth_m);
     assert_ne!(camera.base, object.base);
     hairline(folder.path(), "render plate.toml --turns object").code(2);
+    let lights = "--frames 2 --turntable 180 --turns lights --backend cpu";
+    hairline(
+        folder.path(),
+        &format!("render plate.toml -o lights.exr {lights}"),
+    )
+    .success();
+    let [first, second] = ["lights-0001.exr", "lights-0002.exr"].map(read);
+    assert_eq!(first, read("camera-0001.exr"));
+    assert_eq!(second.depth_m, first.depth_m);
+    assert_ne!(second.base, first.base);
+}
+
+/// A program in the place of ffmpeg: it writes the frames as they come.
+#[cfg(unix)]
+fn write_program(folder: &Path) {
+    use std::os::unix::fs::PermissionsExt;
+    let program = "#!/bin/sh\ncase \"$*\" in *-encoders*) exit 0;; esac\n\
+                   for last; do :; done\nexec /bin/cat > \"$last\"\n";
+    let path = folder.join("ffmpeg");
+    std::fs::write(&path, program).unwrap();
+    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+#[cfg(unix)]
+#[test]
+fn a_video_gets_the_frames_and_needs_its_program() {
+    let folder = folder_with_scene();
+    let programs = tempfile::tempdir().unwrap();
+    let render = |flags: &str| {
+        let own = "--backend cpu --frames 2 --turntable 90";
+        let arguments = format!("render plate.toml {own} {flags}");
+        let mut command = command(folder.path(), &arguments);
+        command.env("PATH", programs.path()).assert()
+    };
+    let message = stderr_of(&render("-o a.mp4").code(1));
+    assert!(
+        message.contains("ffmpeg, which is not on PATH"),
+        "{message}"
+    );
+    assert!(message.contains(".apng"), "{message}");
+    write_program(programs.path());
+    render("--animation a.mp4 -o b.png").success();
+    assert_eq!(
+        written_in(folder.path()),
+        ["a.mp4", "b-0001.png", "b-0002.png"]
+    );
+    let frames = ["b-0001.png", "b-0002.png"].map(|name| {
+        let picture = image::open(folder.path().join(name)).unwrap();
+        picture.into_rgb8().into_raw()
+    });
+    let video = std::fs::read(folder.path().join("a.mp4")).unwrap();
+    assert!(video == frames.concat());
+    let message = stderr_of(&render("-o c.mp4 --transparent").code(1));
+    assert!(message.contains("no alpha"), "{message}");
+    assert!(!folder.path().join("c.mp4").exists());
 }
 
 #[test]

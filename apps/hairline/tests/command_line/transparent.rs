@@ -4,7 +4,7 @@
 use std::fs::File;
 use std::io::BufReader;
 
-use crate::common::{folder_with, hairline};
+use crate::common::{folder_with, hairline, stderr_of};
 use hairline_image::{Display, Output, Picture, exr_file};
 use image::DynamicImage;
 use image::codecs::png::PngDecoder;
@@ -116,4 +116,128 @@ fn pictures_and_animations_have_alpha() {
     let shares = || picture.pixels().map(|pixel| pixel.0[3]);
     assert!(shares().any(|share| share == 0) && shares().any(|share| share == 255));
     assert_eq!(first("a.apng"), picture);
+}
+
+/// Seen from a metre above, on 60 pixels of 20 degrees, in the light of a sun from the left alone.
+fn seen_from_above(more: &str) -> String {
+    format!(
+        "[camera]\nposition_m = [0, 0, 1]\ntarget_m = [0, 0, 0]\nfov_y_deg = 20\nworld_up = \"z\"\n\
+         [[material]]\nname = \"steel\"\nkind = \"metal\"\nmetal = \"steel\"\n\
+         [[light]]\nkind = \"sun\"\ndirection = [1, 0, -1]\nirradiance = 3\n{more}"
+    )
+}
+
+/// Pixels of a metre on the ground.
+fn px_of_m() -> f64 {
+    30.0 / 10.0_f64.to_radians().tan()
+}
+
+fn area_px2(alpha: &[f32]) -> f64 {
+    alpha.iter().copied().map(f64::from).sum()
+}
+
+#[test]
+fn the_sum_of_alpha_is_the_area_of_a_disk() {
+    let disk = "[render]\nsize_px = [60, 60]\ntransparent = true\n\
+                [[object]]\nname = \"disk\"\nmaterial = \"steel\"\nshape = { disk = { radius_m = 0.05 } }\n";
+    let folder = folder_with("s.toml", &seen_from_above(disk));
+    hairline(
+        folder.path(),
+        "render s.toml -o a.exr --backend cpu --samples 64",
+    )
+    .success();
+    let image = exr_file::read_image(&folder.path().join("a.exr")).unwrap();
+    let area = area_px2(&image.alpha.unwrap());
+    let right = std::f64::consts::PI * (0.05 * px_of_m()).powi(2);
+    assert!((area / right - 1.0).abs() < 0.01, "{area} {right}");
+}
+
+/// A ball over the ground throws an ellipse aside: its middle is as far off as the ball is high.
+const BALL: &str = "[[object]]\nname = \"ball\"\nmaterial = \"steel\"\ntranslation_m = [0, 0, 0.06]\n\
+                    shape = { sphere = { radius_m = 0.02 } }\n";
+
+#[test]
+fn a_ground_that_catches_shadows_is_clear_where_it_is_lit() {
+    let size = "[render]\nsize_px = [60, 60]\n";
+    let by_keys = format!("{size}{BALL}[ground]\nheight_m = 0\nshadows_only = true\n");
+    let folder = folder_with("s.toml", &seen_from_above(&by_keys));
+    let by_flags = seen_from_above(&format!("{size}{BALL}[ground]\nheight_m = 0\n"));
+    std::fs::write(folder.path().join("flags.toml"), by_flags).unwrap();
+    let render = |arguments: &str| {
+        let own = "--backend cpu --samples 16";
+        hairline(folder.path(), &format!("render {arguments} {own}")).success();
+    };
+    render("s.toml -o a.exr");
+    render("flags.toml --shadows-only -o b.exr");
+    let read = |name: &str| exr_file::read_image(&folder.path().join(name)).unwrap();
+    let image = read("a.exr");
+    assert_eq!(read("b.exr"), image);
+    let alpha = image.alpha.as_ref().unwrap();
+    let at = |x: u32, y: u32| alpha[image.index(x, y)];
+    // Far from the shadow, and in its middle.
+    assert!(
+        at(5, 5) < 1e-6 && at(50, 45) < 1e-6,
+        "{} {}",
+        at(5, 5),
+        at(50, 45)
+    );
+    let middle = image.index((30.0 + 0.06 * px_of_m()) as u32, 30);
+    assert!(alpha[middle] > 0.99, "{}", alpha[middle]);
+    assert_eq!(image.base[middle], [0.0; 3]);
+    // The shadow of a ball from 45 degrees is longer by the root of two.
+    let px = 0.02 * px_of_m();
+    let areas = std::f64::consts::PI * px * px * (2.0_f64.sqrt() + 1.0 / 0.94_f64.powi(2));
+    let area = area_px2(alpha);
+    assert!((area / areas - 1.0).abs() < 0.03, "{area} {areas}");
+    // Alpha of a picture is straight, that of a file of radiance is not: black stays black in both.
+    render("s.toml -o a.png --png-bits 16");
+    let file = BufReader::new(File::open(folder.path().join("a.png")).unwrap());
+    let decoder = PngDecoder::new(file).unwrap();
+    let picture = DynamicImage::from_decoder(decoder).unwrap();
+    assert_eq!(picture.color(), image::ColorType::Rgba16);
+    let picture = picture.into_rgba16();
+    assert_eq!(picture.get_pixel(5, 5).0, [0; 4]);
+    let [r, g, b, a] = picture.get_pixel(middle as u32 % 60, middle as u32 / 60).0;
+    assert!([r, g, b] == [0; 3] && a > 64_800, "{a}");
+}
+
+#[test]
+fn a_picture_behind_is_seen_beside_the_objects_and_through_shadows() {
+    let scene = format!(
+        "[render]\nsize_px = [60, 60]\nbehind = \"sky.png\"\n{BALL}[ground]\nheight_m = 0\nshadows_only = true\n"
+    );
+    let folder = folder_with("s.toml", &seen_from_above(&scene));
+    let render = "render s.toml -o a.png --backend cpu --samples 16";
+    let missing = hairline(folder.path(), render).code(2);
+    let message = stderr_of(&missing);
+    assert!(message.contains("s.toml:12: render.behind"), "{message}");
+    let mut sky = image::RgbImage::new(30, 30);
+    sky.pixels_mut().for_each(|pixel| pixel.0 = [40, 120, 200]);
+    sky.save(folder.path().join("sky.png")).unwrap();
+    hairline(folder.path(), render).success();
+    let picture = image::open(folder.path().join("a.png")).unwrap();
+    assert_eq!(picture.color(), image::ColorType::Rgb8);
+    let picture = picture.into_rgb8();
+    let off = |at: [u8; 3]| (0..3).all(|c| at[c].abs_diff([40, 120, 200][c]) <= 1);
+    assert!(
+        off(picture.get_pixel(5, 5).0),
+        "{:?}",
+        picture.get_pixel(5, 5)
+    );
+    let middle = (30.0 + 0.06 * px_of_m()) as u32;
+    assert!(
+        picture
+            .get_pixel(middle, 30)
+            .0
+            .iter()
+            .all(|code| *code < 30)
+    );
+    // A file of radiance keeps the alpha in its place.
+    hairline(
+        folder.path(),
+        "render s.toml -o a.exr --backend cpu --samples 16",
+    )
+    .success();
+    let image = exr_file::read_image(&folder.path().join("a.exr")).unwrap();
+    assert!(image.alpha.is_some());
 }

@@ -3,8 +3,9 @@
 use super::keyed::Keyed;
 use super::ranges::{Check, check_radii, check_seed};
 use super::{
-    Amount, Brush, Description, Distribution, Grating, Laid, Layer, LayerPlaces, Light, Material,
-    MaterialKind, MetalColor, Object, Override, Pattern, Scratches, Stroke, Surface,
+    Amount, Brush, Description, Distribution, Environment, Grating, Laid, Layer, LayerPlaces,
+    Light, Look, Material, MaterialKind, MetalColor, Object, Override, Pattern, Scratches, Stroke,
+    Surface,
 };
 use crate::error::Error;
 use crate::schema::{environment, material, object, place, scratches, stroke};
@@ -20,9 +21,12 @@ impl Description {
     pub fn check(&self) -> Result<(), Error> {
         self.camera.check_at("camera")?;
         self.render.check_keys("render")?;
-        if let Some(it) = &self.environment {
-            environment::ROTATION_DEG.check("environment", &it.rotation_deg)?;
-            environment::INTENSITY.check("environment", &it.intensity)?;
+        if !matches!(self.render.png_bits, 8 | 16) {
+            let found = format!("found {}", self.render.png_bits);
+            return Err(Error::new("render.png_bits", found, "must be 8 or 16"));
+        }
+        if let Some(environment) = &self.environment {
+            check_environment(environment, "environment")?;
         }
         self.studio.check_keys("studio")?;
         if let Some(ground) = &self.ground {
@@ -38,7 +42,9 @@ impl Description {
         unique("object", self.objects.iter().map(|o| o.name.as_str()))?;
         check_layers(&self.scratches)?;
         check_gratings(&self.gratings)?;
-        each("light", &self.lights, Light::check_at)
+        check_lights(&self.lights, "light")?;
+        each("look", &self.looks, Look::check_at)?;
+        unique("look", self.looks.iter().map(|look| look.name.as_str()))
     }
 }
 
@@ -62,6 +68,17 @@ fn unique<'n>(key: &str, names: impl Iterator<Item = &'n str>) -> Check {
         }
     }
     Ok(())
+}
+
+/// Checks the table `[environment]`.
+pub(super) fn check_environment(it: &Environment, key: &str) -> Check {
+    environment::ROTATION_DEG.check(key, &it.rotation_deg)?;
+    environment::INTENSITY.check(key, &it.intensity)
+}
+
+/// Checks the tables `[[light]]`.
+pub(super) fn check_lights(lights: &[Light], key: &str) -> Check {
+    each(key, lights, Light::check_at)
 }
 
 fn check_material(it: &Material, key: &str) -> Check {

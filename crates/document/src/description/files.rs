@@ -9,6 +9,8 @@ use super::{Description, GroovePattern, Layer, Line, Map, Surface};
 pub enum FileUse {
     /// The map of `[environment]`.
     Map,
+    /// The picture behind the objects.
+    Behind,
     /// The mesh of an `[[object]]`.
     Mesh(usize),
     /// The list of a layer of `[[scratches]]`.
@@ -21,6 +23,8 @@ pub enum FileUse {
     GratingPicture(usize),
     /// The picture of a `[[light]]`.
     LightPicture(usize),
+    /// The map of the environment of a `[[look]]`, or the picture of one of its lights.
+    Look(usize),
 }
 
 /// One walk, to be read and to be changed.
@@ -32,6 +36,8 @@ macro_rules! walk {
         {
             files.push((FileUse::Map, file));
         }
+        let behind = $description.render.behind.$iter();
+        files.extend(behind.map(|file| (FileUse::Behind, file)));
         for (i, object) in $description.objects.$iter().enumerate() {
             if let Surface::Mesh(file) = &$($mutable)? object.surface {
                 files.push((FileUse::Mesh(i), file));
@@ -64,6 +70,16 @@ macro_rules! walk {
         for (i, light) in $description.lights.$iter().enumerate() {
             let picture = light.picture.$iter();
             files.extend(picture.map(|file| (FileUse::LightPicture(i), file)));
+        }
+        for (i, look) in $description.looks.$iter().enumerate() {
+            if let Some(environment) = &$($mutable)? look.environment
+                && let Map::File(file) = &$($mutable)? environment.map
+            {
+                files.push((FileUse::Look(i), file));
+            }
+            let pictures = look.lights.$iter();
+            let pictures = pictures.flat_map(|light| light.picture.$iter());
+            files.extend(pictures.map(|file| (FileUse::Look(i), file)));
         }
         files
     }};

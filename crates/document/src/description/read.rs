@@ -8,13 +8,13 @@ use super::lens;
 use super::ranges::Check;
 use super::table::{Held, Read, Table, Value, number, wrong_type};
 use super::{
-    Amount, Around, Brush, Brushed, Cover, Description, Distribution, Engraved, Environment, Laid,
-    Layer, LayerPlaces, Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render,
-    Scratches, Stroke, Studio, Surface,
+    Amount, Around, Brush, Brushed, Camera, Cover, Description, Distribution, Engraved,
+    Environment, Laid, Layer, LayerPlaces, Listed, Map, Material, MaterialKind, MetalColor, Object,
+    Pattern, Render, Scratches, Stroke, Studio, Surface,
 };
 use crate::error::Error;
 use crate::schema::{
-    Initial, camera, cover, environment, material, object, render, scratches, stroke,
+    Initial, camera, cover, environment, look, material, object, render, scratches, stroke,
 };
 
 /// Reads a whole scene file.
@@ -33,6 +33,7 @@ pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
             "scratches",
             "grating",
             "light",
+            "look",
         ],
     )?;
     let mut description = Description {
@@ -46,14 +47,20 @@ pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
         scratches: table.or("scratches", Vec::new())?,
         gratings: table.or("grating", Vec::new())?,
         lights: table.or("light", Vec::new())?,
+        looks: table.or("look", Vec::new())?,
         lights_of: None,
         notes: Vec::new(),
     };
-    // A lens sees by the picture's shape.
+    let size_px = description.render.size_px;
     if let Some(value) = table.get("camera") {
-        let camera = Table::of(&camera::CAMERA, value, "camera")?;
-        if let Some(fov_y_deg) = lens::fov_y_deg(&camera, description.render.size_px)? {
-            description.camera.fov_y_deg = fov_y_deg;
+        see_by_lens(&mut description.camera, value, "camera", size_px)?;
+    }
+    if let Some(DeValue::Array(rows)) = table.get("look").map(|value| value.get_ref()) {
+        for (i, (row, look)) in rows.iter().zip(&mut description.looks).enumerate() {
+            let row = Table::of(&look::LOOK, row, "look")?;
+            if let (Some(value), Some(camera)) = (row.get("camera"), &mut look.camera) {
+                see_by_lens(camera, value, &format!("look[{i}].camera"), size_px)?;
+            }
         }
     }
     if !description.is_lit() && !table.has("studio") {
@@ -64,6 +71,20 @@ pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
         }
     }
     Ok(description)
+}
+
+/// Gives a camera the field of view of the lens in its table, which sees by the picture's shape.
+fn see_by_lens(
+    camera: &mut Camera,
+    value: &Value,
+    key: &str,
+    size_px: [u32; 2],
+) -> Result<(), Error> {
+    let table = Table::of(&camera::CAMERA, value, key)?;
+    if let Some(fov_y_deg) = lens::fov_y_deg(&table, size_px)? {
+        camera.fov_y_deg = fov_y_deg;
+    }
+    Ok(())
 }
 
 /// Keys of earlier versions that are there, and why they have no effect.
@@ -82,8 +103,8 @@ pub(super) fn keys_without_effect(
 impl Read for Render {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         // `gather` was a key of earlier versions: see `keys_without_effect`.
-        let known = [&render::SIZE_PX, &render::FILTER_STD_PX, &render::TONE_MAP];
-        let known = [&known.map(|key| key.name)[..], &["gather"]].concat();
+        let known = render::RENDER.keys.iter().map(|key| key.name);
+        let known: Vec<_> = known.chain(["gather"]).collect();
         let table = Table::read(value, key, &known)?;
         Self::read_keys(&table)
     }
@@ -93,6 +114,9 @@ keyed! { Render: Default {
     size_px: render::SIZE_PX,
     filter_std_px: render::FILTER_STD_PX,
     tone_map: render::TONE_MAP,
+    transparent: render::TRANSPARENT,
+    behind: render::BEHIND,
+    png_bits: render::PNG_BITS,
 } }
 
 impl Read for Environment {

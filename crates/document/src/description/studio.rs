@@ -53,6 +53,9 @@ pub struct Ground {
     /// Height along the world's up axis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_m: Option<f64>,
+    /// Whether it is seen by the shadows on it alone.
+    #[serde(skip_serializing_if = "is_false")]
+    pub shadows_only: bool,
 }
 
 impl Description {
@@ -85,4 +88,5 @@ keyed! { Ground: Default of ground::GROUND {
     color: ground::COLOR,
     roughness: ground::ROUGHNESS,
     height_m: ground::HEIGHT_M,
+    shadows_only: ground::SHADOWS_ONLY,
 } }

@@ -24,16 +24,26 @@ pub(super) enum Named {
 pub(super) fn named(tables: &mut Map<String, Value>) -> Vec<(String, Named, &mut Value)> {
     let mut found = Vec::new();
     for (table, value) in tables.iter_mut() {
-        match value {
-            Value::Array(rows) => {
-                for (i, row) in rows.iter_mut().enumerate() {
-                    of_table(table, &format!("{table}[{i}]"), row, &mut found);
-                }
-            }
-            single => of_table(table, table, single, &mut found),
-        }
+        of_rows(table, table, value, &mut found);
     }
     found
+}
+
+/// Values of the rows of a table, or of a single table.
+fn of_rows<'v>(
+    table: &str,
+    way: &str,
+    value: &'v mut Value,
+    found: &mut Vec<(String, Named, &'v mut Value)>,
+) {
+    match value {
+        Value::Array(rows) => {
+            for (i, row) in rows.iter_mut().enumerate() {
+                of_table(table, &format!("{way}[{i}]"), row, found);
+            }
+        }
+        single => of_table(table, way, single, found),
+    }
 }
 
 fn of_table<'v>(
@@ -49,14 +59,19 @@ fn of_table<'v>(
     for (key, value) in members {
         let way = format!("{way}.{key}");
         let named = match (table, key.as_str()) {
+            ("scratches", "where") | ("look", "environment") => {
+                of_table(key, &way, value, found);
+                continue;
+            }
+            ("look", "light") => {
+                of_rows(key, &way, value, found);
+                continue;
+            }
             ("object", "mesh") => Named::Model,
             ("scratches", "file") if is_drawing => Named::File,
             ("scratches", "file") => Named::Scratches,
-            ("scratches", "where") => {
-                of_table("where", &way, value, found);
-                continue;
-            }
             ("environment", "file")
+            | ("render", "behind")
             | ("where", "mask" | "density")
             | ("grating", "mask" | "directions")
             | ("light", "picture") => Named::File,

@@ -8,7 +8,7 @@ pub static GROUND: Section = Section::one(
     "ground",
     "Ground",
     "a wide floor under all objects.",
-    &[&HIDDEN, &COLOR, &ROUGHNESS, &HEIGHT_M],
+    &[&HIDDEN, &COLOR, &ROUGHNESS, &HEIGHT_M, &SHADOWS_ONLY],
 );
 
 pub static HIDDEN: Key = Key::new("hidden", Form::Flag)
@@ -34,3 +34,7 @@ pub static HEIGHT_M: Key = Key::new("height_m", Form::Number)
     .within(-1000.0, 1000.0)
     .means("Where it lies along the up axis.")
     .control("Height", linear(-1.0, 1.0).sized(), "Where the floor lies along the vertical. Just under an object, its shadow touches it; deeper, it floats.");
+
+pub static SHADOWS_ONLY: Key = Key::new("shadows_only", Form::Flag)
+    .flag(false)
+    .means("Whether the ground is seen by the shadows on it alone. Pictures are transparent then: where it is lit fully alpha is 0, where nothing lights it black with alpha 1. No object mirrors it.");

@@ -13,7 +13,14 @@ pub static RENDER: Section = Section::one(
     "render",
     "Settings",
     "how the picture is sampled and shown.",
-    &[&SIZE_PX, &FILTER_STD_PX, &TONE_MAP],
+    &[
+        &SIZE_PX,
+        &FILTER_STD_PX,
+        &TONE_MAP,
+        &TRANSPARENT,
+        &BEHIND,
+        &PNG_BITS,
+    ],
 );
 
 pub static SIZE_PX: Key = Key::new("size_px", Form::Wholes(2))
@@ -34,3 +41,17 @@ pub static TONE_MAP: Key = Key::new("tone_map", Form::Name(NAMES))
     .text("neutral")
     .range_words("see below")
     .means("The curve from radiance to the display.");
+
+pub static TRANSPARENT: Key = Key::new("transparent", Form::Flag)
+    .flag(false)
+    .means("Whether pictures have an alpha, the share of each pixel that objects cover. The environment lights them and is not seen then.");
+
+pub static BEHIND: Key = Key::new("behind", Form::File)
+    .none()
+    .range_words("`.png`, `.jpg`, `.webp`")
+    .means("A picture behind the objects, relative to the scene file, in the place of the environment. It fills the whole of a `.png`, from the middle, with its own colours: no exposure and no tone curve changes them. An `.exr` keeps its alpha instead.");
+
+pub static PNG_BITS: Key = Key::new("png_bits", Form::Whole)
+    .number(8.0)
+    .range_words("8 or 16")
+    .means("Bits of each channel of a `.png`. 16 leave room for changes of brightness afterwards.");

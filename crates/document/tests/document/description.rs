@@ -208,6 +208,9 @@ fn everything() -> Description {
             size_px: [1, 16_384],
             filter_std_px: 0.7,
             tone_map: ToneMap::Agx,
+            transparent: true,
+            behind: Some("sky.png".into()),
+            png_bits: 16,
         },
         environment: Some(Environment {
             map: Map::File("a.exr".into()),
@@ -223,6 +226,7 @@ fn everything() -> Description {
         ground: Some(Ground {
             color: [0.4; 3],
             height_m: Some(-0.5),
+            shadows_only: true,
             ..Ground::default()
         }),
         materials: kinds
@@ -360,14 +364,35 @@ fn everything() -> Description {
                 two_sided: false,
             }),
         ],
+        looks: Vec::new(),
         lights_of: None,
         notes: Vec::new(),
     }
 }
 
+/// The same with looks: one of all that a look keeps, and one of a name alone.
+fn everything_with_looks() -> Description {
+    let mut it = everything();
+    let all = Look {
+        exposure_ev: Some(0.5),
+        studio: Some(Studio::default()),
+        ..Look::of("all".to_owned(), &it)
+    };
+    let none = Look {
+        name: "none \"quoted\"".to_owned(),
+        camera: None,
+        exposure_ev: None,
+        environment: None,
+        studio: None,
+        lights: Vec::new(),
+    };
+    it.looks = vec![all, none];
+    it
+}
+
 #[test]
 fn whatever_is_saved_loads_again_to_the_same() {
-    let everything = everything();
+    let everything = everything_with_looks();
     let text = everything.to_toml().unwrap();
     assert_eq!(parsed(&text), everything, "{text}");
     let mut least = everything;
@@ -378,6 +403,7 @@ fn whatever_is_saved_loads_again_to_the_same() {
     least.scratches.clear();
     least.gratings.clear();
     least.lights.clear();
+    least.looks.clear();
     assert_eq!(parsed(&least.to_toml().unwrap()), least);
 }
 

@@ -19,6 +19,7 @@ mod meshopt;
 mod places;
 mod poses;
 mod probe;
+mod scene_looks;
 mod schema;
 mod scratch_studio;
 mod scratches;

@@ -423,6 +423,10 @@ fn json_value(section: &Section, key: &Key) -> Value {
             json!({ "type": "array", "items": { "$ref": "#/$defs/strokes" } })
         }
         ("scratches", "where") => json!({ "$ref": "#/$defs/where" }),
+        ("look", "camera") => json!({ "$ref": "#/$defs/camera" }),
+        ("look", "environment") => json!({ "$ref": "#/$defs/environment" }),
+        ("look", "studio") => json!({ "$ref": "#/$defs/studio" }),
+        ("look", "light") => json!({ "type": "array", "items": { "$ref": "#/$defs/light" } }),
         _ => match key.form {
             Form::Number => number(),
             Form::Whole => json_number("integer", key),

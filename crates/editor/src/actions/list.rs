@@ -1,7 +1,7 @@
 //! Common interface of the parts in the lists of a description: most have a name, and they are copied, moved and removed.
 
 use hairline_document::Description;
-use hairline_document::description::{Grating, Light, Material, Object, Scratches};
+use hairline_document::description::{Grating, Light, Look, Material, Object, Scratches};
 
 use super::{ActionError, unique_name};
 use crate::Selection;
@@ -212,6 +212,15 @@ part!(Light, "light", "a light", lights, Light, {
     }
     fn set_name(&mut self, name: Option<String>) {
         self.name = name;
+    }
+});
+
+part!(Look, "look", "a look", looks, Look, {
+    fn name(&self) -> Option<&str> {
+        Some(&self.name)
+    }
+    fn set_name(&mut self, name: Option<String>) {
+        self.name = name.unwrap_or_default();
     }
 });
 

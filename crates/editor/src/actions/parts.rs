@@ -1,7 +1,7 @@
 //! Actions on any part of a scene that can be selected. Those that a kind of part has for itself are in the module of that kind.
 
 use hairline_document::Description;
-use hairline_document::description::{Grating, Light, Material, Object, Scratches};
+use hairline_document::description::{Grating, Light, Look, Material, Object, Scratches};
 
 use super::list::{self, ListedPart};
 use super::{ActionError, layers, materials, objects, studio};
@@ -18,6 +18,7 @@ pub fn duplicate(description: &mut Description, part: Selection) -> Result<Selec
         Selection::Grating(i) => copy::<Grating>(description, i),
         Selection::Light(i) => copy::<Light>(description, i),
         Selection::Material(i) => copy::<Material>(description, i),
+        Selection::Look(i) => copy::<Look>(description, i),
         other => Ok(other),
     }
 }
@@ -46,6 +47,7 @@ pub fn delete(
         Selection::Grating(i) => list::remove_from_object::<Grating>(description, i, selection),
         Selection::Light(i) => list::remove::<Light>(description, i, selection),
         Selection::Material(i) => materials::delete(description, i, selection),
+        Selection::Look(i) => list::remove::<Look>(description, i, selection),
         _ => Ok(selection),
     }
 }
@@ -66,6 +68,7 @@ pub fn shift(
         Selection::Grating(i) => list::shift::<Grating>(description, i, by, selection),
         Selection::Light(i) => list::shift::<Light>(description, i, by, selection),
         Selection::Material(i) => list::shift::<Material>(description, i, by, selection),
+        Selection::Look(i) => list::shift::<Look>(description, i, by, selection),
         _ => Ok(selection),
     }
 }

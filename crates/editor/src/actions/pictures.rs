@@ -21,6 +21,8 @@ pub enum PictureOf {
     GratingDirections(usize),
     /// `picture` of a `[[light]]`.
     Light(usize),
+    /// `behind` of `[render]`.
+    Behind,
 }
 
 /// Names a picture's file, written relative to `base_dir`, the document's.
@@ -65,5 +67,7 @@ fn place(
             let light = list::get_mut::<Light>(description, i)?;
             (&mut light.picture, Selection::Light(i))
         }
+        // The camera's panel has it.
+        PictureOf::Behind => (&mut description.render.behind, Selection::Camera),
     })
 }

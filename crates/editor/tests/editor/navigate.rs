@@ -256,3 +256,26 @@ fn surroundings_turn_as_the_camera_does() {
     }
     assert_eq!(scene.objects, objects);
 }
+
+/// What stands still with the lights and turns with the objects is the same picture, turned.
+#[test]
+fn a_turntable_of_the_lights_turns_all_light_and_nothing_else() {
+    let mut scene = hairline_fixtures::scenes::lit_plate()
+        .part("[studio]\nrotation_deg = 10\n[environment]\nbuiltin = \"window\"\nrotation_deg = 350\n")
+        .description();
+    let before = scene.clone();
+    let mut surroundings = scene.clone();
+    let angle_rad = 30.0_f64.to_radians();
+    navigate::turn_table(&mut scene, navigate::Turns::Lights, angle_rad);
+    navigate::turn_table(&mut surroundings, navigate::Turns::Object, angle_rad);
+    assert_eq!(scene.camera, before.camera);
+    assert_eq!(scene.objects, before.objects);
+    assert_eq!(scene.lights, surroundings.lights);
+    assert_ne!(scene.lights, before.lights);
+    assert_eq!(scene.environment, surroundings.environment);
+    let turned = scene.environment.map(|it| it.rotation_deg).unwrap();
+    assert!((turned - 20.0).abs() < 1e-9, "{turned}");
+    // The studio does not go with a camera that stands still.
+    assert!((scene.studio.rotation_deg - 40.0).abs() < 1e-9);
+    assert_eq!(surroundings.studio, before.studio);
+}

@@ -420,3 +420,23 @@ class SunLight(Light):
     """The angle that it spans, across; the default is that of the sun. A wider one sends as much. Unit: °. Default: 0.53. Range: 0.01 to 90."""
     irradiance: float = _default()
     """What falls on a surface that faces it. 683 lux are 1 W m⁻². White paper under 3.14 has radiance 1. Unit: W m⁻². Default: 1. Range: 0 or more."""
+
+
+class Look(Table):
+    """``[[look]]``: another camera, exposure or light of the same objects, by a name."""
+
+    _section = "look"
+    _absent = {"light": ()}
+
+    name: str
+    """What the viewer's strip and the file of its picture call it by. Range: not empty, no two equal."""
+    camera: Optional[Mapping[str, Any]] = _default()
+    """In the place of ``[camera]``, all of it. Default: the scene's. Range: the keys of [``camera]``."""
+    exposure_ev: Optional[float] = _default()
+    """In the place of the camera's exposure. Unit: stops. Default: the camera's. Range: ±64."""
+    environment: Optional[Mapping[str, Any]] = _default()
+    """In the place of ``[environment]``. Default: none; the scene's, where the look has no light at all. Range: the keys of [``environment]``."""
+    studio: Optional[Mapping[str, Any]] = _default()
+    """In the place of ``[studio]``. Default: none; the scene's, where the look has no light at all. Range: the keys of [``studio]``."""
+    light: Sequence[Mapping[str, Any]] = _default()
+    """In the place of all ``[[light]]``s. Default: none; the scene's, where the look has no light at all. Range: the keys of [``[light]]``."""

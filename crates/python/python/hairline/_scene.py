@@ -16,7 +16,7 @@ from ._changes import changed, found
 from ._errors import InterruptedWarning, argument_error
 from ._hairline import Image, Labels
 from ._host import Host, Progress
-from ._keys import Environment, Grating, Ground, Light, Material, Settings, Studio
+from ._keys import Environment, Grating, Ground, Light, Look, Material, Settings, Studio
 from ._table import Path, Table
 from ._tables import Camera, Object, Scratches, Tables, table_of
 from ._whole_file import write_whole
@@ -37,6 +37,7 @@ _LISTS: tuple[tuple[str, str, type[Table]], ...] = (
     ("scratches", "scratches", Scratches),
     ("gratings", "grating", Grating),
     ("lights", "light", Light),
+    ("looks", "look", Look),
 )
 
 
@@ -123,6 +124,8 @@ class Scene:
     scratches: Tables[Scratches]
     gratings: Tables[Grating]
     lights: Tables[Light]
+    looks: Tables[Look]
+    """Other cameras, exposures and lights, by name: ``hairline render --looks`` renders them."""
     folder: FilePath
     """What the files that it names are relative to."""
     notes: list[str]
@@ -143,6 +146,7 @@ class Scene:
         scratches: Iterable[Scratches] = (),
         gratings: Iterable[Grating] = (),
         lights: Iterable[Light] = (),
+        looks: Iterable[Look] = (),
         folder: Path = ".",
     ) -> None:
         self.camera = camera
@@ -155,6 +159,7 @@ class Scene:
         self.scratches = Tables(Scratches, scratches)
         self.gratings = Tables(Grating, gratings)
         self.lights = Tables(Light, lights)
+        self.looks = Tables(Look, looks)
         # Programs may go on in another folder.
         self.folder = FilePath(folder).absolute()
         self.notes = []
@@ -179,7 +184,7 @@ class Scene:
     @classmethod
     def from_dict(cls, table: Mapping[str, Any], folder: Path = ".") -> Scene:
         """A scene of a dict with the keys of scene files: ``camera``, ``render``, ``environment``, ``studio``, ``ground``, ``material``,
-        ``object``, ``scratches``, ``grating`` and ``light``. Files that it names are looked for in ``folder``."""
+        ``object``, ``scratches``, ``grating``, ``light`` and ``look``. Files that it names are looked for in ``folder``."""
         if not isinstance(table, Mapping):
             raise argument_error("scene", f"found an object of type {type(table).__qualname__}", "must be a dict")
         return cls._of(core.check(dict(table)), folder)
@@ -207,6 +212,7 @@ class Scene:
             scratches=all_of(Scratches),
             gratings=all_of(Grating),
             lights=all_of(Light),
+            looks=all_of(Look),
             folder=folder,
         )
 

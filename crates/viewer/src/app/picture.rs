@@ -8,6 +8,7 @@ use hairline_image::Display;
 use super::Viewer;
 use crate::badges;
 use crate::engine::{Event, Frame, View};
+use crate::looks::Clicked;
 use crate::panels::busy::Busy;
 use crate::panels::status;
 use crate::platform::HAS_DISK;
@@ -78,12 +79,29 @@ impl Viewer {
             }
             return;
         }
+        self.show_looks(ui, area.rect);
         let work = &mut self.work;
         self.viewport.interact(ui, work, area, response);
         self.viewport.show_overlays(ui, work, area);
         self.viewport.outline_region(ui, work, area);
         reading::show(ui, work, self.viewport.view, response);
         badges::show(ui, work, response.rect);
+    }
+
+    /// Shows the strip of looks above that of snapshots, and does what was clicked.
+    fn show_looks(&mut self, ui: &mut Ui, area: Rect) {
+        let Workspace {
+            looks,
+            snapshots,
+            document,
+            engine,
+            ..
+        } = &mut self.work;
+        match looks.show(ui, document, engine, snapshots.above_strip(area)) {
+            Clicked::Nothing => {}
+            Clicked::Look(i) => self.work.take_look(i),
+            Clicked::Keep => self.work.keep_look(),
+        }
     }
 
     /// The picture to be drawn in place of `frame`, the newest one when the pass began: a window that a software driver draws waits

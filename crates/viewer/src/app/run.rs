@@ -44,6 +44,8 @@ impl Viewer {
             Command::Compare => self.compare.toggle(),
             Command::TakeSnapshot => self.take_snapshot(),
             Command::FlipSnapshot => self.work.snapshots.flip(),
+            Command::KeepLook => self.work.keep_look(),
+            Command::NextLook => self.work.take_next_look(),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Command::Undo => {
                 self.work.snapshots.show_current();

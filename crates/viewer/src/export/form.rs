@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use egui::{DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
+use egui::{Checkbox, DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
+use hairline_editor::navigate::Turns;
 use hairline_image::{BATCH_SAMPLES, Batches};
 
-use super::work::{Expected, Motion, Turns};
+use super::work::{Expected, Motion};
 use crate::engine::SHADOW_SAMPLES;
 
 /// Width and height; more is more than a file format or a machine is likely to hold.
@@ -51,6 +52,8 @@ pub(super) struct ExportContext {
     pub is_view_free: bool,
     /// Whether the window shows a snapshot in the place of the scene.
     pub is_snapshot: bool,
+    /// Whether the scene says that its pictures have an alpha.
+    pub cuts_out: bool,
     /// What is known of the pictures beforehand.
     pub expected: Expected,
 }
@@ -144,8 +147,13 @@ impl Form {
                     ui.end_row();
                 }
                 ui.label("");
-                ui.checkbox(&mut self.is_transparent, "Transparent background")
-                    .on_hover_text(
+                let mut is_transparent = self.is_transparent || scene.cuts_out;
+                let transparent = Checkbox::new(&mut is_transparent, "Transparent background");
+                let transparent = ui.add_enabled(!scene.cuts_out, transparent);
+                if transparent.changed() {
+                    self.is_transparent = is_transparent;
+                }
+                transparent.on_hover_text(
                         "PNG and EXR get an alpha channel: the share of each pixel that objects cover. The environment lights \
                          them and is not seen",
                     );
@@ -157,6 +165,8 @@ impl Form {
                             .on_hover_text("Before the camera and under the lights, which stand still");
                         ui.selectable_value(&mut self.turns, Turns::Camera, "The camera")
                             .on_hover_text("Around the objects and under the lights: what a floor mirrors swings by");
+                        ui.selectable_value(&mut self.turns, Turns::Lights, "The lights")
+                            .on_hover_text("Lights, studio and environment, about objects and camera that stand still");
                     });
                     ui.end_row();
                     let frames = DragValue::new(&mut self.frames).range(1..=9999);
@@ -327,11 +337,14 @@ impl Form {
             "apng" if self.is_turntable => {
                 "APNG: one file that browsers play, 25 pictures in a second, as the window shows them."
             }
+            "mp4" if self.is_turntable => {
+                "MP4: one file that players play, 25 pictures in a second, made by the program ffmpeg."
+            }
             "exr" => {
                 "EXR: linear radiance, with the layers base, scratches, density, depth and normal."
             }
             _ if self.is_turntable => {
-                "End the name in .png or .exr, or in .apng for one file that plays."
+                "End the name in .png or .exr, or in .apng or .mp4 for one file that plays."
             }
             _ => "End the name in .png or .exr.",
         };

@@ -5,9 +5,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use hairline_document::{Description, description};
-use hairline_editor::navigate;
+use hairline_editor::navigate::{self, Turns};
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, Method, RenderOptions, Renderer};
-use hairline_image::{Animation, Batches, Display, Image, Output, filter_traced};
+use hairline_image::{Animation, Batches, Display, Finish, Image, Output, filter_traced};
 use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
@@ -27,16 +27,8 @@ pub(super) enum Motion {
     },
 }
 
-/// What a turntable turns.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Turns {
-    /// Objects, before the camera and under the lights.
-    Object,
-    Camera,
-}
-
 impl Motion {
-    /// Path of a picture, counted from 0: NAME.png, or NAME-0001.png and on; NAME.apng has all of them.
+    /// Path of a picture, counted from 0: NAME.png, or NAME-0001.png and on; NAME.apng and NAME.mp4 have all of them.
     pub fn path(self, path: &Path, frame: u32) -> PathBuf {
         match self {
             Self::Turntable { .. } if self.is_animation(path) => path.to_owned(),
@@ -125,22 +117,17 @@ impl Wish {
         } = self.motion
         {
             let angle_rad = f64::from(frame) / f64::from(frames.max(1)) * degrees.to_radians();
-            match turns {
-                Turns::Camera => navigate::turn(&mut moved.camera, angle_rad),
-                Turns::Object => navigate::turn_surroundings(&mut moved, angle_rad),
-            }
+            navigate::turn_table(&mut moved, turns, angle_rad);
         }
         moved
     }
 
-    fn turns_object(&self) -> bool {
-        matches!(
-            self.motion,
-            Motion::Turntable {
-                turns: Turns::Object,
-                ..
-            }
-        )
+    /// Whether a scene is built for each picture.
+    fn moves_scene(&self) -> bool {
+        match self.motion {
+            Motion::Turntable { turns, .. } => turns != Turns::Camera,
+            Motion::Still => false,
+        }
     }
 
     /// Waits for work on the wish's device, which only a thread may.
@@ -300,6 +287,11 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
     let mut seen = built.seen_from(&wish.scene(built, &wish.at(0).camera));
     let opened = Painter::open(wish, &seen).await;
     let mut painter = opened.map_err(|error| error.to_string())?;
+    let backdrop = wish.description.backdrop(&wish.base_dir);
+    let finish = Finish {
+        is_deep: wish.description.render.png_bits == 16,
+        behind: (backdrop.map_err(|error| error.to_string())?).map(Arc::new),
+    };
     let begin = || {
         Animation::begin(
             &wish.path,
@@ -307,6 +299,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
             wish.frames(),
             FPS,
             wish.is_transparent,
+            &finish,
         )
     };
     let animation = wish.is_animation().then(begin).transpose();
@@ -318,7 +311,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
             Some(_) => None,
             None => {
                 let output = Output::check(&wish.frame_path(frame));
-                Some(output.map_err(|error| error.to_string())?)
+                Some(output.map_err(|error| error.to_string())?.finished(&finish))
             }
         };
         let go_on = |share: f64| {
@@ -327,7 +320,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         };
         let now = wish.at(frame);
         let camera = now.camera.clone();
-        let turned = match wish.turns_object() && frame > 0 {
+        let turned = match wish.moves_scene() && frame > 0 {
             true => {
                 let cancelled = || stop.is_asked();
                 let (now, asked) = (Arc::new(now), Instant::now());
@@ -360,7 +353,13 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         if wish.is_transparent {
             let batches = wish.batches(&scene.camera);
             let all = batches.map_or(wish.samples, |it| it.samples());
-            image.alpha = Some(hairline_cpu::alpha(&scene, &seen.triangles, all, all));
+            let mut alpha = hairline_cpu::alpha(&scene, &seen.triangles, all, all);
+            if wish.transport.shadows {
+                let shadows = hairline_cpu::caught_shadows(&scene, all, &|| stop.is_asked());
+                let pixels = alpha.iter_mut().zip(shadows.unwrap_or_default());
+                pixels.for_each(|(alpha, shadow)| *alpha += shadow);
+            }
+            image.alpha = Some(alpha);
         }
         let written = match (&mut animation, &output) {
             (Some(animation), _) => animation.add(&image, &wish.display()),

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use egui::{Button, Id, Ui};
 use hairline_document::description::{Camera, Description};
 use hairline_document::schema;
+use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::navigate::{self, Viewpoint};
 use hairline_image::ToneMap;
 
@@ -217,8 +218,28 @@ pub(super) fn show_render(ui: &mut Ui, work: &mut Workspace) {
     form.number(&schema::render::FILTER_STD_PX, &mut render.filter_std_px);
     let mut size = render.size_px.map(f64::from);
     form.boxes(&schema::render::SIZE_PX, &["w", "h"], &mut size);
+    form.toggle(
+        "Transparent",
+        "Saved pictures have an alpha: the share of each pixel that objects cover. The window shows what is behind",
+        &mut render.transparent,
+    );
+    form.picture(
+        "Picture behind",
+        "Behind the objects in saved PNGs, in the place of the environment: .png, .jpg or .webp",
+        &mut render.behind,
+        PictureOf::Behind,
+    );
+    let depths = [(8, "8 bits".to_owned()), (16, "16 bits".to_owned())];
+    form.choice(
+        "PNG",
+        "Bits of each channel of a saved PNG: 16 leave room for changes of brightness afterwards",
+        depths,
+        &mut render.png_bits,
+    );
+    let wanted = form.wanted();
     if let Some(change) = form.change() {
         render.size_px = size.map(|side| side.round() as u32);
         work.drag(&change.label, change.key, |d| d.render = render);
     }
+    work.choose_picture(wanted);
 }

@@ -3,7 +3,7 @@
 use egui::Ui;
 use hairline_editor::Selection;
 
-use super::{camera, environment, grating, layer, light, material, object, studio};
+use super::{camera, environment, grating, layer, light, look, material, object, studio};
 use crate::workspace::Workspace;
 
 pub(super) fn rows(ui: &mut Ui, work: &mut Workspace) {
@@ -22,6 +22,7 @@ pub(super) fn rows(ui: &mut Ui, work: &mut Workspace) {
         Selection::Layer(i) => layer::show(ui, work, i),
         Selection::Grating(i) => grating::show(ui, work, i),
         Selection::Light(i) => light::show(ui, work, i),
+        Selection::Look(i) => look::show(ui, work, i),
     });
     super::form::end_naming(ui.ctx());
 }

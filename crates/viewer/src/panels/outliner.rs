@@ -108,6 +108,13 @@ pub(super) fn rows(ui: &mut Ui, work: &mut Workspace) {
     for (i, material) in description.materials.iter().enumerate() {
         line(ui, work, Selection::Material(i), &material.name, true);
     }
+
+    section(ui, "Looks", |ui| {
+        super::button(ui, work, Command::KeepLook);
+    });
+    for (i, look) in description.looks.iter().enumerate() {
+        line(ui, work, Selection::Look(i), &look.name, true);
+    }
 }
 
 fn layer_line(ui: &mut Ui, work: &mut Workspace, description: &Description, i: usize) {

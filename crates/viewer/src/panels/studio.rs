@@ -56,6 +56,11 @@ pub(super) fn show_ground(ui: &mut Ui, work: &mut Workspace) {
         ground.hidden = is_hidden;
         form.color(&schema::ground::COLOR, &mut ground.color);
         form.number(&schema::ground::ROUGHNESS, &mut ground.roughness);
+        form.toggle(
+            "Shadows only",
+            "Saved pictures have the shadows on the floor alone, as a black with alpha. The window shows no floor then",
+            &mut ground.shadows_only,
+        );
         let mut is_under_all = ground.height_m.is_none();
         form.toggle(
             "Under all",

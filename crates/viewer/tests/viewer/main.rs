@@ -19,7 +19,7 @@ mod gives_way;
 mod gizmos;
 mod gratings;
 mod habits;
-mod lost;
+mod looks;
 mod missing;
 mod model_export;
 mod model_files;

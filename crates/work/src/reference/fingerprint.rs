@@ -11,7 +11,7 @@ use hairline_document::{Arrays, inputs};
 const DIGITS: usize = 32;
 
 /// A digest of everything that a scene's linear picture depends on: the description, with the contents of files in the place of their names; arrays in memory
-/// have a name that tells their contents. Exposure and tone map act on the display alone and are left out; so is the picture's size, which a picture tells by
+/// have a name that tells their contents. Exposure and tone map act on the display alone and are left out, and looks that the scene could have; so is the picture's size, which a picture tells by
 /// itself.
 ///
 /// # Errors
@@ -21,6 +21,7 @@ pub fn fingerprint(description: &Description, folder: &Path, arrays: &Arrays) ->
     described.camera.exposure_ev = 0.0;
     described.render.tone_map = hairline_image::ToneMap::default();
     described.render.size_px = [0, 0];
+    described.looks.clear();
     for (used_for, file) in described.files_mut() {
         if !arrays.has(file) {
             let path = folder.join(&*file);

@@ -1,0 +1,118 @@
+//! Shadows on a ground that is not seen itself: the share of each pixel's light there that objects hide.
+//!
+//! The ground is rendered alone, white and dull, twice: with the objects' shadows, and without. The objects themselves are black there, so the
+//! ratio of the two is of the ground's part of a pixel, at edges too.
+
+use std::sync::Arc;
+
+use hairline_image::{Image, filter_traced};
+use hairline_scene::{Base, Material, Scene, Transport};
+
+use crate::alpha;
+use crate::closed_form::{Prepared, RenderOptions};
+
+/// The alpha of a black that darkens each pixel as the shadows on the scene's [catcher](Scene::shadow_catcher) do, row by row: its share of the
+/// pixel, times the share of its light that objects hide. None without a catcher, and once `cancelled` says so. `samples` rays go to each light.
+pub fn caught_shadows(
+    scene: &Scene,
+    samples: u32,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<Vec<f32>> {
+    let ground = with_ground_alone(scene)?;
+    let prepared = Prepared::new(&ground);
+    let (shaded, samples) = shaded(&prepared, samples, cancelled)?;
+    let options = RenderOptions {
+        samples,
+        ..RenderOptions::default()
+    };
+    let rows = 0..ground.render.size_px[1];
+    let (lit, _) = prepared.render_unless(cancelled, &options, rows, &|_| {})?;
+    let all = alpha(&ground, prepared.triangles(), samples, samples);
+    let objects = Prepared::new(scene);
+    let objects = alpha(scene, objects.triangles(), samples, samples);
+    let luminance = |[r, g, b]: [f32; 3]| r + g + b;
+    let hidden = |i: usize| {
+        let lit = luminance(lit.base[i]);
+        let share = (all[i] - objects[i]).max(0.0);
+        match lit > 0.0 {
+            true => share * (1.0 - luminance(shaded.base[i]) / lit).clamp(0.0, 1.0),
+            false => 0.0,
+        }
+    };
+    Some((0..all.len()).map(hidden).collect())
+}
+
+/// The picture with shadows, and its number of samples.
+fn shaded(
+    prepared: &Prepared,
+    samples: u32,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<(Image, u32)> {
+    let transport = Transport {
+        shadows: true,
+        bounces: 0,
+    };
+    let scene = prepared.scene();
+    let mut batches = transport.batches(&scene.camera, samples)?;
+    let samples = batches.samples();
+    let rows = 0..scene.render.size_px[1];
+    while let Some(batch) = batches.next() {
+        let options = RenderOptions {
+            samples,
+            batch: Some(batch),
+            shadows: true,
+            ..RenderOptions::default()
+        };
+        let (part, _) = prepared.render_unless(cancelled, &options, rows.clone(), &|_| {})?;
+        batches.add(part);
+    }
+    let mut image = batches.into_image()?;
+    filter_traced(&mut image);
+    Some((image, samples))
+}
+
+/// The scene with its catcher as a white ground, before nothing, and with objects that are black and hide light.
+fn with_ground_alone(scene: &Scene) -> Option<Scene> {
+    let ground = scene.shadow_catcher.clone()?;
+    let mut alone = scene.before_nothing();
+    alone.shadow_catcher = None;
+    let own = ground.mesh.triangle_materials.first().copied();
+    for (i, material) in alone.materials.iter_mut().enumerate() {
+        *material = match own == Some(i as u32) {
+            true => white(material),
+            false => black(material),
+        };
+    }
+    for object in &mut alone.objects {
+        (object.scratches, object.segments) = (Arc::default(), Arc::default());
+        object.gratings.clear();
+    }
+    // Shapes of lamps are the last objects.
+    let place = alone.objects.iter().take_while(|it| !it.is_lamp).count();
+    alone.objects.insert(place, ground);
+    Some(alone)
+}
+
+fn white(material: &Material) -> Material {
+    Material {
+        base: Base::Dielectric {
+            ior: 1.0,
+            base_color: [1.0; 3],
+        },
+        roughness: 1.0,
+        ..material.clone()
+    }
+}
+
+/// A material that reflects and sends nothing, cut out as it was.
+fn black(material: &Material) -> Material {
+    Material {
+        base: Base::MetallicRoughness {
+            base_color: [0.0; 3],
+            metallic: 0.0,
+        },
+        emission: [0.0; 3],
+        is_unlit: true,
+        ..material.clone()
+    }
+}

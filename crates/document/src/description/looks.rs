@@ -1,0 +1,100 @@
+//! `[[look]]`: another camera, exposure or light of the same objects, by a name.
+
+use serde::Serialize;
+
+use super::check::{check_environment, check_lights};
+use super::keyed::{Keyed, keyed};
+use super::ranges::{Check, Numbers};
+use super::table::{Read, Table, Value};
+use super::{Camera, Description, Environment, Light, Studio};
+use crate::error::Error;
+use crate::schema::look;
+
+/// `[[look]]`: tables in the place of those of the scene. What it leaves out is as in the scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Look {
+    /// Name of the look; no two are equal. Required.
+    pub name: String,
+    /// In the place of `[camera]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<Camera>,
+    /// In the place of the camera's exposure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exposure_ev: Option<f64>,
+    /// In the place of `[environment]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub environment: Option<Environment>,
+    /// In the place of `[studio]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub studio: Option<Studio>,
+    /// In the place of the `[[light]]`s.
+    #[serde(rename = "light", skip_serializing_if = "Vec::is_empty")]
+    pub lights: Vec<Light>,
+}
+
+impl Look {
+    /// The camera and the light of a scene.
+    pub fn of(name: String, description: &Description) -> Self {
+        let has_lights = description.is_lit();
+        let studio = &description.studio;
+        Self {
+            name,
+            camera: Some(description.camera.clone()),
+            exposure_ev: None,
+            environment: description.environment.clone(),
+            // A look without any light of its own has the scene's.
+            studio: (!has_lights || *studio != Studio::NONE).then(|| studio.clone()),
+            lights: description.lights.clone(),
+        }
+    }
+
+    /// Whether it has light of its own: then it has none of the scene's.
+    pub fn has_light(&self) -> bool {
+        self.environment.is_some() || self.studio.is_some() || !self.lights.is_empty()
+    }
+
+    /// Gives a scene this look.
+    pub fn apply(&self, description: &mut Description) {
+        if let Some(camera) = &self.camera {
+            description.camera = camera.clone();
+        }
+        if let Some(exposure_ev) = self.exposure_ev {
+            description.camera.exposure_ev = exposure_ev;
+        }
+        if self.has_light() {
+            description.environment = self.environment.clone();
+            description.studio = self.studio.clone().unwrap_or(Studio::NONE);
+            description.lights.clone_from(&self.lights);
+        }
+    }
+
+    /// Refuses values out of range.
+    pub(super) fn check_at(&self, key: &str) -> Check {
+        self.check_keys(key)?;
+        if let Some(camera) = &self.camera {
+            camera.check_at(&format!("{key}.camera"))?;
+        }
+        if let Some(environment) = &self.environment {
+            check_environment(environment, &format!("{key}.environment"))?;
+        }
+        if let Some(studio) = &self.studio {
+            studio.check_keys(&format!("{key}.studio"))?;
+        }
+        check_lights(&self.lights, &format!("{key}.light"))
+    }
+}
+
+// Their own numbers are checked by their own keys.
+impl Numbers for Camera {}
+impl Numbers for Environment {}
+impl Numbers for Studio {}
+impl Numbers for Light {}
+
+keyed! { Look of look::LOOK {
+    name: look::NAME,
+    camera: look::CAMERA,
+    exposure_ev: look::EXPOSURE_EV,
+    environment: look::ENVIRONMENT,
+    studio: look::STUDIO,
+    lights: look::LIGHT,
+} }

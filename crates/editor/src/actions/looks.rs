@@ -1,0 +1,58 @@
+//! Looks: cameras, exposures and lights by name.
+
+use hairline_document::Description;
+use hairline_document::description::{Camera, Look};
+
+use super::{ActionError, list};
+use crate::Selection;
+
+/// Keeps how the scene looks from `camera`, as a new look.
+pub fn keep(description: &mut Description, camera: Camera) -> Selection {
+    let look = of("Look 1".to_owned(), description, camera);
+    list::insert(description, description.looks.len(), look)
+}
+
+/// Sets a look to how the scene looks from `camera`.
+///
+/// # Errors
+/// [`ActionError::Missing`].
+pub fn set(
+    description: &mut Description,
+    index: usize,
+    camera: Camera,
+) -> Result<Selection, ActionError> {
+    let name = list::get::<Look>(description, index)?.name.clone();
+    description.looks[index] = of(name, description, camera);
+    Ok(Selection::Look(index))
+}
+
+fn of(name: String, description: &Description, camera: Camera) -> Look {
+    Look {
+        camera: Some(camera),
+        ..Look::of(name, description)
+    }
+}
+
+/// Gives the scene a look.
+///
+/// # Errors
+/// [`ActionError::Missing`].
+pub fn take(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
+    list::get::<Look>(description, index)?
+        .clone()
+        .apply(description);
+    Ok(Selection::Look(index))
+}
+
+/// Renames a look.
+///
+/// # Errors
+/// [`ActionError::EmptyName`], [`ActionError::NameTaken`], [`ActionError::Missing`].
+pub fn rename(
+    description: &mut Description,
+    index: usize,
+    name: &str,
+) -> Result<Selection, ActionError> {
+    list::rename_known::<Look>(description, index, name)?;
+    Ok(Selection::Look(index))
+}

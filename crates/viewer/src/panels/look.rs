@@ -1,0 +1,82 @@
+//! A look: what it keeps, and what becomes of it.
+
+use egui::Ui;
+use hairline_document::description::Look;
+use hairline_document::schema;
+use hairline_editor::actions::looks;
+
+use super::form::Form;
+use crate::command::Command;
+use crate::workspace::Workspace;
+
+pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
+    let description = work.document.description().clone();
+    let Some(before) = description.looks.get(index) else {
+        return;
+    };
+    let mut look = before.clone();
+    // What it keeps where a box is ticked.
+    let now = Look::of(look.name.clone(), &description);
+    ui.heading("Look");
+    let mut form = Form::new(ui, ("look", index), work.diagonal_m(None));
+    let mut name = look.name.clone();
+    form.text("Name", "Name in the strip and of its picture", &mut name);
+    let mut has_camera = look.camera.is_some();
+    form.toggle(
+        "Camera of the look",
+        "Whether it has a camera of its own",
+        &mut has_camera,
+    );
+    if has_camera != look.camera.is_some() {
+        look.camera = has_camera.then(|| work.camera());
+    }
+    let mut has_exposure = look.exposure_ev.is_some();
+    form.toggle(
+        "Exposure of the look",
+        "Whether it has an exposure of its own",
+        &mut has_exposure,
+    );
+    match has_exposure {
+        true => {
+            let camera = look.camera.as_ref().unwrap_or(&description.camera);
+            let exposure_ev = look.exposure_ev.get_or_insert(camera.exposure_ev);
+            form.number(&schema::look::EXPOSURE_EV, exposure_ev);
+        }
+        false => look.exposure_ev = None,
+    }
+    let mut has_light = look.has_light();
+    form.toggle(
+        "Light of the look",
+        "Whether it has lights, a studio and an environment of its own",
+        &mut has_light,
+    );
+    if has_light != look.has_light() {
+        (look.environment, look.studio, look.lights) = match has_light {
+            true => (now.environment, now.studio, now.lights),
+            false => (None, None, Vec::new()),
+        };
+    }
+    if let Some(change) = form.change() {
+        if name != look.name {
+            work.apply("Rename look", |d, _| looks::rename(d, index, &name));
+        } else {
+            work.drag(&change.label, change.key, |d| d.looks[index] = look);
+        }
+    }
+    ui.add_space(8.0);
+    ui.horizontal_wrapped(|ui| {
+        let take = ui.button("Take this look");
+        if take.on_hover_text("Gives it to the scene").clicked() {
+            work.take_look(index);
+        }
+        let set = ui.button("Set it to the scene of now");
+        let set = set.on_hover_text("Its camera is where the window looks from");
+        if set.clicked() {
+            let camera = work.camera();
+            work.apply("Set look", |d, _| looks::set(d, index, camera));
+        }
+        for command in [Command::Duplicate, Command::Delete] {
+            super::button(ui, work, command);
+        }
+    });
+}
