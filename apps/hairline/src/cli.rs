@@ -41,7 +41,8 @@ pub enum Command {
     Bench(Bench),
     /// Show the version, the graphics adapters and their properties, and the backends available; or the contents of a scene.
     Info(Info),
-    /// Write the laid scratches of an object as a list (CSV), for other programs: three.js, game engines, Blender.
+    /// Write the laid scratches of an object as a list (CSV), for other programs: three.js, game engines, Blender; with --own-frame for
+    /// `pattern = "file"` of scenes.
     Scratches(Scratches),
     /// Write a scene as one glTF file (.glb) that other programs open, with its scratches by the extension HAIRLINE_scratches. Hairline opens it as
     /// the same scene.
@@ -83,6 +84,9 @@ pub struct Scratches {
     /// Only this layer of scratches, counted from 0.
     #[arg(long, value_name = "N")]
     pub layer: Option<u32>,
+    /// In the object's own frame, in place of world space: `pattern = "file"` lays such a list on the object again.
+    #[arg(long)]
+    pub own_frame: bool,
 }
 
 /// `hairline export`

@@ -19,6 +19,7 @@ mod neighbours;
 mod painted;
 mod place;
 mod random;
+mod ruler;
 mod strewn;
 mod swirl;
 mod walk;
@@ -45,6 +46,7 @@ use painted::Painted;
 use place::GroundPlaces;
 pub(crate) use place::PlaceInputs;
 use random::Stream;
+pub use ruler::Ruler;
 use strewn::Strewn;
 use walk::{Course, Walker};
 

@@ -28,6 +28,7 @@ use crate::files::{Files, Purpose};
 use crate::free_view::FreeView;
 use crate::gallery::Gallery;
 use crate::loss::WindowLoss;
+use crate::measure::Measure;
 use crate::missing;
 use crate::model_export::ModelExport;
 use crate::notices::Notices;
@@ -127,6 +128,7 @@ impl Viewer {
             notices,
             toolbox: Toolbox::default(),
             reading: ReadingState::default(),
+            measure: Measure::default(),
             free_view: FreeView::default(),
             transport: options.transport,
             overlays: Overlays::default(),
@@ -200,6 +202,12 @@ impl Viewer {
     /// Reading of the probe, for tests.
     pub fn probed(&self) -> Option<crate::reading::Reading> {
         self.work.reading.probe.reading()
+    }
+
+    /// The distances that were measured, along the surface and straight, for tests.
+    pub fn measured_m(&self) -> Option<[Option<f64>; 2]> {
+        let span = self.work.measure.span.found()?;
+        Some([span.along_m(), Some(span.straight_m())])
     }
 
     /// The figures of the comparison that is open, for tests.

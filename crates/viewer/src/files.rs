@@ -30,6 +30,8 @@ pub(crate) enum Purpose {
     Screenshot,
     Turntable,
     ExportModel,
+    /// The list of the selected layer's scratches.
+    ScratchList,
     /// A file that the scene names and that is not there.
     Find(FileUse),
     /// A mask, a map or the picture of a light.
@@ -47,6 +49,7 @@ impl Purpose {
             Self::Screenshot => "Save a picture",
             Self::Turntable => "Export a turntable: name of the first frame",
             Self::ExportModel => "Export the model with its scratches",
+            Self::ScratchList => "Save the list of scratches",
             Self::Find(_) => "Find the file",
             Self::Picture(_) => "Choose a picture",
         }
@@ -55,7 +58,10 @@ impl Purpose {
     /// Name and extensions of the files that a dialog lists.
     pub fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
-            Self::Open => ("Hairline scenes and models", &["toml", "glb", "gltf"]),
+            Self::Open => (
+                "Hairline scenes and models",
+                &["toml", "glb", "gltf"],
+            ),
             Self::SaveAs => ("Hairline scenes", &["toml"]),
             Self::AddModel => ("glTF models", &["glb", "gltf"]),
             Self::Environment => ("Environment maps", &["hdr", "exr"]),
@@ -64,7 +70,9 @@ impl Purpose {
             Self::ExportModel => ("glTF models", &["glb"]),
             Self::Find(FileUse::Map) => Self::Environment.filter(),
             Self::Find(FileUse::Mesh(_)) => Self::AddModel.filter(),
-            Self::Find(FileUse::ScratchList(_)) => ("Lists of scratches", &["csv"]),
+            Self::ScratchList | Self::Find(FileUse::ScratchList(_)) => {
+                ("Lists of scratches", &["csv"])
+            }
             Self::Find(_) | Self::Picture(_) => {
                 ("Pictures", &["png", "jpg", "jpeg", "webp", "hdr", "exr"])
             }
@@ -75,7 +83,11 @@ impl Purpose {
     pub fn writes(self) -> bool {
         matches!(
             self,
-            Self::SaveAs | Self::Screenshot | Self::Turntable | Self::ExportModel
+            Self::SaveAs
+                | Self::Screenshot
+                | Self::Turntable
+                | Self::ExportModel
+                | Self::ScratchList
         )
     }
 
@@ -91,6 +103,7 @@ impl Purpose {
             Self::Screenshot => format!("{stem}.png"),
             Self::Turntable => format!("{stem}-turntable.png"),
             Self::ExportModel => format!("{stem}-worn.glb"),
+            Self::ScratchList => format!("{stem}-scratches.csv"),
         }
     }
 }

@@ -33,6 +33,7 @@ mod gallery;
 mod jobs;
 mod link;
 mod loss;
+mod measure;
 mod missing;
 mod model_export;
 mod notices;

@@ -18,6 +18,8 @@ hairline_image::listed! {
         PlaceLight = "Click on an object, or drag over it: the selected light moves so that its highlight falls there";
         /// Click keeps the selected layer to the part of the model that is there.
         PickPart = "Click on a part of an object: the selected layer of scratches lies on that part alone";
+        /// Click reads a scratch; drag measures along the surface.
+        Measure = "Click on a scratch to read it; drag over a surface to measure along it";
     }
     /// Description for a tooltip.
     fn hint;

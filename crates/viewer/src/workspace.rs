@@ -2,6 +2,7 @@
 
 mod fit;
 mod give;
+mod list;
 mod view;
 
 use std::path::{Path, PathBuf};
@@ -19,6 +20,7 @@ use crate::engine::{Backend, Engine};
 use crate::files::is_same;
 use crate::free_view::FreeView;
 use crate::gallery::Gallery;
+use crate::measure::Measure;
 use crate::notices::Notices;
 use crate::overlays::Overlays;
 use crate::platform::HAS_THREADS;
@@ -33,6 +35,7 @@ pub(crate) struct Workspace {
     pub notices: Notices,
     pub toolbox: Toolbox,
     pub reading: ReadingState,
+    pub measure: Measure,
     pub free_view: FreeView,
     /// Shadows and bounces in this window; no part of the scene.
     pub transport: Transport,
@@ -193,7 +196,9 @@ impl Workspace {
                 )
             }
             Command::FlipSnapshot => !self.snapshots.is_empty(),
-            Command::ToggleSolo => matches!(selection, Selection::Layer(_)),
+            Command::ToggleSolo | Command::ListScratches | Command::SaveList => {
+                matches!(selection, Selection::Layer(_))
+            }
             Command::Deselect => selection != Selection::None || self.toolbox.tool != Tool::Select,
             Command::Reload => self.document.path().is_some(),
             Command::Revert => self.document.can_revert(),
@@ -209,6 +214,7 @@ impl Workspace {
             Command::Overlay(overlay) => Some(self.overlays.is_on(overlay)),
             Command::Overlays => Some(!self.overlays.are_hidden()),
             Command::Shadows => Some(self.transport.shadows),
+            Command::ListScratches => Some(self.measure.has_list),
             Command::HighContrast => Some(self.settings.high_contrast()),
             _ => None,
         }

@@ -163,4 +163,4 @@ pub static SWIRL_PER_M: Key = CURVATURE_PER_M
 
 pub static FILE: Key = Key::new("file", Form::File)
     .range_words("CSV, UTF-8")
-    .means("One straight scratch a row, commas between.");
+    .means("One straight scratch a row, or a straight piece of one, commas between.");

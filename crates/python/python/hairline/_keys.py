@@ -237,7 +237,7 @@ class ScratchesKeys(Table):
     center_m: Optional[Vector] = _default()
     """A point on the axis. Unit: m. Default: ``[0, 0, 0]``. Range: ±1000 each."""
     file: Optional[Union[Path, core.ScratchArray]] = _default()
-    """One straight scratch a row, commas between. Range: CSV, UTF-8."""
+    """One straight scratch a row, or a straight piece of one, commas between. Range: CSV, UTF-8."""
 
 
 class Grating(Table):

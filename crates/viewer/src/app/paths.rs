@@ -53,7 +53,9 @@ impl Viewer {
                 let work = &mut self.work;
                 self.export.take_path(work, purpose, path, has_asked);
             }
-            Purpose::ExportModel => self.export_model(ctx, path, has_asked),
+            Purpose::ExportModel | Purpose::ScratchList => {
+                self.write_beside(ctx, purpose, path, has_asked);
+            }
             Purpose::Find(_) => self.take_found(path),
             Purpose::Picture(of) => {
                 let base_dir = self.work.document.base_dir().to_owned();

@@ -19,6 +19,7 @@ mod gizmos;
 mod gratings;
 mod habits;
 mod lost;
+mod measure;
 mod missing;
 mod model_export;
 mod model_files;
