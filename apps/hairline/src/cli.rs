@@ -63,7 +63,7 @@ pub struct Man {
 /// `hairline info`
 #[derive(Args, Debug)]
 pub struct Info {
-    /// A scene file (TOML) or a model (.glb, .gltf); - reads a scene from stdin. Without it: what there is on this machine.
+    /// A scene file (TOML) or a model (.glb, .gltf, .obj, .stl); - reads a scene from stdin. Without it: what there is on this machine.
     pub scene: Option<PathBuf>,
     /// Print the scene as JSON.
     #[arg(long, requires = "scene")]
@@ -73,7 +73,7 @@ pub struct Info {
 /// `hairline scratches`
 #[derive(Args, Debug)]
 pub struct Scratches {
-    /// The scene file (TOML), or a model (.glb, .gltf); - reads a scene from stdin.
+    /// The scene file (TOML), or a model (.glb, .gltf, .obj, .stl); - reads a scene from stdin.
     pub scene: PathBuf,
     /// The list: a straight piece a row, in world space, metres; then the number of its scratch and the surface's normal.
     #[arg(short, long, value_name = "FILE")]
@@ -92,7 +92,7 @@ pub struct Scratches {
 /// `hairline export`
 #[derive(Args, Debug)]
 pub struct Export {
-    /// The scene file (TOML), or a model (.glb, .gltf), which gets the wear and the lamps that `render` shows it with; - reads a scene from stdin.
+    /// The scene file (TOML), or a model (.glb, .gltf, .obj, .stl), which gets the wear and the lamps that `render` shows it with; - reads a scene from stdin.
     pub scene: PathBuf,
     /// The file: .glb.
     #[arg(short, long, value_name = "FILE")]
@@ -142,7 +142,7 @@ pub struct Completions {
 /// `hairline render`
 #[derive(Args, Debug)]
 pub struct Render {
-    /// The scene file (TOML), or a model (.glb, .gltf), which is shown in a lit scene; - reads a scene from stdin. Without it: the
+    /// The scene file (TOML), or a model (.glb, .gltf, .obj, .stl), which is shown in a lit scene; - reads a scene from stdin. Without it: the
     /// built-in scene.
     pub scene: Option<PathBuf>,
     /// The picture: .png (tone-mapped, sRGB) or .exr (linear, 32-bit float, layers); - writes a .png to stdout. Without it: the scene's
@@ -296,7 +296,7 @@ const COMPARE_EXIT_CODES: &str = "Exit codes: 0 done; 1 a figure is beyond its l
 #[derive(Args, Debug)]
 #[command(after_help = REFERENCE_HELP)]
 pub struct Reference {
-    /// The scene file (TOML), or a model (.glb, .gltf), which is shown in a lit scene; - reads a scene from stdin.
+    /// The scene file (TOML), or a model (.glb, .gltf, .obj, .stl), which is shown in a lit scene; - reads a scene from stdin.
     pub scene: PathBuf,
     /// The picture: .exr (linear, layers, variance; can be gone on with) or .png (tone-mapped, sRGB). Without it: the scene's
     /// name with -reference.exr, in the current folder.

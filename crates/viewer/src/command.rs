@@ -131,7 +131,7 @@ const TABLE: &[Entry] = &[
     entry(Command::CopyLink, Group::File, "Copy a link to the scene", Some((Modifiers::SHIFT, Key::L))),
     entry(Command::Reload, Group::File, "Reload from the file", Some((COMMAND, Key::R))),
     entry(Command::Revert, Group::File, "Revert to what was saved", None),
-    entry(Command::AddModel, Group::File, "Add a model (glTF)…", Some((COMMAND, Key::I))),
+    entry(Command::AddModel, Group::File, "Add a model…", Some((COMMAND, Key::I))),
     entry(Command::SetEnvironment, Group::File, "Set the environment (HDR, EXR)…", None),
     entry(Command::Screenshot, Group::File, "Save a picture…", Some((COMMAND, Key::P))),
     entry(Command::Turntable, Group::File, "Export a turntable…", None),

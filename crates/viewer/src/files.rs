@@ -60,10 +60,10 @@ impl Purpose {
         match self {
             Self::Open => (
                 "Hairline scenes and models",
-                &["toml", "glb", "gltf"],
+                &["toml", "glb", "gltf", "obj", "stl"],
             ),
             Self::SaveAs => ("Hairline scenes", &["toml"]),
-            Self::AddModel => ("glTF models", &["glb", "gltf"]),
+            Self::AddModel => ("Models", &["glb", "gltf", "obj", "stl"]),
             Self::Environment => ("Environment maps", &["hdr", "exr"]),
             Self::Screenshot => ("Pictures", &["png", "exr"]),
             Self::Turntable => ("Pictures and animations", &["png", "exr", "apng"]),

@@ -165,7 +165,7 @@ class ObjectKeys(Table):
     shape: Optional[Mapping[str, Mapping[str, Any]]] = _default()
     """A built-in shape. Default: this or ``mesh``. Range: see shapes."""
     mesh: Optional[Union[Path, core.MeshArray]] = _default()
-    """A model. Default: this or ``shape``. Range: ``.gltf`` or ``.glb``."""
+    """A model. Default: this or ``shape``. Range: ``.gltf``, ``.glb``, ``.obj`` or ``.stl``."""
     material: Optional[str] = _default()
     """A ``mesh`` without it keeps the materials of its file; with it, all of the mesh is of this one. Default: required for a ``shape``. Range: name of a material."""
     up: str = _default()

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use hairline_document::Description;
 use hairline_document::description::Map;
 use hairline_document::gltf_scene;
 use hairline_document::probe::{self, MeshSummary};
@@ -116,16 +117,16 @@ impl Viewer {
         match ending.to_string_lossy().to_lowercase().as_str() {
             "toml" => self.wish(ctx, Wish::Open(path.to_owned())),
             // One that holds a scene is one.
-            "glb" | "gltf" if gltf_scene::is_in(path) => {
-                self.wish(ctx, Wish::Open(path.to_owned()));
-            }
-            "glb" | "gltf" => self.probe(ctx, Purpose::AddModel, path),
+            _ if Description::is_model(path) => match gltf_scene::is_in(path) {
+                true => self.wish(ctx, Wish::Open(path.to_owned())),
+                false => self.probe(ctx, Purpose::AddModel, path),
+            },
             "hdr" | "exr" => self.probe(ctx, Purpose::Environment, path),
             "csv" => self.add_list(path),
             _ => self.work.notices.error(
                 "file",
                 format!(
-                    "{}: is none of the files that can be dropped here: scenes (.toml), models (.glb, .gltf), \
+                    "{}: is none of the files that can be dropped here: scenes (.toml), models (.glb, .gltf, .obj, .stl), \
                      environment maps (.hdr, .exr) and lists of scratches (.csv)",
                     path.display()
                 ),
