@@ -41,7 +41,7 @@ fn run(arguments: &View) -> Result<(), Failure> {
     if let Some(path) = &arguments.scene {
         if path == Path::new("-") {
             return Err(Failure::Input(anyhow!(
-                "the viewer needs a file, which it can save to; give the path of a scene (.toml) or a model (.glb, .gltf)"
+                "the viewer needs a file, which it can save to; give the path of a scene (.toml) or a model (.glb, .gltf, .obj, .stl)"
             )));
         }
         hairline_console::refuse_other_files(path)?;

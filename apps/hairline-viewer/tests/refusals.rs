@@ -46,7 +46,7 @@ fn what_it_cannot_open_is_refused() {
     for (argument, message) in [
         (
             "picture.png",
-            "it is a picture; give a scene (.toml) or a model (.glb, .gltf)",
+            "it is a picture; give a scene (.toml) or a model (.glb, .gltf, .obj, .stl)",
         ),
         ("map.hdr", "an environment map"),
         ("-", "needs a file"),

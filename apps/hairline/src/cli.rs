@@ -42,7 +42,8 @@ pub enum Command {
     Bench(Bench),
     /// Show the version, the graphics adapters and their properties, and the backends available; or the contents of a scene.
     Info(Info),
-    /// Write the laid scratches of an object as a list (CSV), for other programs: three.js, game engines, Blender.
+    /// Write the laid scratches of an object as a list (CSV), for other programs: three.js, game engines, Blender; with --own-frame for
+    /// `pattern = "file"` of scenes.
     Scratches(Scratches),
     /// Write a scene as one glTF file (.glb) that other programs open, with its scratches by the extension HAIRLINE_scratches. Hairline opens it as
     /// the same scene.
@@ -63,7 +64,7 @@ pub struct Man {
 /// `hairline info`
 #[derive(Args, Debug)]
 pub struct Info {
-    /// A scene file (TOML) or a model (.glb, .gltf); - reads a scene from stdin. Without it: what there is on this machine.
+    /// A scene file (TOML) or a model (.glb, .gltf, .obj, .stl); - reads a scene from stdin. Without it: what there is on this machine.
     pub scene: Option<PathBuf>,
     /// Print the scene as JSON.
     #[arg(long, requires = "scene")]
@@ -73,7 +74,7 @@ pub struct Info {
 /// `hairline scratches`
 #[derive(Args, Debug)]
 pub struct Scratches {
-    /// The scene file (TOML), or a model (.glb, .gltf); - reads a scene from stdin.
+    /// The scene file (TOML), or a model (.glb, .gltf, .obj, .stl); - reads a scene from stdin.
     pub scene: PathBuf,
     /// The list: a straight piece a row, in world space, metres; then the number of its scratch and the surface's normal.
     #[arg(short, long, value_name = "FILE")]
@@ -84,12 +85,15 @@ pub struct Scratches {
     /// Only this layer of scratches, counted from 0.
     #[arg(long, value_name = "N")]
     pub layer: Option<u32>,
+    /// In the object's own frame, in place of world space: `pattern = "file"` lays such a list on the object again.
+    #[arg(long)]
+    pub own_frame: bool,
 }
 
 /// `hairline export`
 #[derive(Args, Debug)]
 pub struct Export {
-    /// The scene file (TOML), or a model (.glb, .gltf), which gets the wear and the lamps that `render` shows it with; - reads a scene from stdin.
+    /// The scene file (TOML), or a model (.glb, .gltf, .obj, .stl), which gets the wear and the lamps that `render` shows it with; - reads a scene from stdin.
     pub scene: PathBuf,
     /// The file: .glb.
     #[arg(short, long, value_name = "FILE")]
@@ -139,7 +143,7 @@ pub struct Completions {
 /// `hairline render`
 #[derive(Args, Debug)]
 pub struct Render {
-    /// The scene file (TOML), or a model (.glb, .gltf), which is shown in a lit scene; - reads a scene from stdin. Without it: the
+    /// The scene file (TOML), or a model (.glb, .gltf, .obj, .stl), which is shown in a lit scene; - reads a scene from stdin. Without it: the
     /// built-in scene.
     pub scene: Option<PathBuf>,
     /// The picture: .png (tone-mapped, sRGB) or .exr (linear, 32-bit float, layers); - writes a .png to stdout. Without it: the scene's
@@ -318,7 +322,7 @@ const COMPARE_EXIT_CODES: &str = "Exit codes: 0 done; 1 a figure is beyond its l
 #[derive(Args, Debug)]
 #[command(after_help = REFERENCE_HELP)]
 pub struct Reference {
-    /// The scene file (TOML), or a model (.glb, .gltf), which is shown in a lit scene; - reads a scene from stdin.
+    /// The scene file (TOML), or a model (.glb, .gltf, .obj, .stl), which is shown in a lit scene; - reads a scene from stdin.
     pub scene: PathBuf,
     /// The picture: .exr (linear, layers, variance; can be gone on with) or .png (tone-mapped, sRGB). Without it: the scene's
     /// name with -reference.exr, in the current folder.

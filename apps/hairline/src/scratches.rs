@@ -4,13 +4,14 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 
 use anyhow::{Context, anyhow};
+use glam::DMat4;
 use hairline_console::tell;
 use hairline_document::text::shown;
 use hairline_document::write_scratches;
 use hairline_scene::Object;
 
 use crate::cli;
-use crate::scene_file::{self, Overrides};
+use crate::scene_file::{self, Loaded, Overrides};
 use hairline_work::failure::Failure;
 
 /// Writes the list.
@@ -33,9 +34,18 @@ pub fn run(arguments: &cli::Scratches) -> Result<(), Failure> {
             "found {found} on object \"{name}\""
         )));
     }
+    let frame_from_world = match arguments.own_frame {
+        true => own_from_world(&loaded, object),
+        false => DMat4::IDENTITY,
+    };
     let write = || -> anyhow::Result<()> {
         let mut out = BufWriter::new(File::create(output)?);
-        write_scratches(object, scratches.iter().copied(), &mut out)?;
+        write_scratches(
+            object,
+            scratches.iter().copied(),
+            &frame_from_world,
+            &mut out,
+        )?;
         out.flush()?;
         Ok(())
     };
@@ -49,6 +59,13 @@ pub fn run(arguments: &cli::Scratches) -> Result<(), Failure> {
         scratches.len()
     ));
     Ok(())
+}
+
+/// From world space to the frame of an object. The ground and the shapes of lamps are in world space.
+fn own_from_world(loaded: &Loaded, object: &Object) -> DMat4 {
+    let mut described = loaded.description.objects.iter();
+    let described = described.find(|it| it.name == object.name);
+    described.map_or(DMat4::IDENTITY, |it| it.world_from_object().inverse())
 }
 
 /// The object of a name, or the only one that wears scratches.

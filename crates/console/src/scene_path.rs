@@ -19,13 +19,11 @@ pub fn refuse_other_files(path: &Path) -> Result<(), Failure> {
         "hdr" | "exr" => "an environment map; name it in a scene as `file` of [environment]",
         "png" | "jpg" | "jpeg" | "webp" | "apng" | "tif" | "tiff" => "a picture",
         "csv" => "a list of scratches; name it in a scene as `file` of a [[scratches]]",
-        "obj" | "fbx" | "stl" | "ply" | "blend" | "usd" | "usdz" => {
-            "a model of another format; export it as .glb"
-        }
+        "fbx" | "ply" | "blend" | "usd" | "usdz" => "a model of another format; export it as .glb",
         _ => return Ok(()),
     };
     Err(Failure::Input(anyhow!(
-        "{}: it is {what}; give a scene (.toml) or a model (.glb, .gltf)",
+        "{}: it is {what}; give a scene (.toml) or a model (.glb, .gltf, .obj, .stl)",
         path.display()
     )))
 }

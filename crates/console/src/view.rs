@@ -9,7 +9,7 @@ use crate::{Backend, Switch};
 /// Scene and flags of the viewer.
 #[derive(Args, Debug, Default)]
 pub struct View {
-    /// The scene file (TOML), or a model (.glb, .gltf), which is shown in a lit scene. Without it: the built-in scene.
+    /// The scene file (TOML), or a model (.glb, .gltf, .obj, .stl), which is shown in a lit scene. Without it: the built-in scene.
     pub scene: Option<PathBuf>,
     /// Renderer. auto: the window's GPU, or the CPU renderer where the window is drawn by a software driver.
     #[arg(long, value_enum, default_value_t = Backend::Auto)]

@@ -328,7 +328,7 @@ impl Up {
 pub enum Surface {
     /// `shape = { KIND = { .. } }`
     Shape(Shape),
-    /// `mesh = "FILE"`: a `.gltf` or `.glb`, relative to the scene file.
+    /// `mesh = "FILE"`: a `.gltf`, `.glb`, `.obj` or `.stl`, relative to the scene file.
     Mesh(PathBuf),
 }
 

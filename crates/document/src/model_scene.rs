@@ -37,7 +37,7 @@ const VIEW: DVec2 = DVec2::new(-0.42, -1.0);
 const ELEVATION_DEG: [f64; 2] = [32.0, 12.0];
 
 impl Description {
-    /// Whether a file is a model by its name: .glb or .gltf.
+    /// Whether a file is a model by its name: .glb, .gltf, .obj or .stl.
     pub fn is_model(path: &Path) -> bool {
         packed::is_model(path)
     }

@@ -69,7 +69,7 @@ pub struct EnvironmentSummary {
     pub size_px: [u32; 2],
 }
 
-/// Reads a .gltf or .glb file as an object would, buffers and images included.
+/// Reads a model's file as an object would, buffers and images included.
 ///
 /// # Errors
 /// What is wrong with the file.

@@ -22,6 +22,7 @@ mod outlines;
 mod painted;
 mod place;
 mod random;
+mod ruler;
 mod strewn;
 mod swirl;
 mod walk;
@@ -49,6 +50,7 @@ use painted::Painted;
 use place::GroundPlaces;
 pub(crate) use place::PlaceInputs;
 use random::Stream;
+pub use ruler::Ruler;
 use strewn::Strewn;
 use walk::{Course, Walker};
 

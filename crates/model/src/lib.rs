@@ -1,4 +1,4 @@
-//! Turns a glTF file into triangles, materials and textures, and tells what of it is left out. Nothing here knows of scratches: `hairline-document` lays
+//! Turns a glTF file into triangles, materials and textures, and tells what of it is left out. OBJ and STL files are made into glTF first. Nothing here knows of scratches: `hairline-document` lays
 //! them on what a file gives.
 
 #![warn(unreachable_pub)]
@@ -10,6 +10,7 @@ mod ktx2;
 pub mod material;
 pub mod mesh;
 pub mod mesh_file;
+mod other_formats;
 pub mod packed;
 pub mod reading;
 pub mod surface;

@@ -1,4 +1,4 @@
-//! glTF 2.0 and GLB files, after the specification of the Khronos Group (2021).
+//! glTF 2.0 and GLB files, after the specification of the Khronos Group (2021), and what is made into such.
 //!
 //! All nodes of the file's scene become one mesh with a material per triangle. What the file cannot be trusted with (bounds,
 //! cycles, numbers that are none) is checked here: a broken file ends in a [`Flaw`], never in a panic. What is not read is told:
@@ -47,6 +47,7 @@ use gltf::Gltf;
 pub use crate::flaw::Flaw;
 use crate::flaw::RIGHT;
 use crate::mesh::{Mesh, NodeTriangles};
+use crate::other_formats::{OtherFormat, Translated};
 use crate::packed;
 use crate::reading::{self, FileKind};
 use crate::text::shown;
@@ -82,7 +83,7 @@ pub fn read(
         animations: placing.time_s.is_some(),
         cameras: false,
     };
-    let gltf = parse(path, kept)?;
+    let (gltf, translated) = parse(path, kept)?;
     let base_dir = &folder(path);
     let FileContents {
         parts,
@@ -94,6 +95,8 @@ pub fn read(
         free_bytes,
         with_mips,
     } = stock;
+    files.extend(translated.files);
+    notes.extend(translated.notes);
     let buffers = Buffers::read(&gltf, base_dir, files)?;
     let first_own = materials.len();
     let mut materials = match material {
@@ -198,7 +201,7 @@ pub fn camera(
         animations: placing.time_s.is_some(),
         cameras: true,
     };
-    let gltf = parse(path, kept)?;
+    let (gltf, _) = parse(path, kept)?;
     let buffers = Buffers::read(&gltf, &folder(path), &mut Vec::new())?;
     let shapes = Shapes::new(&gltf.document, &buffers, placing.moment())?;
     let start = placing.start(&shapes, world_from_object)?;
@@ -216,7 +219,7 @@ pub fn object_from_file(
         animations: placing.time_s.is_some(),
         cameras: false,
     };
-    let gltf = parse(path, kept)?;
+    let (gltf, _) = parse(path, kept)?;
     let buffers = Buffers::read(&gltf, &folder(path), &mut Vec::new())?;
     let shapes = Shapes::new(&gltf.document, &buffers, placing.moment())?;
     Ok(placing.start(&shapes, world_from_object)?.object_from_file)
@@ -224,7 +227,7 @@ pub fn object_from_file(
 
 /// The lights of a file, in its own frame.
 pub fn lights(path: &Path) -> Result<Vec<Punctual>, Flaw> {
-    lights::of(&parse(path, OptionalElements::default())?.document)
+    lights::of(&parse(path, OptionalElements::default())?.0.document)
 }
 
 /// The folder from which a file's own paths start.
@@ -234,16 +237,23 @@ fn folder(path: &Path) -> PathBuf {
     file
 }
 
-/// The bytes of a file.
-pub(crate) fn file(path: &Path) -> Result<Vec<u8>, Flaw> {
+/// A file as glTF.
+pub(crate) fn file(path: &Path) -> Result<Translated, Flaw> {
     let mut bytes = reading::read(path, FileKind::File, FILE_SHARE).map_err(|error| {
         Flaw::new(
             format!("it cannot be read ({error})"),
-            "give the path of a .gltf or .glb file, relative to the scene file",
+            "give the path of a .gltf, .glb, .obj or .stl file, relative to the scene file",
         )
     })?;
     drop_order_mark(&mut bytes);
-    Ok(bytes)
+    match OtherFormat::of(path) {
+        Some(_) if bytes.is_empty() => Err(Flaw::new("it is empty", "must be a whole file")),
+        Some(format) => format.translated(path, &bytes),
+        None => Ok(Translated {
+            bytes,
+            ..Translated::default()
+        }),
+    }
 }
 
 /// The text of a file, and its binary chunk.
@@ -293,11 +303,12 @@ pub(crate) fn no_model(name: &str) -> Flaw {
     Flaw::new(found, "must be one of the names in its HAIRLINE_scratches")
 }
 
-/// Reads the text of a file, or that of a model in it.
-fn parse(path: &Path, kept: OptionalElements) -> Result<Gltf, Flaw> {
+/// Reads the text of a file, or that of a model in it; and what else came of its translation, without the bytes.
+fn parse(path: &Path, kept: OptionalElements) -> Result<(Gltf, Translated), Flaw> {
     let right = RIGHT;
     let part = packed::split(path);
-    let bytes = file(part.as_ref().map_or(path, |(file, _)| file))?;
+    let mut translated = file(part.as_ref().map_or(path, |(file, _)| file))?;
+    let bytes = std::mem::take(&mut translated.bytes);
     let (mut text, blob) = chunks(&bytes)?;
     if let Some((_, name)) = &part {
         text = Cow::Owned(head::alone(&text, name).ok_or_else(|| no_model(name))?);
@@ -332,5 +343,5 @@ fn parse(path: &Path, kept: OptionalElements) -> Result<Gltf, Flaw> {
     }
     let document = gltf::Document::from_json(json)
         .map_err(|error| Flaw::new(format!("it is no valid glTF ({error})"), right))?;
-    Ok(Gltf { document, blob })
+    Ok((Gltf { document, blob }, translated))
 }

@@ -11,10 +11,13 @@ pub const EXTENSION: &str = "HAIRLINE_scratches";
 /// Extensions of a file that are of no part of it.
 const OF_THE_WHOLE: [&str; 2] = [EXTENSION, "EXT_lights_area"];
 
-/// Whether a file is a model by its name: .glb or .gltf.
+/// Endings of models' files.
+pub const MODELS: [&str; 4] = ["glb", "gltf", "obj", "stl"];
+
+/// Whether a file is a model by its name: .glb, .gltf, .obj or .stl.
 pub fn is_model(path: &Path) -> bool {
     let ending = path.extension().unwrap_or_default();
-    ending.eq_ignore_ascii_case("glb") || ending.eq_ignore_ascii_case("gltf")
+    MODELS.iter().any(|it| ending.eq_ignore_ascii_case(it))
 }
 
 /// The file that a path leads into, and the name there; none of a path of a file of its own.

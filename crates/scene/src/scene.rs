@@ -155,13 +155,27 @@ pub struct Object {
 }
 
 impl Object {
+    /// The straight pieces of one of its scratches.
+    pub fn pieces(&self, scratch: &Scratch) -> &[Segment] {
+        &self.segments[scratch.segments.start as usize..scratch.segments.end as usize]
+    }
+
+    /// Indices of the scratches of a layer, which lie side by side.
+    pub fn of_layer(&self, layer: u32) -> Range<usize> {
+        let first = self.scratches.partition_point(|it| it.layer < layer);
+        let end = self.scratches.partition_point(|it| it.layer <= layer);
+        first..end
+    }
+
+    /// Length of a scratch.
+    pub fn length_m(&self, scratch: &Scratch) -> f32 {
+        let pieces = self.pieces(scratch).iter();
+        pieces.map(|p| p.start_m.distance(p.end_m)).sum()
+    }
+
     /// The area of a scratch: its width in micrometres times its length in metres.
     pub fn covered_um_m(&self, scratch: &Scratch) -> f32 {
-        let own = scratch.segments.start as usize..scratch.segments.end as usize;
-        let lengths = self.segments[own]
-            .iter()
-            .map(|p| p.start_m.distance(p.end_m));
-        scratch.profile.width_um * lengths.sum::<f32>()
+        scratch.profile.width_um * self.length_m(scratch)
     }
 }
 

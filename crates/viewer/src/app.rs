@@ -31,6 +31,7 @@ use crate::free_view::FreeView;
 use crate::gallery::Gallery;
 use crate::looks::Looks;
 use crate::loss::WindowLoss;
+use crate::measure::Measure;
 use crate::missing;
 use crate::model_export::ModelExport;
 use crate::notices::Notices;
@@ -135,6 +136,7 @@ impl Viewer {
             toolbox: Toolbox::default(),
             region: None,
             reading: ReadingState::default(),
+            measure: Measure::default(),
             free_view: FreeView::default(),
             transport: options.transport,
             overlays: Overlays::default(),
@@ -210,6 +212,12 @@ impl Viewer {
     /// Reading of the probe, for tests.
     pub fn probed(&self) -> Option<crate::reading::Reading> {
         self.work.reading.probe.reading()
+    }
+
+    /// The distances that were measured, along the surface and straight, for tests.
+    pub fn measured_m(&self) -> Option<[Option<f64>; 2]> {
+        let span = self.work.measure.span.found()?;
+        Some([span.along_m(), Some(span.straight_m())])
     }
 
     /// The figures of the comparison that is open, for tests.

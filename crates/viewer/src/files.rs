@@ -32,6 +32,8 @@ pub(crate) enum Purpose {
     ExportModel,
     /// A drawing to be engraved.
     Drawing,
+    /// The list of the selected layer's scratches.
+    ScratchList,
     /// A file that the scene names and that is not there.
     Find(FileUse),
     /// A mask, a map or the picture of a light.
@@ -50,6 +52,7 @@ impl Purpose {
             Self::Turntable => "Export a turntable: name of the first frame",
             Self::ExportModel => "Export the model with its scratches",
             Self::Drawing => "Engrave a drawing",
+            Self::ScratchList => "Save the list of scratches",
             Self::Find(_) => "Find the file",
             Self::Picture(_) => "Choose a picture",
         }
@@ -58,16 +61,21 @@ impl Purpose {
     /// Name and extensions of the files that a dialog lists.
     pub fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
-            Self::Open => ("Hairline scenes and models", &["toml", "glb", "gltf"]),
+            Self::Open => (
+                "Hairline scenes and models",
+                &["toml", "glb", "gltf", "obj", "stl"],
+            ),
             Self::SaveAs => ("Hairline scenes", &["toml"]),
-            Self::AddModel => ("glTF models", &["glb", "gltf"]),
+            Self::AddModel => ("Models", &["glb", "gltf", "obj", "stl"]),
             Self::Environment => ("Environment maps", &["hdr", "exr"]),
             Self::Screenshot => ("Pictures", &["png", "exr"]),
             Self::Turntable => ("Pictures and animations", &["png", "exr", "apng", "mp4"]),
             Self::ExportModel => ("glTF models", &["glb"]),
             Self::Find(FileUse::Map) => Self::Environment.filter(),
             Self::Find(FileUse::Mesh(_)) => Self::AddModel.filter(),
-            Self::Find(FileUse::ScratchList(_)) => ("Lists of scratches", &["csv"]),
+            Self::ScratchList | Self::Find(FileUse::ScratchList(_)) => {
+                ("Lists of scratches", &["csv"])
+            }
             Self::Drawing | Self::Find(FileUse::Drawing(_)) => ("Drawings", &["svg"]),
             Self::Find(_) | Self::Picture(_) => {
                 ("Pictures", &["png", "jpg", "jpeg", "webp", "hdr", "exr"])
@@ -79,7 +87,11 @@ impl Purpose {
     pub fn writes(self) -> bool {
         matches!(
             self,
-            Self::SaveAs | Self::Screenshot | Self::Turntable | Self::ExportModel
+            Self::SaveAs
+                | Self::Screenshot
+                | Self::Turntable
+                | Self::ExportModel
+                | Self::ScratchList
         )
     }
 
@@ -98,6 +110,7 @@ impl Purpose {
             Self::Screenshot => format!("{stem}.png"),
             Self::Turntable => format!("{stem}-turntable.png"),
             Self::ExportModel => format!("{stem}-worn.glb"),
+            Self::ScratchList => format!("{stem}-scratches.csv"),
         }
     }
 }

@@ -36,6 +36,7 @@ mod jobs;
 mod link;
 mod looks;
 mod loss;
+mod measure;
 mod missing;
 mod model_export;
 mod notices;

@@ -15,6 +15,8 @@ pub(crate) enum Overlay {
     Handles,
     /// Names of objects and lights.
     Names,
+    /// Numbers of scratches of the layers whose directions are drawn.
+    Numbers,
 }
 
 /// Choice of the visible overlays.
@@ -26,20 +28,25 @@ pub(crate) struct Overlays {
 }
 
 impl Overlay {
-    const ALL: [Self; 6] = [
+    const ALL: [Self; 7] = [
         Self::Directions,
         Self::AllDirections,
         Self::Brush,
         Self::Lights,
         Self::Handles,
         Self::Names,
+        Self::Numbers,
     ];
 }
 
 impl Default for Overlays {
     fn default() -> Self {
-        let is_shown =
-            |overlay: Overlay| !matches!(overlay, Overlay::AllDirections | Overlay::Names);
+        let is_shown = |overlay: Overlay| {
+            !matches!(
+                overlay,
+                Overlay::AllDirections | Overlay::Names | Overlay::Numbers
+            )
+        };
         Self {
             shown: Overlay::ALL.map(is_shown),
             are_hidden: false,

@@ -109,7 +109,7 @@ impl Page {
         }
         let is_for_a_model = |name: &str| {
             let ending = Path::new(name).extension().unwrap_or_default();
-            ["bin", "png", "jpg", "jpeg", "webp"]
+            ["bin", "mtl", "png", "jpg", "jpeg", "webp"]
                 .iter()
                 .any(|other| ending == *other)
         };

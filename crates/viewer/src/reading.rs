@@ -14,6 +14,8 @@ mod false_color;
 mod histogram;
 mod histogram_window;
 mod layer_view;
+mod list_window;
+mod measure_window;
 mod probe;
 mod probe_window;
 mod show;

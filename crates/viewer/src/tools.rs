@@ -22,6 +22,8 @@ hairline_image::listed! {
         PickPart = "Click on a part of an object: the selected layer of scratches lies on that part alone";
         /// Drag draws the region that is rendered first.
         Region = "Drag over a part of the picture: it is rendered before the rest. A click gives it up";
+        /// Click reads a scratch; drag measures along the surface.
+        Measure = "Click on a scratch to read it; drag over a surface to measure along it";
     }
     /// Description for a tooltip.
     fn hint;

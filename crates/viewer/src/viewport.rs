@@ -7,6 +7,7 @@ mod gizmo;
 pub(crate) mod ink;
 pub(crate) mod lens;
 mod line_field;
+mod measure;
 mod mouse;
 mod overlays;
 mod pen;
@@ -49,6 +50,8 @@ pub(crate) struct Viewport {
     pointed: Option<(Area, egui::Pos2)>,
     /// A light goes where the pointer drags its highlight.
     is_placing: bool,
+    /// A ruler follows the pointer.
+    is_measuring: bool,
     /// Time at which the wheel was last turned, seconds: its turns in a row are one step.
     wheeled: f64,
     /// The button went down to close a popup, and does nothing else until it goes down again.
@@ -73,6 +76,7 @@ impl Viewport {
             view: None,
             pointed: None,
             is_placing: false,
+            is_measuring: false,
             wheeled: f64::NEG_INFINITY,
             is_shielded: false,
         }
@@ -118,7 +122,9 @@ impl Viewport {
         if is_held {
             work.document.cancel_drag();
         }
+        self.is_measuring = false;
         if is_held | self.region_from.take().is_some() | self.stroke.cancel()
+            || work.measure.clear()
             || work.free_view.stop()
             || work.reading.probe.release()
         {

@@ -3,6 +3,7 @@
 mod engrave;
 mod fit;
 mod give;
+mod list;
 mod looks;
 mod own;
 mod view;
@@ -25,6 +26,7 @@ use crate::files::is_same;
 use crate::free_view::FreeView;
 use crate::gallery::Gallery;
 use crate::looks::Looks;
+use crate::measure::Measure;
 use crate::notices::Notices;
 use crate::overlays::Overlays;
 use crate::platform::{HAS_PAGE, HAS_THREADS};
@@ -41,6 +43,7 @@ pub(crate) struct Workspace {
     /// Part of the picture's area that is rendered before the rest, in shares of it.
     pub region: Option<egui::Rect>,
     pub reading: ReadingState,
+    pub measure: Measure,
     pub free_view: FreeView,
     /// Shadows and bounces in this window; no part of the scene.
     pub transport: Transport,
@@ -211,7 +214,9 @@ impl Workspace {
             Command::WholePicture => self.region.is_some(),
             Command::FlipSnapshot => !self.snapshots.is_empty(),
             Command::NextLook => !self.document.description().looks.is_empty(),
-            Command::ToggleSolo => matches!(selection, Selection::Layer(_)),
+            Command::ToggleSolo | Command::ListScratches | Command::SaveList => {
+                matches!(selection, Selection::Layer(_))
+            }
             Command::Deselect => selection != Selection::None || self.toolbox.tool != Tool::Select,
             Command::Reload => self.document.path().is_some(),
             Command::Revert => self.document.can_revert(),
@@ -228,6 +233,7 @@ impl Workspace {
             Command::Overlays => Some(!self.overlays.are_hidden()),
             Command::Shadows => Some(self.transport.shadows),
             Command::Pause => Some(self.engine.is_paused()),
+            Command::ListScratches => Some(self.measure.has_list),
             Command::HighContrast => Some(self.settings.high_contrast()),
             _ => None,
         }

@@ -63,14 +63,14 @@ const MORE = ['scratch', 'nx', 'ny', 'nz'];
 
 /**
  * Reads a list: the CSV of docs/scene.md, a straight scratch a row, or what `hairline scratches` writes, a straight piece a row with the
- * number of its scratch and the normal. A mistake is an Error with its line. `profile`: the cross section of all of them, as in scene files.
+ * number of its scratch, and the normal or not. A mistake is an Error with its line. `profile`: the cross section of all of them, as in scene files.
  */
 export function readScratches(text, name = 'scratches.csv', { profile = RECTANGLE } = {}) {
   const lines = text.replace(/^\ufeff/, '').split(/\r?\n/);
   const first = lines.findIndex((line) => line.trim() !== '');
   const header = (lines[first] ?? '').split(',').map((cell) => cell.trim()).join(',');
   const [short, long] = [COLUMNS.join(','), [...COLUMNS, ...MORE].join(',')];
-  if (header !== short && header !== long) {
+  if (![short, `${short},${MORE[0]}`, long].includes(header)) {
     throw new Error(`${name}:${first + 1}: found \`${header.slice(0, 80)}\`; must be the header \`${short}\` or \`${long}\``);
   }
   const columns = header.split(',');
@@ -93,14 +93,13 @@ export function readScratches(text, name = 'scratches.csv', { profile = RECTANGL
     rows.push(row);
   }
   const pick = (...at) => Float32Array.from(rows.flatMap((row) => at.map((c) => row[c])));
-  const isLong = columns.length > COLUMNS.length;
   return new Scratches({
     starts: pick(0, 1, 2),
     ends: pick(3, 4, 5),
     widthsUm: pick(6),
     depthsNm: pick(7),
-    scratch: isLong ? Uint32Array.from(rows, (row) => row[8]) : Uint32Array.from(rows.keys()),
-    normals: isLong ? pick(9, 10, 11) : null,
+    scratch: columns.length > COLUMNS.length ? Uint32Array.from(rows, (row) => row[8]) : Uint32Array.from(rows.keys()),
+    normals: header === long ? pick(9, 10, 11) : null,
     profiles: profilesOf(profile, rows.length),
   });
 }

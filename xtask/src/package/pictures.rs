@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, ensure};
+use glam::DMat4;
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_document::gltf_scene::Export;
 use hairline_document::{Description, Loader, write_scratches};
@@ -195,7 +196,7 @@ fn write_page(folder: &Path, scene: &Scene) -> anyhow::Result<()> {
     );
     write(&folder.join("mesh.bin"), &bytes)?;
     let mut list = Vec::new();
-    write_scratches(object, object.scratches.iter(), &mut list)?;
+    write_scratches(object, object.scratches.iter(), &DMat4::IDENTITY, &mut list)?;
     write(&folder.join("scratches.csv"), &list)?;
     let material = &scene.materials[mesh.triangle_materials[0] as usize];
     let surface = match material.base {

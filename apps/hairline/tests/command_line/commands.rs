@@ -446,10 +446,10 @@ fn other_files_than_scenes_are_refused_with_their_use() {
     for (arguments, message) in [
         (
             "render picture.png",
-            "it is a picture; give a scene (.toml) or a model (.glb, .gltf)",
+            "it is a picture; give a scene (.toml) or a model (.glb, .gltf, .obj, .stl)",
         ),
         ("render map.hdr", "an environment map"),
-        ("render model.obj", "export it as .glb"),
+        ("render model.fbx", "export it as .glb"),
     ] {
         let text = stderr_of(&hairline(folder.path(), arguments).code(2));
         assert!(text.contains(message), "{arguments}: {text}");

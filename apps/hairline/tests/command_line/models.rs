@@ -1,5 +1,6 @@
 //! Models that are rendered: at a time, by a camera of the file, and with notes on the contents that the picture does not have.
 
+use std::fs;
 use std::path::Path;
 
 use crate::common::{hairline, stderr_of, stdout_of};
@@ -161,4 +162,33 @@ fn is_seen_by_a_camera_and_told_of(file: &str) {
     }
     let of_shine = listed.lines().find(|line| line.contains("shine of"));
     assert!(of_shine.is_some_and(|it| it.ends_with("; the picture is the same")));
+}
+
+/// A part of a 3D printer is rendered by itself, as large as it is in millimetres; one that is cut off is told.
+#[test]
+fn an_stl_file_is_rendered() {
+    let folder = tempfile::tempdir().unwrap();
+    let corners = [[0, 0, 0], [40, 0, 0], [0, 40, 0], [0, 0, 40]];
+    let mut text = "solid part\n".to_owned();
+    for face in [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]] {
+        let vertices = face.map(|i: usize| {
+            let [x, y, z] = corners[i];
+            format!("vertex {x} {y} {z}\n")
+        });
+        text += &format!(
+            "facet normal 0 0 0\nouter loop\n{}endloop\nendfacet\n",
+            vertices.concat()
+        );
+    }
+    fs::write(folder.path().join("cut.stl"), &text).unwrap();
+    fs::write(folder.path().join("part.stl"), text + "endsolid part\n").unwrap();
+    let run = "render part.stl --backend cpu --size 48x32 --samples 1 --shadows off -o a.png";
+    let told = stderr_of(&hairline(folder.path(), run).success());
+    assert!(told.contains("part.stl: it names no unit"), "{told}");
+    assert!(
+        !told.contains("fit_m"),
+        "4 cm are shown as they are: {told}"
+    );
+    let told = stderr_of(&hairline(folder.path(), "render cut.stl -o b.png").code(2));
+    assert!(told.contains("cut.stl: it is cut off"), "{told}");
 }

@@ -69,6 +69,36 @@ fn laid_scratches_are_listed_as_they_lie() {
     assert_eq!(read("list.csv"), list, "what the scene is made of stays");
 }
 
+/// In the object's own frame a list is what `pattern = "file"` reads.
+#[test]
+fn a_list_in_the_objects_own_frame_is_laid_again() {
+    let object = "[[object]]\nname = \"bowl\"\nmaterial = \"steel\"\nshape = { sphere = { radius_m = 0.03 } }\n\
+                  translation_m = [0.1, 0.2, 0.3]\nrotation_deg = [10, 20, 30]\n";
+    let layer = |pattern: &str| format!("{object}[[scratches]]\nobject = \"bowl\"\n{pattern}\n");
+    let laid = layer("pattern = \"swirl\"\ncount = 20\nlength_m = 0.03");
+    let folder = folder_with("s.toml", &bare_plate().part(&laid).to_string());
+    hairline(
+        folder.path(),
+        "scratches s.toml --object bowl --own-frame -o list.csv",
+    )
+    .success();
+    let listed = bare_plate().part(&layer("pattern = \"file\"\nfile = \"list.csv\""));
+    fs::write(folder.path().join("again.toml"), listed.to_string()).unwrap();
+    hairline(
+        folder.path(),
+        "scratches again.toml --object bowl --own-frame -o again.csv",
+    )
+    .success();
+    let numbers = |name: &str| {
+        let text = fs::read_to_string(folder.path().join(name)).unwrap();
+        let rows = text.lines().skip(1);
+        let numbers = rows.map(|row| row.split(',').nth(8).unwrap().parse::<u32>().unwrap());
+        numbers.max()
+    };
+    assert_eq!(numbers("list.csv"), Some(19));
+    assert_eq!(numbers("again.csv"), Some(19));
+}
+
 /// Light for scratches that shows little of them says so; shallow ones drown in what a rough base sends.
 #[test]
 fn light_that_hardly_shows_scratches_is_told_of() {

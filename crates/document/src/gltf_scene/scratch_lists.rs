@@ -12,31 +12,37 @@ use crate::arrays::ScratchArrays;
 use crate::error::Error;
 use crate::scratches::{ListedRow, list_header, read_list};
 
-/// A scratch of a list.
-type Row = ([[f64; 3]; 2], Profile);
+/// A row of a list, with the number of its scratch.
+type Row = ([[f64; 3]; 2], Profile, u32);
 
 /// Adds the list of a CSV file, and returns what the extension has in its place.
 pub(super) fn write_file(file: &mut GltfFile, path: &Path, key: &str) -> Result<Value, Error> {
     let rows = read_list(path, key)?;
-    let row = |row: &ListedRow| (row.ends_m, row.profile);
+    let row = |row: &ListedRow| (row.ends_m, row.profile, row.scratch);
     Ok(write(file, rows.iter().map(row)))
 }
 
 /// As [`write_file`], of a list in memory.
 pub(super) fn write_arrays(file: &mut GltfFile, arrays: &ScratchArrays) -> Value {
-    let profiles = arrays.profiles().iter().copied();
-    write(file, arrays.ends_m().iter().copied().zip(profiles))
+    let rows = arrays.ends_m().iter().zip(arrays.profiles());
+    let rows = (0u32..).zip(rows);
+    write(
+        file,
+        rows.map(|(number, (ends_m, profile))| (*ends_m, *profile, number)),
+    )
 }
 
 fn write(file: &mut GltfFile, rows: impl Iterator<Item = Row>) -> Value {
     let (mut starts, mut ends, mut widths, mut depths) = (vec![], vec![], vec![], vec![]);
     let mut exact: Vec<f64> = Vec::new();
-    for ([start, end], profile) in rows {
+    let mut numbers: Vec<u32> = Vec::new();
+    for ([start, end], profile, number) in rows {
         starts.extend(start.map(|x| x as f32));
         ends.extend(end.map(|x| x as f32));
         widths.push(profile.width_um);
         depths.push(profile.depth_nm);
         exact.extend([start, end].as_flattened());
+        numbers.push(number);
     }
     let mut list = json!({
         "start_m": file.push_floats(&starts, 3, false),
@@ -48,6 +54,11 @@ fn write(file: &mut GltfFile, rows: impl Iterator<Item = Row>) -> Value {
     if exact.iter().any(|x| f64::from(*x as f32) != *x) {
         let bytes: Vec<u8> = exact.iter().flat_map(|x| x.to_le_bytes()).collect();
         list["ends_f64"] = json!(file.push_view(&bytes));
+    }
+    // Else each is a scratch by itself.
+    if numbers.array_windows().any(|[a, b]| a == b) {
+        let bytes: Vec<u8> = numbers.iter().flat_map(|it| it.to_le_bytes()).collect();
+        list["scratches_u32"] = json!(file.push_view(&bytes));
     }
     list
 }
@@ -89,7 +100,19 @@ pub(super) fn read(file: &GltfFile, list: &Value) -> Result<String, Flaw> {
         }
         exact = numbers.iter().map(|it| f64::from_le_bytes(*it)).collect();
     }
-    let mut text = list_header();
+    let mut scratches = None;
+    if list.get("scratches_u32").is_some() {
+        let (numbers, _) = file.view(number("scratches_u32")?)?.as_chunks::<4>();
+        if numbers.len() != count {
+            let found = format!("found {} numbers in `scratches_u32`", numbers.len());
+            return Err(Flaw::new(
+                found,
+                format!("must be one for each of {count} pieces"),
+            ));
+        }
+        scratches = Some(numbers);
+    }
+    let mut text = list_header(scratches.is_some());
     for (i, ends) in exact.chunks(6).enumerate() {
         text.push('\n');
         for x in ends {
@@ -97,6 +120,9 @@ pub(super) fn read(file: &GltfFile, list: &Value) -> Result<String, Flaw> {
             let _ = write!(text, "{x},");
         }
         let _ = write!(text, "{},{}", widths[i], depths[i]);
+        if let Some(numbers) = scratches {
+            let _ = write!(text, ",{}", u32::from_le_bytes(numbers[i]));
+        }
     }
     text.push('\n');
     Ok(text)

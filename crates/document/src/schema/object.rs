@@ -36,7 +36,7 @@ pub static SHAPE: Key = Key::new("shape", Form::Table)
 
 pub static MESH: Key = Key::new("mesh", Form::File)
     .words("this or `shape`")
-    .range_words("`.gltf` or `.glb`")
+    .range_words("`.gltf`, `.glb`, `.obj` or `.stl`")
     .means("A model.");
 
 pub static MATERIAL: Key = Key::new("material", Form::Text)

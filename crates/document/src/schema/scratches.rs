@@ -222,4 +222,4 @@ pub static READING: Key = Key::new("direction", Form::Numbers(3))
 
 pub static FILE: Key = Key::new("file", Form::File)
     .range_words("CSV, UTF-8")
-    .means("One straight scratch a row, commas between.");
+    .means("One straight scratch a row, or a straight piece of one, commas between.");

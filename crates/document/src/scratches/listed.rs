@@ -1,10 +1,11 @@
-//! A layer whose scratches are listed in a CSV file, one straight scratch a row; and lists for other programs.
+//! A layer whose scratches are listed in a CSV file: one straight scratch a row, or the straight pieces of one. And lists of laid scratches, for
+//! other programs and to be read again.
 
 use std::io::{self, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use glam::DVec3;
+use glam::{DMat3, DMat4, DVec3, Vec3};
 use hairline_model::reading::{self, FileKind};
 use hairline_model::text::shown;
 use hairline_scene::{Object, Profile, Scratch, Segment};
@@ -20,9 +21,9 @@ use crate::loader::Loader;
 
 const ENDS: [&str; 6] = ["x0_m", "y0_m", "z0_m", "x1_m", "y1_m", "z1_m"];
 const COUNT: usize = ENDS.len() + LISTED_SIZES.len();
-/// Further columns of a list for other programs: the number of the scratch, whose straight pieces follow one another, and the surface's
-/// normal in the middle of the piece.
-const MORE_COLUMNS: &str = "scratch,nx,ny,nz";
+/// Further columns: the number of the scratch, whose straight pieces follow one another, and the surface's normal in the middle of the
+/// piece. A list to be read has all, none, or the number alone. The normal is not read.
+const MORE_COLUMNS: [&str; 4] = ["scratch", "nx", "ny", "nz"];
 /// Largest distance of a scratch's end from the surface, relative to the diagonal of the object: a list for the ideal shape fits its
 /// facets.
 const OFF_SURFACE: f64 = 0.01;
@@ -34,6 +35,8 @@ pub(crate) struct ListedRow {
     line: usize,
     pub ends_m: [[f64; 3]; 2],
     pub profile: Profile,
+    /// Number of its scratch. Rows side by side with one number are pieces of one scratch.
+    pub scratch: u32,
 }
 
 /// The header.
@@ -42,9 +45,11 @@ fn columns() -> Vec<&'static str> {
     ENDS.into_iter().chain(sizes).collect()
 }
 
-/// The header of a list.
-pub(crate) fn list_header() -> String {
-    columns().join(",")
+/// The header of a list, with the numbers of the scratches or without.
+pub(crate) fn list_header(has_numbers: bool) -> String {
+    let numbers = has_numbers.then_some(MORE_COLUMNS[0]);
+    let names: Vec<_> = columns().into_iter().chain(numbers).collect();
+    names.join(",")
 }
 
 /// Reads all rows. `key` is the way to the layer's table in the scene file.
@@ -78,17 +83,57 @@ fn parse(text: &str, path: &Path) -> Result<Vec<ListedRow>, Error> {
         return Err(Error::new("", "found an empty file", header_is()).at(path, Some(1)));
     };
     let header: Vec<_> = header.split(',').map(bare).collect();
-    if header != columns() {
+    let all: Vec<_> = columns().into_iter().chain(MORE_COLUMNS).collect();
+    let is_known = [COUNT, COUNT + 1, all.len()].contains(&header.len());
+    if !is_known || header != all[..header.len()] {
         let found = format!("found `{}`", shown(&header.join(",")));
         return Err(Error::new("", found, header_is()).at(path, Some(first)));
     }
     let lines: Vec<_> = lines.collect();
-    let rows: Vec<_> = lines
-        .par_iter()
-        .map(|&(line, row)| parse_row(line, row).map_err(|error| error.at(path, Some(line))))
+    let rows: Vec<_> = (0u32..lines.len() as u32)
+        .into_par_iter()
+        .zip(&lines)
+        .map(|(number, &(line, row))| {
+            let row = parse_row(line, row, header.len(), number);
+            row.map_err(|error| error.at(path, Some(line)))
+        })
         .collect();
     // The first wrong one, whichever was read first.
-    rows.into_iter().collect()
+    let rows: Vec<ListedRow> = rows.into_iter().collect::<Result<_, _>>()?;
+    for [before, row] in rows.array_windows() {
+        row.check_after(before)
+            .map_err(|error| error.at(path, Some(row.line)))?;
+    }
+    Ok(rows)
+}
+
+impl ListedRow {
+    /// Refuses a piece that does not go on where the one before it, of the same scratch, ends.
+    fn check_after(&self, before: &Self) -> Result<(), Error> {
+        if self.scratch != before.scratch {
+            return Ok(());
+        }
+        if self.ends_m[0] != before.ends_m[1] {
+            let [x, y, z] = before.ends_m[1];
+            let found = format!(
+                "found a start off the row before, of the same scratch {}",
+                self.scratch
+            );
+            return Err(Error::new(
+                "x0_m",
+                found,
+                format!("must be its end {x}, {y}, {z}"),
+            ));
+        }
+        if self.profile != before.profile {
+            let found = format!(
+                "found other sizes than in the row before, of the same scratch {}",
+                self.scratch
+            );
+            return Err(Error::new("", found, "must be the same"));
+        }
+        Ok(())
+    }
 }
 
 /// A cell without spaces around it, and without quotes, which some programs write around all.
@@ -98,15 +143,22 @@ fn bare(cell: &str) -> &str {
     quoted.map_or(cell, str::trim)
 }
 
-fn parse_row(line: usize, row: &str) -> Result<ListedRow, Error> {
+/// Parses a row of so many cells; without a column for it `number` is that of its scratch.
+fn parse_row(line: usize, row: &str, count: usize, number: u32) -> Result<ListedRow, Error> {
     let cells: Vec<_> = row.split(',').map(bare).collect();
-    if cells.len() != COUNT {
+    if cells.len() != count {
         let found = format!("found {} cells", cells.len());
-        let right = format!("must be {COUNT}, as in the header");
+        let right = format!("must be {count}, as in the header");
         return Err(Error::new("", found, right));
     }
+    let scratch = cells.get(COUNT).map_or(Ok(number), |cell| {
+        cell.parse().map_err(|_| {
+            let found = format!("found \"{}\"", shown(cell));
+            Error::new(MORE_COLUMNS[0], found, "must be a whole number")
+        })
+    })?;
     let mut values = [0.0; COUNT];
-    for (i, cell) in cells.iter().enumerate() {
+    for (i, cell) in cells[..COUNT].iter().enumerate() {
         values[i] = cell
             .parse()
             .ok()
@@ -133,38 +185,44 @@ fn parse_row(line: usize, row: &str) -> Result<ListedRow, Error> {
         line,
         ends_m: [[x0, y0, z0], [x1, y1, z1]],
         profile,
+        scratch,
     })
 }
 
-/// Writes laid scratches of an object for other programs: a straight piece a row, in world space. The numbers read back as what they were.
-/// packages/hairline-shaders reads it.
+/// Writes laid scratches of an object: a straight piece a row, in the frame that `frame_from_world` leads to. In the object's own frame
+/// `pattern = "file"` reads them. The numbers read back as what they were. packages/hairline-shaders reads them in world space.
 ///
 /// # Errors
 /// What cannot be written.
 pub fn write_scratches<'a>(
     object: &Object,
     scratches: impl IntoIterator<Item = &'a Scratch>,
+    frame_from_world: &DMat4,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    writeln!(out, "{},{MORE_COLUMNS}", columns().join(","))?;
+    let place = |at_m: Vec3| frame_from_world.transform_point3(at_m.as_dvec3()).as_vec3();
+    // Normals go by the inverse transpose of the way that places take.
+    let turn = DMat3::from_mat4(*frame_from_world).inverse().transpose();
+    let names = columns().into_iter().chain(MORE_COLUMNS);
+    writeln!(out, "{}", names.collect::<Vec<_>>().join(","))?;
     for (number, scratch) in scratches.into_iter().enumerate() {
         let mut profile = scratch.profile;
         let sizes = LISTED_SIZES.each_ref().map(|size| *(size.of)(&mut profile));
-        let own = scratch.segments.start as usize..scratch.segments.end as usize;
-        for piece in &object.segments[own] {
-            let ends = [piece.start_m, piece.end_m].map(|end| end.to_array());
+        for piece in object.pieces(scratch) {
+            let ends = [piece.start_m, piece.end_m].map(|end| place(end).to_array());
             for x in ends.as_flattened().iter().chain(&sizes) {
                 write!(out, "{x},")?;
             }
-            let [x, y, z] = piece.normal.to_array();
+            let normal = (turn * piece.normal.as_dvec3()).normalize_or_zero();
+            let [x, y, z] = normal.as_vec3().to_array();
             writeln!(out, "{number},{x},{y},{z}")?;
         }
     }
     Ok(())
 }
 
-/// A scratch with its ends on the surface.
-struct PlacedScratch {
+/// A straight piece with its ends on the surface.
+struct PlacedPiece {
     start: MeshPoint,
     end_m: DVec3,
     profile: Profile,
@@ -172,7 +230,9 @@ struct PlacedScratch {
 
 /// Scratches on the ground that they go on.
 pub(super) struct Listed<'a> {
-    scratches: Vec<PlacedScratch>,
+    pieces: Vec<PlacedPiece>,
+    /// Index of the first piece of each scratch, and behind the last one.
+    first: Vec<u32>,
     ground: &'a Ground,
 }
 
@@ -185,7 +245,10 @@ impl<'a> Listed<'a> {
         ground: &'a Ground,
     ) -> Result<Self, Error> {
         let row = |i: usize| (rows[i].ends_m, rows[i].profile);
-        Self::placed(loader, rows.len(), row, ground, |i, end, found, right| {
+        let begins = |i: &usize| *i == 0 || rows[*i].scratch != rows[i - 1].scratch;
+        let first = (0..rows.len()).filter(begins).map(|i| i as u32);
+        let first = first.chain([rows.len() as u32]).collect();
+        Self::placed(loader, first, row, ground, |i, end, found, right| {
             let key = ["x0_m", "x1_m"][end];
             Error::new(key, found, right).at(path, Some(rows[i].line))
         })
@@ -200,7 +263,8 @@ impl<'a> Listed<'a> {
     ) -> Result<Self, Error> {
         let (ends_m, profiles) = (arrays.ends_m(), arrays.profiles());
         let row = |i: usize| (ends_m[i], profiles[i]);
-        Self::placed(loader, ends_m.len(), row, ground, |i, end, found, right| {
+        let first = (0..=ends_m.len() as u32).collect();
+        Self::placed(loader, first, row, ground, |i, end, found, right| {
             Error::new(format!("{key}.ends_m[{i}][{end}]"), found, right)
         })
     }
@@ -209,12 +273,13 @@ impl<'a> Listed<'a> {
     /// row, one of its ends and two halves of a sentence.
     fn placed(
         loader: &Loader,
-        count: usize,
+        first: Vec<u32>,
         row: impl Fn(usize) -> ([[f64; 3]; 2], Profile) + Sync,
         ground: &'a Ground,
         error: impl Fn(usize, usize, String, String) -> Error,
     ) -> Result<Self, Error> {
         const TOGETHER: usize = 1 << 16;
+        let count = first.last().map_or(0, |end| *end as usize);
         let tolerance_m = OFF_SURFACE * ground.diagonal_m;
         let closest = ground.closest();
         // Twice the row, and the end.
@@ -236,17 +301,17 @@ impl<'a> Listed<'a> {
                 });
                 spot
             });
-            PlacedScratch {
+            PlacedPiece {
                 start,
                 end_m: end.point_m,
                 profile,
             }
         };
-        let mut scratches = Vec::with_capacity(count);
-        for first in (0..count).step_by(TOGETHER) {
+        let mut pieces = Vec::with_capacity(count);
+        for from in (0..count).step_by(TOGETHER) {
             loader.go_on()?;
-            let together = first..count.min(first + TOGETHER);
-            scratches.par_extend(together.into_par_iter().map(place));
+            let together = from..count.min(from + TOGETHER);
+            pieces.par_extend(together.into_par_iter().map(place));
             let wrong = wrong.load(Ordering::Relaxed);
             if wrong < usize::MAX {
                 let (i, end) = (wrong / 2, wrong % 2);
@@ -259,31 +324,48 @@ impl<'a> Listed<'a> {
                 return Err(error(i, end, found, right));
             }
         }
-        Ok(Self { scratches, ground })
+        Ok(Self {
+            pieces,
+            first,
+            ground,
+        })
     }
 
     pub(super) fn count(&self) -> u64 {
-        self.scratches.len() as u64
+        self.first.len() as u64 - 1
+    }
+
+    fn pieces_of(&self, index: u64) -> &[PlacedPiece] {
+        let at = |i: u64| self.first[i as usize] as usize;
+        &self.pieces[at(index)..at(index + 1)]
     }
 }
 
 impl Laying for Listed<'_> {
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
-        let placed = &self.scratches[index as usize];
-        let guide = Guide::Towards {
-            end_m: placed.end_m,
-        };
-        let length_m = LONGEST_WAY * placed.start.point_m.distance(placed.end_m);
-        walker.lay_from(placed.start, &guide, length_m, segments);
+        let pieces = self.pieces_of(index);
+        let begin = segments.len();
+        for piece in pieces {
+            let guide = Guide::Towards { end_m: piece.end_m };
+            let length_m = LONGEST_WAY * piece.start.point_m.distance(piece.end_m);
+            walker.lay_from(piece.start, &guide, length_m, segments);
+        }
+        let [first, last] = [&pieces[0], &pieces[pieces.len() - 1]];
+        // Fewer than three segments cannot go round.
+        let is_closed = first.start.point_m == last.end_m && segments.len() - begin > 2;
         Groove {
-            profile: placed.profile,
-            course: Course::Open,
+            profile: first.profile,
+            course: match is_closed {
+                true => Course::Closed,
+                false => Course::Open,
+            },
         }
     }
 
     fn middle(&self, index: u64) -> Option<MeshPoint> {
-        let placed = &self.scratches[index as usize];
-        let middle_m = placed.start.point_m.lerp(placed.end_m, 0.5);
+        let pieces = self.pieces_of(index);
+        let piece = &pieces[pieces.len() / 2];
+        let middle_m = piece.start.point_m.lerp(piece.end_m, 0.5);
         Some(self.ground.closest().find(middle_m).0)
     }
 }

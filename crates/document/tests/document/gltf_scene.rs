@@ -368,6 +368,31 @@ fn scratches_as_they_lie_are_in_the_frame_of_their_object() {
     );
 }
 
+/// A list with pieces of one scratch comes back as the same scratches.
+#[test]
+fn pieces_of_listed_scratches_stay_together() {
+    let dir = temporary_dir();
+    let csv = "x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm,scratch\n\
+        0,0,0,0.01,0,0,2,150,0\n0.01,0,0,0.01,0.02,0,2,150,0\n0.03,0,0,0,0.03,0,2,150,1\n";
+    std::fs::write(dir.path().join("list.csv"), csv).unwrap();
+    let text = "
+        camera = { position_m = [0.0, 0.0, 0.3], target_m = [0.0, 0.0, 0.0], up = [0.0, 1.0, 0.0] }
+        material = [{ name = \"m\", kind = \"metal\", metal = \"gold\" }]
+        object = [{ name = \"o\", material = \"m\", shape = { disk = { radius_m = 0.05 } } }]
+        scratches = [{ object = \"o\", pattern = \"file\", file = \"list.csv\" }]
+        light = [{ kind = \"sphere\", center_m = [0.0, 0.0, 0.5], radius_m = 0.01 }]
+    ";
+    let description = Description::from_toml(text, Path::new("lists.toml")).unwrap();
+    let scene = hairline_document::build(&description, dir.path()).unwrap();
+    let path = dir.path().join("worn.glb");
+    std::fs::write(&path, exported(&description, dir.path()).bytes).unwrap();
+    let again =
+        hairline_document::build(&Description::for_model(&path).unwrap(), dir.path()).unwrap();
+    assert_eq!(scene.objects[0].scratches.len(), 2);
+    assert_eq!(scene.objects[0].scratches, again.objects[0].scratches);
+    assert_eq!(scene.objects[0].segments, again.objects[0].segments);
+}
+
 /// Numbers of an accessor of whole numbers or floats, as words.
 fn words(root: &Value, chunk: &[u8], accessor: &Value) -> Vec<u32> {
     let accessor = &root["accessors"][accessor.as_u64().unwrap() as usize];

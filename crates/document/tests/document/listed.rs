@@ -172,6 +172,126 @@ fn mistakes_name_their_line_and_column() {
     }
 }
 
+/// What was laid on an object, bent scratches and rings among it, is laid again from its list in the object's own frame.
+#[test]
+fn a_written_list_reads_back_as_the_same_scratches() {
+    const PLACED: &str =
+        "scale = 1.5\nrotation_deg = [20, 40, 60]\ntranslation_m = [0.1, 0, 0.3]\n";
+    let circular = "[[scratches]]\nobject = \"it\"\npattern = \"circular\"\ncount = 60\n\
+        length_m = { mean = 0.1, spread = 0.6 }\nwidth_um = { mean = 3.0, spread = 0.4 }";
+    let text = scene_with(&format!("{}{PLACED}{circular}", object(SPHERE)));
+    let description = hairline_document::Description::from_toml(&text, "s.toml".as_ref()).unwrap();
+    let laid = hairline_document::build(&description, "").unwrap();
+    let laid = &laid.objects[0];
+    let own_from_world = description.objects[0].world_from_object().inverse();
+    let mut csv = Vec::new();
+    hairline_document::write_scratches(laid, laid.scratches.iter(), &own_from_world, &mut csv)
+        .unwrap();
+    let again = load(SPHERE, PLACED, &csv).unwrap();
+    assert_eq!(again.scratches.len(), laid.scratches.len());
+    assert!(
+        laid.scratches.iter().any(|it| it.closed) && laid.scratches.iter().any(|it| !it.closed)
+    );
+    for (a, b) in laid.scratches.iter().zip(again.scratches.iter()) {
+        assert_eq!((a.profile, a.closed), (b.profile, b.closed));
+        let [long, other] = [laid.length_m(a), again.length_m(b)];
+        assert!((long - other).abs() < 1e-6 + 1e-4 * long, "{long} {other}");
+        let [first, last] = [laid.pieces(a), again.pieces(b)].map(|it| it[it.len() / 2]);
+        assert!(
+            first.start_m.distance(last.start_m) < 2e-3,
+            "{first:?} {last:?}"
+        );
+    }
+}
+
+#[test]
+fn pieces_of_one_scratch_follow_one_another() {
+    let header = HEADER.replace("depth_nm", "depth_nm,scratch");
+    let cases = [
+        (
+            "0,0,0,0.05,0,0,1,2,3\n0.05,0,0,0.05,0.02,0,1,2,3\n0,0,0,0.01,0,0,1,2,4\n",
+            Ok(vec![2, 1]),
+        ),
+        (
+            "0,0,0,0.05,0,0,1,2,3\n0.06,0,0,0.05,0.02,0,1,2,3\n",
+            Err(
+                ":3: x0_m: found a start off the row before, of the same scratch 3; must be its end 0.05, 0, 0",
+            ),
+        ),
+        (
+            "0,0,0,0.05,0,0,1,2,3\n0.05,0,0,0.05,0.02,0,9,2,3\n",
+            Err(
+                ":3: found other sizes than in the row before, of the same scratch 3; must be the same",
+            ),
+        ),
+        (
+            "0,0,0,0.05,0,0,1,2,1.5\n",
+            Err(":2: scratch: found \"1.5\"; must be a whole number"),
+        ),
+        (
+            "0,0,0,0.05,0,0,1,2\n",
+            Err(":2: found 8 cells; must be 9, as in the header"),
+        ),
+    ];
+    for (rows, expected) in cases {
+        let found = load(PLANE, "", format!("{header}{rows}").as_bytes());
+        match (found, expected) {
+            (Ok(object), Ok(bends)) => {
+                let own = |it: &hairline_scene::Scratch| (object.pieces(it).len() - 1) / 2 + 1;
+                let counts: Vec<usize> = object.scratches.iter().map(own).collect();
+                assert_eq!(counts.len(), bends.len(), "{rows}");
+                // They are joined: each piece begins where the one before ends.
+                let first = object.pieces(&object.scratches[0]);
+                assert!(
+                    first.len() >= 2 && first.array_windows().all(|[a, b]| a.end_m == b.start_m)
+                );
+            }
+            (Err(error), Err(right)) => {
+                let message = error.to_string();
+                assert!(message.ends_with(&format!("s.csv{right}")), "{message}");
+            }
+            (found, expected) => panic!("{rows}: {:?} {expected:?}", found.is_ok()),
+        }
+    }
+}
+
+/// The way on a sphere is the great circle; beyond an edge of 90 degrees there is none.
+#[test]
+fn a_ruler_goes_along_the_surface() {
+    let measured = |shape: &str, from: [f64; 3], to: [f64; 3]| {
+        let mesh = load(shape, "", format!("{HEADER}").as_bytes())
+            .unwrap()
+            .mesh;
+        let [from, to] = [from, to].map(glam::DVec3::from);
+        let middle = |t: usize| mesh.corners_m(t).iter().sum::<glam::DVec3>() / 3.0;
+        let off = |t: &usize| middle(*t).distance_squared(from);
+        let triangle = (0..mesh.triangles.len())
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
+            .unwrap();
+        let from = middle(triangle);
+        let way_m = hairline_document::Ruler::new(mesh.clone()).way_m(triangle, from, to)?;
+        let length_m: f64 = way_m.array_windows().map(|[a, b]| a.distance(*b)).sum();
+        let straight_m = from.distance(to);
+        Some((length_m, straight_m))
+    };
+    let (length_m, straight_m) = measured(SPHERE, [0.05, 0.0, 0.0], [0.0, 0.05, 0.0]).unwrap();
+    let arc_m = 2.0 * 0.05 * (straight_m / 0.1).asin();
+    assert!(
+        (length_m / arc_m - 1.0).abs() < 2e-3 && length_m > 1.05 * straight_m,
+        "{length_m} {arc_m}"
+    );
+    let (length_m, straight_m) = measured(PLANE, [-0.05, 0.02, 0.0], [0.03, 0.08, 0.0]).unwrap();
+    assert!((length_m - straight_m).abs() < 1e-9);
+    assert_eq!(
+        measured(
+            "{ box = { size_m = [0.1, 0.1, 0.1] } }",
+            [0.0, 0.0, 0.05],
+            [0.05, 0.0, 0.0]
+        ),
+        None
+    );
+}
+
 #[test]
 fn a_file_cut_off_anywhere_never_panics() {
     let csv = format!(

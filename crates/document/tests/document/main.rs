@@ -16,6 +16,7 @@ mod lights;
 mod listed;
 mod looks;
 mod meshopt;
+mod other_formats;
 mod places;
 mod poses;
 mod probe;

@@ -14,6 +14,7 @@ use super::left_out::{self, LeftOut, UsedContents};
 use super::leniency::{drop_order_mark, drop_padding};
 use super::root::{self, OptionalElements};
 use super::source::{beside, is_data};
+use crate::other_formats::OtherFormat;
 use crate::packed;
 use crate::reading::check_regular;
 
@@ -35,6 +36,9 @@ pub struct FileCounts {
 
 /// Counts the triangles and vertices that a glTF file places; `None` where it cannot be read.
 pub fn counts(path: &Path) -> Option<FileCounts> {
+    if let Some(format) = OtherFormat::of(path) {
+        return of_length(path, format);
+    }
     let (root, text_bytes) = head(path)?;
     let mut counts = FileCounts {
         bytes: text_bytes * TEXT_BYTES,
@@ -52,6 +56,22 @@ pub fn counts(path: &Path) -> Option<FileCounts> {
         }
     }
     Some(counts)
+}
+
+/// Counts what a file of another format has at most, by its length.
+fn of_length(path: &Path, format: OtherFormat) -> Option<FileCounts> {
+    check_regular(path).ok()?;
+    let length = match held::bytes(path) {
+        Some(bytes) => bytes.len() as f64,
+        None => path.metadata().ok()?.len() as f64,
+    };
+    let triangles = length / format.bytes_a_triangle();
+    Some(FileCounts {
+        triangles,
+        vertices: 3.0 * triangles,
+        // The text, its glTF, and what is read of that.
+        bytes: TEXT_BYTES * length,
+    })
 }
 
 /// Number of times that EXT_mesh_gpu_instancing places a node's mesh.
@@ -92,6 +112,9 @@ impl FileCounts {
 
 /// The files that a glTF file names, each with its use; none where it cannot be read.
 pub fn names(path: &Path) -> Vec<(String, PathBuf)> {
+    if let Some(format) = OtherFormat::of(path) {
+        return format.names(path);
+    }
     let Some((root, _)) = head(path) else {
         return Vec::new();
     };
@@ -154,8 +177,11 @@ pub(super) fn alone(text: &[u8], name: &str) -> Option<Vec<u8>> {
     Some(packed::alone(root, name)?.to_string().into_bytes())
 }
 
-/// The text of a file with all that it holds.
+/// The text of a file with all that it holds; none of another format than glTF.
 pub(crate) fn whole_text(path: &Path) -> Option<Vec<u8>> {
+    if OtherFormat::of(path).is_some() {
+        return None;
+    }
     check_regular(path).ok()?;
     let mut file = held::open(path).ok()?;
     let mut start = [0; 20];

@@ -165,7 +165,7 @@ class ObjectKeys(Table):
     shape: Optional[Mapping[str, Mapping[str, Any]]] = _default()
     """A built-in shape. Default: this or ``mesh``. Range: see shapes."""
     mesh: Optional[Union[Path, core.MeshArray]] = _default()
-    """A model. Default: this or ``shape``. Range: ``.gltf`` or ``.glb``."""
+    """A model. Default: this or ``shape``. Range: ``.gltf``, ``.glb``, ``.obj`` or ``.stl``."""
     material: Optional[str] = _default()
     """A ``mesh`` without it keeps the materials of its file; with it, all of the mesh is of this one. Default: required for a ``shape``. Range: name of a material."""
     up: str = _default()
@@ -237,7 +237,7 @@ class ScratchesKeys(Table):
     center_m: Optional[Vector] = _default()
     """A point on the axis. Unit: m. Default: ``[0, 0, 0]``. Range: ±1000 each."""
     file: Optional[Union[Path, core.ScratchArray]] = _default()
-    """One straight scratch a row, commas between. Range: CSV, UTF-8."""
+    """One straight scratch a row, or a straight piece of one, commas between. Range: CSV, UTF-8."""
     points_m: Optional[Union[Sequence[Vector], ArrayLike]] = _default()
     """What the curve goes through, on or near the surface, in the object's own frame. A point farther from the object than the object is large is refused. Unit: m. Range: 2 to 4096 points, ±1000 each; 3 or more with ``closed``."""
     closed: Optional[bool] = _default()

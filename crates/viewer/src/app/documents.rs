@@ -74,12 +74,20 @@ impl Viewer {
         }
     }
 
-    /// Writes the scene as one glTF file, or first asks whether to replace an existing one; `has_asked` as in [`Self::save_as`].
-    pub(super) fn export_model(&mut self, ctx: &egui::Context, chosen: &Path, has_asked: bool) {
+    /// Writes the scene as one glTF file or a list of scratches, or first asks whether to replace an existing file; `has_asked` as in
+    /// [`Self::save_as`].
+    pub(super) fn write_beside(
+        &mut self,
+        ctx: &egui::Context,
+        purpose: Purpose,
+        chosen: &Path,
+        has_asked: bool,
+    ) {
+        let (_, endings) = purpose.filter();
         let path = match chosen.extension() {
-            Some(ending) if ending.eq_ignore_ascii_case("glb") => chosen.to_owned(),
+            Some(ending) if ending.eq_ignore_ascii_case(endings[0]) => chosen.to_owned(),
             // Not with_extension: a name may hold dots of its own.
-            _ => PathBuf::from(format!("{}.glb", chosen.display())),
+            _ => PathBuf::from(format!("{}.{}", chosen.display(), endings[0])),
         };
         let is_read = |file: &PathBuf| is_same_file(file, &path);
         let mut read = self.work.document.files();
@@ -91,10 +99,24 @@ impl Viewer {
             );
             self.tell_wrong_file("model", why);
         } else if path.exists() && !(has_asked && path == chosen) {
-            let question = Question::Replace(Purpose::ExportModel, path);
-            self.dialogs.ask(question);
+            self.dialogs.ask(Question::Replace(purpose, path));
+        } else if purpose == Purpose::ScratchList {
+            self.write_list(&path);
         } else {
             self.write_model(ctx, &path);
+        }
+    }
+
+    /// Writes the scratches of the selected layer, in the frame of their object, as a layer of a file reads them.
+    pub(super) fn write_list(&mut self, path: &Path) {
+        match self.work.save_list(path) {
+            Ok(count) => {
+                self.typed = None;
+                let text = format!("Saved {}: {count} scratches", path.display());
+                self.work.notices.clear("list");
+                self.work.notices.note("list", text);
+            }
+            Err(why) => self.tell_wrong_file("list", format!("{}: {why}", path.display())),
         }
     }
 
@@ -237,6 +259,7 @@ impl Viewer {
             }
             Answer::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
             Answer::Replace(Purpose::ExportModel, path) => self.write_model(ctx, &path),
+            Answer::Replace(Purpose::ScratchList, path) => self.write_list(&path),
             Answer::Replace(_, path) => self.write_as(ctx, &path),
             Answer::Rename(purpose, path) => {
                 let line = PathLine::new(purpose, path.display().to_string());

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use hairline_document::Description;
 use hairline_document::description::Map;
 use hairline_document::gltf_scene;
 use hairline_document::probe::{self, MeshSummary};
@@ -54,7 +55,9 @@ impl Viewer {
                 let work = &mut self.work;
                 self.export.take_path(work, purpose, path, has_asked);
             }
-            Purpose::ExportModel => self.export_model(ctx, path, has_asked),
+            Purpose::ExportModel | Purpose::ScratchList => {
+                self.write_beside(ctx, purpose, path, has_asked);
+            }
             Purpose::Drawing => self.work.engrave_drawing(&absolute(path)),
             Purpose::Find(_) => self.take_found(path),
             Purpose::Picture(of) => {
@@ -116,17 +119,17 @@ impl Viewer {
         match ending.to_string_lossy().to_lowercase().as_str() {
             "toml" => self.wish(ctx, Wish::Open(path.to_owned())),
             // One that holds a scene is one.
-            "glb" | "gltf" if gltf_scene::is_in(path) => {
-                self.wish(ctx, Wish::Open(path.to_owned()));
-            }
-            "glb" | "gltf" => self.probe(ctx, Purpose::AddModel, path),
+            _ if Description::is_model(path) => match gltf_scene::is_in(path) {
+                true => self.wish(ctx, Wish::Open(path.to_owned())),
+                false => self.probe(ctx, Purpose::AddModel, path),
+            },
             "hdr" | "exr" => self.probe(ctx, Purpose::Environment, path),
             "csv" => self.add_list(path),
             "svg" => self.work.engrave_drawing(&absolute(path)),
             _ => self.work.notices.error(
                 "file",
                 format!(
-                    "{}: is none of the files that can be dropped here: scenes (.toml), models (.glb, .gltf), \
+                    "{}: is none of the files that can be dropped here: scenes (.toml), models (.glb, .gltf, .obj, .stl), \
                      environment maps (.hdr, .exr), lists of scratches (.csv) and drawings (.svg)",
                     path.display()
                 ),

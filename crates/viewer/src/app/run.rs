@@ -41,6 +41,11 @@ impl Viewer {
             Command::Screenshot => self.export.ask(&mut self.work, Purpose::Screenshot),
             Command::Turntable => self.export.ask(&mut self.work, Purpose::Turntable),
             Command::ExportModel => self.ask_path(ctx, Purpose::ExportModel),
+            Command::SaveList => self.ask_path(ctx, Purpose::ScratchList),
+            Command::ListScratches => {
+                let measure = &mut self.work.measure;
+                (measure.has_list, measure.reveals) = (!measure.has_list, true);
+            }
             Command::Compare => self.compare.toggle(),
             Command::TakeSnapshot => self.take_snapshot(),
             Command::FlipSnapshot => self.work.snapshots.flip(),

@@ -1,8 +1,10 @@
-//! Widgets over the picture that read it: the windows of the histogram and of the probe, and the scale of colours.
+//! Widgets over the picture that read it: the windows of the histogram, of the probe and of what is measured, and the scale of colours.
 
 use egui::{Align2, Color32, FontId, Rect, Response, Ui, pos2, vec2};
 
 use super::histogram_window::show_histogram;
+use super::list_window::show_list;
+use super::measure_window::show_measure;
 use super::probe_window::show_probe;
 use super::{Findings, Shows, false_color};
 use crate::engine::View;
@@ -21,6 +23,8 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, view: Option<View>, pictur
     }
     scale(ui, area, work.reading.shows, &frame.findings);
     show_probe(ui, work, &view.unwrap_or(frame.view), picture);
+    show_measure(ui, work, picture);
+    show_list(ui, work, picture);
 }
 
 /// Scale of the false colours or the layer in place of the picture.

@@ -1,4 +1,4 @@
-//! The frame of the histogram's and the probe's window.
+//! The frame of the windows that read the picture.
 
 use egui::{Align2, Pos2, Rect, vec2};
 

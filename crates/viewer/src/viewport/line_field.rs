@@ -6,7 +6,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use egui::{Color32, Pos2, Ui};
+use egui::{Align2, Color32, FontId, Pos2, Ui};
 use glam::{DVec3, Vec3};
 use hairline_editor::Selection;
 use hairline_editor::actions::layers;
@@ -19,7 +19,7 @@ use crate::tools::Tool;
 use crate::workspace::Workspace;
 
 use super::lens::Lens;
-use super::{Area, ink};
+use super::{Area, ink, pick};
 
 /// Length of a stroke across the view, points.
 const LENGTH: f64 = 15.0;
@@ -37,8 +37,8 @@ const BATCH: usize = 64;
 const BUDGET: Duration = Duration::from_micros(1500);
 /// A view that has not changed for so long is at rest, seconds.
 const REST_S: f64 = 0.12;
-/// Least cosine between the surface's normal and the way to the eye.
-const LEAST_FACING: f64 = 0.12;
+/// Room of a number over the picture, points.
+const NUMBER_ROOM: egui::Vec2 = egui::vec2(56.0, 30.0);
 
 /// The strokes, and the layer and view that they were made for.
 #[derive(Default)]
@@ -52,8 +52,11 @@ pub(super) struct LineField {
     /// Progress of the search for scratches in this view; none while it moves.
     search: Option<Search>,
     marks: Vec<Mark>,
-    lines: Vec<[Pos2; 2]>,
+    lines: Vec<MarkLine>,
 }
+
+/// A stroke on the screen, with the number of its scratch in the layer.
+type MarkLine = (usize, [Pos2; 2]);
 
 /// The scratches of a layer, in the newest scene.
 struct Layer {
@@ -75,6 +78,8 @@ struct Search {
 /// A place on the surface and which way a scratch runs there.
 #[derive(Clone, Copy)]
 struct Mark {
+    /// Number of the scratch in its layer.
+    number: usize,
     point_m: DVec3,
     normal: DVec3,
     along: DVec3,
@@ -95,7 +100,7 @@ fn wanted(work: &Workspace) -> Vec<usize> {
     // Under the brush they would cover what it lays.
     let is_wanted = matches!(
         work.toolbox.tool,
-        Tool::Select | Tool::Eraser | Tool::PickPart
+        Tool::Select | Tool::Eraser | Tool::PickPart | Tool::Measure
     );
     let description = work.document.description();
     let selected = match work.selection() {
@@ -106,7 +111,8 @@ fn wanted(work: &Workspace) -> Vec<usize> {
         let shown = (0..description.scratches.len()).filter(|i| layers::is_shown(description, *i));
         return shown.collect();
     }
-    let is_wanted = is_wanted && work.overlays.has(Overlay::Directions);
+    let has = |overlay| work.overlays.has(overlay);
+    let is_wanted = is_wanted && (has(Overlay::Directions) || has(Overlay::Numbers));
     selected.into_iter().filter(|_| is_wanted).collect()
 }
 
@@ -138,9 +144,30 @@ pub(super) fn show(ui: &Ui, fields: &mut Vec<LineField>, work: &Workspace, area:
             true => SELECTED,
             false => COLORS[index % COLORS.len()],
         };
-        for line in &field.lines {
-            ink::segment(&painter, *line, WIDTH, color.gamma_multiply(0.92));
+        if work.overlays.has(Overlay::Directions) || work.overlays.has(Overlay::AllDirections) {
+            for (_, line) in &field.lines {
+                ink::segment(&painter, *line, WIDTH, color.gamma_multiply(0.92));
+            }
         }
+        if work.overlays.has(Overlay::Numbers) {
+            show_numbers(&painter, &field.lines, color);
+        }
+    }
+}
+
+/// Writes numbers beside strokes, where none is in the way of another one.
+fn show_numbers(painter: &egui::Painter, lines: &[MarkLine], color: Color32) {
+    let mut taken: Vec<egui::Rect> = Vec::new();
+    for (number, [from, to]) in lines {
+        let middle = from.lerp(*to, 0.5);
+        let room = egui::Rect::from_center_size(middle, NUMBER_ROOM);
+        if taken.iter().any(|other| other.intersects(room)) {
+            continue;
+        }
+        taken.push(room);
+        let font = FontId::proportional(12.0);
+        let words = number.to_string();
+        ink::words(painter, middle, Align2::CENTER_CENTER, &words, font, color);
     }
 }
 
@@ -201,7 +228,7 @@ impl LineField {
                 continue;
             };
             if !search.taken[cell]
-                && mark.is_seen(built, &lens)
+                && pick::is_seen(built, &lens, mark.point_m, mark.normal)
                 && let Some(line) = mark.line(&lens)
             {
                 search.taken[cell] = true;
@@ -214,11 +241,12 @@ impl LineField {
 }
 
 /// Lines of the marks that are seen. What the time does not suffice for comes back when the view rests.
-fn lines(marks: &[Mark], built: &Built, lens: &Lens, deadline: Instant) -> Vec<[Pos2; 2]> {
+fn lines(marks: &[Mark], built: &Built, lens: &Lens, deadline: Instant) -> Vec<MarkLine> {
     let batches = marks
         .chunks(BATCH)
         .take_while(|_| Instant::now() < deadline);
-    let seen = batches.flatten().filter(|mark| mark.is_seen(built, lens));
+    let seen =
+        (batches.flatten()).filter(|mark| pick::is_seen(built, lens, mark.point_m, mark.normal));
     seen.filter_map(|mark| mark.line(lens)).collect()
 }
 
@@ -226,15 +254,13 @@ impl Layer {
     fn of(built: &Built, index: u32, object: usize) -> Option<Self> {
         let there = built.scene.objects.get(object)?;
         let scratches = Arc::clone(&there.scratches);
-        // Layers lie one behind the other.
-        let first = scratches.partition_point(|scratch| scratch.layer < index);
-        let end = scratches.partition_point(|scratch| scratch.layer <= index);
+        let own = there.of_layer(index);
         Some(Self {
             index,
             object,
             segments: Arc::clone(&there.segments),
-            first,
-            count: end - first,
+            first: own.start,
+            count: own.len(),
             scratches,
         })
     }
@@ -254,9 +280,8 @@ impl Layer {
         // Parts of the golden ratio and of the plastic number: evenly spread, and no two alike for long.
         let part = |step: f64| (0.5 + step * number as f64).fract();
         let scratch = (part(0.618_033_988_749_895) * self.count as f64) as usize;
-        let scratch = self
-            .scratches
-            .get(self.first + scratch.min(self.count.checked_sub(1)?))?;
+        let of_layer = scratch.min(self.count.checked_sub(1)?);
+        let scratch = self.scratches.get(self.first + of_layer)?;
         let run = self
             .segments
             .get(scratch.segments.start as usize..scratch.segments.end as usize)?;
@@ -265,6 +290,7 @@ impl Layer {
         let way = segment.end_m - segment.start_m;
         let within = place.fract() as f32;
         Some(Mark {
+            number: of_layer,
             point_m: (segment.start_m + way * within).as_dvec3(),
             normal: segment.normal.as_dvec3(),
             along: way.try_normalize().unwrap_or(Vec3::ZERO).as_dvec3(),
@@ -273,22 +299,10 @@ impl Layer {
 }
 
 impl Mark {
-    /// Whether the camera sees the surface from this side, with nothing before it.
-    fn is_seen(&self, built: &Built, lens: &Lens) -> bool {
-        let way = self.point_m - lens.eye_m();
-        let distance_m = way.length();
-        let ray = way / distance_m;
-        if !(-ray.dot(self.normal) > LEAST_FACING) {
-            return false;
-        }
-        // The surface itself is met a rounding before or behind the scratch.
-        let hit = built.triangles.intersect(lens.eye_m(), ray);
-        hit.is_none_or(|hit| hit.distance_m > distance_m * (1.0 - 1e-4))
-    }
-
-    fn line(&self, lens: &Lens) -> Option<[Pos2; 2]> {
+    fn line(&self, lens: &Lens) -> Option<MarkLine> {
         let half = self.along * (0.5 * LENGTH * lens.m_per_point(self.point_m));
-        lens.segment(self.point_m - half, self.point_m + half)
+        let line = lens.segment(self.point_m - half, self.point_m + half)?;
+        Some((self.number, line))
     }
 }
 

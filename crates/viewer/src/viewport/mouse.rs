@@ -10,7 +10,7 @@ use crate::workspace::Workspace;
 
 use super::lens::Lens;
 use super::pick::Picked;
-use super::{Area, Viewport, gizmo, pick, place};
+use super::{Area, Viewport, gizmo, measure, pick, place};
 
 /// A notch of a wheel is this many points in egui.
 const POINTS_A_NOTCH: f64 = 50.0;
@@ -35,9 +35,10 @@ impl Viewport {
         let is_free = !alt && !shift && !self.is_shielded;
         self.place_by_drag(work, area, response, is_free);
         self.pen.drag(ui, work, area, response, is_free);
+        self.measure_by_drag(ui, work, area, response, is_free);
         // Alt orbits with any tool, as in every other program.
-        let draws_region = tool == Tool::Region;
-        let is_held = is_brush || self.is_placing || draws_region || self.pen.is_held();
+        let draws = tool == Tool::Region || self.is_measuring || self.pen.is_held();
+        let is_held = is_brush || self.is_placing || draws;
         let orbits = response.dragged_by(PointerButton::Primary) && !shift && (!is_held || alt)
             || response.dragged_by(PointerButton::Secondary);
         let pans = response.dragged_by(PointerButton::Middle)
@@ -143,6 +144,7 @@ impl Viewport {
                 }
                 (Tool::PlaceLight, Some(hit)) => place::place_light(work, &hit),
                 (Tool::PickPart, Some(hit)) => pick_part(work, &hit),
+                (Tool::Measure, _) => measure::pick_scratch(work, area, pos),
                 _ => {}
             }
         }

@@ -6,7 +6,7 @@ use hairline_editor::actions::lights;
 
 use super::gizmo::{self, Gizmo};
 use super::lens::Lens;
-use super::{Area, Viewport, ink, line_field};
+use super::{Area, Viewport, ink, line_field, measure};
 use crate::overlays::Overlay;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
@@ -43,6 +43,7 @@ impl Viewport {
         }
         self.pen.show(ui, work, area);
         show_names(ui, work, area);
+        measure::show(ui, work, area);
     }
 }
 

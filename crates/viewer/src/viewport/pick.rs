@@ -42,6 +42,22 @@ pub(super) fn along(built: &Built, lens: &Lens, pos: Pos2) -> Option<Picked> {
     }
 }
 
+/// Least cosine between a surface's normal and the way to the eye at which a line on it is seen.
+const LEAST_FACING: f64 = 0.12;
+
+/// Whether the camera sees a place on a surface from the side of this normal, with nothing before it.
+pub(super) fn is_seen(built: &Built, lens: &Lens, point_m: DVec3, normal: DVec3) -> bool {
+    let way = point_m - lens.eye_m();
+    let distance_m = way.length();
+    let ray = way / distance_m;
+    if !(-ray.dot(normal) > LEAST_FACING) {
+        return false;
+    }
+    // The surface itself is met a rounding before or behind the place.
+    let hit = built.triangles.intersect(lens.eye_m(), ray);
+    hit.is_none_or(|hit| hit.distance_m > distance_m * (1.0 - 1e-4))
+}
+
 fn meet(built: &Built, lens: &Lens, pos: Pos2) -> Option<Picked> {
     let ray = lens.ray(pos);
     let hit = built.triangles.intersect(lens.eye_m(), ray)?;

@@ -60,6 +60,27 @@ fn a_metal_is_dropped_onto_an_object_as_one_step() {
 }
 
 #[test]
+fn an_stl_file_is_dropped_as_an_object() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("plate.stl");
+    let text = "solid plate\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 90 0 0\nvertex 0 90 0\nendloop\nendfacet\nendsolid\n";
+    std::fs::write(&path, text).unwrap();
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    let before = description(&harness);
+    crate::files::drop_file(&mut harness, &path);
+    wait_until(&mut harness, "the object", |viewer| {
+        viewer.document().description().objects.len() == 2
+    });
+    wait_built(&mut harness);
+    let built = harness.state().engine().built().unwrap();
+    let (low, high) = built.scene.objects[1].mesh.bounds_m();
+    assert!((high - low).max_element() < 0.0901);
+    undo(&mut harness);
+    assert_eq!(*description(&harness), *before);
+}
+
+#[test]
 fn wear_is_dropped_in_the_picture_and_beside_objects_nothing_happens() {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);

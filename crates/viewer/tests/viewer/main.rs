@@ -20,6 +20,8 @@ mod gizmos;
 mod gratings;
 mod habits;
 mod looks;
+mod lost;
+mod measure;
 mod missing;
 mod model_export;
 mod model_files;

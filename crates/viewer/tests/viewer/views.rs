@@ -166,10 +166,18 @@ fn each_kind_of_overlay_has_its_switch() {
     for name in ["disk", "lamp", "square"] {
         assert!(words.contains(name), "{name} in {words}");
     }
+    assert!(!words.contains("199"), "{words}");
+    click_on(&mut harness, "Inspect");
+    click_on(&mut harness, "Numbers of scratches");
     choose_in_view_menu(&mut harness, "Directions of all layers");
     harness.run_steps(60);
     assert_eq!(harness.state().document().selection(), Selection::None);
-    assert!(drawn(&harness).0 > 50, "{}", drawn(&harness).0);
+    let (lines, words) = drawn(&harness);
+    assert!(lines > 50, "{lines}");
+    let numbers = words
+        .split_whitespace()
+        .filter(|it| it.parse::<u32>().is_ok_and(|it| it < 200));
+    assert!(numbers.count() > 5, "{words}");
     // One key for all of them.
     key(&mut harness, Modifiers::NONE, Key::O);
     let (lines, words) = drawn(&harness);

@@ -1,0 +1,109 @@
+//! The window with the list of a layer's scratches.
+
+use std::ops::Range;
+
+use egui::{Align2, Button, Label, Response, RichText, ScrollArea, TextStyle, Ui, vec2};
+use hairline_editor::Selection;
+use hairline_editor::actions::layers;
+
+use super::window::window;
+use crate::command::Command;
+use crate::engine::Built;
+use crate::measure::{PickedScratch, ScratchTexts};
+use crate::workspace::Workspace;
+
+/// Columns with their widths, points.
+const COLUMNS: [(&str, f32); 6] = [
+    ("Scratch", 56.0),
+    ("Width", 64.0),
+    ("Depth", 64.0),
+    ("Length", 72.0),
+    ("Direction", 148.0),
+    ("Middle", 164.0),
+];
+const HEIGHT: f32 = 240.0;
+
+/// Shows the list of the selected layer, if it is open.
+pub(super) fn show_list(ui: &Ui, work: &mut Workspace, picture: &Response) {
+    let (true, Selection::Layer(layer)) = (work.measure.has_list, work.selection()) else {
+        return;
+    };
+    let object = work.selection().object(work.document.description());
+    let named = work.document.description().scratches.get(layer);
+    let title = named.map_or(String::new(), |it| format!("List: {}", layers::title(it)));
+    let built = work.engine.built().filter(|built| !built.is_sketch());
+    let corner = (
+        Align2::LEFT_BOTTOM,
+        picture.rect.left_bottom() + vec2(12.0, -12.0),
+    );
+    let mut is_open = true;
+    window(&title, &mut is_open, corner, picture.rect)
+        .id(egui::Id::unique("list of scratches"))
+        .show(ui.ctx(), |ui| match (built, object) {
+            (Some(built), Some(object)) => rows(ui, work, &built, object, layer),
+            _ => drop(ui.label("The scratches are being laid.")),
+        });
+    work.measure.has_list = is_open;
+}
+
+fn rows(ui: &mut Ui, work: &mut Workspace, built: &Built, object: usize, layer: usize) {
+    let Some(laid) = built.scene.objects.get(object) else {
+        return;
+    };
+    let own = laid.of_layer(layer as u32);
+    ui.horizontal(|ui| {
+        for (name, width) in COLUMNS {
+            let name = RichText::new(name).weak();
+            ui.add_sized([width, 0.0], Label::new(name));
+        }
+    });
+    let picked = work.measure.picked.as_ref();
+    let picked = picked.filter(|it| it.layer() == layer && it.of(built).is_some());
+    let picked = picked.map(PickedScratch::number);
+    let mut area = ScrollArea::vertical().max_height(HEIGHT).auto_shrink(false);
+    let height = ui
+        .text_style_height(&TextStyle::Body)
+        .max(ui.spacing().interact_size.y);
+    if std::mem::take(&mut work.measure.reveals)
+        && let Some(number) = picked
+    {
+        let row = height + ui.spacing().item_spacing.y;
+        area = area.vertical_scroll_offset((number as f32 * row - 0.4 * HEIGHT).max(0.0));
+    }
+    let show = |ui: &mut Ui, shown: Range<usize>| {
+        let mut chosen = None;
+        for number in shown {
+            let scratch = &laid.scratches[own.start + number];
+            let texts = ScratchTexts::new(laid, scratch);
+            ui.horizontal(|ui| {
+                let size = |column: usize| [COLUMNS[column].1, height];
+                let button = Button::selectable(picked == Some(number), number.to_string());
+                if ui.add_sized(size(0), button).clicked() {
+                    chosen = Some(own.start + number);
+                }
+                let cells = [
+                    texts.width,
+                    texts.depth,
+                    texts.length,
+                    texts.direction,
+                    texts.place,
+                ];
+                for (i, text) in cells.into_iter().enumerate() {
+                    ui.add_sized(size(i + 1), Label::new(text).truncate());
+                }
+            });
+        }
+        chosen
+    };
+    let chosen = area.show_rows(ui, height, own.len(), show).inner;
+    if let Some(index) = chosen {
+        work.measure.picked = PickedScratch::new(built, object, index);
+    }
+    ui.separator();
+    ui.horizontal(|ui| {
+        ui.label(format!("{} scratches", own.len()));
+        if ui.button(Command::SaveList.label()).clicked() {
+            work.wished.push(Command::SaveList);
+        }
+    });
+}
