@@ -195,7 +195,7 @@ impl Sums {
 
 /// Error of a layer.
 #[derive(Clone, Copy, Debug)]
-pub struct Traced {
+pub struct Found {
     /// The error of the picture's mean, over the mean without shadows.
     pub off: f64,
     /// One standard deviation of that, by how much the pixels' errors scatter.
@@ -240,7 +240,7 @@ pub fn found(
     open: &Image,
     layer: Layer,
     inside: &[bool],
-) -> Traced {
+) -> Found {
     let (a, b) = (Layers::from(image), Layers::from(expected));
     let [a, b] = [&a, &b].map(|held| held.estimate(layer).expect("all layers are there"));
     let pixels = || (0..inside.len()).filter(|i| inside[*i]);
@@ -254,7 +254,7 @@ pub fn found(
     let open = open.layer(layer);
     let all: f64 = pixels().map(|i| sum(open[i])).sum();
     let count = pixels().count() as f64;
-    Traced {
+    Found {
         off: errors().sum::<f64>() / all,
         off_std: squares.sqrt() / all,
         rms: (squares - noise).max(0.0).sqrt() * count.sqrt() / all,

@@ -183,7 +183,7 @@ pub struct Render {
     #[arg(long, value_name = "PICTURE")]
     pub behind: Option<PathBuf>,
     /// Bits of each channel of a .png, in place of the scene's. [default: 8]
-    #[arg(long, value_name = "BITS", value_parser = clap::builder::PossibleValuesParser::new(["8", "16"]).map(|it| if it == "16" { 16 } else { 8 }))]
+    #[arg(long, value_name = "BITS", value_parser = png_bits())]
     pub png_bits: Option<u32>,
     /// Render bands of the spectrum in place of colours, a channel each: from A to B nm by equal steps. Writes an .exr. What has a colour and no spectrum
     /// is refused: lamps must be grey or have a temperature, surfaces be grey or measured metals.
@@ -449,6 +449,10 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
 
 fn tone_maps() -> impl TypedValueParser<Value = ToneMap> {
     by_name(ToneMap::ALL, ToneMap::name)
+}
+
+fn png_bits() -> impl TypedValueParser<Value = u32> {
+    PossibleValuesParser::new(["8", "16"]).map(|bits| if bits == "16" { 16 } else { 8 })
 }
 
 fn wears() -> impl TypedValueParser<Value = Wear> {

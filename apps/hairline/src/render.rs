@@ -84,13 +84,12 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     task.is_transparent = loaded.description.cuts_out() && arguments.bands.is_none();
     let finish = loaded.finish.clone();
     let notes = notes(&task, &method);
-    let write_shown = |output: &Output, image: &Image, display: &Display| -> Result<(), Failure> {
+    let write = |output: &Output, image: &Image, display: &Display, notes: &Notes| {
         let output = output.clone().finished(&finish);
-        Ok(output.write_image_with_notes(image, display, &notes)?)
+        output.write_image_with_notes(image, display, notes)
     };
-    let write = |output: &Output, image: &Image, notes: &Notes| -> Result<(), Failure> {
-        let output = output.clone().finished(&finish);
-        Ok(output.write_image_with_notes(image, &display, notes)?)
+    let write_shown = |output: &Output, image: &Image, display: &Display| -> Result<(), Failure> {
+        Ok(write(output, image, display, &notes)?)
     };
     let terminal = Terminal::default();
     match target {
@@ -138,14 +137,14 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
                 write_labels(scene, labels.path(), &is_stopped)?;
             }
             if samples == wanted {
-                write(&output, &image, &notes)?;
+                write_shown(&output, &image, &display)?;
                 tell_on_terminal(&output);
                 return Ok(());
             }
             let so_far = format!("{samples} of {wanted}");
             let mut notes = notes.clone();
             notes.insert("samples".to_owned(), so_far.clone());
-            write(&output, &image, &notes)?;
+            write(&output, &image, &display, &notes)?;
             let name = output.path().display();
             tell(format_args!("interrupted: {name} has {so_far} samples"));
             Ok(())

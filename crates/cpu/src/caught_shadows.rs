@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use hairline_image::{Image, filter_traced};
+use hairline_index::TriangleIndex;
 use hairline_scene::{Base, Material, Scene, Transport};
 
 use crate::alpha;
@@ -20,16 +21,16 @@ pub fn caught_shadows(
 ) -> Option<Vec<f32>> {
     let ground = with_ground_alone(scene)?;
     let prepared = Prepared::new(&ground);
-    let (shaded, samples) = shaded(&prepared, samples, cancelled)?;
-    let options = RenderOptions {
-        samples,
-        ..RenderOptions::default()
-    };
-    let rows = 0..ground.render.size_px[1];
-    let (lit, _) = prepared.render_unless(cancelled, &options, rows, &|_| {})?;
+    let [shaded, lit] = [true, false].map(|shadows| {
+        let transport = Transport {
+            shadows,
+            bounces: 0,
+        };
+        ground_of(&prepared, transport, samples, cancelled)
+    });
+    let (shaded, lit) = (shaded?, lit?);
     let all = alpha(&ground, prepared.triangles(), samples, samples);
-    let objects = Prepared::new(scene);
-    let objects = alpha(scene, objects.triangles(), samples, samples);
+    let objects = alpha(scene, &TriangleIndex::build(scene), samples, samples);
     let luminance = |[r, g, b]: [f32; 3]| r + g + b;
     let hidden = |i: usize| {
         let lit = luminance(lit.base[i]);
@@ -42,33 +43,35 @@ pub fn caught_shadows(
     Some((0..all.len()).map(hidden).collect())
 }
 
-/// The picture with shadows, and its number of samples.
-fn shaded(
+/// The picture of the ground; none once `cancelled` says so.
+fn ground_of(
     prepared: &Prepared,
+    transport: Transport,
     samples: u32,
     cancelled: &(dyn Fn() -> bool + Sync),
-) -> Option<(Image, u32)> {
-    let transport = Transport {
-        shadows: true,
-        bounces: 0,
-    };
+) -> Option<Image> {
     let scene = prepared.scene();
-    let mut batches = transport.batches(&scene.camera, samples)?;
-    let samples = batches.samples();
     let rows = 0..scene.render.size_px[1];
+    let mut options = RenderOptions {
+        samples,
+        shadows: transport.shadows,
+        ..RenderOptions::default()
+    };
+    let render = |options: &RenderOptions| {
+        let rendered = prepared.render_unless(cancelled, options, rows.clone(), &|_| {})?;
+        Some(rendered.0)
+    };
+    let Some(mut batches) = transport.batches(&scene.camera, samples) else {
+        return render(&options);
+    };
+    options.samples = batches.samples();
     while let Some(batch) = batches.next() {
-        let options = RenderOptions {
-            samples,
-            batch: Some(batch),
-            shadows: true,
-            ..RenderOptions::default()
-        };
-        let (part, _) = prepared.render_unless(cancelled, &options, rows.clone(), &|_| {})?;
-        batches.add(part);
+        options.batch = Some(batch);
+        batches.add(render(&options)?);
     }
     let mut image = batches.into_image()?;
     filter_traced(&mut image);
-    Some((image, samples))
+    Some(image)
 }
 
 /// The scene with its catcher as a white ground, before nothing, and with objects that are black and hide light.

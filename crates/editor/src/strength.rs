@@ -13,7 +13,7 @@ const DEPTH_POWER: f64 = 0.0607;
 /// Largest count that the number reaches: more would not stay quick to edit.
 const MOST: f64 = 100_000.0;
 
-/// The strength of a layer on an object whose box has this diagonal; none where its scratches are a file's, or are none.
+/// The strength of a layer on an object whose box has this diagonal; none where its scratches are a file's, are engraved, or are none.
 pub fn strength(layer: &Scratches, diagonal_m: f64) -> Option<f64> {
     let cover = cover(layer, diagonal_m).filter(|cover| *cover > 0.0)?;
     let share = (cover / COVER[0]).ln() / (COVER[1] / COVER[0]).ln();
@@ -46,7 +46,7 @@ pub fn set_strength(layer: &mut Scratches, diagonal_m: f64, strength: f64) {
             }
             (&mut brushed.width_um, &mut brushed.depth_nm)
         }
-        Layer::Listed(_) => return,
+        Layer::Engraved(_) | Layer::Listed(_) => return,
     };
     scale(&mut width_um.mean, factor.powf(WIDTH_POWER));
     scale(&mut depth_nm.mean, factor.powf(DEPTH_POWER));
@@ -79,7 +79,7 @@ fn cover(layer: &Scratches, diagonal_m: f64) -> Option<f64> {
             });
             (count > 0.0).then(|| sum / count * each_m2(brushed.length_m, brushed.width_um))
         }
-        Layer::Listed(_) => None,
+        Layer::Engraved(_) | Layer::Listed(_) => None,
     }
 }
 

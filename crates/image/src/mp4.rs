@@ -86,12 +86,14 @@ impl Mp4 {
     /// [`Error::CannotWrite`], in the words of the program.
     pub(crate) fn add(&mut self, codes: &[u8]) -> Result<(), Error> {
         let input = self.program.0.stdin.as_mut();
-        let written = input.map_or(Ok(()), |input| input.write_all(codes));
-        written.map_err(|error| match error.kind() {
+        match input.map_or(Ok(()), |input| input.write_all(codes)) {
             // It has ended before, and said why.
-            ErrorKind::BrokenPipe => refused(&self.path, &self.last_words()),
-            _ => Error::cannot_write(&self.path, &error),
-        })
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => {
+                let words = self.last_words();
+                Err(refused(&self.path, &words))
+            }
+            written => written.map_err(|error| Error::cannot_write(&self.path, &error)),
+        }
     }
 
     /// Waits for the program, and moves the file to its place.

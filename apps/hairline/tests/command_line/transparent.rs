@@ -210,7 +210,7 @@ fn a_picture_behind_is_seen_beside_the_objects_and_through_shadows() {
     let render = "render s.toml -o a.png --backend cpu --samples 16";
     let missing = hairline(folder.path(), render).code(2);
     let message = stderr_of(&missing);
-    assert!(message.contains("s.toml:12: render.behind"), "{message}");
+    assert!(message.contains("s.toml:16: render.behind"), "{message}");
     let mut sky = image::RgbImage::new(30, 30);
     sky.pixels_mut().for_each(|pixel| pixel.0 = [40, 120, 200]);
     sky.save(folder.path().join("sky.png")).unwrap();

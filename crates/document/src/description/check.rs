@@ -42,8 +42,8 @@ impl Description {
         unique("object", self.objects.iter().map(|o| o.name.as_str()))?;
         check_layers(&self.scratches)?;
         check_gratings(&self.gratings)?;
-        check_lights(&self.lights, "light")?;
-        each("look", &self.looks, Look::check_at)?;
+        each("light", &self.lights, Light::check_at)?;
+        each("look", &self.looks, check_look)?;
         unique("look", self.looks.iter().map(|look| look.name.as_str()))
     }
 }
@@ -70,15 +70,23 @@ fn unique<'n>(key: &str, names: impl Iterator<Item = &'n str>) -> Check {
     Ok(())
 }
 
-/// Checks the table `[environment]`.
-pub(super) fn check_environment(it: &Environment, key: &str) -> Check {
+fn check_environment(it: &Environment, key: &str) -> Check {
     environment::ROTATION_DEG.check(key, &it.rotation_deg)?;
     environment::INTENSITY.check(key, &it.intensity)
 }
 
-/// Checks the tables `[[light]]`.
-pub(super) fn check_lights(lights: &[Light], key: &str) -> Check {
-    each(key, lights, Light::check_at)
+fn check_look(it: &Look, key: &str) -> Check {
+    it.check_keys(key)?;
+    if let Some(camera) = &it.camera {
+        camera.check_at(&format!("{key}.camera"))?;
+    }
+    if let Some(environment) = &it.environment {
+        check_environment(environment, &format!("{key}.environment"))?;
+    }
+    if let Some(studio) = &it.studio {
+        studio.check_keys(&format!("{key}.studio"))?;
+    }
+    each(&format!("{key}.light"), &it.lights, Light::check_at)
 }
 
 fn check_material(it: &Material, key: &str) -> Check {

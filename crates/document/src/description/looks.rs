@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use super::check::{check_environment, check_lights};
-use super::keyed::{Keyed, keyed};
+use super::keyed::keyed;
 use super::ranges::{Check, Numbers};
 use super::table::{Read, Table, Value};
 use super::{Camera, Description, Environment, Light, Studio};
@@ -66,21 +65,6 @@ impl Look {
             description.studio = self.studio.clone().unwrap_or(Studio::NONE);
             description.lights.clone_from(&self.lights);
         }
-    }
-
-    /// Refuses values out of range.
-    pub(super) fn check_at(&self, key: &str) -> Check {
-        self.check_keys(key)?;
-        if let Some(camera) = &self.camera {
-            camera.check_at(&format!("{key}.camera"))?;
-        }
-        if let Some(environment) = &self.environment {
-            check_environment(environment, &format!("{key}.environment"))?;
-        }
-        if let Some(studio) = &self.studio {
-            studio.check_keys(&format!("{key}.studio"))?;
-        }
-        check_lights(&self.lights, &format!("{key}.light"))
     }
 }
 

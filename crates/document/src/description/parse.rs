@@ -93,6 +93,7 @@ impl Description {
             scratches: Vec::new(),
             gratings: Vec::new(),
             lights: Vec::new(),
+            looks: Vec::new(),
             lights_of: None,
             notes: Vec::new(),
         }

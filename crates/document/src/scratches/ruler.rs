@@ -7,7 +7,7 @@ use hairline_scene::Mesh;
 
 use super::ground::Ground;
 use super::guide::Guide;
-use super::walk::MeshPoint;
+use super::walk::{LONGEST_WAY, MeshPoint};
 
 /// A mesh on which ways are measured.
 #[derive(Debug)]

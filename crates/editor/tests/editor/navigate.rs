@@ -4,6 +4,7 @@
 use crate::seeded;
 use glam::{DVec2, DVec3};
 use hairline_document::description::Camera;
+use hairline_editor::navigate;
 use hairline_editor::navigate::*;
 use proptest::prelude::*;
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use hairline_image::held;
 use serde_json::{Value, json};
-use tobj::{LoadError, LoadOptions};
+use tobj::LoadOptions;
 
 use super::creased::add_normals;
 use super::{Part, Translated, bare_metal, begun, finished, push_part};

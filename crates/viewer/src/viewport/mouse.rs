@@ -37,7 +37,8 @@ impl Viewport {
         self.pen.drag(ui, work, area, response, is_free);
         self.measure_by_drag(ui, work, area, response, is_free);
         // Alt orbits with any tool, as in every other program.
-        let draws = tool == Tool::Region || self.is_measuring || self.pen.is_held();
+        let draws_region = tool == Tool::Region;
+        let draws = draws_region || self.is_measuring || self.pen.is_held();
         let is_held = is_brush || self.is_placing || draws;
         let orbits = response.dragged_by(PointerButton::Primary) && !shift && (!is_held || alt)
             || response.dragged_by(PointerButton::Secondary);
