@@ -8,6 +8,7 @@
 
 mod camera;
 mod check;
+mod distribution;
 mod engraved;
 mod files;
 mod gratings;
@@ -43,6 +44,7 @@ use values::{Named, is_default, serialize_named, serialize_scale};
 
 pub use camera::Camera;
 pub use check::STROKE_POINTS;
+pub use distribution::Distribution;
 pub use engraved::{Engraved, Line};
 pub use files::FileUse;
 pub use gratings::{Grating, GratingTheory, GroovePattern, UvAxis};
@@ -53,8 +55,8 @@ pub use overrides::Override;
 pub use place::LayerPlaces;
 pub use ranges::LARGEST_SEED;
 pub use scratches::{
-    Amount, Around, Brush, Brushed, Distribution, Laid, Layer, Listed, Pattern, Scratches,
-    Standing, Stroke, standings,
+    Amount, Around, Brush, Brushed, Laid, Layer, Listed, Pattern, Scratches, Standing, Stroke,
+    standings,
 };
 pub use shapes::Shape;
 pub use studio::{Ground, Studio};

@@ -26,6 +26,7 @@ mod ruler;
 mod strewn;
 mod swirl;
 mod walk;
+mod written_list;
 
 use std::path::Path;
 
@@ -43,7 +44,6 @@ pub use laying::LISTED_RANGES;
 pub(crate) use laying::LISTED_SIZES;
 use laying::{Laying, MOST_SEGMENTS};
 use listed::Listed;
-pub use listed::write_scratches;
 pub(crate) use listed::{ListedRow, list_header, read as read_list};
 use memory::{Demand, SEGMENT_BYTES};
 use painted::Painted;
@@ -53,6 +53,7 @@ use random::Stream;
 pub use ruler::Ruler;
 use strewn::Strewn;
 use walk::{Course, Walker};
+pub use written_list::write_scratches;
 
 /// Number of scratches that are laid first, to learn how many segments one has.
 const PILOTS: u64 = 1024;
@@ -238,7 +239,8 @@ impl<'a> Plan<'a> {
                 (Box::new(painted), count)
             }
             Layer::Engraved(engraved) => {
-                let engraving = Engraving::new(loader, engraved, table, base_dir)?;
+                let engraving =
+                    Engraving::new(loader, engraved, table.number, ground, &table.key, base_dir)?;
                 let count = engraving.count();
                 (Box::new(engraving), count)
             }

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::distribution::Distribution;
 use super::keyed::kinds;
 use super::ranges::{Check, check_seed};
-use super::scratches::Distribution;
 use super::shapes::check_letters;
 use super::table::Table;
 use crate::error::Error;

@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use serde::Serialize;
 use toml::de::DeValue;
 
+use super::distribution::Distribution;
 use super::keyed::kinds;
 use super::ranges::{Check, Numbers, check_radii, check_seed, within};
-use super::scratches::{Around, Distribution};
+use super::scratches::Around;
 use super::table::{Read, Table, Value};
 use super::values::{Named, is_default, is_false, serialize_named};
 use crate::error::Error;

@@ -6,10 +6,11 @@ use std::path::PathBuf;
 use hairline_optics::section::Section;
 use serde::{Serialize, Serializer};
 
+use super::distribution::Distribution;
 use super::engraved::Engraved;
 use super::keyed::kinds;
 use super::place::LayerPlaces;
-use super::ranges::{Check, Numbers, Take};
+use super::ranges::Check;
 use super::table::Table;
 use crate::error::Error;
 use crate::schema::scratches;
@@ -323,41 +324,6 @@ pub struct Around {
     pub center_m: [f64; 3],
     /// Standard deviation of a scratch's angle to the pattern.
     pub jitter_deg: f64,
-}
-
-/// A number that is drawn anew for each scratch: `{ mean = .., spread = .. }`, or a plain number for no spread.
-///
-/// For a log-normal quantity `mean` is the mean itself and `spread` the standard deviation of the natural logarithm; for a
-/// normal one `spread` is the standard deviation, in the unit of the mean.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Distribution {
-    /// The mean.
-    pub mean: f64,
-    /// Spread of the values, not negative.
-    pub spread: f64,
-}
-
-impl Numbers for Distribution {
-    fn each(&self, take: &mut Take) -> Check {
-        if self.spread == 0.0 {
-            return take("", self.mean, false);
-        }
-        take(".mean", self.mean, false)?;
-        take(".spread", self.spread, true)
-    }
-}
-
-impl Serialize for Distribution {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        use serde::ser::SerializeStruct;
-        if self.spread == 0.0 {
-            return self.mean.serialize(serializer);
-        }
-        let mut table = serializer.serialize_struct("Distribution", 2)?;
-        table.serialize_field("mean", &self.mean)?;
-        table.serialize_field("spread", &self.spread)?;
-        table.end()
-    }
 }
 
 impl Laid {

@@ -9,7 +9,6 @@ use hairline_scene::Segment;
 use kurbo::{PathSeg, Point};
 use rayon::prelude::*;
 
-use super::Table;
 use super::curve::{Cubic, spline};
 use super::facet::Facet;
 use super::ground::Ground;
@@ -31,6 +30,10 @@ const LONGEST: f64 = 1.0 / 256.0;
 
 /// Least part of a direction that leads along the surface.
 const LEAST_ALONG: f64 = 1e-3;
+/// Steps in which a point is moved along a direction onto the surface, facet by facet.
+const STEPS: usize = 16;
+/// Least part of that direction across a facet.
+const LEAST_ACROSS: f64 = 0.1;
 /// Lines that are laid between two looks at whether to give up.
 const TOGETHER: usize = 64;
 
@@ -52,20 +55,25 @@ struct Run {
 }
 
 impl<'a> Engraving<'a> {
+    /// `table` is the way to the layer.
     pub(super) fn new(
         loader: &Loader,
         layer: &'a Engraved,
-        table: &Table<'a>,
+        number: u64,
+        ground: &'a Ground,
+        table: &str,
         base_dir: &Path,
     ) -> Result<Self, Error> {
-        let ground = table.ground;
-        let key = format!("{}.{}", table.key, layer.line.key().name);
+        let key = format!("{table}.{}", layer.line.key().name);
         let lines = match &layer.line {
             Line::Curve { points_m, closed } => {
                 for (i, point) in points_m.iter().enumerate() {
                     ground.refuse_far(*point, ground.diagonal_m, || format!("{key}[{i}]"))?;
                 }
-                vec![through(points_m, *closed, ground)]
+                vec![Outline {
+                    cubics: through(points_m, *closed, ground),
+                    down: None,
+                }]
             }
             Line::Text {
                 text,
@@ -73,7 +81,7 @@ impl<'a> Engraving<'a> {
                 center_m,
                 direction,
             } => {
-                let plate = Plate::new(ground, *center_m, *direction, &table.key)?;
+                let plate = Plate::new(ground, *center_m, *direction, table)?;
                 let letters = outlines::letters(text, *height_m);
                 letters.iter().flat_map(|it| plate.stamped(it)).collect()
             }
@@ -83,17 +91,14 @@ impl<'a> Engraving<'a> {
                 center_m,
                 direction,
             } => {
-                let plate = Plate::new(ground, *center_m, *direction, &table.key)?;
+                let plate = Plate::new(ground, *center_m, *direction, table)?;
                 plate.stamped(&outlines::drawing(&base_dir.join(file), &key, *fit_m)?)
             }
         };
         let mut runs = Vec::new();
         for (together, lines) in (0..).step_by(TOGETHER).zip(lines.chunks(TOGETHER)) {
             loader.go_on()?;
-            let laid: Vec<_> = lines
-                .par_iter()
-                .map(|cubics| laid(ground, cubics))
-                .collect();
+            let laid: Vec<_> = lines.par_iter().map(|path| laid(ground, path)).collect();
             for (line, parts) in (together..).zip(laid) {
                 runs.extend(parts.into_iter().map(|(course, segments)| Run {
                     line,
@@ -104,7 +109,7 @@ impl<'a> Engraving<'a> {
         }
         Ok(Self {
             layer,
-            number: table.number,
+            number,
             ground,
             runs,
         })
@@ -137,6 +142,13 @@ impl Laying for Engraving<'_> {
         let point_m = middle.start_m.midpoint(middle.end_m).as_dvec3();
         Some(self.ground.closest().find(point_m).0)
     }
+}
+
+/// A line before it is laid.
+struct Outline {
+    cubics: Vec<Cubic>,
+    /// Direction in which it is moved onto the surface, for what is off it.
+    down: Option<DVec3>,
 }
 
 /// The place of outlines on the surface.
@@ -175,7 +187,7 @@ impl<'a> Plate<'a> {
     }
 
     /// The outlines of a stamp in the plane that touches the surface at its place; none where the surface ends before it.
-    fn stamped(&self, stamp: &Stamp) -> Vec<Vec<Cubic>> {
+    fn stamped(&self, stamp: &Stamp) -> Vec<Outline> {
         let walker = self.ground.walker();
         let sign = 1.0f64.copysign(stamp.x_m);
         let there = walker.ahead(self.middle, sign * self.right, stamp.x_m.abs());
@@ -188,14 +200,17 @@ impl<'a> Plate<'a> {
             .normalize_or_zero();
         let up = normal.cross(right);
         let at = |point: Point| place.point_m + right * point.x + up * point.y;
-        let mut lines: Vec<Vec<Cubic>> = Vec::new();
+        let mut lines: Vec<Outline> = Vec::new();
         let mut last = None;
         for segment in stamp.outlines.segments() {
             let curve = PathSeg::to_cubic(&segment);
             let cubic = Cubic([curve.p0, curve.p1, curve.p2, curve.p3].map(at));
             match lines.last_mut().filter(|_| last == Some(curve.p0)) {
-                Some(line) => line.push(cubic),
-                None => lines.push(vec![cubic]),
+                Some(line) => line.cubics.push(cubic),
+                None => lines.push(Outline {
+                    cubics: vec![cubic],
+                    down: Some(-normal),
+                }),
             }
             last = Some(curve.p3);
         }
@@ -243,13 +258,18 @@ fn through(points_m: &[[f64; 3]], is_closed: bool, ground: &Ground) -> Vec<Cubic
 }
 
 /// Lays a line of curves that follow one another, in as many runs as edges of the surface part it into.
-fn laid(ground: &Ground, cubics: &[Cubic]) -> Vec<(Course, Vec<Segment>)> {
-    let Some(first) = cubics.first() else {
+fn laid(ground: &Ground, outline: &Outline) -> Vec<(Course, Vec<Segment>)> {
+    let Some(first) = outline.cubics.first() else {
         return Vec::new();
     };
     let mut points_m = vec![first.0[0]];
-    for cubic in cubics {
+    for cubic in &outline.cubics {
         cubic.flatten(LONGEST * ground.diagonal_m, &mut points_m);
+    }
+    if let Some(down) = outline.down {
+        for point_m in &mut points_m {
+            *point_m = moved(ground, *point_m, down);
+        }
     }
     let walker = ground.walker();
     let mut runs = runs(ground, &walker, &points_m);
@@ -271,6 +291,24 @@ fn laid(ground: &Ground, cubics: &[Cubic]) -> Vec<(Course, Vec<Segment>)> {
             (!segments.is_empty()).then_some((course, segments))
         })
         .collect()
+}
+
+/// A point moved along a direction onto the surface. The nearest places of points that are far off would follow the edges of facets.
+fn moved(ground: &Ground, mut point_m: DVec3, along: DVec3) -> DVec3 {
+    for _ in 0..STEPS {
+        let (spot, off_m) = ground.closest().find(point_m);
+        let normal = Facet::new(&ground.mesh, spot.triangle).normal;
+        let slope = along.dot(normal);
+        if off_m == 0.0 || slope.abs() < LEAST_ACROSS {
+            break;
+        }
+        let way_m = (spot.point_m - point_m).dot(normal) / slope;
+        point_m += along * way_m;
+        if way_m.abs() < 1e-12 {
+            break;
+        }
+    }
+    point_m
 }
 
 /// The ways on the surface along points: one, or several with edges between them that no way leads over. There is none beyond a rim.

@@ -137,7 +137,6 @@ impl Facet {
     }
 
     /// Distance of a point from the facet: 0 within it.
-    #[cfg(test)]
     pub(super) fn distance_m(&self, point_m: DVec3) -> f64 {
         let offset = point_m - self.corners_m[0];
         let below = (0..3).map(|e| -(point_m - self.corners_m[e]).dot(self.inward[e]));

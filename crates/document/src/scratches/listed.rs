@@ -1,14 +1,12 @@
-//! A layer whose scratches are listed in a CSV file: one straight scratch a row, or the straight pieces of one. And lists of laid scratches, for
-//! other programs and to be read again.
+//! A layer whose scratches are listed in a CSV file: one straight scratch a row, or the straight pieces of one.
 
-use std::io::{self, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use glam::{DMat3, DMat4, DVec3, Vec3};
+use glam::DVec3;
 use hairline_model::reading::{self, FileKind};
 use hairline_model::text::shown;
-use hairline_scene::{Object, Profile, Scratch, Segment};
+use hairline_scene::{Profile, Segment};
 use rayon::prelude::*;
 
 use super::ground::Ground;
@@ -23,7 +21,7 @@ const ENDS: [&str; 6] = ["x0_m", "y0_m", "z0_m", "x1_m", "y1_m", "z1_m"];
 const COUNT: usize = ENDS.len() + LISTED_SIZES.len();
 /// Further columns: the number of the scratch, whose straight pieces follow one another, and the surface's normal in the middle of the
 /// piece. A list to be read has all, none, or the number alone. The normal is not read.
-const MORE_COLUMNS: [&str; 4] = ["scratch", "nx", "ny", "nz"];
+pub(super) const MORE_COLUMNS: [&str; 4] = ["scratch", "nx", "ny", "nz"];
 /// Largest distance of a scratch's end from the surface, relative to the diagonal of the object: a list for the ideal shape fits its
 /// facets.
 const OFF_SURFACE: f64 = 0.01;
@@ -40,7 +38,7 @@ pub(crate) struct ListedRow {
 }
 
 /// The header.
-fn columns() -> Vec<&'static str> {
+pub(super) fn columns() -> Vec<&'static str> {
     let sizes = LISTED_SIZES.iter().map(|size| size.key);
     ENDS.into_iter().chain(sizes).collect()
 }
@@ -187,38 +185,6 @@ fn parse_row(line: usize, row: &str, count: usize, number: u32) -> Result<Listed
         profile,
         scratch,
     })
-}
-
-/// Writes laid scratches of an object: a straight piece a row, in the frame that `frame_from_world` leads to. In the object's own frame
-/// `pattern = "file"` reads them. The numbers read back as what they were. packages/hairline-shaders reads them in world space.
-///
-/// # Errors
-/// What cannot be written.
-pub fn write_scratches<'a>(
-    object: &Object,
-    scratches: impl IntoIterator<Item = &'a Scratch>,
-    frame_from_world: &DMat4,
-    out: &mut impl Write,
-) -> io::Result<()> {
-    let place = |at_m: Vec3| frame_from_world.transform_point3(at_m.as_dvec3()).as_vec3();
-    // Normals go by the inverse transpose of the way that places take.
-    let turn = DMat3::from_mat4(*frame_from_world).inverse().transpose();
-    let names = columns().into_iter().chain(MORE_COLUMNS);
-    writeln!(out, "{}", names.collect::<Vec<_>>().join(","))?;
-    for (number, scratch) in scratches.into_iter().enumerate() {
-        let mut profile = scratch.profile;
-        let sizes = LISTED_SIZES.each_ref().map(|size| *(size.of)(&mut profile));
-        for piece in object.pieces(scratch) {
-            let ends = [piece.start_m, piece.end_m].map(|end| place(end).to_array());
-            for x in ends.as_flattened().iter().chain(&sizes) {
-                write!(out, "{x},")?;
-            }
-            let normal = (turn * piece.normal.as_dvec3()).normalize_or_zero();
-            let [x, y, z] = normal.as_vec3().to_array();
-            writeln!(out, "{number},{x},{y},{z}")?;
-        }
-    }
-    Ok(())
 }
 
 /// A straight piece with its ends on the surface.

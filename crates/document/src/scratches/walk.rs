@@ -19,6 +19,8 @@ const TURN_BACK_COS: f64 = 0.5;
 pub(super) const LONGEST_WAY: f64 = 4.0;
 /// Share of a way by which it may miss its end and still arrives.
 const MISSED: f64 = 1e-3;
+/// A place that is nearer to a triangle is on its edge, but for rounding.
+const ON_EDGE_M: f64 = 1e-10;
 
 /// A place on the surface.
 #[derive(Clone, Copy, Debug)]
@@ -154,6 +156,19 @@ impl<'a> Walker<'a> {
 
     /// The way to a near place, and whether it arrives.
     fn towards(&self, from: MeshPoint, to: MeshPoint) -> (Vec<StraightPiece>, bool) {
+        for triangle in [from.triangle, to.triangle] {
+            let facet = Facet::new(self.mesh, triangle);
+            let is_in = |place: MeshPoint| facet.distance_m(place.point_m) < ON_EDGE_M;
+            // Along an edge neither of its facets leads on.
+            if facet.normal != DVec3::ZERO && is_in(from) && is_in(to) {
+                let piece = StraightPiece {
+                    start_m: from.point_m,
+                    end_m: to.point_m,
+                    triangle,
+                };
+                return (vec![piece], true);
+            }
+        }
         let guide = Guide::Towards { end_m: to.point_m };
         let distance_m = from.point_m.distance(to.point_m);
         let (pieces, _) = self.walk(from, &guide, false, LONGEST_WAY * distance_m);

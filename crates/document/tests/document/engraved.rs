@@ -193,3 +193,17 @@ fn a_line_of_text_goes_around_a_cylinder() {
         assert!(it.start_m.z.abs() < 0.00501);
     }
 }
+
+/// The places far below the plane of the drawing are straight below it, not along the edges of facets.
+#[test]
+fn a_large_drawing_on_a_ball_is_whole() {
+    let keys = "pattern = \"svg\"\nfile = \"mark.svg\"\nfit_m = 0.05\ncenter_m = [0, -0.05, 0]\ndirection = [1, 0, 0]";
+    let object = engraved(SPHERE, keys);
+    let closed: Vec<bool> = object.scratches.iter().map(|it| it.closed).collect();
+    assert_eq!(closed, [true, true, false]);
+    for it in pieces(&object, &object.scratches[1]) {
+        let radius_m = it.start_m.x.hypot(it.start_m.z);
+        assert!((radius_m - 0.0125).abs() < 1e-5, "{radius_m}");
+        assert!(it.start_m.y < 0.0);
+    }
+}

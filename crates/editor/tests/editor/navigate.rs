@@ -4,7 +4,6 @@
 use crate::seeded;
 use glam::{DVec2, DVec3};
 use hairline_document::description::Camera;
-use hairline_editor::navigate;
 use hairline_editor::navigate::*;
 use proptest::prelude::*;
 
@@ -261,6 +260,7 @@ fn surroundings_turn_as_the_camera_does() {
 /// What stands still with the lights and turns with the objects is the same picture, turned.
 #[test]
 fn a_turntable_of_the_lights_turns_all_light_and_nothing_else() {
+    use hairline_editor::navigate;
     let mut scene = hairline_fixtures::scenes::lit_plate()
         .part("[studio]\nrotation_deg = 10\n[environment]\nbuiltin = \"window\"\nrotation_deg = 350\n")
         .description();

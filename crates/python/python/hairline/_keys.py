@@ -52,7 +52,7 @@ class Settings(Table):
 
     _section = "render"
     _is_one_of_many = False
-    _absent = {"size_px": (1280, 720), "filter_std_px": 0.5, "tone_map": "neutral"}
+    _absent = {"size_px": (1280, 720), "filter_std_px": 0.5, "tone_map": "neutral", "transparent": False, "png_bits": 8}
 
     size_px: Sequence[int] = _default()
     """Width and height. Unit: pixels. Default: ``[1280, 720]``. Range: 1 to 16384 each."""
@@ -60,6 +60,12 @@ class Settings(Table):
     """Standard deviation of the pixel's Gaussian filter: larger is softer. Unit: pixels. Default: 0.5. Range: 0.1 to 10."""
     tone_map: str = _default()
     """The curve from radiance to the display. Default: ``"neutral"``. Range: see below."""
+    transparent: bool = _default()
+    """Whether pictures have an alpha, the share of each pixel that objects cover. The environment lights them and is not seen then. Default: ``false``."""
+    behind: Optional[Path] = _default()
+    """A picture behind the objects, relative to the scene file, in the place of the environment. It fills the whole of a ``.png``, from the middle, with its own colours: no exposure and no tone curve changes them. An ``.exr`` keeps its alpha instead. Default: none. Range: ``.png``, ``.jpg``, ``.webp``."""
+    png_bits: int = _default()
+    """Bits of each channel of a ``.png``. 16 leave room for changes of brightness afterwards. Default: 8. Range: 8 or 16."""
 
 
 class Environment(Table):
@@ -102,7 +108,7 @@ class Ground(Table):
 
     _section = "ground"
     _is_one_of_many = False
-    _absent = {"hidden": False, "color": (0.1, 0.1, 0.105), "roughness": 0.55}
+    _absent = {"hidden": False, "color": (0.1, 0.1, 0.105), "roughness": 0.55, "shadows_only": False}
 
     hidden: bool = _default()
     """As if it were not there. Default: ``false``."""
@@ -112,6 +118,8 @@ class Ground(Table):
     """As that of a material. Default: 0.55. Range: 0 to 1."""
     height_m: Optional[float] = _default()
     """Where it lies along the up axis. Unit: m. Default: under the lowest point of all objects. Range: ±1000."""
+    shadows_only: bool = _default()
+    """Whether the ground is seen by the shadows on it alone. Pictures are transparent then: where it is lit fully alpha is 0, where nothing lights it black with alpha 1. No object mirrors it. Default: ``false``."""
 
 
 class Material(Table):

@@ -11,7 +11,7 @@ use hairline_editor::autosave::Pending;
 use hairline_editor::document::SaveError;
 
 use super::Viewer;
-use crate::dialogs::{Answer, PathLine, PresetLine, Question, Wish};
+use crate::dialogs::{Answer, PathLine, Question, Wish};
 use crate::files::Purpose;
 use crate::link;
 use crate::platform;
@@ -268,7 +268,7 @@ impl Viewer {
             Answer::Wish(wish) => self.wish(ctx, wish),
             Answer::Fulfil(wish) => self.fulfil(ctx, wish),
             Answer::Path(purpose, path) => self.take_typed(ctx, purpose, path),
-            Answer::SavePreset(line) => self.save_preset(line),
+            Answer::SavePreset(name, all_lights) => self.save_preset(name, all_lights),
             Answer::Reload => self.work.reload("was loaded again."),
             Answer::PassOver => self.work.document.pass_over_disk(),
             Answer::AddModel(path, fit_m) => self.add_model(&path, fit_m),
@@ -277,16 +277,17 @@ impl Viewer {
     }
 
     /// Keeps what is selected as a preset, or asks for another name.
-    fn save_preset(&mut self, line: PresetLine) {
-        let (name, all_lights) = line.answer();
-        match self.work.save_preset(name, all_lights) {
+    fn save_preset(&mut self, name: String, all_lights: bool) {
+        match self.work.save_preset(&name, all_lights) {
             Ok(()) => {
                 let text = format!("Saved the preset {}.", name.trim());
                 self.work.notices.note("preset", text);
             }
-            Err(error) => self
-                .dialogs
-                .ask(Question::Preset(line.again(error.to_string()))),
+            Err(error) => {
+                let line = self.preset_line(name);
+                let line = line.again(error.to_string(), all_lights);
+                self.dialogs.ask(Question::Preset(line));
+            }
         }
     }
 

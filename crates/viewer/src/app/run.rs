@@ -157,16 +157,20 @@ impl Viewer {
     }
 
     fn ask_preset_name(&mut self) {
+        if let Some(name) = self.work.preset_name() {
+            let line = self.preset_line(name);
+            self.dialogs.ask(Question::Preset(line));
+        }
+    }
+
+    /// The line for the name of a preset of what is selected.
+    pub(super) fn preset_line(&self, name: String) -> PresetLine {
         let work = &self.work;
-        let Some(name) = work.preset_name() else {
-            return;
-        };
         let list = work.own_presets.list().iter();
         let taken = list.map(|preset| preset.name.clone()).collect();
         let lights = work.document.description().lights.len();
         let lights = matches!(work.selection(), Selection::Light(_)).then_some(lights);
-        let line = PresetLine::new(name, taken, lights);
-        self.dialogs.ask(Question::Preset(line));
+        PresetLine::new(name, taken, lights)
     }
 
     fn take_snapshot(&mut self) {

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use hairline_editor::autosave::Pending;
 
-use super::preset::PresetLine;
 use crate::files::Purpose;
 
 /// Action that waits for an answer about unsaved changes.
@@ -36,8 +35,8 @@ pub(crate) enum Answer {
     Rename(Purpose, PathBuf),
     /// A path was typed.
     Path(Purpose, PathBuf),
-    /// What is selected becomes a preset of this name.
-    SavePreset(PresetLine),
+    /// What is selected becomes a preset of this name; of a light, if it is true, all lights do.
+    SavePreset(String, bool),
     Reload,
     /// The text that another program has written is ignored.
     PassOver,

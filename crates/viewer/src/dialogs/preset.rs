@@ -33,10 +33,10 @@ impl PresetLine {
     }
 
     /// Asks again, and says why.
-    pub fn again(self, why: String) -> Self {
+    pub fn again(self, why: String, all_lights: bool) -> Self {
         Self {
             refused: Some(why),
-            is_new: true,
+            all_lights,
             ..self
         }
     }
@@ -77,19 +77,9 @@ impl PresetLine {
         });
         let should_close = modal.should_close();
         match modal.inner {
-            (true, _) => Some(Answer::SavePreset(Self {
-                name: self.name.clone(),
-                taken: std::mem::take(&mut self.taken),
-                refused: None,
-                ..*self
-            })),
+            (true, _) => Some(Answer::SavePreset(self.name.clone(), self.all_lights)),
             (false, cancel) => (cancel || should_close).then_some(Answer::Cancel),
         }
-    }
-
-    /// The name, and whether all lights are meant.
-    pub fn answer(&self) -> (&str, bool) {
-        (&self.name, self.all_lights)
     }
 }
 

@@ -1,0 +1,40 @@
+//! Numbers that are drawn anew for each scratch.
+
+use serde::{Serialize, Serializer};
+
+use super::ranges::{Check, Numbers, Take};
+
+/// A number that is drawn anew for each scratch: `{ mean = .., spread = .. }`, or a plain number for no spread.
+///
+/// For a log-normal quantity `mean` is the mean itself and `spread` the standard deviation of the natural logarithm; for a
+/// normal one `spread` is the standard deviation, in the unit of the mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distribution {
+    /// The mean.
+    pub mean: f64,
+    /// Spread of the values, not negative.
+    pub spread: f64,
+}
+
+impl Numbers for Distribution {
+    fn each(&self, take: &mut Take) -> Check {
+        if self.spread == 0.0 {
+            return take("", self.mean, false);
+        }
+        take(".mean", self.mean, false)?;
+        take(".spread", self.spread, true)
+    }
+}
+
+impl Serialize for Distribution {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        if self.spread == 0.0 {
+            return self.mean.serialize(serializer);
+        }
+        let mut table = serializer.serialize_struct("Distribution", 2)?;
+        table.serialize_field("mean", &self.mean)?;
+        table.serialize_field("spread", &self.spread)?;
+        table.end()
+    }
+}
