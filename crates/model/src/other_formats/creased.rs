@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DVec3, Vec3};
 
-use super::Part;
+use super::translated::Part;
 
 /// Triangles that meet at a smaller angle than 30 degrees are of one smooth surface.
 const CREASE_COS: f64 = 0.866_025_403_784_438_6;

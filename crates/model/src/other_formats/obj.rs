@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use tobj::LoadOptions;
 
 use super::creased::add_normals;
-use super::{Part, Translated, bare_metal, begun, finished, push_part};
+use super::translated::{Part, Translated, bare_metal, begun, finished, push_part};
 use crate::flaw::Flaw;
 use crate::gltf_file::GltfFile;
 use crate::text::shown;

@@ -5,7 +5,7 @@ use std::io::Cursor;
 use serde_json::json;
 
 use super::creased::add_normals;
-use super::{Part, Translated, bare_metal, begun, finished, push_part};
+use super::translated::{Part, Translated, bare_metal, begun, finished, push_part};
 use crate::flaw::Flaw;
 
 const RIGHT: &str = "must be a whole STL file, binary or text";

@@ -16,7 +16,7 @@ pub(crate) struct PresetLine {
     all_lights: bool,
     /// Reason why the name before was of no use.
     refused: Option<String>,
-    /// The line was not shown yet.
+    /// The line has not had the keyboard yet.
     is_new: bool,
 }
 
@@ -53,10 +53,13 @@ impl PresetLine {
                 self.refused = None;
             }
             let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            if std::mem::take(&mut self.is_new) {
+            // What had the keyboard before, as a button of a panel, gives it up a frame later.
+            if self.is_new && response.has_focus() {
+                self.is_new = false;
                 select_all(&response, self.name.chars().count());
             }
-            if !entered && ctx.memory(|memory| memory.focused().is_none()) {
+            let is_free = ctx.memory(|memory| memory.focused().is_none());
+            if self.is_new || !entered && is_free {
                 response.request_focus();
             }
             if let Some(count) = self.lights {
