@@ -197,7 +197,7 @@ fn add(
 
 /// An engraved layer to begin with: one that is seen.
 fn engraved(object: &Object, line: Line) -> Scratches {
-    let [width_um, depth_nm] = [8.0, 250.0].map(|mean| Distribution { mean, spread: 0.0 });
+    let [width_um, depth_nm] = [40.0, 250.0].map(|mean| Distribution { mean, spread: 0.0 });
     let layer = Layer::Engraved(Engraved::new(line, width_um, depth_nm));
     Scratches::new(object.name.clone(), layer)
 }

@@ -236,7 +236,10 @@ fn contradictions_are_2_and_nothing_is_written() {
         ("--frames 2 --zoom 1:2 --fps 0", "1..=100"),
         ("--frames 1 --zoom 1:2 --stability", "--frames 2 or more"),
         ("--frames 2 --zoom 1:2 -o a.webp", "end it in .apng"),
-        ("--frames 2 --zoom 1:2 --animation a.gif", ".apng or .png"),
+        (
+            "--frames 2 --zoom 1:2 --animation a.gif",
+            ".apng, .png or .mp4",
+        ),
         (
             "--frames 2 --zoom 1:2 -o a.apng --animation b.apng",
             "leave one of them out",

@@ -182,7 +182,8 @@ fn a_ground_that_catches_shadows_is_clear_where_it_is_lit() {
         at(50, 45)
     );
     let middle = image.index((30.0 + 0.06 * px_of_m()) as u32, 30);
-    assert!(alpha[middle] > 0.99, "{}", alpha[middle]);
+    // The filter of rays takes a little of what lies around.
+    assert!(alpha[middle] > 0.97, "{}", alpha[middle]);
     assert_eq!(image.base[middle], [0.0; 3]);
     // The shadow of a ball from 45 degrees is longer by the root of two.
     let px = 0.02 * px_of_m();
@@ -198,7 +199,7 @@ fn a_ground_that_catches_shadows_is_clear_where_it_is_lit() {
     let picture = picture.into_rgba16();
     assert_eq!(picture.get_pixel(5, 5).0, [0; 4]);
     let [r, g, b, a] = picture.get_pixel(middle as u32 % 60, middle as u32 / 60).0;
-    assert!([r, g, b] == [0; 3] && a > 64_800, "{a}");
+    assert!([r, g, b] == [0; 3] && a > 63_500, "{a}");
 }
 
 #[test]

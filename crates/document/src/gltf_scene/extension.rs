@@ -111,6 +111,6 @@ mod tests {
                 count += usize::from(is_file);
             }
         }
-        assert_eq!(count, 9);
+        assert_eq!(count, 10);
     }
 }

@@ -593,7 +593,9 @@ fn files_that_are_not_there() {
         mesh.starts_with("plate.toml:13: object[0].mesh: \"gone.glb\": it cannot be read ("),
         "{mesh}"
     );
-    assert!(mesh.ends_with("; give the path of a .gltf or .glb file, relative to the scene file"));
+    assert!(mesh.ends_with(
+        "; give the path of a .gltf, .glb, .obj or .stl file, relative to the scene file"
+    ));
     let csv = scratches("pattern = \"file\"\nfile = \"gone.csv\"");
     assert!(
         csv.starts_with("plate.toml:18: scratches[0].file: \""),

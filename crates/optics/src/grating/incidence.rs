@@ -378,12 +378,13 @@ mod tests {
         };
         let table = rigorous.table(20.0);
         let green = |of: [f64; 3]| of[1];
-        // Halfway between two angles along the grooves an order leaves along the surface, where light changes at once.
+        // Halfway between two of the eight angles along the grooves an order leaves along the surface, where light changes at once: the table is linear
+        // there, which is what is left of its errors.
         for (at, most) in [
             ([40.0, 0.0], 0.01),
             ([50.0, 3.0], 0.01),
             ([40.5, 0.0], 0.03),
-            ([45.3, 2.5], 0.12),
+            ([45.3, 2.5], 0.25),
         ] {
             let viewer = components(at[0], at[1]);
             let [across, along] = viewer;
