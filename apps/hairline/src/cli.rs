@@ -33,7 +33,7 @@ pub enum Command {
     /// Edit a scene in a window: scratches, lights and materials, live.
     View(View),
     /// Render a scene to a picture.
-    Render(Render),
+    Render(Box<Render>),
     /// Compare a picture with a reference: figures, and a report to look at.
     Compare(Compare),
     /// Render a scene by Monte Carlo, slowly, with its variance: the reference to which the closed forms of `render` must converge.

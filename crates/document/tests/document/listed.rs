@@ -259,9 +259,7 @@ fn pieces_of_one_scratch_follow_one_another() {
 #[test]
 fn a_ruler_goes_along_the_surface() {
     let measured = |shape: &str, from: [f64; 3], to: [f64; 3]| {
-        let mesh = load(shape, "", format!("{HEADER}").as_bytes())
-            .unwrap()
-            .mesh;
+        let mesh = load(shape, "", HEADER.as_bytes()).unwrap().mesh;
         let [from, to] = [from, to].map(glam::DVec3::from);
         let middle = |t: usize| mesh.corners_m(t).iter().sum::<glam::DVec3>() / 3.0;
         let off = |t: &usize| middle(*t).distance_squared(from);
