@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 
 use crate::textures::of_metal;
 use crate::worn_object::{NAME, WornObject, number, numbers, rows};
-use crate::{Scratched, ScratchedMaterial, ScratchedTextures};
+use crate::{Scratched, ScratchedTextures};
 
 const AREA: &str = "EXT_lights_area";
 
