@@ -1,10 +1,9 @@
 //! The question for the name of a preset.
 
-use egui::text::{CCursor, CCursorRange};
-use egui::text_edit::TextEditState;
-use egui::{Context, Id, Key, Modal, Response, TextEdit};
+use egui::{Context, Id, Key, Modal, TextEdit};
 
 use super::answer::Answer;
+use crate::panels::form::select_all;
 
 /// Name of a preset, as it is typed.
 pub(crate) struct PresetLine {
@@ -84,12 +83,4 @@ impl PresetLine {
             (false, cancel) => (cancel || should_close).then_some(Answer::Cancel),
         }
     }
-}
-
-/// Selects the text of a line: what is typed takes its place.
-fn select_all(response: &Response, count: usize) {
-    let mut state = TextEditState::load(&response.ctx, response.id).unwrap_or_default();
-    let all = CCursorRange::two(CCursor::new(0), CCursor::new(count));
-    state.cursor.set_char_range(Some(all));
-    state.store(&response.ctx, response.id);
 }

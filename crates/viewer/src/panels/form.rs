@@ -514,7 +514,7 @@ pub(super) fn end_naming(ctx: &Context) -> bool {
 }
 
 /// Moves the keyboard's focus to a text of `count` characters, and selects all characters.
-fn select_all(response: &Response, count: usize) {
+pub(crate) fn select_all(response: &Response, count: usize) {
     response.request_focus();
     let ctx = &response.ctx;
     let mut state = TextEditState::load(ctx, response.id).unwrap_or_default();
