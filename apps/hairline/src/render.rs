@@ -127,9 +127,14 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
                 .as_ref()
                 .is_some_and(|alpha| alpha.iter().all(|share| *share == 1.0))
             {
-                tell(
-                    "note: no pixel is transparent: objects fill the picture; `hidden = true` takes one of them out",
-                );
+                let ground = loaded.description.ground.as_ref();
+                let why = match ground.is_some_and(|it| !it.hidden && !it.shadows_only) {
+                    true => {
+                        "the ground is behind all of it; --shadows-only leaves its shadows, `hidden = true` in [ground] nothing"
+                    }
+                    false => "objects fill the picture; `hidden = true` takes one of them out",
+                };
+                tell(format_args!("note: no pixel is transparent: {why}"));
             }
             if let Some(labels) = labels
                 && samples == wanted

@@ -104,8 +104,13 @@ fn give_wear(description: &mut Description, scene: &Scene, wear: Wear) {
     }
 }
 
-/// Cuts the objects out by the flags.
-fn cut_out(description: &mut Description, overrides: &Overrides<'_>) {
+/// Cuts the objects out by the flags. The ground that a model by itself has got is not to fill the picture: its shadows stay.
+fn cut_out(description: &mut Description, overrides: &Overrides<'_>, is_model: bool) {
+    let cuts_out = overrides.transparent || overrides.behind.is_some();
+    let own = (description.ground.as_mut()).filter(|ground| is_model && !ground.hidden);
+    if let Some(ground) = own {
+        ground.shadows_only |= cuts_out;
+    }
     let render = &mut description.render;
     render.transparent |= overrides.transparent;
     render.png_bits = overrides.png_bits.unwrap_or(render.png_bits);
@@ -128,8 +133,9 @@ pub fn load(
     outputs: &[&Path],
 ) -> Result<Loaded, Failure> {
     let mut source = Source::read(path)?;
+    let is_model = source.model.is_some();
     let mut description = source.description()?;
-    cut_out(&mut description, overrides);
+    cut_out(&mut description, overrides, is_model);
     let inputs = description.inputs(&source.folder);
     refuse_inputs(outputs, path, &inputs)?;
     if let Some(size_px) = overrides.size_px {

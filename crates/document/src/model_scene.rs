@@ -17,7 +17,6 @@ use crate::gltf_scene;
 use crate::probe;
 use crate::probe::ProbedMesh;
 use crate::scratch_studio::{DARK_GROUND, Subject};
-use crate::studio::PhotoSet;
 use crate::wear::Wear;
 
 mod lights;
@@ -118,7 +117,6 @@ impl Description {
             .filter(|stem| !stem.is_empty())
             .unwrap_or_else(|| "model".to_owned());
         let camera = camera(&points_m, render.size_px);
-        let set = PhotoSet::new(&camera, (a.min(b), a.max(b)));
         let environment = match lamps.is_empty() {
             true => {
                 let mesh = in_scene(mesh, factor);
@@ -140,40 +138,33 @@ impl Description {
                 visible: true,
             },
         };
-        let (mut ground, ground_material) = set.ground(&DARK_GROUND);
-        if object == ground.name {
-            ground.name += " under it";
-        }
         Ok(Self {
             camera,
             render,
             environment: Some(environment),
-            // The scene gets lights and an object in place of the studio, so that each can be changed.
+            // The scene gets lights in place of the studio, so that each can be changed.
             studio: Studio::NONE,
-            ground: None,
-            materials: vec![ground_material],
+            ground: Some(DARK_GROUND),
+            materials: Vec::new(),
             gratings: Vec::new(),
             scratches: match summary.metal_share > 0.5 {
                 true => Wear::Worn.layers(&object, a.distance(b)),
                 false => Vec::new(),
             },
-            objects: vec![
-                Object {
-                    name: object,
-                    surface: Surface::Mesh(name.clone()),
-                    up: Up::Y,
-                    fit_m,
-                    time_s: None,
-                    animation: None,
-                    overrides: Vec::new(),
-                    material: None,
-                    translation_m: [0.0; 3],
-                    rotation_deg: [0.0; 3],
-                    scale: [1.0; 3],
-                    hidden: false,
-                },
-                ground,
-            ],
+            objects: vec![Object {
+                name: object,
+                surface: Surface::Mesh(name.clone()),
+                up: Up::Y,
+                fit_m,
+                time_s: None,
+                animation: None,
+                overrides: Vec::new(),
+                material: None,
+                translation_m: [0.0; 3],
+                rotation_deg: [0.0; 3],
+                scale: [1.0; 3],
+                hidden: false,
+            }],
             lights: lamps,
             looks: Vec::new(),
             lights_of: Some(name),

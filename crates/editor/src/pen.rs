@@ -16,6 +16,8 @@ const ROUNDING: f64 = 1e-5;
 const LETTERS: f64 = 0.06;
 /// Extent of a drawing over the size of its object.
 const DRAWING: f64 = 0.25;
+/// Width of a line over the height of letters, the size of a drawing, the first piece of a curve.
+const LINE: f64 = 0.02;
 
 /// A place on an object, world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,7 +74,7 @@ pub fn begin(
             .to_vec(),
         closed: false,
     };
-    let layer = engraved(object, line);
+    let layer = engraved(object, line, LINE * points_m[0].distance(points_m[1]));
     layers::add(description, layer)
 }
 
@@ -150,11 +152,13 @@ pub fn add_text(
     place: &EngravingPlace,
 ) -> Result<Selection, ActionError> {
     let height_m = LETTERS * place.diagonal_m;
-    add(description, place, |center_m, direction| Line::Text {
-        text: "No. 1".to_owned(),
-        height_m: rounded(height_m, decimal_step(0.1 * height_m)),
-        center_m,
-        direction,
+    add(description, place, height_m, |center_m, direction| {
+        Line::Text {
+            text: "No. 1".to_owned(),
+            height_m: rounded(height_m, decimal_step(0.1 * height_m)),
+            center_m,
+            direction,
+        }
     })
 }
 
@@ -169,7 +173,7 @@ pub fn add_drawing(
     base_dir: &Path,
 ) -> Result<Selection, ActionError> {
     let fit_m = DRAWING * place.diagonal_m;
-    add(description, place, |center_m, direction| Line::Svg {
+    add(description, place, fit_m, |center_m, direction| Line::Svg {
         file: paths::written(file, base_dir),
         fit_m: rounded(fit_m, decimal_step(0.1 * fit_m)),
         center_m,
@@ -180,6 +184,7 @@ pub fn add_drawing(
 fn add(
     description: &mut Description,
     place: &EngravingPlace,
+    size_m: f64,
     line: impl FnOnce([f64; 3], [f64; 3]) -> Line,
 ) -> Result<Selection, ActionError> {
     let object: &Object = list::get(description, place.object)?;
@@ -191,15 +196,19 @@ fn add(
     let layer = engraved(
         object,
         line(short(&object_from_world, place.middle_m), right),
+        LINE * size_m,
     );
     layers::add(description, layer)
 }
 
-/// An engraved layer to begin with: one that is seen.
-fn engraved(object: &Object, line: Line) -> Scratches {
-    let [width_um, depth_nm] = [40.0, 250.0].map(|mean| Distribution { mean, spread: 0.0 });
-    let layer = Layer::Engraved(Engraved::new(line, width_um, depth_nm));
-    Scratches::new(object.name.clone(), layer)
+/// An engraved layer to begin with: one that is seen from all sides, as a single scratch is not.
+fn engraved(object: &Object, line: Line, line_m: f64) -> Scratches {
+    let [width_um, depth_nm] = [2.0, 200.0].map(|mean| Distribution { mean, spread: 0.1 });
+    let engraved = Engraved {
+        line_m: rounded(line_m, decimal_step(0.1 * line_m)),
+        ..Engraved::new(line, width_um, depth_nm)
+    };
+    Scratches::new(object.name.clone(), Layer::Engraved(engraved))
 }
 
 fn curve_mut(

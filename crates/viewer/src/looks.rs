@@ -42,7 +42,7 @@ impl Looks {
         }
     }
 
-    /// Takes over the pictures that were made, and makes those that are missing, while nothing else is to be done.
+    /// Takes over the pictures that were made, and makes those that are missing once the picture stands still: they are small.
     fn follow(&mut self, ctx: &Context, document: &Document, engine: &Engine) {
         let description = document.description();
         if self.revision != document.revision() {
@@ -67,7 +67,10 @@ impl Looks {
             let texture = ctx.load_texture("look", made.pixels, TextureOptions::LINEAR);
             self.pictures.push((made.scene, texture));
         }
-        let is_still = || engine.latest().is_some_and(|it| it.painted.is_final);
+        let is_still = || {
+            let shown = engine.latest();
+            shown.is_some_and(|it| it.painted.is_final || it.painted.of_samples.is_some())
+        };
         self.making.take_if(|(job, _)| job.is_over());
         if HAS_THREADS && self.making.is_none() && !engine.is_building() && is_still() {
             self.make_missing(ctx, document.base_dir());

@@ -9,18 +9,22 @@ use super::keyed::kinds;
 use super::ranges::{Check, check_seed};
 use super::shapes::check_letters;
 use super::table::Table;
+use super::values::is_zero;
 use crate::error::Error;
 use crate::schema::{Key, scratches};
 
 /// Points of a curve.
 const CURVE_POINTS: std::ops::RangeInclusive<usize> = 2..=4096;
 
-/// Scratches along lines that are given, each line one scratch.
+/// Scratches along lines that are given.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Engraved {
     /// `pattern` and the keys that belong to it.
     #[serde(flatten)]
     pub line: Line,
+    /// Width of a line that is filled with scratches; 0 for lines that are one scratch each.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub line_m: f64,
     /// See [`Laid::seed`](super::Laid::seed).
     pub seed: u64,
     /// See [`Laid::width_um`](super::Laid::width_um).
@@ -74,10 +78,11 @@ kinds! { Line,
 }
 
 impl Engraved {
-    /// Lines of the default seed.
+    /// Lines of the default seed, each one scratch.
     pub fn new(line: Line, width_um: Distribution, depth_nm: Distribution) -> Self {
         Self {
             line,
+            line_m: scratches::LINE_M.initial(),
             seed: scratches::SEED.initial(),
             width_um,
             depth_nm,
@@ -87,6 +92,7 @@ impl Engraved {
     pub(super) fn read(pattern: &str, table: &Table) -> Result<Self, Error> {
         Ok(Self {
             line: Line::read_kind(pattern, table)?,
+            line_m: table.value(&scratches::LINE_M)?,
             seed: table.value(&scratches::SEED)?,
             width_um: table.value(&scratches::WIDTH_UM)?,
             depth_nm: table.value(&scratches::DEPTH_NM)?,
@@ -96,6 +102,7 @@ impl Engraved {
     /// Refuses values out of range; `key` is the way to the layer.
     pub(super) fn check_at(&self, key: &str) -> Check {
         check_seed(self.seed, key)?;
+        scratches::LINE_M.check(key, &self.line_m)?;
         scratches::WIDTH_UM.check(key, &self.width_um)?;
         scratches::DEPTH_NM.check(key, &self.depth_nm)?;
         self.line.check_keys(key)?;

@@ -52,6 +52,23 @@ impl Look {
         self.environment.is_some() || self.studio.is_some() || !self.lights.is_empty()
     }
 
+    /// Whether it leaves nothing of camera and light to the scene.
+    pub fn is_whole(&self) -> bool {
+        self.camera.is_some() && self.has_light()
+    }
+
+    /// Takes what it leaves out from a whole look.
+    pub fn complete(&mut self, whole: &Self) {
+        if self.camera.is_none() {
+            self.camera.clone_from(&whole.camera);
+        }
+        if !self.has_light() {
+            self.environment.clone_from(&whole.environment);
+            self.studio.clone_from(&whole.studio);
+            self.lights.clone_from(&whole.lights);
+        }
+    }
+
     /// Gives a scene this look.
     pub fn apply(&self, description: &mut Description) {
         if let Some(camera) = &self.camera {

@@ -15,9 +15,9 @@ pub static SCRATCHES: Section = Section::many("scratches", "Scratches", "a layer
     Choice::new("swirl", "Arcs around many centres strewn over the surface: the cobweb on a polished or machine-washed car.", &[&COUNT, &DENSITY_PER_M2, &SEED, &LENGTH_M, &WIDTH_UM, &DEPTH_NM, &SWIRL_PER_M]),
     Choice::new("drawn", "Along the strokes of a brush: a rag's way, a child's coin.", &[&LENGTH_M, &WIDTH_UM, &DEPTH_NM, &SEED, &JITTER_DEG]),
     Choice::new("file", "Your own list of straight scratches.", &[&FILE]),
-    Choice::new("curve", "One scratch along a smooth curve through points: an engraved line.", &[&CURVE_POINTS_M, &CLOSED, &WIDTH_UM, &DEPTH_NM, &SEED]),
-    Choice::new("text", "The outlines of letters, each a scratch: a number, a name.", &[&TEXT, &CAPITALS_M, &MIDDLE_M, &READING, &WIDTH_UM, &DEPTH_NM, &SEED]),
-    Choice::new("svg", "The outlines of a drawing, each a scratch: a mark, an ornament.", &[&DRAWING, &EXTENT_M, &MIDDLE_M, &READING, &WIDTH_UM, &DEPTH_NM, &SEED]),
+    Choice::new("curve", "A smooth curve through points: an engraved line.", &[&CURVE_POINTS_M, &CLOSED, &LINE_M, &WIDTH_UM, &DEPTH_NM, &SEED]),
+    Choice::new("text", "The outlines of letters: a number, a name.", &[&TEXT, &CAPITALS_M, &MIDDLE_M, &READING, &LINE_M, &WIDTH_UM, &DEPTH_NM, &SEED]),
+    Choice::new("svg", "The outlines of a drawing: a mark, an ornament.", &[&DRAWING, &EXTENT_M, &MIDDLE_M, &READING, &LINE_M, &WIDTH_UM, &DEPTH_NM, &SEED]),
 ]);
 
 pub static OBJECT: Key = Key::new("object", Form::Text)
@@ -174,6 +174,13 @@ pub static CURVE_POINTS_M: Key = Key::new("points_m", Form::Points(3))
 pub static CLOSED: Key = Key::new("closed", Form::Flag)
     .flag(false)
     .means("The curve comes back to its first point.");
+
+pub static LINE_M: Key = Key::new("line_m", Form::Number)
+    .unit("m")
+    .number(0.0)
+    .within(0.0, 1.0)
+    .means("How wide a line is. 0: one scratch, which shows where it runs across the light. Wider: filled with short scratches in all directions, as a marking laser leaves them, which shine from all sides.")
+    .control("Line", linear(0.0, 0.02).sized(), "How wide a line is: filled with short scratches in all directions, so that it is seen from everywhere. 0: one scratch of the width below, which shows where it runs across the light.");
 
 pub static TEXT: Key = Key::new("text", Form::Text)
     .range_words("1 to 200 characters")

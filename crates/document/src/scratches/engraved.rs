@@ -1,7 +1,9 @@
-//! A layer of engraved lines: each is a scratch along a smooth curve, which is laid onto the nearest places of the surface.
+//! A layer of engraved lines along smooth curves, which are laid onto the nearest places of the surface: each is one scratch, or so wide
+//! that it is filled with short ones.
 //!
 //! Lines are few, so all of them are laid when the layer is made ready.
 
+use std::f64::consts::PI;
 use std::path::Path;
 
 use glam::DVec3;
@@ -12,6 +14,7 @@ use rayon::prelude::*;
 use super::curve::{Cubic, spline};
 use super::facet::Facet;
 use super::ground::Ground;
+use super::guide::Guide;
 use super::laying::{Groove, Laying, scratch_profile};
 use super::outlines::{self, Stamp};
 use super::random::Stream;
@@ -37,6 +40,9 @@ const LEAST_ACROSS: f64 = 0.1;
 /// Lines that are laid between two looks at whether to give up.
 const TOGETHER: usize = 64;
 
+/// Share of a filled line that its scratches would cover if none crossed another.
+const FILLED: f64 = 0.3;
+
 /// Engraved lines on the ground that they go on.
 pub(super) struct Engraving<'a> {
     layer: &'a Engraved,
@@ -52,6 +58,18 @@ struct Run {
     line: u64,
     course: Course,
     segments: Vec<Segment>,
+    /// Length up to the end of each segment; of filled lines alone.
+    ends_m: Vec<f64>,
+    /// Scratches of all runs up to this one.
+    scratches: u64,
+}
+
+/// A short scratch in a filled line.
+struct Stroke {
+    middle: MeshPoint,
+    /// Unit, along the surface.
+    direction: DVec3,
+    stream: Stream,
 }
 
 impl<'a> Engraving<'a> {
@@ -95,16 +113,30 @@ impl<'a> Engraving<'a> {
                 plate.stamped(&outlines::drawing(&base_dir.join(file), &key, *fit_m)?)
             }
         };
-        let mut runs = Vec::new();
+        let mut runs: Vec<Run> = Vec::new();
         for (together, lines) in (0..).step_by(TOGETHER).zip(lines.chunks(TOGETHER)) {
             loader.go_on()?;
             let laid: Vec<_> = lines.par_iter().map(|path| laid(ground, path)).collect();
             for (line, parts) in (together..).zip(laid) {
-                runs.extend(parts.into_iter().map(|(course, segments)| Run {
-                    line,
-                    course,
-                    segments,
-                }));
+                for (course, segments) in parts {
+                    let mut length_m = 0.0;
+                    let lengths_m = segments.iter().map(|it| {
+                        length_m += f64::from(it.start_m.distance(it.end_m));
+                        length_m
+                    });
+                    let ends_m: Vec<_> = lengths_m.collect();
+                    let scratches = match layer.line_m > 0.0 {
+                        true => scratches_in(layer, length_m),
+                        false => 1,
+                    };
+                    runs.push(Run {
+                        line,
+                        course,
+                        segments,
+                        ends_m,
+                        scratches: scratches + runs.last().map_or(0, |run| run.scratches),
+                    });
+                }
             }
         }
         Ok(Self {
@@ -116,15 +148,85 @@ impl<'a> Engraving<'a> {
     }
 
     pub(super) fn count(&self) -> u64 {
-        self.runs.len() as u64
+        self.runs.last().map_or(0, |run| run.scratches)
+    }
+
+    /// The run that a scratch belongs to.
+    fn run(&self, index: u64) -> &Run {
+        let run = self.runs.partition_point(|run| run.scratches <= index);
+        &self.runs[run]
+    }
+
+    /// A scratch of a filled line, at a random place of it; none where the surface ends before.
+    fn stroke(&self, walker: &Walker, index: u64) -> Option<Stroke> {
+        let Run {
+            segments, ends_m, ..
+        } = self.run(index);
+        let mut stream = Stream::new(self.layer.seed, self.number, index);
+        let along_m = stream.uniform() * ends_m.last()?;
+        let across_m = (stream.uniform() - 0.5) * (self.layer.line_m - self.length_m());
+        let angle_rad = PI * stream.uniform();
+        let at = ends_m.partition_point(|end_m| *end_m < along_m);
+        let (segment, end_m) = (segments.get(at)?, ends_m.get(at)?);
+        let way = (segment.end_m - segment.start_m).as_dvec3();
+        let tangent = way.try_normalize()?;
+        let point_m = segment.end_m.as_dvec3() - (end_m - along_m) * tangent;
+        let (place, _) = self.ground.closest().find(point_m);
+        let facet = Facet::new(&self.ground.mesh, place.triangle);
+        let to_side = facet.in_plane(facet.normal.cross(tangent)) * across_m.signum();
+        let to_side = to_side.try_normalize()?;
+        let (middle, to_side) = match across_m.abs() > walker.shortest_piece_m {
+            true => walker.ahead(place, to_side, across_m.abs())?,
+            false => (place, to_side),
+        };
+        let facet = Facet::new(&self.ground.mesh, middle.triangle);
+        let to_side = facet.in_plane(to_side).try_normalize()?;
+        let other = facet.normal.cross(to_side);
+        Some(Stroke {
+            middle,
+            direction: to_side * angle_rad.cos() + other * angle_rad.sin(),
+            stream,
+        })
+    }
+
+    /// Length of the scratches of a filled line.
+    fn length_m(&self) -> f64 {
+        0.5 * self.layer.line_m
     }
 }
 
+/// Number of scratches in a filled line.
+fn scratches_in(layer: &Engraved, length_m: f64) -> u64 {
+    // Each covers its width times half the line's width.
+    (2.0 * FILLED * length_m / (1e-6 * layer.width_um.mean)).ceil() as u64
+}
+
 impl Laying for Engraving<'_> {
-    fn lay(&self, _walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
-        let run = &self.runs[index as usize];
-        segments.extend_from_slice(&run.segments);
-        let mut stream = Stream::new(self.layer.seed, self.number, run.line);
+    fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
+        let run = self.run(index);
+        let (mut stream, course) = match self.layer.line_m > 0.0 {
+            true => match self.stroke(walker, index) {
+                Some(stroke) => {
+                    let guide = Guide::Free {
+                        seed_direction: stroke.direction,
+                        curvature_per_m: 0.0,
+                    };
+                    walker.lay(stroke.middle, &guide, self.length_m(), segments);
+                    (stroke.stream, Course::Open)
+                }
+                None => (
+                    Stream::new(self.layer.seed, self.number, index),
+                    Course::Open,
+                ),
+            },
+            false => {
+                segments.extend_from_slice(&run.segments);
+                (
+                    Stream::new(self.layer.seed, self.number, run.line),
+                    run.course,
+                )
+            }
+        };
         let normals = std::array::from_fn(|_| stream.normal());
         Groove {
             profile: scratch_profile(
@@ -132,12 +234,16 @@ impl Laying for Engraving<'_> {
                 normals,
                 [1.0; 2],
             ),
-            course: run.course,
+            course,
         }
     }
 
     fn middle(&self, index: u64) -> Option<MeshPoint> {
-        let segments = &self.runs[index as usize].segments;
+        if self.layer.line_m > 0.0 {
+            let stroke = self.stroke(&self.ground.walker(), index);
+            return stroke.map(|stroke| stroke.middle);
+        }
+        let segments = &self.run(index).segments;
         let middle = segments.get(segments.len() / 2)?;
         let point_m = middle.start_m.midpoint(middle.end_m).as_dvec3();
         Some(self.ground.closest().find(point_m).0)

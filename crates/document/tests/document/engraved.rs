@@ -87,6 +87,46 @@ fn a_curve_is_one_scratch_that_follows_a_ball() {
     );
 }
 
+/// Short scratches in all directions, which cover three tenths of the line if none crosses another, and none leaves it.
+#[test]
+fn a_wide_line_is_filled() {
+    let keys = "pattern = \"curve\"\npoints_m = [[-0.05, 0, 0], [0.05, 0, 0]]\nline_m = 0.001";
+    let object = engraved(PLANE, keys);
+    let (mut area_m2, mut twice) = (0.0, glam::DVec2::ZERO);
+    for scratch in object.scratches.iter() {
+        let pieces = pieces(&object, scratch);
+        let [start, end] = [pieces[0].start_m, pieces[pieces.len() - 1].end_m];
+        for point in [start, end] {
+            assert!(
+                point.y.abs() < 0.501e-3 && point.x.abs() < 0.0503,
+                "{point}"
+            );
+        }
+        let way = (end - start).as_dvec3().truncate();
+        area_m2 += 8e-6 * way.length();
+        let unit = way.normalize();
+        twice += glam::DVec2::new(unit.x * unit.x - unit.y * unit.y, 2.0 * unit.x * unit.y);
+    }
+    let count = object.scratches.len() as f64;
+    assert!(
+        (area_m2 / (0.3 * 0.1 * 0.001) - 1.0).abs() < 0.01,
+        "{area_m2}"
+    );
+    assert!(twice.length() / count < 0.03, "{twice}");
+}
+
+#[test]
+fn a_wide_line_lies_on_a_ball() {
+    let keys = "pattern = \"text\"\ntext = \"8\"\nheight_m = 0.02\ncenter_m = [0, 0, 0.05]\nline_m = 0.001";
+    let object = engraved(SPHERE, keys);
+    assert!(object.scratches.len() > 1000);
+    for segment in object.segments.iter() {
+        for point in [segment.start_m, segment.end_m] {
+            assert!((point.length() - 0.05).abs() < 1e-4, "{point}");
+        }
+    }
+}
+
 #[test]
 fn a_straight_line_is_a_piece_for_each_triangle() {
     let object = engraved(

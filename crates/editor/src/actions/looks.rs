@@ -33,15 +33,32 @@ fn of(name: String, description: &Description, camera: Camera) -> Look {
     }
 }
 
-/// Gives the scene a look.
+/// Gives the scene a look. Its camera and light of before are kept as a look of their own, unless one has them, and looks that leave some of them
+/// out take what they had of them: no light is lost, and no look depends on which was taken before.
 ///
 /// # Errors
 /// [`ActionError::Missing`].
 pub fn take(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
-    list::get::<Look>(description, index)?
-        .clone()
-        .apply(description);
+    list::get::<Look>(description, index)?;
+    keep_whole(description);
+    description.looks[index].clone().apply(description);
     Ok(Selection::Look(index))
+}
+
+fn keep_whole(description: &mut Description) {
+    let gives = |look: &Look| {
+        let mut scene = description.clone();
+        look.apply(&mut scene);
+        scene == *description
+    };
+    let is_kept = (description.looks.iter()).any(|look| look.is_whole() && gives(look));
+    let scene = Look::of("Scene".to_owned(), description);
+    for look in &mut description.looks {
+        look.complete(&scene);
+    }
+    if !is_kept {
+        list::insert(description, description.looks.len(), scene);
+    }
 }
 
 /// Renames a look.

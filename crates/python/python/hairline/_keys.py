@@ -250,6 +250,8 @@ class ScratchesKeys(Table):
     """What the curve goes through, on or near the surface, in the object's own frame. A point farther from the object than the object is large is refused. Unit: m. Range: 2 to 4096 points, ±1000 each; 3 or more with ``closed``."""
     closed: Optional[bool] = _default()
     """The curve comes back to its first point. Default: ``false``."""
+    line_m: Optional[float] = _default()
+    """How wide a line is. 0: one scratch, which shows where it runs across the light. Wider: filled with short scratches in all directions, as a marking laser leaves them, which shine from all sides. Unit: m. Default: 0. Range: 0 to 1."""
     text: Optional[str] = _default()
     """What is engraved. The font is built in, Ubuntu Light: Latin, Greek, Cyrillic. Range: 1 to 200 characters."""
     height_m: Optional[float] = _default()

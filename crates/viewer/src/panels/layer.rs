@@ -195,6 +195,7 @@ fn engraved_rows(form: &mut Form, engraved: &mut Engraved) {
         }
     }
     form.section("Look");
+    form.number(&schema::scratches::LINE_M, &mut engraved.line_m);
     form.distribution(&schema::scratches::WIDTH_UM, &mut engraved.width_um);
     form.distribution(&schema::scratches::DEPTH_NM, &mut engraved.depth_nm);
     form.seed(&mut engraved.seed);

@@ -52,6 +52,36 @@ fn a_look_is_kept_and_taken_as_one_step_each() {
     assert!(harness.query_by_label("Take Look 1").is_none());
 }
 
+/// Whichever was taken before, a look stays what it was, and what no look had is kept as one more.
+#[test]
+fn no_light_is_lost_by_a_look_that_is_taken() {
+    let looks = "[[look]]\nname = \"a\"\nstudio = { rotation_deg = 40 }\n\
+                 [[look]]\nname = \"b\"\nexposure_ev = 2\n";
+    let mut harness = common::viewer(format!("{SMALL}\n{looks}").leak());
+    common::wait_built(&mut harness);
+    let before = description(&harness);
+    assert!(!before.lights.is_empty());
+    click_on(&mut harness, "Take a");
+    assert!(description(&harness).lights.is_empty());
+    click_on(&mut harness, "Take b");
+    let taken = description(&harness);
+    assert_eq!(taken.lights, before.lights);
+    assert_eq!(taken.studio, before.studio);
+    assert_eq!(taken.camera.exposure_ev, 2.0);
+    let names: Vec<_> = taken.looks.iter().map(|look| &*look.name).collect();
+    assert_eq!(names, ["a", "b", "Scene"]);
+    click_on(&mut harness, "Take Scene");
+    let scene = description(&harness);
+    assert_eq!(
+        (&scene.camera, &scene.lights),
+        (&before.camera, &before.lights)
+    );
+    for _ in 0..3 {
+        undo(&mut harness);
+    }
+    assert_eq!(*description(&harness), *before);
+}
+
 #[test]
 fn a_look_is_renamed_set_and_deleted_in_its_panel() {
     let mut harness = common::viewer(SMALL);
