@@ -7,10 +7,10 @@ mod parts;
 mod textures;
 
 use std::fmt;
-use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
+use hairline_image::FilePath;
 use hairline_model::texture::texture_bytes;
 use hairline_scene::{GrooveShapes, MOST_SHAPES, Mesh, Object, Scene};
 
@@ -18,7 +18,7 @@ use crate::convert;
 use crate::description::{self, Description};
 use crate::error::Error;
 use crate::estimate::Estimate;
-use crate::gltf_scene::packed_files;
+use crate::gltf_scene::packed_files::with_packed;
 use crate::lamp_shape;
 use crate::light_picture::LightPicture;
 use crate::loader::{Loader, Stage};
@@ -62,12 +62,12 @@ impl SceneBuilder {
         &mut self,
         loader: &Loader,
         description: &Description,
-        base_dir: &Path,
+        base_dir: impl Into<FilePath>,
     ) -> Result<Scene, Error> {
+        let base_dir = &with_packed(base_dir);
         description.check()?;
         description.check_gratings()?;
         let description = &*description.with_its_camera(base_dir)?;
-        packed_files::hold(description, base_dir);
         let mut work = Work {
             loader,
             description,
@@ -86,7 +86,7 @@ impl SceneBuilder {
 struct Work<'a> {
     loader: &'a Loader<'a>,
     description: &'a Description,
-    base_dir: &'a Path,
+    base_dir: &'a FilePath,
     old: &'a BuildCache,
     /// Results that the next build can reuse.
     new: BuildCache,

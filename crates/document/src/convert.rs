@@ -1,9 +1,9 @@
 //! Conversion of a description to the units and references of a [`Scene`].
 
-use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use glam::{DMat4, DVec3};
+use hairline_image::FilePath;
 use hairline_model::surface::world_from_object;
 use hairline_optics::cover::Cover;
 use hairline_optics::grating::Grating as Row;
@@ -93,7 +93,7 @@ pub(crate) fn material(material: &description::Material) -> Material {
 /// Map of the environment without the scene's settings: not turned, intensity 1.
 pub(crate) fn environment_map(
     map: &description::Map,
-    base_dir: &Path,
+    base_dir: &FilePath,
 ) -> Result<Environment, Error> {
     let file = match map {
         description::Map::File(file) => base_dir.join(file),

@@ -1,10 +1,9 @@
 //! Pictures on lights: textures whose brightest channel is 1, and how bright that is.
 
 use std::io;
-use std::path::Path;
 
-use hairline_image::Picture;
 use hairline_image::tone_map::linear_from_srgb;
+use hairline_image::{FilePath, Picture};
 use hairline_model::texture;
 
 use hairline_scene::Texture;
@@ -21,7 +20,7 @@ impl LightPicture {
     ///
     /// # Errors
     /// What was found in the place of a picture.
-    pub(crate) fn read(path: &Path, free_bytes: f64) -> Result<Self, String> {
+    pub(crate) fn read(path: &FilePath, free_bytes: f64) -> Result<Self, String> {
         let ending = path.extension().unwrap_or_default();
         if ["hdr", "exr"]
             .iter()

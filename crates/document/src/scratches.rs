@@ -28,8 +28,7 @@ mod swirl;
 mod walk;
 mod written_list;
 
-use std::path::Path;
-
+use hairline_image::FilePath;
 use hairline_scene::{Profile, Scratch, SectionId, Segment};
 use rayon::prelude::*;
 
@@ -131,7 +130,7 @@ struct Plan<'a> {
 pub(crate) fn lay(
     loader: &Loader,
     tables: &[Table],
-    base_dir: &Path,
+    base_dir: &FilePath,
     mut used_bytes: f64,
 ) -> Result<Vec<Laid>, Error> {
     let mut plans = Vec::new();
@@ -217,7 +216,7 @@ fn check_segments(segments: usize, key: &str) -> Result<(), Error> {
 }
 
 impl<'a> Plan<'a> {
-    fn new(loader: &Loader, table: &'a Table<'a>, base_dir: &Path) -> Result<Self, Error> {
+    fn new(loader: &Loader, table: &'a Table<'a>, base_dir: &FilePath) -> Result<Self, Error> {
         let ground = table.ground;
         painted::check(table.strokes, &table.key, ground)?;
         let (laying, count): (Box<dyn Laying>, u64) = match table.layer {

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use hairline_document::Description;
+use hairline_image::FilePath;
 
 use crate::history::{DragKey, History, State};
 use crate::{ActionError, Selection};
@@ -24,7 +25,7 @@ pub struct Document {
     saved: Option<Arc<Description>>,
     is_modified: bool,
     path: Option<PathBuf>,
-    base_dir: PathBuf,
+    base_dir: FilePath,
     revision: u64,
     /// The file's text as it was opened or saved last; none where there is no file.
     text: Option<Arc<str>>,
@@ -45,7 +46,7 @@ struct Drag {
 impl Document {
     /// A scene that has no file yet, such as the built-in one. Paths in it are relative to `base_dir`. It counts as
     /// unmodified: closing it loses nothing.
-    pub fn untitled(description: Description, base_dir: impl Into<PathBuf>) -> Self {
+    pub fn untitled(description: Description, base_dir: impl Into<FilePath>) -> Self {
         let description = Arc::new(description);
         Self {
             saved: Some(description.clone()),
@@ -69,7 +70,7 @@ impl Document {
     pub(crate) fn recovered(
         description: Description,
         path: Option<PathBuf>,
-        base_dir: impl Into<PathBuf>,
+        base_dir: impl Into<FilePath>,
     ) -> Self {
         Self {
             path,
@@ -90,7 +91,7 @@ impl Document {
     }
 
     /// The folder that paths in the description are relative to.
-    pub fn base_dir(&self) -> &Path {
+    pub fn base_dir(&self) -> &FilePath {
         &self.base_dir
     }
 

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::{DMat4, DVec3};
+use hairline_image::FilePath;
 use hairline_model::mesh_file::{self, FileContents, Placing, UsedContents};
 use hairline_model::text::shown;
 use hairline_optics::section::Section;
@@ -44,7 +45,7 @@ pub(super) enum MapKey {
 }
 
 impl MapKey {
-    pub(super) fn new(map: &Map, base_dir: &Path) -> Self {
+    pub(super) fn new(map: &Map, base_dir: &FilePath) -> Self {
         match map {
             Map::File(file) => Self::File(Stamp::of(&base_dir.join(file))),
             Map::BuiltIn(map) => Self::BuiltIn(*map),
@@ -69,7 +70,7 @@ impl SurfaceKey {
     pub(super) fn new(
         object: &description::Object,
         lights_of: Option<&Path>,
-        base_dir: &Path,
+        base_dir: &FilePath,
         world_up: DVec3,
     ) -> Self {
         let (file, placing) = match &object.surface {
@@ -183,7 +184,7 @@ impl KeptSurface {
         }
         Ok(Self {
             key: surface_key,
-            others: files.iter().map(|path| Stamp::of(path)).collect(),
+            others: files.iter().map(Stamp::of).collect(),
             mesh: Arc::new(mesh),
             first_material: 0,
             materials: Arc::new(materials),

@@ -1,8 +1,8 @@
 //! Lists of scratches as accessors of a glTF file.
 
 use std::fmt::Write;
-use std::path::Path;
 
+use hairline_image::FilePath;
 use hairline_model::flaw::Flaw;
 use hairline_model::gltf_file::GltfFile;
 use hairline_scene::Profile;
@@ -16,7 +16,7 @@ use crate::scratches::{ListedRow, list_header, read_list};
 type Row = ([[f64; 3]; 2], Profile, u32);
 
 /// Adds the list of a CSV file, and returns what the extension has in its place.
-pub(super) fn write_file(file: &mut GltfFile, path: &Path, key: &str) -> Result<Value, Error> {
+pub(super) fn write_file(file: &mut GltfFile, path: &FilePath, key: &str) -> Result<Value, Error> {
     let rows = read_list(path, key)?;
     let row = |row: &ListedRow| (row.ends_m, row.profile, row.scratch);
     Ok(write(file, rows.iter().map(row)))

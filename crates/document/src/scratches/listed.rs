@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
+use hairline_image::FilePath;
 use hairline_model::reading::{self, FileKind};
 use hairline_model::text::shown;
 use hairline_scene::{Profile, Segment};
@@ -51,7 +52,7 @@ pub(crate) fn list_header(has_numbers: bool) -> String {
 }
 
 /// Reads all rows. `key` is the way to the layer's table in the scene file.
-pub(crate) fn read(path: &Path, key: &str) -> Result<Vec<ListedRow>, Error> {
+pub(crate) fn read(path: &FilePath, key: &str) -> Result<Vec<ListedRow>, Error> {
     // The rows take about as much as the text, twice.
     let text = reading::read(path, FileKind::File, 1.0 / 6.0).map_err(|error| {
         Error::new(

@@ -202,7 +202,7 @@ fn what_is_saved_opens_again_and_counts_as_saved() {
     std::fs::write(&file, SCENE).unwrap();
     let mut document = Document::open(&file).unwrap();
     assert_eq!(
-        (document.title(), document.base_dir()),
+        (document.title(), &**document.base_dir()),
         ("plate.toml".into(), folder.path())
     );
     assert!(!document.is_modified());

@@ -7,7 +7,7 @@ use std::time::Duration;
 use hairline_document::{Description, description};
 use hairline_editor::navigate::{self, Turns};
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, Method, RenderOptions, Renderer};
-use hairline_image::{Animation, Batches, Display, Finish, Image, Output, filter_traced};
+use hairline_image::{Animation, Batches, Display, FilePath, Finish, Image, Output, filter_traced};
 use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
@@ -52,7 +52,7 @@ pub(super) struct Wish {
     /// Description with the export's camera, exposure and filter.
     pub description: Arc<Description>,
     /// Folder from which its paths start.
-    pub base_dir: PathBuf,
+    pub base_dir: FilePath,
     pub size_px: [u32; 2],
     pub samples: u32,
     /// Shadows and bounces, as the window has them.
@@ -294,7 +294,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
     };
     let begin = || {
         Animation::begin(
-            &wish.path,
+            wish.base_dir.at(&wish.path),
             wish.size_px,
             wish.frames(),
             FPS,
@@ -310,7 +310,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         let output = match animation {
             Some(_) => None,
             None => {
-                let output = Output::check(&wish.frame_path(frame));
+                let output = Output::check(wish.base_dir.at(wish.frame_path(frame)));
                 Some(output.map_err(|error| error.to_string())?.finished(&finish))
             }
         };
