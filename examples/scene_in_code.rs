@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         observer: Default::default(),
         materials: vec![Material::plain(
             "gold".into(),
-            Base::Metal(Metal::Gold),
+            Base::Metal(Metal::Gold.into()),
             0.05,
         )],
         objects: vec![scratched_square(0.004)],

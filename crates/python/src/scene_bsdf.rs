@@ -44,7 +44,7 @@ impl SceneBsdf {
             .triangle_materials
             .first()
             .map_or(0, |i| *i as usize)];
-        let (Base::Metal(metal) | Base::Covered { metal, .. }) = material.base else {
+        let (Base::Metal(metal) | Base::Covered { metal, .. }) = &material.base else {
             let found = format!("found \"{}\", whose material is no measured metal", of.name);
             return Err(errors::of_argument(
                 "object",
@@ -68,13 +68,13 @@ impl SceneBsdf {
             let right = "must be metal with narrow scratches alone";
             return Err(errors::of_argument("object", found, right));
         }
-        let overlay = match (material.coat, material.base) {
+        let overlay = match (material.coat, &material.base) {
             (Some(coat), _) => Overlay::Coat(CoatLobe::new(coat.weight, coat.roughness)),
-            (None, Base::Covered { cover, .. }) => Overlay::Cover(cover),
+            (None, Base::Covered { cover, .. }) => Overlay::Cover(*cover),
             _ => Overlay::Bare,
         };
         let bare = ScratchedBsdf {
-            conductor: Conductor::new(metal, overlay, material.roughness).into(),
+            conductor: Conductor::new(metal.clone(), overlay, material.roughness).into(),
             roughness: material.roughness,
             coherence_um: material.coherence_um,
             layers: Vec::new(),

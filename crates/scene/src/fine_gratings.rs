@@ -26,14 +26,14 @@ const MOST_KEPT: usize = 32;
 
 /// The grooves of a grating in a material, if they are fine and the material has an index. Of a metal that is given by a colour it is aluminium's.
 pub fn fine_grooves(grating: &Grating, material: &Material) -> Option<FineGrooves> {
-    let medium = match material.base {
+    let medium = match &material.base {
         _ if material.coat.is_some() => None,
         Base::Mirror => None,
-        Base::Metal(metal) | Base::Covered { metal, .. } => Some(Medium::Metal(metal)),
-        Base::ColoredMetal { .. } => Some(Medium::Metal(Metal::Aluminium)),
-        Base::Dielectric { ior, .. } => Some(Medium::Dielectric(ior)),
-        Base::MetallicRoughness { metallic, .. } if metallic >= 0.5 => {
-            Some(Medium::Metal(Metal::Aluminium))
+        Base::Metal(metal) | Base::Covered { metal, .. } => Some(Medium::Metal(metal.clone())),
+        Base::ColoredMetal { .. } => Some(Medium::Metal(Metal::Aluminium.into())),
+        Base::Dielectric { ior, .. } => Some(Medium::Dielectric(*ior)),
+        Base::MetallicRoughness { metallic, .. } if *metallic >= 0.5 => {
+            Some(Medium::Metal(Metal::Aluminium.into()))
         }
         Base::MetallicRoughness { .. } => {
             dielectric_ior(material.dielectric_f0).map(Medium::Dielectric)
@@ -90,7 +90,7 @@ pub fn efficiencies(
     if kept.len() == MOST_KEPT {
         kept.remove(0);
     }
-    kept.push((*grooves, Arc::clone(&found)));
+    kept.push((grooves.clone(), Arc::clone(&found)));
     Some(found)
 }
 
@@ -157,6 +157,7 @@ impl CacheFile {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hairline_optics::metal::MetalIndex;
 
     #[test]
     fn what_is_kept_in_a_file_comes_back_and_another_gratings_does_not() {
@@ -165,7 +166,7 @@ mod tests {
             width_um: 0.1,
             depth_nm: 50.0,
             above: 1.0,
-            medium: Medium::Metal(Metal::Gold),
+            medium: Medium::Metal(Metal::Gold.into()),
         };
         let folder = tempfile::tempdir().unwrap();
         let file = CacheFile::new(folder.path(), &grooves);
@@ -181,7 +182,7 @@ mod tests {
         );
         let wider = FineGrooves {
             pitch_um: 0.6,
-            ..grooves
+            ..grooves.clone()
         };
         assert!(CacheFile::new(folder.path(), &wider).read(&wider).is_none());
         let mut bytes = fs::read(&file.path).unwrap();
@@ -202,7 +203,7 @@ mod tests {
             width_um: 0.1,
             depth_nm: 50.0,
             above: 1.0,
-            medium: Medium::Metal(Metal::own(rows)),
+            medium: Medium::Metal(MetalIndex::own(rows)),
         };
         let folder = Path::new("folder");
         let path = CacheFile::new(folder, &of(&rows)).path;
