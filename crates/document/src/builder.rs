@@ -31,7 +31,8 @@ use textures::NewTextures;
 ///
 /// * surfaces, by their shape or file and their transform;
 /// * the environment map, by its file, whatever its rotation and intensity;
-/// * scratches, layer by layer, by all that the layer's table says but its name. Hidden layers stay at hand.
+/// * scratches, layer by layer, by all that the layer's table says but its name. Hidden layers stay at hand;
+/// * tables that renderers compute for the scene's grooves.
 ///
 /// Files are known by their path, their length and the time of their last change. A scene that was built so equals one that
 /// was built from nothing. A clone shares what is kept, and costs next to nothing.
@@ -73,7 +74,10 @@ impl SceneBuilder {
             description,
             base_dir,
             old: &self.kept,
-            new: BuildCache::default(),
+            new: BuildCache {
+                tables: self.kept.tables.clone(),
+                ..BuildCache::default()
+            },
             estimate: Estimate::default(),
         };
         let scene = work.scene()?;
@@ -98,6 +102,7 @@ impl<'a> Work<'a> {
     fn scene(&mut self) -> Result<Scene, Error> {
         self.estimate = self.check_memory()?;
         let mut scene = convert::without_surfaces(self.description);
+        scene.tables = self.new.tables.clone();
         let mut surfaces = self.surfaces(&mut scene)?;
         self.photo_set(&mut surfaces, &mut scene)?;
         self.lamps(&mut scene);

@@ -39,6 +39,7 @@ pub(crate) fn without_surfaces(description: &Description) -> Scene {
         shadow_catcher: None,
         lights: lights.map(description::Light::in_scene).collect(),
         notes: description.notes.clone(),
+        tables: Arc::default(),
     }
 }
 

@@ -5,7 +5,6 @@ mod layout;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use hairline_document::Description;
 use hairline_image::FilePath;
@@ -59,7 +58,7 @@ impl Document {
             is_modified: false,
             path: None,
             base_dir: base_dir.into(),
-            revision: next_revision(),
+            revision: 1,
             text: None,
             passed_over: None,
         }
@@ -78,6 +77,12 @@ impl Document {
             is_modified: true,
             ..Self::untitled(description, base_dir)
         }
+    }
+
+    /// Puts another document in the place of this one. Its revisions follow those of this one.
+    pub fn replace(&mut self, by: Self) {
+        let revision = self.revision + 1;
+        *self = Self { revision, ..by };
     }
 
     /// The current description of the scene.
@@ -103,8 +108,7 @@ impl Document {
         }
     }
 
-    /// Number that changes with every change of the description, undo and redo among them. No two documents of one run
-    /// share a number, unless one is a clone of the other.
+    /// Number that grows with every change of the description, undo and redo among them.
     pub fn revision(&self) -> u64 {
         self.revision
     }
@@ -245,7 +249,7 @@ impl Document {
     }
 
     fn changed(&mut self) {
-        self.revision = next_revision();
+        self.revision += 1;
         self.is_modified = match &self.saved {
             Some(saved) => {
                 !Arc::ptr_eq(saved, &self.state.description) && **saved != *self.state.description
@@ -253,9 +257,4 @@ impl Document {
             None => true,
         };
     }
-}
-
-fn next_revision() -> u64 {
-    static LAST: AtomicU64 = AtomicU64::new(0);
-    LAST.fetch_add(1, Ordering::Relaxed) + 1
 }

@@ -219,7 +219,7 @@ impl Bsdf {
                     .flatten();
                     let fine = fine.and_then(|fine| {
                         Some(FineGrating {
-                            efficiencies: efficiencies(&fine, &|| false)?,
+                            efficiencies: efficiencies(&fine, &|| false)?.into(),
                             medium,
                             cover,
                         })

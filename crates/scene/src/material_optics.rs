@@ -3,6 +3,7 @@
 use crate::fine_gratings::{cover, efficiencies, fine_grooves};
 use crate::grating::Grating;
 use crate::groove_shapes::GrooveShapes;
+use crate::kept_tables::KeptTables;
 use crate::scene::{Base, Material, Scene};
 use hairline_optics::coat::COAT_IOR;
 use hairline_optics::cover::Cover;
@@ -15,8 +16,7 @@ use hairline_optics::section::GrooveShape;
 use hairline_optics::spectrum::Observer;
 use hairline_optics::table::ScratchTable;
 use std::cell::OnceCell;
-use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, OnceLock};
 
 /// A material's reflection before textures: a metallic part with the base colour as its reflectance at normal incidence, and
 /// a dielectric one over a diffuse body of the base colour.
@@ -193,7 +193,7 @@ impl ScratchTables {
             if cancelled() {
                 return None;
             }
-            of_shapes.push(shaped_tables(&scene.observer, &metals, &shape));
+            of_shapes.push(shaped_tables(scene, &metals, &shape));
         }
         let of_metal = |i: usize| of_shapes.iter().map(move |tables| Arc::clone(&tables[i]));
         let mut tables: Vec<_> = (0..metals.len()).flat_map(of_metal).collect();
@@ -215,7 +215,10 @@ impl ScratchTables {
         all.grating_spectra = all.spectra(scene);
         for of in &all.grating_spectra {
             let efficiencies = match &of.fine {
-                Some(fine) => Some(efficiencies(fine, cancelled)?),
+                Some(fine) => {
+                    let make = || efficiencies(fine, cancelled);
+                    Some(scene.tables.efficiencies.value(fine.clone(), make)?)
+                }
                 None => None,
             };
             let observer = &scene.observer;
@@ -315,14 +318,13 @@ impl ScratchTables {
     }
 }
 
-/// The table of scratches in a metal, or in a material without a spectrum. Each is made once a process: it is the same in
-/// every scene.
-fn scratch_table(metal: Option<&MetalIndex>) -> Arc<ScratchTable> {
+/// The table of scratches in a metal, or in a material without a spectrum. Those of measured metals are constants, made when first asked for.
+fn scratch_table(kept: &KeptTables, metal: Option<&MetalIndex>) -> Arc<ScratchTable> {
     static MADE: [OnceLock<Arc<ScratchTable>>; Metal::ALL.len() + 1] =
         [const { OnceLock::new() }; Metal::ALL.len() + 1];
     let make = || ScratchTable::new(|nm| reflectance(metal, nm));
     let at = match metal {
-        Some(MetalIndex::Own(_)) => return kept_table(metal, &GrooveShape::default(), make),
+        Some(MetalIndex::Own(_)) => return kept_table(kept, metal, &GrooveShape::default(), make),
         Some(MetalIndex::Measured(measured)) => {
             Metal::ALL.iter().position(|it| it == measured).unwrap_or(0)
         }
@@ -336,15 +338,13 @@ fn scratch_table(metal: Option<&MetalIndex>) -> Arc<ScratchTable> {
     Arc::clone(MADE[at].get_or_init(|| made))
 }
 
-/// Tables of further shapes that the process keeps: 8 MB each.
-const KEPT_TABLES: usize = 24;
-
 /// The tables of grooves of a shape in metals. What the shape sends is computed once for all of them.
 fn shaped_tables(
-    observer: &Observer,
+    scene: &Scene,
     metals: &[Option<MetalIndex>],
     shape: &GrooveShape,
 ) -> Vec<Arc<ScratchTable>> {
+    let (observer, kept) = (&scene.observer, &*scene.tables);
     let grid = OnceCell::new();
     let made = |metal: Option<&MetalIndex>| {
         let is_rectangle = *shape == GrooveShape::default();
@@ -357,8 +357,8 @@ fn shaped_tables(
             return Arc::new(made(metal));
         }
         match *shape == GrooveShape::default() {
-            true => scratch_table(metal),
-            false => kept_table(metal, shape, || made(metal)),
+            true => scratch_table(kept, metal),
+            false => kept_table(kept, metal, shape, || made(metal)),
         }
     };
     metals.iter().map(table).collect()
@@ -366,27 +366,14 @@ fn shaped_tables(
 
 /// One of the last tables of shapes, and of metals that scenes bring.
 fn kept_table(
+    kept: &KeptTables,
     metal: Option<&MetalIndex>,
     shape: &GrooveShape,
     make: impl FnOnce() -> ScratchTable,
 ) -> Arc<ScratchTable> {
-    type Kept = VecDeque<(Option<MetalIndex>, GrooveShape, Arc<ScratchTable>)>;
-    static KEPT: Mutex<Kept> = Mutex::new(VecDeque::new());
-    // Not locked while a table is made, as above.
-    let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((.., made)) = kept()
-        .iter()
-        .find(|it| (it.0.as_ref(), &it.1) == (metal, shape))
-    {
-        return Arc::clone(made);
-    }
-    let made = Arc::new(make());
-    let mut kept = kept();
-    kept.push_back((metal.cloned(), shape.clone(), Arc::clone(&made)));
-    if kept.len() > KEPT_TABLES {
-        kept.pop_front();
-    }
-    made
+    let key = (metal.cloned(), shape.clone());
+    let table = kept.scratches.value(key, || Some(make()));
+    table.expect("it is made or kept")
 }
 
 /// Reflectance at normal incidence.

@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 use crate::environment::Environment;
 use crate::grating::Grating;
+use crate::kept_tables::KeptTables;
 use crate::section_id::SectionId;
 
 pub use crate::light::{Cone, Doors, Light, LightShape};
@@ -76,6 +77,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Notes on the scene file and its models for the author, a line each: a key that has no effect any more, a part of a model that is not shown.
     pub notes: Vec<String>,
+    /// Tables that were computed for this scene and for others of its builder.
+    pub tables: Arc<KeptTables>,
 }
 
 impl Scene {

@@ -83,7 +83,8 @@ impl Page {
                 let _ = place.set(created.egui_ctx.clone());
                 let mut viewer = Viewer::new(&created.egui_ctx, state, options)?;
                 let built_in = Description::clone(viewer.document().description());
-                *viewer.document_mut() = Document::untitled(built_in, base_dir);
+                let built_in = Document::untitled(built_in, base_dir);
+                viewer.document_mut().replace(built_in);
                 if is_narrow {
                     viewer.hide_panels();
                 }

@@ -8,7 +8,9 @@ use hairline_image::FilePath;
 use hairline_model::mesh_file::{self, FileContents, Placing, UsedContents};
 use hairline_model::text::shown;
 use hairline_optics::section::Section;
-use hairline_scene::{Environment, Material, Mesh, NodeTriangles, Scratch, Segment, Texture};
+use hairline_scene::{
+    Environment, KeptTables, Material, Mesh, NodeTriangles, Scratch, Segment, Texture,
+};
 use hairline_sky::BuiltInMap;
 
 use super::parts::{OnPart, PartGround, Surroundings};
@@ -24,6 +26,7 @@ use crate::{model_notes, shape};
 #[derive(Clone, Default)]
 pub(super) struct BuildCache {
     pub surfaces: Vec<Arc<KeptSurface>>,
+    pub tables: Arc<KeptTables>,
     pub textures: Textures,
     pub pictures: Vec<KeptPicture>,
     pub groove_pictures: Vec<KeptGroovePicture>,

@@ -495,3 +495,18 @@ fn files_in_memory_make_the_same_scene() {
         on_disk.objects[0].segments
     );
 }
+
+#[test]
+fn scenes_of_one_builder_share_what_renderers_compute() {
+    let dir = temporary_dir();
+    let mut description = files_and_scene(dir.path());
+    let mut builder = SceneBuilder::new();
+    let mut build =
+        |description: &Description| builder.build(&Loader::default(), description, dir.path());
+    let first = build(&description).unwrap();
+    description.camera.exposure_ev += 1.0;
+    let second = build(&description).unwrap();
+    assert!(Arc::ptr_eq(&first.tables, &second.tables));
+    let other = hairline_document::build(&description, dir.path()).unwrap();
+    assert!(!Arc::ptr_eq(&first.tables, &other.tables));
+}

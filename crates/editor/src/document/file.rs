@@ -9,7 +9,7 @@ use hairline_document::{Description, Error, inputs, reading};
 use hairline_image::FilePath;
 use hairline_image::output::write_atomically;
 
-use super::{Document, layout, next_revision};
+use super::{Document, layout};
 use crate::paths;
 
 /// Reason why a document was not saved.
@@ -242,7 +242,7 @@ impl Document {
         };
         let description = change(&self.state.description);
         if !Arc::ptr_eq(&description, &self.state.description) {
-            self.revision = next_revision();
+            self.revision += 1;
         }
         self.state.description = description;
         self.history.rewrite(&mut change);

@@ -82,6 +82,16 @@ fn an_edit_is_a_step_unless_it_changes_nothing() {
 }
 
 #[test]
+fn a_document_in_the_place_of_another_has_later_revisions() {
+    let mut shown = document();
+    set_exposure(&mut shown, 1.0);
+    let edited = shown.revision();
+    shown.replace(document());
+    assert!(shown.revision() > edited && !shown.is_modified());
+    assert_eq!(shown.undo(), None, "the history is the other's");
+}
+
+#[test]
 fn a_drag_is_one_step_until_it_ends_or_another_begins() {
     let mut document = document();
     let (here, there) = (DragKey::of("slider"), DragKey::of(("gizmo", 1)));

@@ -223,7 +223,7 @@ impl Viewer {
         self.files.reopen();
         (self.asked, self.typed, self.sought) = (None, None, None);
         let work = &mut self.work;
-        work.document = document;
+        work.document.replace(document);
         work.engine.forget_scene();
         work.free_view.end();
         work.toolbox.tool = Tool::Select;
