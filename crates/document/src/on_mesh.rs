@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 use hairline_image::FilePath;
-use hairline_scene::{Mesh, Object, SectionId};
+use hairline_scene::{Mesh, Object};
 
 use crate::arrays::{Arrays, MeshArrays};
 use crate::description::{self, Layer, standings};
@@ -54,7 +54,7 @@ pub fn lay_on_mesh(
         };
         tables.push(Table {
             layer: &layer.layer,
-            section: SectionId::new(&layer.profile),
+            section: &layer.profile,
             strokes: &layer.strokes,
             number: standing.number,
             ground: &ground,

@@ -141,11 +141,11 @@ impl Point {
             piece_um[0] - f64::from(groove.before_um),
             piece_um[1] + f64::from(groove.after_um),
         ];
-        let width_um = f64::from(groove.profile.width_um);
+        let width_um = f64::from(groove.width_um);
         Some(PointScratch {
             tangent,
             width_um,
-            depth_nm: f64::from(groove.profile.depth_nm),
+            depth_nm: f64::from(groove.depth_nm),
             profile: profile.clone(),
             share: piece_share(width_um, offset_um, piece_um, whole_um, coherence_um),
         })

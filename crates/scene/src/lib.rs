@@ -14,7 +14,6 @@ mod light;
 pub mod material_optics;
 mod picture_lie;
 pub mod scene;
-mod section_id;
 
 pub use camera::CameraFrame;
 pub use environment::Environment;
@@ -29,4 +28,3 @@ pub use light::vector_area_m2;
 pub use material_optics::{GratingSpectrum, MaterialOptics, Reflector, ScratchTables};
 pub use picture_lie::{PictureLie, three_sides};
 pub use scene::*;
-pub use section_id::SectionId;

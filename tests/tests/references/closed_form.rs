@@ -7,7 +7,7 @@ use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Layer;
 use hairline_optics::metal::Metal;
 use hairline_optics::section::Section;
-use hairline_scene::{Anisotropy, Base, Coat, Cone, LightShape, Scene, SectionId, Specular};
+use hairline_scene::{Anisotropy, Base, Coat, Cone, LightShape, Scene, Specular};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -497,7 +497,7 @@ fn check_profiles(profiles: &[(Section, f32)]) {
         scratch_alike(&mut scene, view, 24, *width_um, 250.0);
         let as_rectangles = scene.clone();
         for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {
-            scratch.profile.section = SectionId::new(section);
+            scratch.profile.section = section.clone();
         }
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
         let name = format!("{section:?}, {width_um} um");

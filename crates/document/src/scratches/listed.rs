@@ -28,7 +28,7 @@ pub(super) const MORE_COLUMNS: [&str; 4] = ["scratch", "nx", "ny", "nz"];
 const OFF_SURFACE: f64 = 0.01;
 
 /// A row of the file.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ListedRow {
     /// Counted from 1.
     line: usize,
@@ -211,7 +211,7 @@ impl<'a> Listed<'a> {
         path: &Path,
         ground: &'a Ground,
     ) -> Result<Self, Error> {
-        let row = |i: usize| (rows[i].ends_m, rows[i].profile);
+        let row = |i: usize| (rows[i].ends_m, rows[i].profile.clone());
         let begins = |i: &usize| *i == 0 || rows[*i].scratch != rows[i - 1].scratch;
         let first = (0..rows.len()).filter(begins).map(|i| i as u32);
         let first = first.chain([rows.len() as u32]).collect();
@@ -229,7 +229,7 @@ impl<'a> Listed<'a> {
         ground: &'a Ground,
     ) -> Result<Self, Error> {
         let (ends_m, profiles) = (arrays.ends_m(), arrays.profiles());
-        let row = |i: usize| (ends_m[i], profiles[i]);
+        let row = |i: usize| (ends_m[i], profiles[i].clone());
         let first = (0..=ends_m.len() as u32).collect();
         Self::placed(loader, first, row, ground, |i, end, found, right| {
             Error::new(format!("{key}.ends_m[{i}][{end}]"), found, right)
@@ -321,7 +321,7 @@ impl Laying for Listed<'_> {
         // Fewer than three segments cannot go round.
         let is_closed = first.start.point_m == last.end_m && segments.len() - begin > 2;
         Groove {
-            profile: first.profile,
+            profile: first.profile.clone(),
             course: match is_closed {
                 true => Course::Closed,
                 false => Course::Open,
