@@ -353,12 +353,10 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         if wish.is_transparent {
             let batches = wish.batches(&scene.camera);
             let all = batches.map_or(wish.samples, |it| it.samples());
-            let mut alpha = hairline_cpu::alpha(&scene, &seen.triangles, all, all);
-            if wish.transport.shadows {
-                let shadows = hairline_cpu::caught_shadows(&scene, all, &|| stop.is_asked());
-                let pixels = alpha.iter_mut().zip(shadows.unwrap_or_default());
-                pixels.for_each(|(alpha, shadow)| *alpha += shadow);
-            }
+            let (triangles, shadows) = (&seen.triangles, wish.transport.shadows);
+            let is_stopped = || stop.is_asked();
+            let alpha =
+                hairline_cpu::picture_alpha(&scene, triangles, [all; 2], shadows, &is_stopped);
             image.alpha = Some(alpha);
         }
         let written = match (&mut animation, &output) {
