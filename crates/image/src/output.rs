@@ -1,7 +1,7 @@
 //! Output files that are either whole or not there: everything is encoded in memory, then written in one step.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::exr_file::{self, Notes};
 use crate::{Display, Error, FilePath, Finish, Image, Picture, png};
@@ -157,4 +157,34 @@ pub fn check_writable(path: impl Into<FilePath>) -> Result<(), Error> {
 /// [`Error::CannotWrite`].
 pub fn write_atomically(path: impl Into<FilePath>, bytes: &[u8]) -> Result<(), Error> {
     path.into().write(bytes)
+}
+
+/// NAME-0001.png for NAME.png: as many digits as the last one needs, so that names sort as the frames do.
+pub fn numbered(path: &Path, number: u32, last: u32) -> PathBuf {
+    let digits = last.to_string().len().max(4);
+    with_suffix(path, &format!("{number:0digits$}"))
+}
+
+/// NAME-SUFFIX.png for NAME.png.
+pub fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push("-");
+    name.push(suffix);
+    if let Some(ending) = path.extension() {
+        name.push(".");
+        name.push(ending);
+    }
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_sort_as_frames_do() {
+        let name = |number, last| numbered(Path::new("/a.b/pan.old.png"), number, last);
+        assert_eq!(name(7, 24), Path::new("/a.b/pan.old-0007.png"));
+        assert_eq!(name(7, 12345), Path::new("/a.b/pan.old-00007.png"));
+    }
 }

@@ -7,7 +7,9 @@ use std::time::Duration;
 use hairline_document::{Description, description};
 use hairline_editor::navigate::{self, Turns};
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, Method, RenderOptions, Renderer};
-use hairline_image::{Animation, Batches, Display, FilePath, Finish, Image, Output, filter_traced};
+use hairline_image::{
+    Animation, Batches, Display, FilePath, Finish, Image, Output, filter_traced, output,
+};
 use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
@@ -33,7 +35,7 @@ impl Motion {
         match self {
             Self::Turntable { .. } if self.is_animation(path) => path.to_owned(),
             Self::Still => path.to_owned(),
-            Self::Turntable { .. } => numbered(path, frame + 1),
+            Self::Turntable { frames, .. } => output::numbered(path, frame + 1, frames),
         }
     }
 
@@ -165,12 +167,6 @@ impl Wish {
             tone_map: self.description.render.tone_map,
         }
     }
-}
-
-fn numbered(path: &Path, number: u32) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let ending = path.extension().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{stem}-{number:04}.{ending}"))
 }
 
 /// Progress of an export.
@@ -540,16 +536,4 @@ pub(super) fn fitting(scene_px: [u32; 2], within_px: [u32; 2]) -> [u32; 2] {
     let [width, height] = scene_px.map(|side| f64::from(side.max(1)));
     let scale = (f64::from(within_px[0]) / width).min(f64::from(within_px[1]) / height);
     [width, height].map(|side| ((side * scale).round() as u32).max(1))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pictures_of_a_turntable_are_numbered_before_the_ending() {
-        let path = Path::new("/a.b/pan.old.png");
-        assert_eq!(numbered(path, 7), Path::new("/a.b/pan.old-0007.png"));
-        assert_eq!(numbered(path, 12345), Path::new("/a.b/pan.old-12345.png"));
-    }
 }
