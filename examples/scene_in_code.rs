@@ -36,13 +36,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         observer: Default::default(),
         materials: vec![Material::plain(
             "gold".into(),
-            Base::Metal(Metal::Gold),
+            Base::Metal(Metal::Gold.into()),
             0.05,
         )],
         objects: vec![scratched_square(0.004)],
         shadow_catcher: None,
         lights: vec![Light::sphere(DVec3::new(0.0, 0.12, 0.36), 0.03, [200.0; 3])],
         notes: Vec::new(),
+        tables: Arc::default(),
     };
     let image = Prepared::new(&scene).render(&RenderOptions::default(), &|_| {});
     Output::check(Path::new(&picture))?.write_image(&image, &Display::default())?;

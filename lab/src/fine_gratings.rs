@@ -46,7 +46,7 @@ pub(crate) fn measured() -> String {
     let mut times = String::new();
     for (name, pitch_um, width_um, depth_nm) in GRATINGS {
         for metal in METALS {
-            let medium = Medium::Metal(metal);
+            let medium = Medium::Metal(metal.into());
             let row = Grating {
                 pitch_um,
                 width_um,
@@ -61,7 +61,7 @@ pub(crate) fn measured() -> String {
                     width_um,
                     depth_nm,
                     above: 1.0,
-                    medium,
+                    medium: medium.clone(),
                 };
                 let found = Efficiencies::new(&grooves, &|| false).expect("nothing cancels it");
                 let seconds = start.elapsed().as_secs_f64();
@@ -69,7 +69,7 @@ pub(crate) fn measured() -> String {
                     row,
                     efficiencies: &found,
                     observer: Observer::eye(),
-                    medium,
+                    medium: &medium,
                     is_colored: false,
                     cover: None,
                 }
@@ -135,7 +135,7 @@ impl MeasuredOrders {
         [across, along]: [f64; 2],
         ours: Option<impl Fn(f64, f64) -> f64>,
     ) -> Self {
-        let medium = Medium::Metal(metal);
+        let medium = Medium::Metal(metal.into());
         let cos_of = |across: f64| (1.0 - along * along - across * across).max(0.0).sqrt();
         let cos_o = cos_of(across);
         let flat = luminance(spectrum::rgb_from_reflectance(|nm| {

@@ -65,6 +65,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
             tone_map: Default::default(),
         },
         notes: Vec::new(),
+        tables: Arc::default(),
         environment: None,
         textures: Arc::default(),
         observer: Default::default(),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use hairline_document::description::Scratches;
 use hairline_document::{Arrays, MeshArrays, ScratchArrays, lay_on_mesh};
 use hairline_engine::{Pieces, ScratchTexels};
-use hairline_scene::SectionId;
+use hairline_optics::section::Section;
 use serde_json::Value;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -133,7 +133,7 @@ impl Laid {
 pub struct Tree {
     made: ScratchTexels,
     /// Cross sections that JavaScript has numbered.
-    sections: Vec<SectionId>,
+    sections: Vec<Section>,
 }
 
 #[wasm_bindgen]
@@ -165,7 +165,6 @@ impl Tree {
             .map(|profile| Scratches::section_from_json(Some(profile)));
         let sections: Result<Vec<_>, _> = sections.collect();
         let sections = sections.map_err(thrown)?;
-        let sections: Vec<_> = sections.iter().map(SectionId::new).collect();
         let rows = |numbers: &[f32]| numbers.as_chunks::<3>().0.to_vec();
         let count = widths_um.len();
         let pieces = Pieces {
@@ -175,7 +174,9 @@ impl Tree {
             widths_um,
             depths_nm,
             scratch,
-            sections: profile_of.iter().map(|i| sections[*i as usize]).collect(),
+            sections: (profile_of.iter())
+                .map(|i| sections[*i as usize].clone())
+                .collect(),
             layers: vec![0; count],
         };
         let made = pieces
@@ -198,8 +199,8 @@ impl Tree {
     /// Shapes of the grooves, two numbers each: the index of the cross section, and the class of widths.
     pub fn shapes(&self) -> Vec<u32> {
         let shapes = self.made.shapes.iter().flat_map(|shape| {
-            let id = SectionId::new(&shape.section);
-            let profile = self.sections.iter().position(|known| *known == id);
+            let known = self.sections.iter();
+            let profile = known.position(|it| *it == shape.section);
             [profile.unwrap_or(0) as u32, shape.width_class.into()]
         });
         shapes.collect()

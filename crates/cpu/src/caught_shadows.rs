@@ -12,9 +12,26 @@ use hairline_scene::{Base, Material, Scene, Transport};
 use crate::alpha;
 use crate::closed_form::{Prepared, RenderOptions};
 
+/// The alpha of a picture before nothing, row by row: what [`alpha`] says of its objects, and with `shadows` what the shadows on the scene's
+/// [catcher](Scene::shadow_catcher) hide of it. The picture has `done` of `samples` samples; without shadows once `cancelled` says so.
+pub fn picture_alpha(
+    scene: &Scene,
+    triangles: &TriangleIndex,
+    [done, samples]: [u32; 2],
+    shadows: bool,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Vec<f32> {
+    let mut alpha = alpha(scene, triangles, done, samples);
+    let caught = shadows.then(|| caught_shadows(scene, samples, cancelled));
+    let caught = caught.flatten().unwrap_or_default();
+    let pixels = alpha.iter_mut().zip(caught);
+    pixels.for_each(|(alpha, shadow)| *alpha += shadow);
+    alpha
+}
+
 /// The alpha of a black that darkens each pixel as the shadows on the scene's [catcher](Scene::shadow_catcher) do, row by row: its share of the
 /// pixel, times the share of its light that objects hide. None without a catcher, and once `cancelled` says so. `samples` rays go to each light.
-pub fn caught_shadows(
+fn caught_shadows(
     scene: &Scene,
     samples: u32,
     cancelled: &(dyn Fn() -> bool + Sync),

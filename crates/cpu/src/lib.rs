@@ -53,5 +53,5 @@ mod unrounded;
 mod visibility;
 
 pub use alpha::alpha;
-pub use caught_shadows::caught_shadows;
+pub use caught_shadows::picture_alpha;
 pub use unrounded::unrounded_light;

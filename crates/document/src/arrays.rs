@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DVec3, Vec2};
+use hairline_image::FilePath;
 use hairline_memory::budget_bytes;
 use hairline_model::surface::{Surface, Vertex};
 use hairline_scene::Profile;
@@ -63,7 +64,12 @@ impl Arrays {
     ///
     /// # Errors
     /// What is no picture, by its key.
-    pub fn read_pictures(&mut self, layers: &[Scratches], base_dir: &Path) -> Result<(), Error> {
+    pub fn read_pictures(
+        &mut self,
+        layers: &[Scratches],
+        base_dir: impl Into<FilePath>,
+    ) -> Result<(), Error> {
+        let base_dir = base_dir.into();
         for (i, layer) in layers.iter().enumerate() {
             let place = &layer.place;
             for (name, file) in [("mask", &place.mask), ("density", &place.density)] {

@@ -7,10 +7,10 @@ mod parts;
 mod textures;
 
 use std::fmt;
-use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
+use hairline_image::FilePath;
 use hairline_model::texture::texture_bytes;
 use hairline_scene::{GrooveShapes, MOST_SHAPES, Mesh, Object, Scene};
 
@@ -18,7 +18,7 @@ use crate::convert;
 use crate::description::{self, Description};
 use crate::error::Error;
 use crate::estimate::Estimate;
-use crate::gltf_scene::packed_files;
+use crate::gltf_scene::packed_files::with_packed;
 use crate::lamp_shape;
 use crate::light_picture::LightPicture;
 use crate::loader::{Loader, Stage};
@@ -31,7 +31,8 @@ use textures::NewTextures;
 ///
 /// * surfaces, by their shape or file and their transform;
 /// * the environment map, by its file, whatever its rotation and intensity;
-/// * scratches, layer by layer, by all that the layer's table says but its name. Hidden layers stay at hand.
+/// * scratches, layer by layer, by all that the layer's table says but its name. Hidden layers stay at hand;
+/// * tables that renderers compute for the scene's grooves.
 ///
 /// Files are known by their path, their length and the time of their last change. A scene that was built so equals one that
 /// was built from nothing. A clone shares what is kept, and costs next to nothing.
@@ -62,18 +63,21 @@ impl SceneBuilder {
         &mut self,
         loader: &Loader,
         description: &Description,
-        base_dir: &Path,
+        base_dir: impl Into<FilePath>,
     ) -> Result<Scene, Error> {
+        let base_dir = &with_packed(base_dir);
         description.check()?;
         description.check_gratings()?;
         let description = &*description.with_its_camera(base_dir)?;
-        packed_files::hold(description, base_dir);
         let mut work = Work {
             loader,
             description,
             base_dir,
             old: &self.kept,
-            new: BuildCache::default(),
+            new: BuildCache {
+                tables: self.kept.tables.clone(),
+                ..BuildCache::default()
+            },
             estimate: Estimate::default(),
         };
         let scene = work.scene()?;
@@ -86,7 +90,7 @@ impl SceneBuilder {
 struct Work<'a> {
     loader: &'a Loader<'a>,
     description: &'a Description,
-    base_dir: &'a Path,
+    base_dir: &'a FilePath,
     old: &'a BuildCache,
     /// Results that the next build can reuse.
     new: BuildCache,
@@ -98,6 +102,7 @@ impl<'a> Work<'a> {
     fn scene(&mut self) -> Result<Scene, Error> {
         self.estimate = self.check_memory()?;
         let mut scene = convert::without_surfaces(self.description);
+        scene.tables = self.new.tables.clone();
         let mut surfaces = self.surfaces(&mut scene)?;
         self.photo_set(&mut surfaces, &mut scene)?;
         self.lamps(&mut scene);

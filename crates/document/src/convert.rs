@@ -1,13 +1,13 @@
 //! Conversion of a description to the units and references of a [`Scene`].
 
-use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use glam::{DMat4, DVec3};
+use hairline_image::FilePath;
 use hairline_model::surface::world_from_object;
 use hairline_optics::cover::Cover;
 use hairline_optics::grating::Grating as Row;
-use hairline_optics::metal::Metal;
+use hairline_optics::metal::MetalIndex;
 use hairline_optics::spectrum::Observer;
 use hairline_scene::{
     Base, Bearing, Environment, Grating, GrooveField, GroovePicture, Material, PictureLie,
@@ -39,10 +39,11 @@ pub(crate) fn without_surfaces(description: &Description) -> Scene {
         shadow_catcher: None,
         lights: lights.map(description::Light::in_scene).collect(),
         notes: description.notes.clone(),
+        tables: Arc::default(),
     }
 }
 
-fn bare_or_covered(metal: Metal, cover: Option<description::Cover>) -> Base {
+fn bare_or_covered(metal: MetalIndex, cover: Option<description::Cover>) -> Base {
     match cover {
         Some(description::Cover {
             ior,
@@ -62,9 +63,11 @@ fn bare_or_covered(metal: Metal, cover: Option<description::Cover>) -> Base {
 
 pub(crate) fn material(material: &description::Material) -> Material {
     let base = match material.kind {
-        MaterialKind::Metal(MetalColor::Measured(metal)) => bare_or_covered(metal, material.cover),
+        MaterialKind::Metal(MetalColor::Measured(metal)) => {
+            bare_or_covered(metal.into(), material.cover)
+        }
         MaterialKind::Metal(MetalColor::Own(ref rows)) => {
-            bare_or_covered(Metal::own(rows), material.cover)
+            bare_or_covered(MetalIndex::own(rows), material.cover)
         }
         MaterialKind::Metal(MetalColor::Color(base_color)) => Base::ColoredMetal { base_color },
         MaterialKind::Dielectric { ior, base_color } => Base::Dielectric { ior, base_color },
@@ -93,7 +96,7 @@ pub(crate) fn material(material: &description::Material) -> Material {
 /// Map of the environment without the scene's settings: not turned, intensity 1.
 pub(crate) fn environment_map(
     map: &description::Map,
-    base_dir: &Path,
+    base_dir: &FilePath,
 ) -> Result<Environment, Error> {
     let file = match map {
         description::Map::File(file) => base_dir.join(file),

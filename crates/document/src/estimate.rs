@@ -1,14 +1,14 @@
 //! Memory of a scene, by the costs of [`hairline_memory`], estimated before the scene is built. Scratches, whose number depends on
 //! the built surfaces, are counted where they are laid.
 
-use std::path::Path;
-
+use hairline_image::FilePath;
 use hairline_memory::{costs, in_words};
 use hairline_model::mesh_file;
 use hairline_model::texture::texture_bytes;
 
 use crate::description::{Description, Map, Object, Shape, Surface};
 use crate::error::Error;
+use crate::gltf_scene::packed_files::with_packed;
 
 /// An item of the scene that takes memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,8 @@ pub struct Estimate {
 impl Estimate {
     /// Estimates a whole scene and its picture, without its scratches. Of files only the heads are read; what cannot be read counts
     /// nothing.
-    pub fn of(description: &Description, base_dir: &Path) -> Self {
+    pub fn of(description: &Description, base_dir: impl Into<FilePath>) -> Self {
+        let base_dir = &with_packed(base_dir);
         let mut estimate = Self::default();
         estimate.add_lights(description);
         for i in 0..description.objects.len() {
@@ -71,7 +72,7 @@ impl Estimate {
         }
     }
 
-    pub(crate) fn add_object(&mut self, description: &Description, i: usize, base_dir: &Path) {
+    pub(crate) fn add_object(&mut self, description: &Description, i: usize, base_dir: &FilePath) {
         let object = &description.objects[i];
         let is_ground = description
             .scratches
@@ -105,7 +106,7 @@ impl Estimate {
         });
     }
 
-    pub(crate) fn add_environment(&mut self, description: &Description, base_dir: &Path) {
+    pub(crate) fn add_environment(&mut self, description: &Description, base_dir: &FilePath) {
         let Some(described) = &description.environment else {
             return;
         };
@@ -204,7 +205,7 @@ struct ObjectCounts {
 }
 
 impl ObjectCounts {
-    fn of(object: &Object, base_dir: &Path) -> Self {
+    fn of(object: &Object, base_dir: &FilePath) -> Self {
         match &object.surface {
             Surface::Shape(shape) => {
                 let [triangles, vertices] = crate::shape::size(shape);
@@ -229,6 +230,7 @@ impl ObjectCounts {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::Path;
 
     fn described(objects: &str) -> Description {
         let text = format!(

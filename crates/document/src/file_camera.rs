@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use glam::DVec3;
+use hairline_image::FilePath;
 use hairline_model::mesh_file::{self, FileCamera};
 
 use crate::description::{Camera, Description, Surface};
@@ -16,7 +17,7 @@ impl Description {
     ///
     /// # Errors
     /// As of [`Description::see_by`].
-    pub fn with_its_camera(&self, base_dir: &Path) -> Result<Cow<'_, Self>, Error> {
+    pub fn with_its_camera(&self, base_dir: impl Into<FilePath>) -> Result<Cow<'_, Self>, Error> {
         let Some(wanted) = &self.camera.of_file else {
             return Ok(Cow::Borrowed(self));
         };
@@ -34,7 +35,8 @@ impl Description {
     }
 
     /// Cameras of the models' files: their names, their nodes' names, or their numbers. What cannot be read has none.
-    pub fn file_cameras(&self, base_dir: &Path) -> Vec<String> {
+    pub fn file_cameras(&self, base_dir: impl Into<FilePath>) -> Vec<String> {
+        let base_dir = base_dir.into();
         let mut names = Vec::new();
         let files = self.mesh_files();
         for name in files.flat_map(|file| mesh_file::camera_names(&base_dir.join(file))) {
@@ -49,7 +51,8 @@ impl Description {
     ///
     /// # Errors
     /// No model has it, or it is none that Hairline can see by; what is wrong with a file.
-    pub fn see_by(&mut self, wanted: &str, base_dir: &Path) -> Result<(), Error> {
+    pub fn see_by(&mut self, wanted: &str, base_dir: impl Into<FilePath>) -> Result<(), Error> {
+        let base_dir = base_dir.into();
         let world_up = self.camera.world_up();
         let mut first_flaw = None;
         for (i, object) in self.objects.iter().enumerate() {

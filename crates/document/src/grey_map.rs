@@ -1,8 +1,7 @@
 //! Pictures that say of each place of a surface how much of something there is.
 
-use std::path::Path;
-
 use glam::DVec2;
+use hairline_image::FilePath;
 
 use hairline_model::texture;
 
@@ -36,7 +35,7 @@ impl GreyMap {
     ///
     /// # Errors
     /// What was found in the place of a picture.
-    pub(crate) fn read(path: &Path, free_bytes: f64) -> Result<Self, String> {
+    pub(crate) fn read(path: &FilePath, free_bytes: f64) -> Result<Self, String> {
         let image = texture::read(path, free_bytes)?;
         Ok(Self {
             size_px: image.size_px,
@@ -73,7 +72,7 @@ mod tests {
     #[test]
     fn values_are_codes_and_lie_as_the_picture_does() {
         let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("corners.png");
+        let path = FilePath::from(dir.path()).join("corners.png");
         let mut picture = RgbaImage::from_pixel(2, 2, Rgba([0, 0, 0, 255]));
         picture.put_pixel(1, 0, Rgba([255; 4]));
         picture.put_pixel(0, 1, Rgba([255, 255, 255, 51]));

@@ -3,11 +3,12 @@
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use hairline_image::held;
-use hairline_model::mesh_file;
+use hairline_image::FilePath;
 use hairline_model::text::shown;
+use hairline_model::{mesh_file, packed};
 
 use crate::description::{Description, FileUse};
+use crate::gltf_scene::packed_files::with_packed;
 
 /// A file that a scene is made from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,33 +19,39 @@ pub struct Input {
     pub path: PathBuf,
 }
 
-pub use hairline_model::packed::file_of;
+/// The file whose bytes say what is at a path: itself, or the glTF file that the path leads into.
+pub fn file_of(path: impl Into<FilePath>) -> PathBuf {
+    packed::file_of(path).to_path_buf()
+}
 
 /// Whether there is a file at a path, by itself or in a glTF file.
-pub fn is_there(path: &Path) -> bool {
-    held::edition(path).is_some() || file_of(path).exists()
+pub fn is_there(path: impl Into<FilePath>) -> bool {
+    packed::file_of(path).facts().is_ok()
 }
 
 /// The bytes at a path: those of a file by itself, of a picture in a glTF file, or of the glTF file that a model is in.
 ///
 /// # Errors
 /// Why it cannot be read.
-pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+pub fn bytes(path: impl Into<FilePath>) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    held::open(&file_of(path))?.read_to_end(&mut bytes)?;
+    packed::file_of(with_packed(path))
+        .open()?
+        .read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
 /// The files that a model names in turn: buffers and textures. None where it cannot be read.
-pub fn of_model(path: &Path) -> Vec<PathBuf> {
-    let names = mesh_file::names(path);
+pub fn of_model(path: impl Into<FilePath>) -> Vec<PathBuf> {
+    let names = mesh_file::names(&path.into());
     names.into_iter().map(|(_, file)| file).collect()
 }
 
 impl Description {
     /// All files that the scene and its models name. Relative paths start from `base_dir`; a model that cannot be read names
     /// none.
-    pub fn inputs(&self, base_dir: &Path) -> Vec<Input> {
+    pub fn inputs(&self, base_dir: impl Into<FilePath>) -> Vec<Input> {
+        let base_dir = base_dir.into();
         let mut inputs = Vec::new();
         let mut add = |what: String, path: PathBuf| inputs.push(Input { what, path });
         for (used_for, file) in self.files() {

@@ -1,10 +1,9 @@
 //! Pictures on lights: textures whose brightest channel is 1, and how bright that is.
 
 use std::io;
-use std::path::Path;
 
-use hairline_image::Picture;
 use hairline_image::tone_map::linear_from_srgb;
+use hairline_image::{FilePath, Picture};
 use hairline_model::texture;
 
 use hairline_scene::Texture;
@@ -21,7 +20,7 @@ impl LightPicture {
     ///
     /// # Errors
     /// What was found in the place of a picture.
-    pub(crate) fn read(path: &Path, free_bytes: f64) -> Result<Self, String> {
+    pub(crate) fn read(path: &FilePath, free_bytes: f64) -> Result<Self, String> {
         let ending = path.extension().unwrap_or_default();
         if ["hdr", "exr"]
             .iter()
@@ -84,7 +83,7 @@ mod tests {
     #[test]
     fn alpha_and_the_turn_of_a_photograph_count() {
         let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("cut.png");
+        let path = FilePath::from(dir.path()).join("cut.png");
         let mut picture = RgbaImage::from_pixel(2, 2, image::Rgba([255; 4]));
         picture.put_pixel(0, 0, image::Rgba([255, 255, 255, 0]));
         picture.put_pixel(1, 0, image::Rgba([255, 255, 255, 0]));
@@ -110,7 +109,7 @@ mod tests {
         let jpeg = jpeg.into_inner();
         let length = (exif.len() as u16 + 2).to_be_bytes();
         let turned = [&[0xff, 0xd8, 0xff, 0xe1][..], &length, exif, &jpeg[2..]].concat();
-        let path = dir.path().join("turned.jpg");
+        let path = path.folder().join("turned.jpg");
         fs::write(&path, turned).unwrap();
         let read = LightPicture::read(&path, 1e9).unwrap();
         assert_eq!(read.texture.size_px, [8, 16]);
@@ -122,7 +121,7 @@ mod tests {
     #[test]
     fn unusable_files() {
         let dir = tempfile::tempdir().unwrap();
-        let file = |name: &str| dir.path().join(name);
+        let file = |name: &str| FilePath::from(dir.path()).join(name);
         fs::write(file("text.png"), "not a picture").unwrap();
         RgbaImage::new(64, 64).save(file("box.png")).unwrap();
         for (name, value) in [("box.hdr", 2.0), ("dark.hdr", 0.0)] {

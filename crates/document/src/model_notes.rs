@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use hairline_image::FilePath;
 use hairline_model::mesh_file::{self, LeftOut, UsedContents};
 use hairline_model::text::shown;
 
@@ -10,7 +11,8 @@ use crate::description::{Description, Object, Surface};
 impl Description {
     /// Lists, file by file and each once, the contents of the models that are not in the picture. Files are looked for in
     /// `base_dir`; what cannot be read has nothing.
-    pub fn left_out(&self, base_dir: &Path) -> Vec<(PathBuf, Vec<LeftOut>)> {
+    pub fn left_out(&self, base_dir: impl Into<FilePath>) -> Vec<(PathBuf, Vec<LeftOut>)> {
+        let base_dir = base_dir.into();
         let mut models: Vec<(&PathBuf, UsedContents)> = Vec::new();
         for object in &self.objects {
             let Surface::Mesh(file) = &object.surface else {
@@ -33,7 +35,7 @@ impl Description {
     }
 
     /// The entries of [`Self::left_out`] that change the picture, as notes, a line each.
-    pub fn model_notes(&self, base_dir: &Path) -> Vec<String> {
+    pub fn model_notes(&self, base_dir: impl Into<FilePath>) -> Vec<String> {
         let left_out = self.left_out(base_dir).into_iter();
         left_out
             .flat_map(|(file, left_out)| notes(&file, &left_out))

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use glam::{DVec2, DVec3, Vec3};
+use hairline_image::FilePath;
 use hairline_model::text::shown;
 use hairline_model::{mesh_file, packed};
 use hairline_scene::Mesh;
@@ -45,7 +46,8 @@ impl Description {
     ///
     /// # Errors
     /// What is wrong with the file. A scene in it that cannot be read is told in the notes, and the model is shown plain.
-    pub fn for_model(path: &Path) -> Result<Self, Error> {
+    pub fn for_model(path: impl Into<FilePath>) -> Result<Self, Error> {
+        let path = &path.into();
         match gltf_scene::reading::read(path) {
             Some(Ok(scene)) => Ok(scene),
             Some(Err(error)) => {
@@ -61,14 +63,16 @@ impl Description {
     }
 
     /// A scene around a model.
-    fn around(path: &Path) -> Result<Self, Error> {
+    fn around(path: &FilePath) -> Result<Self, Error> {
         let ProbedMesh {
             mesh,
             materials,
             textures,
             summary,
         } = probe::read_mesh(path)?;
-        let name = path.file_name().map_or_else(|| path.into(), PathBuf::from);
+        let name = path
+            .file_name()
+            .map_or_else(|| path.to_path_buf(), PathBuf::from);
         let mut notes = Vec::new();
         let (mut factor, mut fit_m) = (1.0, None);
         let extent_m = summary.extent_m();

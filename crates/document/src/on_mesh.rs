@@ -1,10 +1,11 @@
 //! Scratches on a mesh in memory, without a scene about it: what other engines ask for.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
-use hairline_scene::{Mesh, Object, SectionId};
+use hairline_image::FilePath;
+use hairline_scene::{Mesh, Object};
 
 use crate::arrays::{Arrays, MeshArrays};
 use crate::description::{self, Layer, standings};
@@ -53,7 +54,7 @@ pub fn lay_on_mesh(
         };
         tables.push(Table {
             layer: &layer.layer,
-            section: SectionId::new(&layer.profile),
+            section: &layer.profile,
             strokes: &layer.strokes,
             number: standing.number,
             ground: &ground,
@@ -71,7 +72,7 @@ pub fn lay_on_mesh(
         arrays,
         ..Loader::default()
     };
-    let laid = lay(&loader, &tables, Path::new(""), 0.0)?;
+    let laid = lay(&loader, &tables, &FilePath::default(), 0.0)?;
     let all = put_together(shown.into_iter().zip(&laid))?;
     Ok(Object {
         name: String::new(),
@@ -132,6 +133,7 @@ fn refuse_parts(layer: &description::Scratches, key: &str) -> Result<(), Error> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::Path;
 
     #[test]
     fn what_is_wrong_is_told_by_its_key() {

@@ -1,8 +1,7 @@
 //! Whether a file can be used, before a scene names it: all errors that loading would give, in less time.
 
-use std::path::Path;
-
 use glam::{DMat4, DVec3, Vec3};
+use hairline_image::FilePath;
 use hairline_memory::budget_bytes;
 use hairline_model::mesh_file::{self, FileContents, Placing};
 use hairline_scene::{Base, Material, Mesh, Texture};
@@ -73,8 +72,8 @@ pub struct EnvironmentSummary {
 ///
 /// # Errors
 /// What is wrong with the file.
-pub fn mesh(path: &Path) -> Result<MeshSummary, Error> {
-    Ok(read_mesh(path)?.summary)
+pub fn mesh(path: impl Into<FilePath>) -> Result<MeshSummary, Error> {
+    Ok(read_mesh(&path.into())?.summary)
 }
 
 /// A mesh file that was read.
@@ -88,7 +87,7 @@ pub(crate) struct ProbedMesh {
 }
 
 /// Reads the file for [`mesh`], and returns its contents.
-pub(crate) fn read_mesh(path: &Path) -> Result<ProbedMesh, Error> {
+pub(crate) fn read_mesh(path: &FilePath) -> Result<ProbedMesh, Error> {
     let (mut materials, mut textures) = (Vec::new(), Vec::new());
     let mut moved_from = None;
     let stock = FileContents {
@@ -148,13 +147,14 @@ fn is_metal(material: &Material, textures: &[Texture]) -> bool {
 ///
 /// # Errors
 /// What is wrong with the file.
-pub fn environment(path: &Path) -> Result<EnvironmentSummary, Error> {
-    let map = hairline_sky::read(path).map_err(|error| {
+pub fn environment(path: impl Into<FilePath>) -> Result<EnvironmentSummary, Error> {
+    let path = path.into();
+    let map = hairline_sky::read(&path).map_err(|error| {
         // The message names the path already.
         let message = error.to_string();
         let found = message.strip_prefix(&format!("{}: ", path.display()));
         let right = "must be an equirectangular .hdr or .exr";
-        Error::new("", found.unwrap_or(&message), right).at(path, None)
+        Error::new("", found.unwrap_or(&message), right).at(&path, None)
     })?;
     Ok(EnvironmentSummary {
         size_px: map.size_px,
@@ -166,12 +166,13 @@ pub fn environment(path: &Path) -> Result<EnvironmentSummary, Error> {
 ///
 /// # Errors
 /// What is wrong with the scene, with its line.
-pub fn scene(path: &Path) -> Result<Description, Error> {
-    let text = reading::scene_text(path)?;
-    let description = Description::from_toml(&text, path)?;
+pub fn scene(path: impl Into<FilePath>) -> Result<Description, Error> {
+    let path = path.into();
+    let text = reading::scene_text(&path)?;
+    let description = Description::from_toml(&text, &path)?;
     description
         .check()
         .and_then(|()| description.check_references())
-        .map_err(|error| error.in_scene_file(&text, path))?;
+        .map_err(|error| error.in_scene_file(&text, &path))?;
     Ok(description)
 }

@@ -1,8 +1,8 @@
 //! The text of a scene file, read within a limit.
 
 use std::io::Read;
-use std::path::Path;
 
+use hairline_image::FilePath;
 use hairline_memory::{budget_bytes, in_words};
 use hairline_model::reading::{FileKind, read};
 
@@ -17,12 +17,13 @@ const TEXT_BYTES: f64 = 64.0;
 ///
 /// # Errors
 /// Why it cannot be read.
-pub fn scene_text(path: &Path) -> Result<String, Error> {
-    let bytes = read(path, FileKind::FileOrPipe, TEXT_SHARE).map_err(|reason| {
+pub fn scene_text(path: impl Into<FilePath>) -> Result<String, Error> {
+    let path = path.into();
+    let bytes = read(&path, FileKind::FileOrPipe, TEXT_SHARE).map_err(|reason| {
         let found = format!("cannot be read ({reason})");
-        Error::new("", found, "give the path of a scene file (TOML)").at(path, None)
+        Error::new("", found, "give the path of a scene file (TOML)").at(&path, None)
     })?;
-    text_of(bytes).map_err(|error| error.at(path, None))
+    text_of(bytes).map_err(|error| error.at(&path, None))
 }
 
 /// The text of a scene that comes from a stream, read within the same limits.

@@ -152,16 +152,16 @@ impl Subject<'_> {
     fn albedo(&self, material: &Material) -> f64 {
         let mean = |rgb: [f64; 3]| rgb.iter().sum::<f64>() / 3.0;
         let rough = beside_highlight(material.roughness);
-        let color = match material.base {
+        let color = match &material.base {
             Base::Mirror => 0.0,
             Base::Metal(metal) => rough * mean(metal.reflectance_rgb(1.0)),
             Base::Covered { metal, cover } => rough * mean(cover.reflectance_rgb(metal, 1.0)),
-            Base::ColoredMetal { base_color, .. } => rough * mean(base_color),
-            Base::Dielectric { base_color, .. } => mean(base_color),
+            Base::ColoredMetal { base_color, .. } => rough * mean(*base_color),
+            Base::Dielectric { base_color, .. } => mean(*base_color),
             Base::MetallicRoughness {
                 base_color,
                 metallic,
-            } => (1.0 - metallic + metallic * rough) * mean(base_color),
+            } => (1.0 - metallic + metallic * rough) * mean(*base_color),
         };
         let of_texture = material.base_color_texture.map_or(1.0, |texture| {
             // Linear values from the displayed ones.

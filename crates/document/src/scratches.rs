@@ -28,9 +28,9 @@ mod swirl;
 mod walk;
 mod written_list;
 
-use std::path::Path;
-
-use hairline_scene::{Profile, Scratch, SectionId, Segment};
+use hairline_image::FilePath;
+use hairline_optics::section::Section;
+use hairline_scene::{Profile, Scratch, Segment};
 use rayon::prelude::*;
 
 use crate::description::{Amount, Layer, Stroke};
@@ -77,7 +77,7 @@ pub(crate) struct Table<'a> {
     pub key: String,
     pub layer: &'a Layer,
     /// Cross section of its grooves.
-    pub section: SectionId,
+    pub section: &'a Section,
     pub strokes: &'a [Stroke],
     /// Number of earlier layers on the same object with the same seed.
     pub number: u64,
@@ -131,7 +131,7 @@ struct Plan<'a> {
 pub(crate) fn lay(
     loader: &Loader,
     tables: &[Table],
-    base_dir: &Path,
+    base_dir: &FilePath,
     mut used_bytes: f64,
 ) -> Result<Vec<Laid>, Error> {
     let mut plans = Vec::new();
@@ -199,7 +199,7 @@ pub(crate) fn put_together<'l>(
         all.scratches.par_extend(scratches.map(|scratch| Scratch {
             layer,
             segments: scratch.segments.start + offset..scratch.segments.end + offset,
-            ..*scratch
+            ..scratch.clone()
         }));
     }
     Ok(all)
@@ -217,7 +217,7 @@ fn check_segments(segments: usize, key: &str) -> Result<(), Error> {
 }
 
 impl<'a> Plan<'a> {
-    fn new(loader: &Loader, table: &'a Table<'a>, base_dir: &Path) -> Result<Self, Error> {
+    fn new(loader: &Loader, table: &'a Table<'a>, base_dir: &FilePath) -> Result<Self, Error> {
         let ground = table.ground;
         painted::check(table.strokes, &table.key, ground)?;
         let (laying, count): (Box<dyn Laying>, u64) = match table.layer {
@@ -365,7 +365,7 @@ impl<'a> Plan<'a> {
             let start = laid.segments.len();
             let groove = self.laying.lay(walker, index, &mut laid.segments);
             let profile = Profile {
-                section: self.table.section,
+                section: self.table.section.clone(),
                 ..groove.profile
             };
             let whole = &laid.segments[start..];
@@ -377,7 +377,7 @@ impl<'a> Plan<'a> {
             for run in runs {
                 let start = laid.segments.len();
                 laid.segments.extend(run);
-                laid.push(profile, Course::Open, start..laid.segments.len());
+                laid.push(profile.clone(), Course::Open, start..laid.segments.len());
             }
         }
         laid

@@ -1,32 +1,22 @@
 //! Versions of files.
 
-use std::path::{Path, PathBuf};
-use std::time::SystemTime;
-
-use hairline_image::held;
+use hairline_image::{Facts, FilePath};
 use hairline_model::packed;
 
-/// Version of a file, known without reading it: equal stamps mean equal contents. Facts that cannot be
-/// found are `None`.
+/// Version of a file, known without reading it: equal stamps mean equal contents.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Stamp {
-    pub path: PathBuf,
-    changed: Option<SystemTime>,
-    length: Option<u64>,
-    /// Edition of a file that is held in memory.
-    edition: Option<u64>,
+    pub path: FilePath,
+    /// None where there is no file.
+    facts: Option<Facts>,
 }
 
 impl Stamp {
     /// Stamp of a file, or of what is in one.
-    pub(crate) fn of(path: &Path) -> Self {
-        let file = packed::file_of(path);
-        let metadata = std::fs::metadata(&file).ok();
+    pub(crate) fn of(path: &FilePath) -> Self {
         Self {
-            path: path.to_owned(),
-            changed: metadata.as_ref().and_then(|m| m.modified().ok()),
-            length: metadata.map(|m| m.len()),
-            edition: held::edition(&file),
+            path: path.clone(),
+            facts: packed::file_of(path).facts().ok(),
         }
     }
 

@@ -5,9 +5,9 @@ mod layout;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use hairline_document::Description;
+use hairline_image::FilePath;
 
 use crate::history::{DragKey, History, State};
 use crate::{ActionError, Selection};
@@ -24,7 +24,7 @@ pub struct Document {
     saved: Option<Arc<Description>>,
     is_modified: bool,
     path: Option<PathBuf>,
-    base_dir: PathBuf,
+    base_dir: FilePath,
     revision: u64,
     /// The file's text as it was opened or saved last; none where there is no file.
     text: Option<Arc<str>>,
@@ -45,7 +45,7 @@ struct Drag {
 impl Document {
     /// A scene that has no file yet, such as the built-in one. Paths in it are relative to `base_dir`. It counts as
     /// unmodified: closing it loses nothing.
-    pub fn untitled(description: Description, base_dir: impl Into<PathBuf>) -> Self {
+    pub fn untitled(description: Description, base_dir: impl Into<FilePath>) -> Self {
         let description = Arc::new(description);
         Self {
             saved: Some(description.clone()),
@@ -58,7 +58,7 @@ impl Document {
             is_modified: false,
             path: None,
             base_dir: base_dir.into(),
-            revision: next_revision(),
+            revision: 1,
             text: None,
             passed_over: None,
         }
@@ -69,7 +69,7 @@ impl Document {
     pub(crate) fn recovered(
         description: Description,
         path: Option<PathBuf>,
-        base_dir: impl Into<PathBuf>,
+        base_dir: impl Into<FilePath>,
     ) -> Self {
         Self {
             path,
@@ -77,6 +77,12 @@ impl Document {
             is_modified: true,
             ..Self::untitled(description, base_dir)
         }
+    }
+
+    /// Puts another document in the place of this one. Its revisions follow those of this one.
+    pub fn replace(&mut self, by: Self) {
+        let revision = self.revision + 1;
+        *self = Self { revision, ..by };
     }
 
     /// The current description of the scene.
@@ -90,7 +96,7 @@ impl Document {
     }
 
     /// The folder that paths in the description are relative to.
-    pub fn base_dir(&self) -> &Path {
+    pub fn base_dir(&self) -> &FilePath {
         &self.base_dir
     }
 
@@ -102,8 +108,7 @@ impl Document {
         }
     }
 
-    /// Number that changes with every change of the description, undo and redo among them. No two documents of one run
-    /// share a number, unless one is a clone of the other.
+    /// Number that grows with every change of the description, undo and redo among them.
     pub fn revision(&self) -> u64 {
         self.revision
     }
@@ -244,7 +249,7 @@ impl Document {
     }
 
     fn changed(&mut self) {
-        self.revision = next_revision();
+        self.revision += 1;
         self.is_modified = match &self.saved {
             Some(saved) => {
                 !Arc::ptr_eq(saved, &self.state.description) && **saved != *self.state.description
@@ -252,9 +257,4 @@ impl Document {
             None => true,
         };
     }
-}
-
-fn next_revision() -> u64 {
-    static LAST: AtomicU64 = AtomicU64::new(0);
-    LAST.fetch_add(1, Ordering::Relaxed) + 1
 }

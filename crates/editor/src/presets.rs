@@ -258,7 +258,6 @@ fn metal_name(metal: Metal) -> &'static str {
         Metal::Chromium => "Chromium",
         Metal::Titanium => "Titanium",
         Metal::Nickel => "Nickel",
-        Metal::Own(_) => "n and k",
     }
 }
 

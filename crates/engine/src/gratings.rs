@@ -96,7 +96,7 @@ impl LaidGrating {
     pub fn of_object(object: Object, metal: Option<Metal>, coherence_um: f64) -> Vec<Option<Self>> {
         let mut scene = scene_of(object, coherence_um);
         if let Some(metal) = metal {
-            scene.materials[0].base = Base::Metal(metal);
+            scene.materials[0].base = Base::Metal(metal.into());
         }
         Self::of_scene(&scene, 0)
     }

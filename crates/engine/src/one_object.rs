@@ -34,5 +34,6 @@ pub(crate) fn scene_of(object: Object, coherence_um: f64) -> Scene {
         shadow_catcher: None,
         lights: Vec::new(),
         notes: Vec::new(),
+        tables: Arc::default(),
     }
 }

@@ -3,9 +3,8 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use hairline_scene::{
-    GrooveShapes, MOST_SHAPES, Mesh, Object, Profile, Scratch, SectionId, Segment,
-};
+use hairline_optics::section::Section;
+use hairline_scene::{GrooveShapes, MOST_SHAPES, Mesh, Object, Profile, Scratch, Segment};
 
 use crate::error::Error;
 use crate::one_object::scene_of;
@@ -32,7 +31,7 @@ pub struct Pieces {
     /// Number of the scratch.
     pub scratch: Vec<u32>,
     /// Cross section of the groove.
-    pub sections: Vec<SectionId>,
+    pub sections: Vec<Section>,
     /// Index of the layer.
     pub layers: Vec<u32>,
 }
@@ -47,16 +46,16 @@ impl Pieces {
                 width_um,
                 depth_nm,
                 section,
-            } = scratch.profile;
+            } = &scratch.profile;
             let own = scratch.segments.start as usize..scratch.segments.end as usize;
             for piece in &object.segments[own] {
                 pieces.starts.push(in_mesh(piece.start_m));
                 pieces.ends.push(in_mesh(piece.end_m));
                 pieces.normals.push(piece.normal.to_array());
-                pieces.widths_um.push(width_um);
-                pieces.depths_nm.push(depth_nm);
+                pieces.widths_um.push(*width_um);
+                pieces.depths_nm.push(*depth_nm);
                 pieces.scratch.push(number);
-                pieces.sections.push(section);
+                pieces.sections.push(section.clone());
                 pieces.layers.push(scratch.layer);
             }
         }
@@ -169,7 +168,7 @@ impl Pieces {
                 profile: Profile {
                     width_um: self.widths_um[own.start],
                     depth_nm: self.depths_nm[own.start],
-                    section: self.sections[own.start],
+                    section: self.sections[own.start].clone(),
                 },
                 layer: self.layers[own.start],
                 closed: own.len() > 2 && self.starts[own.start] == self.ends[own.end - 1],
@@ -300,7 +299,7 @@ mod tests {
                 pieces.depths_nm[at],
                 pieces.layers[at],
             );
-            let profile = scratch.profile;
+            let profile = &scratch.profile;
             assert_eq!(sizes, (profile.width_um, profile.depth_nm, scratch.layer));
         }
         // V grooves of 30 µm are wide under a window of 20 µm, and so are a shape of their own.
@@ -334,7 +333,7 @@ mod tests {
             widths_um: vec![2.0],
             depths_nm: vec![100.0],
             scratch: vec![0],
-            sections: vec![SectionId::default()],
+            sections: vec![Section::Rectangle],
             layers: vec![0],
         };
         let made = long.texels(20.0, 1.0).unwrap();

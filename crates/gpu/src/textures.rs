@@ -5,7 +5,7 @@ use std::sync::Arc;
 use hairline_image::Picture;
 use hairline_optics::fresnel::FRESNEL_NODES;
 use hairline_optics::lobe_table::{self, LOBE_TABLE_SIZE};
-use hairline_optics::metal::Metal;
+use hairline_optics::metal::MetalIndex;
 use hairline_optics::table;
 use hairline_scene::environment::level_place;
 use hairline_scene::{
@@ -25,7 +25,7 @@ use crate::transfer::{TexturePosition, Transfer};
 pub(crate) struct SceneTextures {
     pub group: wgpu::BindGroup,
     /// Each has one table for each shape.
-    metals: Vec<Option<Metal>>,
+    metals: Vec<Option<MetalIndex>>,
     shapes: GrooveShapes,
     /// Spectra of the gratings' tables, which follow those of the metals.
     grating_spectra: Vec<GratingSpectrum>,

@@ -1,14 +1,13 @@
 //! Animations: frames as a display shows them, 8 bits a channel, sRGB. An animated PNG (the third edition of the PNG specification) is without
 //! loss; what shows no animations shows its first frame. MPEG-4 is made by another program ([`crate::mp4`]).
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use png::{BitDepth, ColorType, Compression, Encoder, Filter, SrgbRenderingIntent, Writer};
 
 use crate::mp4::Mp4;
-use crate::output::{check_writable, write_atomically};
 use crate::png::quantize_finished;
-use crate::{Display, Error, Finish, Image};
+use crate::{Display, Error, FilePath, Finish, Image};
 
 /// Largest number of frames in a second: viewers take delays below 10 ms for a mistake, and show more frames slower than
 /// asked.
@@ -16,7 +15,7 @@ pub const FPS_MAX: u16 = 100;
 
 /// An animation in the making. The file is whole or not there: an animated PNG is kept in memory, compressed, until [`Animation::finish`].
 pub struct Animation {
-    path: PathBuf,
+    path: FilePath,
     size_px: [u32; 2],
     left: u32,
     to: Encoded,
@@ -42,16 +41,17 @@ impl Animation {
     ///
     /// # Errors
     /// [`Error::NoAnimation`], [`Error::CannotWrite`].
-    pub fn check(path: &Path) -> Result<(), Error> {
-        if !Self::is_asked_by(path) && !has_ending(path, "png") {
+    pub fn check(path: impl Into<FilePath>) -> Result<(), Error> {
+        let path = path.into();
+        if !Self::is_asked_by(&path) && !has_ending(&path, "png") {
             return Err(Error::NoAnimation {
-                path: path.to_owned(),
+                path: path.to_path_buf(),
             });
         }
-        if Mp4::is_asked_by(path) {
-            Mp4::check(path)?;
+        if Mp4::is_asked_by(&path) {
+            Mp4::check(&path)?;
         }
-        check_writable(path)
+        path.check_writable()
     }
 
     /// Begins an animation of `frames` pictures, `fps` of them in a second (1 to [`FPS_MAX`]), that repeats without end. With `has_alpha` each of
@@ -60,25 +60,26 @@ impl Animation {
     /// # Errors
     /// As [`Animation::check`]; [`Error::CannotWrite`] for no frames or an empty picture, and for alpha in an .mp4.
     pub fn begin(
-        path: &Path,
+        path: impl Into<FilePath>,
         size_px: [u32; 2],
         frames: u32,
         fps: u16,
         has_alpha: bool,
         finish: &Finish,
     ) -> Result<Self, Error> {
-        Self::check(path)?;
+        let path = path.into();
+        Self::check(&path)?;
         let has_alpha = has_alpha && finish.behind.is_none();
         let fps = fps.clamp(1, FPS_MAX);
-        let to = match Mp4::is_asked_by(path) {
+        let to = match Mp4::is_asked_by(&path) {
             true if has_alpha => {
                 let reason = "an .mp4 has no alpha: leave the transparent background out, put a picture behind, or end the name in .apng";
                 return Err(Error::CannotWrite {
-                    path: path.to_owned(),
+                    path: path.to_path_buf(),
                     reason: reason.to_owned(),
                 });
             }
-            true => Encoded::Mp4(Mp4::begin(path, size_px, fps)?),
+            true => Encoded::Mp4(Mp4::begin(&path, size_px, fps)?),
             false => {
                 let bytes = Shared::default();
                 let color = if has_alpha {
@@ -87,12 +88,12 @@ impl Animation {
                     ColorType::Rgb
                 };
                 let writer = header(bytes.clone(), size_px, color, frames, fps);
-                let writer = Box::new(writer.map_err(|error| refused(path, &error))?);
+                let writer = Box::new(writer.map_err(|error| refused(&path, &error))?);
                 Encoded::Apng { writer, bytes }
             }
         };
         Ok(Self {
-            path: path.to_owned(),
+            path,
             size_px,
             left: frames,
             to,
@@ -111,7 +112,7 @@ impl Animation {
         assert_eq!(frame.size_px, self.size_px, "frames of different sizes");
         let codes = quantize_finished(frame, display, &self.finish);
         let codes = codes.map_err(|reason| Error::CannotWrite {
-            path: self.path.clone(),
+            path: self.path.to_path_buf(),
             reason,
         })?;
         match &mut self.to {
@@ -133,7 +134,7 @@ impl Animation {
         let Self { path, left, to, .. } = self;
         if left > 0 {
             return Err(Error::CannotWrite {
-                path,
+                path: path.to_path_buf(),
                 reason: format!("{left} frames are missing"),
             });
         }
@@ -141,7 +142,7 @@ impl Animation {
             Encoded::Mp4(mp4) => mp4.finish(),
             Encoded::Apng { writer, bytes } => {
                 writer.finish().map_err(|error| refused(&path, &error))?;
-                write_atomically(&path, &bytes.take())
+                path.write(&bytes.take())
             }
         }
     }

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use exr::prelude::*;
 
-use crate::{Error, Image, Noise, Picture, Primaries, ToRec709, held, in_gamut};
+use crate::{Error, FilePath, Image, Noise, Picture, Primaries, ToRec709, in_gamut};
 
 /// Notes on the making of a render (scene, model, seed), by name. Any text; names of 246 bytes at most.
 pub type Notes = BTreeMap<String, String>;
@@ -103,15 +103,16 @@ pub fn read_image(path: &Path) -> std::result::Result<Image, Error> {
 ///
 /// # Errors
 /// [`Error::CannotRead`], [`Error::Unusable`].
-pub fn window(path: &Path) -> std::result::Result<Window, Error> {
-    let file = held::open(path).map_err(|e| Error::cannot_read(path, &e))?;
+pub fn window(path: impl Into<FilePath>) -> std::result::Result<Window, Error> {
+    let path = path.into();
+    let file = path.open().map_err(|e| Error::cannot_read(&path, &e))?;
     let unusable = |reason: String| Error::Unusable {
-        path: path.to_owned(),
+        path: path.to_path_buf(),
         reason,
     };
     let meta = exr::meta::MetaData::read_from_buffered(file, false);
     let meta = meta.map_err(|e| match e {
-        exr::error::Error::Io(e) => Error::cannot_read(path, &e),
+        exr::error::Error::Io(e) => Error::cannot_read(&path, &e),
         e => unusable(format!("not an EXR file that can be read: {e}")),
     })?;
     let parts = meta.headers.iter().map(|header| {
@@ -136,7 +137,7 @@ pub fn window(path: &Path) -> std::result::Result<Window, Error> {
 ///
 /// # Errors
 /// As of [`window`].
-pub fn size_px(path: &Path) -> std::result::Result<[u32; 2], Error> {
+pub fn size_px(path: impl Into<FilePath>) -> std::result::Result<[u32; 2], Error> {
     Ok(window(path)?.of_px)
 }
 
@@ -146,10 +147,10 @@ pub fn size_px(path: &Path) -> std::result::Result<[u32; 2], Error> {
 /// # Errors
 /// As [`read_image`].
 pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes), Error> {
-    let file = Contents::read(path)?;
+    let file = Contents::read(&path.into())?;
     let whole = |names: [&str; 3]| {
         file.find(names).ok_or_else(|| Error::Unusable {
-            path: path.to_owned(),
+            path: path.to_path_buf(),
             reason: format!(
                 "no channels {}: this is not a layered render",
                 listed(names)
@@ -181,11 +182,12 @@ pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes),
 ///
 /// # Errors
 /// [`Error::CannotRead`], and [`Error::Unusable`] for files without such channels and for deep images.
-pub fn read_picture(path: &Path) -> std::result::Result<Picture, Error> {
-    let file = Contents::read(path)?;
+pub fn read_picture(path: impl Into<FilePath>) -> std::result::Result<Picture, Error> {
+    let path = path.into();
+    let file = Contents::read(&path)?;
     let picture = file.beauty().or_else(|| file.layer());
     let mut picture = picture.ok_or_else(|| Error::Unusable {
-        path: path.to_owned(),
+        path: path.to_path_buf(),
         reason: "no channels R, G and B".to_owned(),
     })?;
     if file.is_converted() {
@@ -215,7 +217,7 @@ fn check_lengths(image: &Image, path: &Path) -> std::result::Result<(), Error> {
         return Ok(());
     }
     Err(Error::Unusable {
-        path: path.to_owned(),
+        path: path.to_path_buf(),
         reason: "its layers have different sizes".to_owned(),
     })
 }
@@ -447,10 +449,10 @@ impl Part {
 }
 
 impl Contents {
-    pub(crate) fn read(path: &Path) -> std::result::Result<Self, Error> {
+    pub(crate) fn read(path: &FilePath) -> std::result::Result<Self, Error> {
         // Before anything is decoded.
         window(path)?;
-        let file = held::open(path).map_err(|e| Error::cannot_read(path, &e))?;
+        let file = path.open().map_err(|e| Error::cannot_read(path, &e))?;
         let file = read()
             .no_deep_data()
             .largest_resolution_level()
@@ -461,12 +463,12 @@ impl Contents {
             .map_err(|e| match e {
                 exr::error::Error::Io(e) => Error::cannot_read(path, &e),
                 e => Error::Unusable {
-                    path: path.to_owned(),
+                    path: path.to_path_buf(),
                     reason: format!("not an EXR file that can be read: {e}"),
                 },
             })?;
         let unusable = |reason: String| Error::Unusable {
-            path: path.to_owned(),
+            path: path.to_path_buf(),
             reason,
         };
         let primaries = file.attributes.chromaticities.map(|it| {
@@ -633,7 +635,7 @@ impl Contents {
             }
             (.., samples) if found == 0 && samples.is_none() => Ok(None),
             _ => Err(Error::Unusable {
-                path: path.to_owned(),
+                path: path.to_path_buf(),
                 reason: format!(
                     "a part of the variance is missing: no channels {}",
                     missing.join(", ")

@@ -60,7 +60,7 @@ impl Layers {
             .and_then(|file| file.take(8).read_to_end(&mut start))
             .map_err(|e| Error::cannot_read(path, &e))?;
         if start.starts_with(b"\x76\x2f\x31\x01") {
-            Self::from_exr(path, &Contents::read(path)?)
+            Self::from_exr(path, &Contents::read(&path.into())?)
         } else if start.starts_with(b"\x89PNG\r\n\x1a\n") {
             let (picture, alpha) = png::read_with_alpha(path)?;
             let mut layers = Self::of_displayed(picture);

@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use tempfile::TempPath;
 
 use crate::Error;
-use crate::output::resolve;
+use crate::disk::resolve;
 use crate::temporary;
 
 const PROGRAM: &str = "ffmpeg";

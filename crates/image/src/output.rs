@@ -1,12 +1,10 @@
-//! Output files that are either whole or not there: everything is encoded in memory, written to a temporary file in
-//! the same folder, and moved over the name in one step.
+//! Output files that are either whole or not there: everything is encoded in memory, then written in one step.
 
-use std::fs::{self, File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::exr_file::{self, Notes};
-use crate::{Display, Error, Finish, Image, Picture, held, png, temporary};
+use crate::{Display, Error, FilePath, Finish, Image, Picture, png};
 
 /// A picture format that can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +35,7 @@ impl Format {
 /// An output path that was found writable.
 #[derive(Clone, Debug)]
 pub struct Output {
-    path: PathBuf,
+    path: FilePath,
     format: Format,
     finish: Finish,
 }
@@ -48,11 +46,12 @@ impl Output {
     ///
     /// # Errors
     /// [`Error::UnknownEnding`], [`Error::CannotWrite`].
-    pub fn check(path: &Path) -> Result<Self, Error> {
-        let format = Format::from_ending(path)?;
-        check_writable(path)?;
+    pub fn check(path: impl Into<FilePath>) -> Result<Self, Error> {
+        let path = path.into();
+        let format = Format::from_ending(&path)?;
+        path.check_writable()?;
         Ok(Self {
-            path: path.to_owned(),
+            path,
             format,
             finish: Finish::default(),
         })
@@ -61,7 +60,7 @@ impl Output {
     /// The standard output, for a PNG. Its path is `-`.
     pub fn stdout() -> Self {
         Self {
-            path: PathBuf::from("-"),
+            path: Path::new("-").into(),
             format: Format::Png,
             finish: Finish::default(),
         }
@@ -78,7 +77,7 @@ impl Output {
 
     /// Whether it is the standard output.
     pub fn is_stdout(&self) -> bool {
-        self.path == Path::new("-")
+        self.path() == Path::new("-")
     }
 
     /// The path as given.
@@ -131,7 +130,7 @@ impl Output {
 
     fn write_encoded(&self, encoded: Result<Vec<u8>, String>) -> Result<(), Error> {
         let bytes = encoded.map_err(|reason| Error::CannotWrite {
-            path: self.path.clone(),
+            path: self.path().to_owned(),
             reason,
         })?;
         if self.is_stdout() {
@@ -139,7 +138,7 @@ impl Output {
             let written = stdout.write_all(&bytes).and_then(|()| stdout.flush());
             return written.map_err(|e| Error::cannot_write(&self.path, &e));
         }
-        write_atomically(&self.path, &bytes)
+        self.path.write(&bytes)
     }
 }
 
@@ -148,71 +147,44 @@ impl Output {
 ///
 /// # Errors
 /// [`Error::CannotWrite`].
-pub fn check_writable(path: &Path) -> Result<(), Error> {
-    if held::HOLDS_WHAT_IS_WRITTEN {
-        return Ok(());
-    }
-    let target = resolve(path)?;
-    drop(temporary::beside(path, &target)?);
-    Ok(())
+pub fn check_writable(path: impl Into<FilePath>) -> Result<(), Error> {
+    path.into().check_writable()
 }
 
 /// Writes a whole file or none: a reader sees the old contents or the new ones, never a part.
 ///
 /// # Errors
 /// [`Error::CannotWrite`].
-pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    if held::HOLDS_WHAT_IS_WRITTEN {
-        held::write(path, bytes);
-        return Ok(());
-    }
-    let fail = |e: &std::io::Error| Error::cannot_write(path, e);
-    let target = resolve(path)?;
-    let mut temporary = temporary::beside(path, &target)?;
-    temporary.write_all(bytes).map_err(|e| fail(&e))?;
-    // Without this a power cut after the rename could leave an empty file under the final name.
-    temporary.as_file().sync_data().map_err(|e| fail(&e))?;
-    if let Ok(existing) = fs::metadata(&target) {
-        // Not every file system keeps permissions; the picture matters more.
-        let _ = temporary.as_file().set_permissions(existing.permissions());
-    }
-    temporary.persist(&target).map_err(|e| fail(&e.error))?;
-    Ok(())
+pub fn write_atomically(path: impl Into<FilePath>, bytes: &[u8]) -> Result<(), Error> {
+    path.into().write(bytes)
 }
 
-/// The regular file to replace or make. A symbolic link stays one: the file that it leads to is replaced.
-pub(crate) fn resolve(path: &Path) -> Result<PathBuf, Error> {
-    let refuse = |reason: &str| Error::CannotWrite {
-        path: path.to_owned(),
-        reason: reason.to_owned(),
-    };
-    match fs::metadata(path) {
-        Ok(existing) if existing.is_dir() => Err(refuse("it is a folder")),
-        Ok(existing) if !existing.is_file() => Err(refuse("it is not a regular file")),
-        Ok(_) => {
-            // A rename would replace even a file that its owner made read-only.
-            OpenOptions::new()
-                .write(true)
-                .open(path)
-                .and_then(|_: File| fs::canonicalize(path))
-                .map_err(|e| Error::cannot_write(path, &e))
-        }
-        Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(end_of_links(path)),
-        Err(e) => Err(Error::cannot_write(path, &e)),
-    }
+/// NAME-0001.png for NAME.png: as many digits as the last one needs, so that names sort as the frames do.
+pub fn numbered(path: &Path, number: u32, last: u32) -> PathBuf {
+    let digits = last.to_string().len().max(4);
+    with_suffix(path, &format!("{number:0digits$}"))
 }
 
-/// Target of symbolic links that end at a name where no file is yet.
-fn end_of_links(path: &Path) -> PathBuf {
-    // Limit of Linux.
-    const MOST_LINKS: usize = 40;
-    let mut end = path.to_owned();
-    for _ in 0..MOST_LINKS {
-        let Ok(next) = fs::read_link(&end) else { break };
-        end = match end.parent() {
-            Some(folder) => folder.join(next),
-            None => next,
-        };
+/// NAME-SUFFIX.png for NAME.png.
+pub fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push("-");
+    name.push(suffix);
+    if let Some(ending) = path.extension() {
+        name.push(".");
+        name.push(ending);
     }
-    end
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_sort_as_frames_do() {
+        let name = |number, last| numbered(Path::new("/a.b/pan.old.png"), number, last);
+        assert_eq!(name(7, 24), Path::new("/a.b/pan.old-0007.png"));
+        assert_eq!(name(7, 12345), Path::new("/a.b/pan.old-00007.png"));
+    }
 }

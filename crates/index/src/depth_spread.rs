@@ -2,7 +2,8 @@
 
 use hairline_optics::mask::depth_coherence;
 use hairline_optics::scratch::DEPTH_MAX_NM;
-use hairline_scene::{Object, Scratch, SectionId};
+use hairline_optics::section::Section;
+use hairline_scene::{Object, Scratch};
 use rayon::prelude::*;
 use std::collections::HashMap;
 
@@ -14,7 +15,7 @@ const BINS: usize = 1 << 14;
 pub(crate) fn object_coherence(object: &Object) -> f32 {
     let deepest = object.scratches.iter().map(|s| s.profile.depth_nm);
     let deepest = deepest.fold(0.0_f32, f32::max);
-    if (object.scratches.iter()).any(|s| s.profile.section != SectionId::default()) {
+    if (object.scratches.iter()).any(|s| s.profile.section != Section::Rectangle) {
         return of_strips(object);
     }
     let area = |s: &Scratch| f64::from(object.covered_um_m(s));
@@ -42,19 +43,26 @@ const SECTION_BINS: usize = 256;
 
 /// The coherence where floors are not all of one depth: each strip of a groove counts as a groove.
 fn of_strips(object: &Object) -> f32 {
-    let mut bins: HashMap<(SectionId, u32), [f64; 2]> = HashMap::new();
+    let mut sections: Vec<&Section> = Vec::new();
+    let mut bins: HashMap<(usize, u32), [f64; 2]> = HashMap::new();
     for scratch in object.scratches.iter() {
         let area = f64::from(object.covered_um_m(scratch));
         let depth_nm = f64::from(scratch.profile.depth_nm.max(0.0));
         let bin = (depth_nm / DEPTH_MAX_NM * SECTION_BINS as f64) as u32;
-        let sum = bins.entry((scratch.profile.section, bin)).or_default();
+        let section = &scratch.profile.section;
+        let known = sections.iter().position(|it| *it == section);
+        let number = known.unwrap_or_else(|| {
+            sections.push(section);
+            sections.len() - 1
+        });
+        let sum = bins.entry((number, bin)).or_default();
         sum[0] += area;
         sum[1] += area * depth_nm;
     }
     let mut bins: Vec<_> = bins.into_iter().collect();
     bins.sort_unstable_by_key(|bin| bin.0);
     let depths = bins.iter().flat_map(|((section, _), [weight, moment])| {
-        let strips = section.section().strips(STRIPS);
+        let strips = sections[*section].strips(STRIPS);
         let each = weight / strips.len() as f64;
         strips
             .into_iter()

@@ -3,7 +3,7 @@
 
 use crate::segment_tree::{SegmentTree, Straight};
 use glam::Vec3;
-use hairline_scene::{GrooveShapes, Object, Profile, Scene, Scratch};
+use hairline_scene::{GrooveShapes, Object, Scene, Scratch};
 
 /// A straight piece of a scratch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,8 +14,10 @@ pub struct Groove {
     pub end_m: Vec3,
     /// The surface's unit normal.
     pub normal: Vec3,
-    /// Profile of the scratch's groove.
-    pub profile: Profile,
+    /// Width of the opening.
+    pub width_um: f32,
+    /// Depth of the deepest place.
+    pub depth_nm: f32,
     /// Index of its shape in [`GrooveShapes`].
     pub shape: u8,
     /// Length of the scratch before `start_m`; infinite for a closed ring.
@@ -61,7 +63,8 @@ fn grooves(object: &Object, shape_of: impl Fn(&Scratch) -> u8) -> Vec<Groove> {
                     start_m: piece.start_m,
                     end_m: piece.end_m,
                     normal: piece.normal,
-                    profile: scratch.profile,
+                    width_um: scratch.profile.width_um,
+                    depth_nm: scratch.profile.depth_nm,
                     shape,
                     before_um: before,
                     after_um: after,
@@ -75,7 +78,7 @@ fn grooves(object: &Object, shape_of: impl Fn(&Scratch) -> u8) -> Vec<Groove> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hairline_scene::Segment;
+    use hairline_scene::{Profile, Segment};
     use std::sync::Arc;
 
     #[test]

@@ -133,7 +133,7 @@ impl<'a> LayerRun<'a> {
     /// have.
     pub(crate) fn is_like(&self, other: &LayerRun) -> bool {
         let alike = |(a, b): (&Scratch, &Scratch)| {
-            (a.profile, a.closed) == (b.profile, b.closed)
+            (&a.profile, a.closed) == (&b.profile, b.closed)
                 && self.pieces(a) == other.pieces(b)
                 && self.coherence_um(a) == other.coherence_um(b)
         };
@@ -207,7 +207,7 @@ impl<'a> LayerRun<'a> {
             self.deviation_m.min(coherence_um as f32 * 1e-6),
         );
         if self.is_wide(scratch) {
-            let section = scratch.profile.section.section();
+            let section = &scratch.profile.section;
             let parts = section.parts(width_um.into(), coherence_um);
             let class = width_class(f64::from(width_um) / coherence_um);
             append_parts(effective, first, &parts, class);

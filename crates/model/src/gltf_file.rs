@@ -204,6 +204,7 @@ fn numbers_of(value: &Value, name: &str) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hairline_image::FilePath;
 
     #[test]
     fn what_is_written_reads_back_and_what_nobody_touched_stays() {
@@ -222,12 +223,12 @@ mod tests {
             "materials": [{ "pbrMetallicRoughness": { "roughnessFactor": 0.123_456_789_012_345_68 } }],
             "nodes": [{ "children": [1] }, {}],
         });
-        let path = folder.path().join("a.gltf");
+        let path = FilePath::from(folder.path()).join("a.gltf");
         std::fs::write(&path, text.to_string()).unwrap();
         let mut file = GltfFile::read(&path).unwrap();
         assert_eq!(file.root_nodes(), [0]);
         let floats = file.push_floats(&[0.1, -2.5, 3.0], 3, true);
-        let path = folder.path().join("b.glb");
+        let path = path.folder().join("b.glb");
         std::fs::write(&path, file.to_glb().unwrap()).unwrap();
 
         let again = GltfFile::read(&path).unwrap();

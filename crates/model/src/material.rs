@@ -1,7 +1,7 @@
 //! Material of a surface: its optics, and the textures that change them from place to place.
 
 use hairline_optics::cover::Cover;
-use hairline_optics::metal::Metal;
+use hairline_optics::metal::MetalIndex;
 use serde::Serialize;
 
 /// Material of a surface.
@@ -164,16 +164,16 @@ pub enum AlphaRule {
 }
 
 /// The kind of a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Base {
     /// Reflectance one at every wavelength and angle.
     Mirror,
     /// A metal by its measured n and k.
-    Metal(Metal),
+    Metal(MetalIndex),
     /// A metal by its measured n and k under a clear plate.
     Covered {
         /// The metal.
-        metal: Metal,
+        metal: MetalIndex,
         /// The plate.
         cover: Cover,
     },

@@ -39,10 +39,10 @@ mod uv;
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
-use std::path::{Path, PathBuf};
 
 use glam::DMat4;
 use gltf::Gltf;
+use hairline_image::FilePath;
 
 pub use crate::flaw::Flaw;
 use crate::flaw::RIGHT;
@@ -73,7 +73,7 @@ const MOST_TRIANGLES: usize = 1 << 28;
 
 /// Reads a file's triangles into world space. Without `material`, an index into the stock, the file's own are added there.
 pub fn read(
-    path: &Path,
+    path: &FilePath,
     material: Option<u32>,
     world_from_object: &DMat4,
     placing: &Placing,
@@ -192,7 +192,7 @@ pub fn read(
 
 /// A camera of a file, in world space.
 pub fn camera(
-    path: &Path,
+    path: &FilePath,
     world_from_object: &DMat4,
     placing: &Placing,
     wanted: &str,
@@ -211,7 +211,7 @@ pub fn camera(
 
 /// The transform of a file's contents to the object that they are.
 pub fn object_from_file(
-    path: &Path,
+    path: &FilePath,
     world_from_object: &DMat4,
     placing: &Placing,
 ) -> Result<DMat4, Flaw> {
@@ -226,19 +226,17 @@ pub fn object_from_file(
 }
 
 /// The lights of a file, in its own frame.
-pub fn lights(path: &Path) -> Result<Vec<Punctual>, Flaw> {
+pub fn lights(path: &FilePath) -> Result<Vec<Punctual>, Flaw> {
     lights::of(&parse(path, OptionalElements::default())?.0.document)
 }
 
 /// The folder from which a file's own paths start.
-fn folder(path: &Path) -> PathBuf {
-    let mut file = packed::file_of(path);
-    file.pop();
-    file
+fn folder(path: &FilePath) -> FilePath {
+    packed::file_of(path).folder()
 }
 
 /// A file as glTF.
-pub(crate) fn file(path: &Path) -> Result<Translated, Flaw> {
+pub(crate) fn file(path: &FilePath) -> Result<Translated, Flaw> {
     let mut bytes = reading::read(path, FileKind::File, FILE_SHARE).map_err(|error| {
         Flaw::new(
             format!("it cannot be read ({error})"),
@@ -304,7 +302,7 @@ pub(crate) fn no_model(name: &str) -> Flaw {
 }
 
 /// Reads the text of a file, or that of a model in it; and what else came of its translation, without the bytes.
-fn parse(path: &Path, kept: OptionalElements) -> Result<(Gltf, Translated), Flaw> {
+fn parse(path: &FilePath, kept: OptionalElements) -> Result<(Gltf, Translated), Flaw> {
     let right = RIGHT;
     let part = packed::split(path);
     let mut translated = file(part.as_ref().map_or(path, |(file, _)| file))?;

@@ -5,7 +5,9 @@ mod obj;
 mod stl;
 mod translated;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+
+use hairline_image::FilePath;
 
 use crate::flaw::Flaw;
 use crate::packed;
@@ -23,7 +25,7 @@ pub(crate) enum OtherFormat {
 
 impl OtherFormat {
     /// The format of the file that a path leads into; none of glTF and of unknown ones.
-    pub(crate) fn of(path: &Path) -> Option<Self> {
+    pub(crate) fn of(path: &FilePath) -> Option<Self> {
         let file = packed::file_of(path);
         let ending = file.extension()?;
         let formats = [("obj", Self::Obj), ("stl", Self::Stl)];
@@ -34,17 +36,17 @@ impl OtherFormat {
     }
 
     /// Makes glTF of a file's bytes.
-    pub(crate) fn translated(self, path: &Path, bytes: &[u8]) -> Result<Translated, Flaw> {
+    pub(crate) fn translated(self, path: &FilePath, bytes: &[u8]) -> Result<Translated, Flaw> {
         match self {
-            Self::Obj => obj::translated(bytes, folder(path)),
+            Self::Obj => obj::translated(bytes, &path.folder()),
             Self::Stl => stl::translated(bytes),
         }
     }
 
     /// The files that a file names, each with its use; none where it cannot be read.
-    pub(crate) fn names(self, path: &Path) -> Vec<(String, PathBuf)> {
+    pub(crate) fn names(self, path: &FilePath) -> Vec<(String, PathBuf)> {
         match self {
-            Self::Obj => obj::names(path, folder(path)).unwrap_or_default(),
+            Self::Obj => obj::names(path).unwrap_or_default(),
             Self::Stl => Vec::new(),
         }
     }
@@ -57,8 +59,4 @@ impl OtherFormat {
             Self::Stl => 50.0,
         }
     }
-}
-
-fn folder(path: &Path) -> &Path {
-    path.parent().unwrap_or(Path::new(""))
 }

@@ -1,9 +1,9 @@
 //! Paths into a glTF file that holds several things: `worn.glb/pan.glb` is the model `pan.glb` in the file `worn.glb`, and `worn.glb/mask.png` a
 //! picture there. A file on a disk of that path goes before it.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use hairline_image::held;
+use hairline_image::FilePath;
 use serde_json::{Value, json};
 
 /// Name of the extension by which a glTF file tells what it holds.
@@ -21,28 +21,28 @@ pub fn is_model(path: &Path) -> bool {
 }
 
 /// The file that a path leads into, and the name there; none of a path of a file of its own.
-pub fn split(path: &Path) -> Option<(PathBuf, String)> {
+pub fn split(path: &FilePath) -> Option<(FilePath, String)> {
     let mut models = path
         .ancestors()
         .skip(1)
         .filter(|it| is_model(it))
         .peekable();
     models.peek()?;
-    if is_there(path) {
+    if path.is_file() {
         return None;
     }
-    let file = models.find(|it| is_there(it))?;
-    let name = path.strip_prefix(file).ok()?;
-    Some((file.to_owned(), name.to_string_lossy().replace('\\', "/")))
+    let file = models.map(|it| path.at(it)).find(FilePath::is_file)?;
+    let name = path.strip_prefix(&file).ok()?.to_owned();
+    Some((file, name.to_string_lossy().replace('\\', "/")))
 }
 
 /// The file whose bytes say what is at a path.
-pub fn file_of(path: &Path) -> PathBuf {
-    split(path).map_or_else(|| path.to_owned(), |(file, _)| file)
-}
-
-fn is_there(path: &Path) -> bool {
-    held::edition(path).is_some() || path.is_file()
+pub fn file_of(path: impl Into<FilePath>) -> FilePath {
+    let path = path.into();
+    match split(&path) {
+        Some((file, _)) => file,
+        None => path,
+    }
 }
 
 /// Member of `extras` by which elements tell that they were added to a model, so that the model comes out again as it was.

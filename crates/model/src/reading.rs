@@ -1,10 +1,8 @@
 //! Files read within a limit: a device or a file of any size is refused, not read to the end of memory.
 
-use std::fs::Metadata;
 use std::io::{self, Read};
-use std::path::Path;
 
-use hairline_image::held;
+use hairline_image::{FilePath, FileType};
 use hairline_memory::{budget_bytes, in_words};
 
 /// Kinds of files that may be read.
@@ -20,12 +18,12 @@ pub enum FileKind {
 ///
 /// # Errors
 /// Why it cannot be read, in words.
-pub fn read(path: &Path, kind: FileKind, share: f64) -> Result<Vec<u8>, String> {
+pub fn read(path: &FilePath, kind: FileKind, share: f64) -> Result<Vec<u8>, String> {
     let most = (budget_bytes() as f64 * share) as u64;
     read_at_most(path, kind, most)
 }
 
-fn read_at_most(path: &Path, kind: FileKind, most: u64) -> Result<Vec<u8>, String> {
+fn read_at_most(path: &FilePath, kind: FileKind, most: u64) -> Result<Vec<u8>, String> {
     let refuse = |length: u64| {
         format!(
             "it has {} or more, and at most {} of memory are free for it",
@@ -33,11 +31,14 @@ fn read_at_most(path: &Path, kind: FileKind, most: u64) -> Result<Vec<u8>, Strin
             in_words(most as f64)
         )
     };
-    let length = length(path, kind)?;
+    let facts = path.facts().map_err(|error| error.to_string())?;
+    check_kind(facts.file_type, kind)?;
+    // A file on a disk may have become longer by the time it is read.
+    let length = facts.length.unwrap_or(0);
     if length > most {
         return Err(refuse(length));
     }
-    let file = held::open(path).map_err(|error| error.to_string())?;
+    let file = path.open().map_err(|error| error.to_string())?;
     let mut bytes = Vec::new();
     // Files of the system and pipes say no length.
     let read = file.take(most + 1).read_to_end(&mut bytes);
@@ -48,48 +49,23 @@ fn read_at_most(path: &Path, kind: FileKind, most: u64) -> Result<Vec<u8>, Strin
     }
 }
 
-/// Length of a file that may be read; a file on a disk may have become longer by the time it is read.
-fn length(path: &Path, kind: FileKind) -> Result<u64, String> {
-    if let Some(held) = held::bytes(path) {
-        return Ok(held.len() as u64);
-    }
-    let metadata = path.metadata().map_err(|error| error.to_string())?;
-    check_kind(&metadata, kind)?;
-    Ok(metadata.len())
-}
-
-fn check_kind(metadata: &Metadata, kind: FileKind) -> Result<(), String> {
-    if metadata.is_dir() {
-        return Err("it is a folder".to_owned());
-    }
-    let is_pipe = kind == FileKind::FileOrPipe && is_pipe(metadata);
-    match metadata.is_file() || is_pipe {
-        true => Ok(()),
-        false => Err("it is no regular file, but a device or the like".to_owned()),
+fn check_kind(found: FileType, kind: FileKind) -> Result<(), String> {
+    match found {
+        FileType::File => Ok(()),
+        FileType::Pipe if kind == FileKind::FileOrPipe => Ok(()),
+        FileType::Folder => Err("it is a folder".to_owned()),
+        FileType::Pipe | FileType::Other => {
+            Err("it is no regular file, but a device or the like".to_owned())
+        }
     }
 }
 
 /// Refuses the files that [`read`] refuses, for files that others read.
-pub fn check_regular(path: &Path) -> io::Result<()> {
-    if held::edition(path).is_some() {
-        return Ok(());
+pub fn check_regular(path: &FilePath) -> io::Result<()> {
+    match path.facts()?.file_type {
+        FileType::Folder => Err(io::ErrorKind::IsADirectory.into()),
+        found => check_kind(found, FileKind::File).map_err(io::Error::other),
     }
-    let metadata = path.metadata()?;
-    if metadata.is_dir() {
-        return Err(io::ErrorKind::IsADirectory.into());
-    }
-    check_kind(&metadata, FileKind::File).map_err(io::Error::other)
-}
-
-#[cfg(unix)]
-fn is_pipe(metadata: &Metadata) -> bool {
-    use std::os::unix::fs::FileTypeExt;
-    metadata.file_type().is_fifo()
-}
-
-#[cfg(not(unix))]
-fn is_pipe(_: &Metadata) -> bool {
-    false
 }
 
 #[cfg(test)]
@@ -99,12 +75,12 @@ mod tests {
     #[test]
     fn what_is_too_large_is_not_read() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a");
+        let path = FilePath::from(folder.path()).join("a");
         std::fs::write(&path, [7; 100]).unwrap();
         assert_eq!(read_at_most(&path, FileKind::File, 100).unwrap().len(), 100);
         let error = read_at_most(&path, FileKind::File, 99).unwrap_err();
         assert!(error.contains("100 bytes or more"), "{error}");
-        let error = read_at_most(folder.path(), FileKind::File, 99).unwrap_err();
+        let error = read_at_most(&folder.path().into(), FileKind::File, 99).unwrap_err();
         assert!(error.contains("folder"), "{error}");
     }
 
@@ -112,12 +88,12 @@ mod tests {
     #[test]
     fn devices_are_refused() {
         for kind in [FileKind::File, FileKind::FileOrPipe] {
-            let error = read(Path::new("/dev/zero"), kind, 0.1).unwrap_err();
+            let error = read(&"/dev/zero".into(), kind, 0.1).unwrap_err();
             assert!(error.contains("no regular file"), "{error}");
         }
         // The system's own files have no length, and can be read.
         assert!(
-            !read(Path::new("/proc/self/status"), FileKind::File, 0.1)
+            !read(&"/proc/self/status".into(), FileKind::File, 0.1)
                 .unwrap()
                 .is_empty()
         );

@@ -1,8 +1,8 @@
 //! Images of materials with their mip chains: each level the exact mean of the one below, in linear light.
 
 use std::io::Cursor;
-use std::path::Path;
 
+use hairline_image::FilePath;
 use hairline_image::tone_map::{linear_from_srgb, srgb_from_linear};
 use hairline_memory::{costs, in_words};
 use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
@@ -127,7 +127,7 @@ const SHARE: f64 = 0.25;
 ///
 /// # Errors
 /// What was found in the place of a picture.
-pub fn read(path: &Path, free_bytes: f64) -> Result<Texels, String> {
+pub fn read(path: &FilePath, free_bytes: f64) -> Result<Texels, String> {
     let named = |why: String| format!("{}: {why}", shown(&path.to_string_lossy()));
     let bytes = reading::read(path, FileKind::File, SHARE).map_err(|why| named(why.to_string()))?;
     let decoded = decode_turned(&bytes, free_bytes, true);

@@ -4,7 +4,7 @@
 //! leaves in the same directions.
 
 use crate::fresnel;
-use crate::metal::Metal;
+use crate::metal::MetalIndex;
 use crate::spectrum::Observer;
 
 /// A clear plate.
@@ -65,7 +65,7 @@ impl Cover {
     }
 
     /// Reflectance of a metal under it in linear Rec.709, with the outer face, and with all that goes back and forth in the plate.
-    pub fn reflectance_rgb(&self, metal: Metal, cos_theta: f64) -> [f64; 3] {
+    pub fn reflectance_rgb(&self, metal: &MetalIndex, cos_theta: f64) -> [f64; 3] {
         self.reflectance_seen_by(Observer::eye(), metal, cos_theta)
     }
 
@@ -73,7 +73,7 @@ impl Cover {
     pub fn reflectance_seen_by(
         &self,
         observer: &Observer,
-        metal: Metal,
+        metal: &MetalIndex,
         cos_theta: f64,
     ) -> [f64; 3] {
         let (outer, passed) = (self.outer(cos_theta), self.passed(cos_theta));
@@ -102,6 +102,7 @@ impl UnderCover {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::metal::Metal;
 
     #[test]
     fn a_plate_of_air_is_no_cover_and_a_dark_one_shows_its_face_alone() {
@@ -112,9 +113,9 @@ mod tests {
         };
         for cos in [1.0, 0.6, 0.2] {
             let bare = Metal::Gold.reflectance_rgb(cos);
-            let air = cover(1.0, 1.0).reflectance_rgb(Metal::Gold, cos);
-            let dark = cover(1.58, 1e-9).reflectance_rgb(Metal::Gold, cos);
-            let clear = cover(1.58, 1.0).reflectance_rgb(Metal::Silver, cos);
+            let air = cover(1.0, 1.0).reflectance_rgb(&Metal::Gold.into(), cos);
+            let dark = cover(1.58, 1e-9).reflectance_rgb(&Metal::Gold.into(), cos);
+            let clear = cover(1.58, 1.0).reflectance_rgb(&Metal::Silver.into(), cos);
             let face = fresnel::dielectric(cos, 1.58);
             for c in 0..3 {
                 assert!((air[c] - bare[c]).abs() < 1e-9 && (dark[c] - face).abs() < 1e-9);
@@ -134,7 +135,7 @@ mod tests {
         };
         let [bare, dimmed] = [
             Metal::Silver.reflectance_rgb(1.0),
-            cover.reflectance_rgb(Metal::Silver, 1.0),
+            cover.reflectance_rgb(&Metal::Silver.into(), 1.0),
         ];
         assert!((dimmed[1] / bare[1] - 0.25).abs() < 1e-9);
     }

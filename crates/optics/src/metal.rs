@@ -2,11 +2,10 @@
 
 use crate::fresnel::{self, FresnelCurve};
 use crate::spectrum;
-use std::collections::HashMap;
-use std::hash::{Hash, Hasher};
-use std::sync::{LazyLock, Mutex, PoisonError};
+use std::fmt;
+use std::sync::{Arc, LazyLock};
 
-/// A metal by its n and k.
+/// A metal of measured n and k.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Metal {
     /// Iron; also stands for carbon steel.
@@ -29,39 +28,49 @@ pub enum Metal {
     Titanium,
     /// Nickel.
     Nickel,
-    /// A metal that a scene brings.
-    Own(OwnMetal),
 }
 
-/// A metal by rows of its wavelength in nm, n and k. Equal rows are one metal, which is kept for as long as the program runs: scenes of one program have few.
-#[derive(Clone, Copy, Debug)]
-pub struct OwnMetal(&'static [[f64; 3]]);
+/// The complex refractive index of a metal over the wavelength.
+#[derive(Clone, PartialEq)]
+pub enum MetalIndex {
+    /// That of a measured metal.
+    Measured(Metal),
+    /// Rows of a wavelength in nm, n and k, the wavelengths rising; linear between them, and constant beyond.
+    Own(Arc<[[f64; 3]]>),
+}
 
-impl PartialEq for OwnMetal {
-    fn eq(&self, other: &Self) -> bool {
-        std::ptr::eq(self.0, other.0)
+/// As the metal or the rows alone: a part of the keys of kept files.
+impl fmt::Debug for MetalIndex {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Measured(metal) => metal.fmt(f),
+            Self::Own(rows) => f.debug_tuple("Own").field(rows).finish(),
+        }
     }
 }
 
-impl Eq for OwnMetal {}
-
-impl Hash for OwnMetal {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.0.as_ptr().hash(state);
+impl From<Metal> for MetalIndex {
+    fn from(metal: Metal) -> Self {
+        Self::Measured(metal)
     }
 }
 
-impl OwnMetal {
-    fn new(rows: &[[f64; 3]]) -> Self {
-        static KNOWN: LazyLock<Mutex<HashMap<Vec<u64>, OwnMetal>>> = LazyLock::new(Mutex::default);
-        let bits = rows.as_flattened().iter().map(|value| value.to_bits());
-        let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-        let made = || Self(Box::leak(rows.to_vec().into_boxed_slice()));
-        *known.entry(bits.collect()).or_insert_with(made)
+impl MetalIndex {
+    /// The index of rows of a wavelength in nm, n and k.
+    ///
+    /// # Panics
+    /// Without a row.
+    pub fn own(rows: &[[f64; 3]]) -> Self {
+        assert!(!rows.is_empty(), "a metal has a refractive index");
+        Self::Own(rows.into())
     }
 
-    fn n_k(self, wavelength_nm: f64) -> (f64, f64) {
-        let rows = self.0;
+    /// n and k at a wavelength.
+    pub fn n_k(&self, wavelength_nm: f64) -> (f64, f64) {
+        let rows = match self {
+            Self::Measured(metal) => return metal.n_k(wavelength_nm),
+            Self::Own(rows) => rows,
+        };
         let above = rows.partition_point(|row| row[0] < wavelength_nm);
         let (low, high) = (rows[above.max(1) - 1], rows[above.min(rows.len() - 1)]);
         let span = high[0] - low[0];
@@ -72,6 +81,17 @@ impl OwnMetal {
         };
         let at = |column: usize| low[column] + share * (high[column] - low[column]);
         (at(1), at(2))
+    }
+
+    /// Unpolarised reflectance of the bare surface.
+    pub fn reflectance(&self, cos_theta: f64, wavelength_nm: f64) -> f64 {
+        let (n, k) = self.n_k(wavelength_nm);
+        fresnel::conductor(cos_theta, n, k)
+    }
+
+    /// Reflectance in linear Rec.709 under D65.
+    pub fn reflectance_rgb(&self, cos_theta: f64) -> [f64; 3] {
+        spectrum::rgb_from_reflectance(|nm| self.reflectance(cos_theta, nm))
     }
 }
 
@@ -90,29 +110,9 @@ impl Metal {
         Metal::Nickel,
     ];
 
-    /// The metal of rows of a wavelength in nm, n and k, the wavelengths rising; linear between them, and constant beyond.
-    ///
-    /// # Panics
-    /// Without a row.
-    pub fn own(rows: &[[f64; 3]]) -> Self {
-        assert!(!rows.is_empty(), "a metal has a refractive index");
-        Self::Own(OwnMetal::new(rows))
-    }
-
-    /// The column of n in data/metals.csv.
-    fn column(self) -> Result<usize, OwnMetal> {
-        match self {
-            Self::Own(own) => Err(own),
-            measured => Ok(2 * Self::ALL.iter().position(|it| *it == measured).unwrap_or(0)),
-        }
-    }
-
     /// n and k at a wavelength, linear between the tabulated ones (every 10 nm from 380 to 780 nm, constant beyond).
     pub fn n_k(self, wavelength_nm: f64) -> (f64, f64) {
-        let column = match self.column() {
-            Ok(column) => column,
-            Err(own) => return own.n_k(wavelength_nm),
-        };
+        let column = 2 * Self::ALL.iter().position(|it| *it == self).unwrap_or(0);
         let rows = &*ROWS;
         let position = ((wavelength_nm - 380.0) / 10.0).clamp(0.0, (rows.len() - 1) as f64);
         let i = (position as usize).min(rows.len() - 2);
@@ -123,13 +123,12 @@ impl Metal {
 
     /// Unpolarised reflectance of the bare surface.
     pub fn reflectance(self, cos_theta: f64, wavelength_nm: f64) -> f64 {
-        let (n, k) = self.n_k(wavelength_nm);
-        fresnel::conductor(cos_theta, n, k)
+        MetalIndex::from(self).reflectance(cos_theta, wavelength_nm)
     }
 
     /// Reflectance in linear Rec.709 under D65.
     pub fn reflectance_rgb(self, cos_theta: f64) -> [f64; 3] {
-        spectrum::rgb_from_reflectance(|nm| self.reflectance(cos_theta, nm))
+        MetalIndex::from(self).reflectance_rgb(cos_theta)
     }
 
     /// [`Metal::reflectance_rgb`] over the angle.
@@ -164,9 +163,9 @@ mod tests {
             [nm, n, k]
         };
         let rows: Vec<_> = (0..41).map(row).collect();
-        let own = Metal::own(&rows);
-        assert_eq!(own, Metal::own(&rows.clone()));
-        assert_ne!(own, Metal::own(&rows[1..]));
+        let own = MetalIndex::own(&rows);
+        assert_eq!(own, MetalIndex::own(&rows.clone()));
+        assert_ne!(own, MetalIndex::own(&rows[1..]));
         for nm in [300.0, 380.0, 497.3, 555.0, 780.0, 900.0] {
             let (a, b) = (own.n_k(nm), Metal::Gold.n_k(nm));
             assert!(
@@ -174,7 +173,7 @@ mod tests {
                 "{nm}"
             );
         }
-        assert_eq!(Metal::own(&[[500.0, 1.5, 2.0]]).n_k(600.0), (1.5, 2.0));
+        assert_eq!(MetalIndex::own(&[[500.0, 1.5, 2.0]]).n_k(600.0), (1.5, 2.0));
     }
 
     #[test]

@@ -95,7 +95,11 @@ impl PublishedSpectrum {
 /// Spectra in the place of each of a scene's tables for scratches. The method knows no shape but the rectangle.
 pub(crate) fn published_spectra(tables: &ScratchTables) -> Vec<PublishedSpectrum> {
     let spectra = tables.metals.iter().flat_map(|metal| {
-        let reflectance = |nm| metal.map_or(1.0, |metal| metal.reflectance(1.0, nm));
+        let reflectance = |nm| {
+            metal
+                .as_ref()
+                .map_or(1.0, |metal| metal.reflectance(1.0, nm))
+        };
         let spectrum = PublishedSpectrum::new(PUBLISHED_WAVELENGTHS, reflectance);
         std::iter::repeat_n(spectrum, tables.shapes.shapes().len())
     });

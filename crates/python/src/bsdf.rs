@@ -11,7 +11,7 @@ use hairline_optics::cover::Cover;
 use hairline_optics::footprint::{Footprint, ScratchShare, ends, scratch_share};
 use hairline_optics::grating::Grating;
 use hairline_optics::mask::depth_coherence;
-use hairline_optics::metal::Metal;
+use hairline_optics::metal::MetalIndex;
 use hairline_optics::rigorous::Medium;
 use hairline_optics::section::Section;
 use hairline_scene::{efficiencies, fine_row};
@@ -156,8 +156,8 @@ impl Bsdf {
         let sections: Vec<Section> = sections.collect::<PyResult<_>>()?;
         let metal = match n_k {
             Some(rows) if rows.is_empty() => return Err(errors::internal()),
-            Some(rows) => Metal::own(&rows),
-            None => names::named("metal", metal, description::metal_names())?,
+            Some(rows) => MetalIndex::own(&rows),
+            None => names::named("metal", metal, description::metal_names())?.into(),
         };
         let cover = cover.map(|(ior, thickness_mm, color)| Cover {
             ior,
@@ -170,7 +170,7 @@ impl Bsdf {
                 (None, Some(cover)) => Overlay::Cover(cover),
                 (None, None) => Overlay::Bare,
             };
-            let conductor = Conductor::new(metal, overlay, roughness);
+            let conductor = Conductor::new(metal.clone(), overlay, roughness);
             let mut depths: Vec<(f64, f64)> = scratches.iter().map(|it| (it[5], it[4])).collect();
             for ((share, .., grooves, _), section) in layers.iter().zip(&sections) {
                 let strips = section.strips(STRIPS);
@@ -211,14 +211,15 @@ impl Bsdf {
                         depth_spread,
                         jitter_um,
                     };
-                    let medium = Medium::Metal(metal);
+                    let medium = Medium::Metal(metal.clone());
                     // What lies in a coat is scalar.
                     let is_rigorous = *is_rigorous && coat.is_none();
-                    let fine =
-                        (is_rigorous.then(|| fine_row(&row, medium, cover.as_ref()))).flatten();
+                    let fine = (is_rigorous
+                        .then(|| fine_row(&row, medium.clone(), cover.as_ref())))
+                    .flatten();
                     let fine = fine.and_then(|fine| {
                         Some(FineGrating {
-                            efficiencies: efficiencies(&fine, &|| false)?,
+                            efficiencies: efficiencies(&fine, &|| false)?.into(),
                             medium,
                             cover,
                         })

@@ -44,7 +44,7 @@ impl SceneBsdf {
             .triangle_materials
             .first()
             .map_or(0, |i| *i as usize)];
-        let (Base::Metal(metal) | Base::Covered { metal, .. }) = material.base else {
+        let (Base::Metal(metal) | Base::Covered { metal, .. }) = &material.base else {
             let found = format!("found \"{}\", whose material is no measured metal", of.name);
             return Err(errors::of_argument(
                 "object",
@@ -68,13 +68,13 @@ impl SceneBsdf {
             let right = "must be metal with narrow scratches alone";
             return Err(errors::of_argument("object", found, right));
         }
-        let overlay = match (material.coat, material.base) {
+        let overlay = match (material.coat, &material.base) {
             (Some(coat), _) => Overlay::Coat(CoatLobe::new(coat.weight, coat.roughness)),
-            (None, Base::Covered { cover, .. }) => Overlay::Cover(cover),
+            (None, Base::Covered { cover, .. }) => Overlay::Cover(*cover),
             _ => Overlay::Bare,
         };
         let bare = ScratchedBsdf {
-            conductor: Conductor::new(metal, overlay, material.roughness).into(),
+            conductor: Conductor::new(metal.clone(), overlay, material.roughness).into(),
             roughness: material.roughness,
             coherence_um: material.coherence_um,
             layers: Vec::new(),
@@ -141,11 +141,11 @@ impl Point {
             piece_um[0] - f64::from(groove.before_um),
             piece_um[1] + f64::from(groove.after_um),
         ];
-        let width_um = f64::from(groove.profile.width_um);
+        let width_um = f64::from(groove.width_um);
         Some(PointScratch {
             tangent,
             width_um,
-            depth_nm: f64::from(groove.profile.depth_nm),
+            depth_nm: f64::from(groove.depth_nm),
             profile: profile.clone(),
             share: piece_share(width_um, offset_um, piece_um, whole_um, coherence_um),
         })

@@ -9,6 +9,7 @@ use hairline_optics::coherent::GroovePiece;
 use hairline_optics::footprint::ScratchShare;
 use hairline_optics::scratch::piece_share;
 use hairline_optics::section::{Parts, Section, cover_of_part, width_class};
+use hairline_scene::GrooveShapes;
 
 /// Distance within which grooves matter, in sigma. The window's energy falls as exp(-p^2/sigma^2): 7e-7 of it lies beyond
 /// 3.5.
@@ -39,7 +40,12 @@ pub(super) struct GrooveView {
 
 impl GrooveView {
     /// Makes the view of a piece; none where it lies on another side of the surface, or too far to matter.
-    pub(crate) fn new(point: &SurfacePoint, groove: &Groove, reach_sigma: f64) -> Option<Self> {
+    pub(crate) fn new(
+        point: &SurfacePoint,
+        groove: &Groove,
+        shapes: &GrooveShapes,
+        reach_sigma: f64,
+    ) -> Option<Self> {
         if groove.normal.as_dvec3().dot(point.normal) < FACING_MIN_COS as f64 {
             return None;
         }
@@ -60,8 +66,8 @@ impl GrooveView {
             offset_um: 0.5 * (start.y + end.y),
             start_um: start.x,
             end_um: end.x,
-            width_um: groove.profile.width_um as f64,
-            depth_nm: groove.profile.depth_nm as f64,
+            width_um: groove.width_um as f64,
+            depth_nm: groove.depth_nm as f64,
         };
         // Place along the groove at which the window ends.
         let nearest_um = 0.0_f64.clamp(piece.start_um, piece.end_um);
@@ -69,7 +75,7 @@ impl GrooveView {
         if piece.offset_um.abs() > reach_um || nearest_um.abs() > reach_um {
             return None;
         }
-        let section = groove.profile.section.section();
+        let section = shapes.section(groove.shape).clone();
         let parts = (width_class(piece.width_um / sigma_um) > 0)
             .then(|| section.parts(piece.width_um, sigma_um));
         let whole = [
@@ -178,7 +184,7 @@ const STRIPS_PER_UM: f64 = 4.0;
 
 /// All grooves of an object in the window around a point. None is wider than `widest_um`.
 pub(super) fn gather(
-    tree: &SegmentTree<Groove>,
+    (tree, shapes): (&SegmentTree<Groove>, &GrooveShapes),
     widest_um: f64,
     object: usize,
     point: &SurfacePoint,
@@ -190,7 +196,14 @@ pub(super) fn gather(
         object,
         point.position_m.as_vec3(),
         Vec3::splat(reach_m),
-        |i| views.extend(GrooveView::new(point, &tree.segments[i], reach_sigma)),
+        |i| {
+            views.extend(GrooveView::new(
+                point,
+                &tree.segments[i],
+                shapes,
+                reach_sigma,
+            ))
+        },
     );
     views
 }

@@ -122,7 +122,7 @@ impl Integrator<'_> {
             Model::Full => REACH_OF_AMPLITUDE,
         };
         let mut views = grooves::gather(
-            &self.grooves,
+            (&self.grooves, &self.tables.shapes),
             self.widest_um[object],
             object,
             &point,

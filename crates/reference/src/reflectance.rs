@@ -7,7 +7,7 @@ use hairline_optics::cover::Cover;
 use hairline_optics::facets::Facets;
 use hairline_optics::fresnel::{dielectric_weight, schlick_weight};
 use hairline_optics::ggx::{ggx_alpha, ggx_mean};
-use hairline_optics::metal::Metal;
+use hairline_optics::metal::MetalIndex;
 use hairline_optics::spectrum::Observer;
 use hairline_scene::{Material, Reflector};
 
@@ -165,7 +165,7 @@ impl Reflectance {
 
     /// Reflectance for these roughnesses, in ascending order.
     pub(crate) fn at(observer: &Observer, reflector: Reflector, roughness: &[f64]) -> Self {
-        let metal = match reflector {
+        let metal = match &reflector {
             Reflector::Metal(metal) => curve(observer, metal),
             Reflector::Covered(metal, cover) => covered_curve(observer, metal, cover),
             _ => Vec::new(),
@@ -200,8 +200,8 @@ impl Reflectance {
 
     /// Reflectance parts of a facet. Metals have no body: nothing asks for their albedo, and the value here is white's.
     fn parts(&self, cos_theta: f64) -> FacetParts {
-        let t = match self.reflector {
-            Reflector::Dielectric(ior) => dielectric_weight(cos_theta, ior),
+        let t = match &self.reflector {
+            Reflector::Dielectric(ior) => dielectric_weight(cos_theta, *ior),
             Reflector::Schlick => schlick_weight(cos_theta),
             Reflector::Metal(_) | Reflector::Covered(..) => 1.0,
         };
@@ -257,7 +257,7 @@ impl Reflectance {
 }
 
 /// Light that facets scatter once more meets the plate once more.
-fn covered_curve(observer: &Observer, metal: Metal, cover: Cover) -> Vec<[DVec3; 2]> {
+fn covered_curve(observer: &Observer, metal: &MetalIndex, cover: &Cover) -> Vec<[DVec3; 2]> {
     let straight = DVec3::from(cover.reflectance_seen_by(observer, metal, 1.0));
     let node = |i: usize| {
         let root = i as f64 / (METAL_NODES - 1) as f64;
@@ -267,7 +267,7 @@ fn covered_curve(observer: &Observer, metal: Metal, cover: Cover) -> Vec<[DVec3;
     (0..METAL_NODES).map(node).collect()
 }
 
-fn curve(observer: &Observer, metal: Metal) -> Vec<[DVec3; 2]> {
+fn curve(observer: &Observer, metal: &MetalIndex) -> Vec<[DVec3; 2]> {
     let node = |i: usize| {
         let root = i as f64 / (METAL_NODES - 1) as f64;
         let at = |nm: f64| metal.reflectance(root * root, nm);

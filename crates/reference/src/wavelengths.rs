@@ -3,7 +3,7 @@
 use super::reflectance::{Reflectance, ReflectanceEnds};
 use glam::DVec3;
 use hairline_cpu::surface::SurfacePoint;
-use hairline_optics::metal::Metal;
+use hairline_optics::metal::MetalIndex;
 use hairline_optics::spectrum::{Observer, WAVELENGTH_MAX_NM};
 use hairline_scene::{Base, MaterialOptics};
 
@@ -39,7 +39,7 @@ pub(super) const WIDEST_NM: f64 = WAVELENGTH_MAX_NM;
 #[derive(Clone, Copy)]
 pub(super) struct SpectralFresnel<'a> {
     /// The metal of the floors, with its colour before textures. None in a coat, and of what has no spectrum.
-    spectrum: Option<(Metal, DVec3)>,
+    spectrum: Option<(&'a MetalIndex, DVec3)>,
     /// Whether nothing lies over the metal.
     is_bare: bool,
     reflectance: &'a Reflectance,
@@ -51,7 +51,7 @@ pub(super) struct SpectralFresnel<'a> {
 
 impl<'a> SpectralFresnel<'a> {
     pub(crate) fn new(
-        base: &Base,
+        base: &'a Base,
         optics: &MaterialOptics,
         point: &SurfacePoint,
         reflectance: &'a Reflectance,
@@ -59,10 +59,10 @@ impl<'a> SpectralFresnel<'a> {
     ) -> Self {
         let coat = point.coat.map(|it| it.weight).zip(coat);
         let spectrum = match base {
-            Base::Metal(metal) if coat.is_none() => Some((*metal, optics.base_color.into())),
+            Base::Metal(metal) if coat.is_none() => Some((metal, optics.base_color.into())),
             Base::Covered { metal, .. } => {
                 let f0 = point.observer.channels(|nm| metal.reflectance(1.0, nm));
-                Some((*metal, f0.into()))
+                Some((metal, f0.into()))
             }
             _ => None,
         };

@@ -1,5 +1,5 @@
-//! Rigorous efficiencies of the fine gratings of scenes. They take seconds to compute: a process makes each once, and the next one finds it in the
-//! user's folder for such things.
+//! Rigorous efficiencies of the fine gratings of scenes. They take seconds to compute: the next process finds them in the user's folder for such
+//! things.
 
 use crate::folders::cache_dir;
 use crate::grating::Grating;
@@ -12,7 +12,6 @@ use hairline_optics::metal::Metal;
 use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
 
 /// Gratings of a smaller pitch have rigorous efficiencies. Grooves of 2 um and more send what the scalar ones say, within 3 %.
 pub const FINE_PITCH_UM: f64 = 4.0;
@@ -21,19 +20,17 @@ pub const FINE_PITCH_UM: f64 = 4.0;
 const VERSION: u32 = 3;
 /// Files are deleted, the oldest first, where there are more.
 const MOST_FILES: usize = 200;
-/// Efficiencies that a process keeps.
-const MOST_KEPT: usize = 32;
 
 /// The grooves of a grating in a material, if they are fine and the material has an index. Of a metal that is given by a colour it is aluminium's.
 pub fn fine_grooves(grating: &Grating, material: &Material) -> Option<FineGrooves> {
-    let medium = match material.base {
+    let medium = match &material.base {
         _ if material.coat.is_some() => None,
         Base::Mirror => None,
-        Base::Metal(metal) | Base::Covered { metal, .. } => Some(Medium::Metal(metal)),
-        Base::ColoredMetal { .. } => Some(Medium::Metal(Metal::Aluminium)),
-        Base::Dielectric { ior, .. } => Some(Medium::Dielectric(ior)),
-        Base::MetallicRoughness { metallic, .. } if metallic >= 0.5 => {
-            Some(Medium::Metal(Metal::Aluminium))
+        Base::Metal(metal) | Base::Covered { metal, .. } => Some(Medium::Metal(metal.clone())),
+        Base::ColoredMetal { .. } => Some(Medium::Metal(Metal::Aluminium.into())),
+        Base::Dielectric { ior, .. } => Some(Medium::Dielectric(*ior)),
+        Base::MetallicRoughness { metallic, .. } if *metallic >= 0.5 => {
+            Some(Medium::Metal(Metal::Aluminium.into()))
         }
         Base::MetallicRoughness { .. } => {
             dielectric_ior(material.dielectric_f0).map(Medium::Dielectric)
@@ -64,33 +61,20 @@ pub(crate) fn cover(material: &Material) -> Option<Cover> {
     }
 }
 
-/// The efficiencies of grooves, computed or kept from before: seconds. None where `cancelled` says so, which is asked from any thread.
+/// The efficiencies of grooves, computed in seconds or read from the file of an earlier time. None where `cancelled` says so, which is asked from any
+/// thread.
 pub fn efficiencies(
     grooves: &FineGrooves,
     cancelled: &(dyn Fn() -> bool + Sync),
-) -> Option<Arc<Efficiencies>> {
-    static KEPT: Mutex<Vec<(FineGrooves, Arc<Efficiencies>)>> = Mutex::new(Vec::new());
-    let kept = || KEPT.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-    if let Some((_, known)) = kept().iter().find(|(of, _)| of == grooves) {
-        return Some(Arc::clone(known));
-    }
+) -> Option<Efficiencies> {
     let file = cache_dir().map(|folder| CacheFile::new(&folder, grooves));
     let read = file.as_ref().and_then(|file| file.read(grooves));
-    let found = match read {
-        Some(found) => found,
-        None => {
-            let found = Efficiencies::new(grooves, cancelled)?;
-            // Without the file they are computed anew: no reason to fail.
-            let _ = file.map(|file| file.write(&found));
-            found
-        }
-    };
-    let found = Arc::new(found);
-    let mut kept = kept();
-    if kept.len() == MOST_KEPT {
-        kept.remove(0);
+    if read.is_some() {
+        return read;
     }
-    kept.push((*grooves, Arc::clone(&found)));
+    let found = Efficiencies::new(grooves, cancelled)?;
+    // Without the file they are computed anew: no reason to fail.
+    let _ = file.map(|file| file.write(&found));
     Some(found)
 }
 
@@ -157,6 +141,7 @@ impl CacheFile {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hairline_optics::metal::MetalIndex;
 
     #[test]
     fn what_is_kept_in_a_file_comes_back_and_another_gratings_does_not() {
@@ -165,7 +150,7 @@ mod tests {
             width_um: 0.1,
             depth_nm: 50.0,
             above: 1.0,
-            medium: Medium::Metal(Metal::Gold),
+            medium: Medium::Metal(Metal::Gold.into()),
         };
         let folder = tempfile::tempdir().unwrap();
         let file = CacheFile::new(folder.path(), &grooves);
@@ -181,7 +166,7 @@ mod tests {
         );
         let wider = FineGrooves {
             pitch_um: 0.6,
-            ..grooves
+            ..grooves.clone()
         };
         assert!(CacheFile::new(folder.path(), &wider).read(&wider).is_none());
         let mut bytes = fs::read(&file.path).unwrap();
@@ -202,7 +187,7 @@ mod tests {
             width_um: 0.1,
             depth_nm: 50.0,
             above: 1.0,
-            medium: Medium::Metal(Metal::own(rows)),
+            medium: Medium::Metal(MetalIndex::own(rows)),
         };
         let folder = Path::new("folder");
         let path = CacheFile::new(folder, &of(&rows)).path;

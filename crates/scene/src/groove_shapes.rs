@@ -1,8 +1,7 @@
 //! The shapes of the grooves of a scene's scratches: each has tables of its own.
 
 use crate::scene::{Object, Scene, Scratch};
-use crate::section_id::SectionId;
-use hairline_optics::section::{GrooveShape, NARROW};
+use hairline_optics::section::{GrooveShape, NARROW, Section};
 use rayon::prelude::*;
 
 /// Number of shapes that a scene may have: renderers keep one in four bits.
@@ -13,14 +12,17 @@ const TASK: usize = 1 << 14;
 /// All shapes of a scene, narrow rectangles first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GrooveShapes {
-    keys: Vec<(SectionId, u8)>,
+    sections: Vec<Section>,
+    /// Index of a section, and a class of widths, in ascending order.
+    keys: Vec<(usize, u8)>,
 }
 
 /// Narrow rectangles alone.
 impl Default for GrooveShapes {
     fn default() -> Self {
         Self {
-            keys: vec![(SectionId::default(), 0)],
+            sections: vec![Section::Rectangle],
+            keys: vec![(0, 0)],
         }
     }
 }
@@ -32,38 +34,51 @@ impl GrooveShapes {
         // Most scenes have nothing else, which the scratches tell by themselves.
         let narrow_um = NARROW * coherences_um.fold(f64::INFINITY, f64::min);
         let is_plain = |scratch: &Scratch| {
-            let profile = scratch.profile;
-            profile.section == SectionId::default() && f64::from(profile.width_um) <= narrow_um
+            let profile = &scratch.profile;
+            profile.section == Section::Rectangle && f64::from(profile.width_um) <= narrow_um
         };
-        let Self { mut keys } = Self::default();
+        let mut all = Self::default();
         for object in &scene.objects {
             let tasks = object.scratches.par_chunks(TASK).map(|scratches| {
-                let mut keys = Vec::new();
+                let mut shapes = Vec::new();
                 if scratches.iter().all(is_plain) {
-                    return keys;
+                    return shapes;
                 }
                 for scratch in scratches {
-                    let key = scene.shape_key(object, scratch);
-                    if !keys.contains(&key) {
-                        keys.push(key);
+                    let shape = scene.shape_key(object, scratch);
+                    if !shapes.contains(&shape) {
+                        shapes.push(shape);
                     }
                 }
-                keys
+                shapes
             });
-            for more in tasks.collect::<Vec<_>>() {
-                keys.extend(more);
+            for (section, class) in tasks.collect::<Vec<_>>().into_iter().flatten() {
+                let number = all.number(section).unwrap_or_else(|| {
+                    all.sections.push(section.clone());
+                    all.sections.len() - 1
+                });
+                all.keys.push((number, class));
             }
         }
-        keys.sort_unstable();
-        keys.dedup();
-        Self { keys }
+        all.keys.sort_unstable();
+        all.keys.dedup();
+        all
+    }
+
+    fn number(&self, section: &Section) -> Option<usize> {
+        self.sections.iter().position(|it| it == section)
+    }
+
+    /// Cross section of a shape.
+    pub fn section(&self, shape: u8) -> &Section {
+        &self.sections[self.keys[usize::from(shape)].0]
     }
 
     /// The shapes that there are tables for: no more than [`MOST_SHAPES`].
     pub fn shapes(&self) -> impl ExactSizeIterator<Item = GrooveShape> {
         let keys = self.keys.iter().take(MOST_SHAPES);
         keys.map(|(section, width_class)| GrooveShape {
-            section: section.section(),
+            section: self.sections[*section].clone(),
             width_class: *width_class,
         })
     }
@@ -83,7 +98,8 @@ impl GrooveShapes {
         if self.keys.len() == 1 {
             return 0;
         }
-        let key = scene.shape_key(object, scratch);
+        let (section, class) = scene.shape_key(object, scratch);
+        let key = (self.number(section).unwrap_or(0), class);
         let at = self.keys.partition_point(|it| *it < key);
         at.min(self.keys.len().min(MOST_SHAPES) - 1) as u8
     }
@@ -97,10 +113,10 @@ impl Scene {
         Some(self.materials[material as usize].coherence_um)
     }
 
-    fn shape_key(&self, object: &Object, scratch: &Scratch) -> (SectionId, u8) {
+    fn shape_key<'s>(&self, object: &Object, scratch: &'s Scratch) -> (&'s Section, u8) {
         let coherence_um = self.scratch_coherence_um(object, scratch);
         let windows = f64::from(scratch.profile.width_um) / coherence_um.unwrap_or(f64::INFINITY);
         let class = hairline_optics::section::width_class(windows);
-        (scratch.profile.section, class)
+        (&scratch.profile.section, class)
     }
 }

@@ -9,11 +9,11 @@ mod fine_gratings;
 pub mod folders;
 mod grating;
 mod groove_shapes;
+mod kept_tables;
 mod light;
 pub mod material_optics;
 mod picture_lie;
 pub mod scene;
-mod section_id;
 
 pub use camera::CameraFrame;
 pub use environment::Environment;
@@ -23,8 +23,8 @@ pub use grating::{
 };
 pub use groove_shapes::{GrooveShapes, MOST_SHAPES};
 pub use hairline_model::texture_lookup;
+pub use kept_tables::KeptTables;
 pub use light::vector_area_m2;
 pub use material_optics::{GratingSpectrum, MaterialOptics, Reflector, ScratchTables};
 pub use picture_lie::{PictureLie, three_sides};
 pub use scene::*;
-pub use section_id::SectionId;

@@ -3,20 +3,20 @@
 use crate::fine_gratings::{cover, efficiencies, fine_grooves};
 use crate::grating::Grating;
 use crate::groove_shapes::GrooveShapes;
+use crate::kept_tables::KeptTables;
 use crate::scene::{Base, Material, Scene};
 use hairline_optics::coat::COAT_IOR;
 use hairline_optics::cover::Cover;
 use hairline_optics::fresnel::{FresnelCurve, dielectric_ior};
 use hairline_optics::grating::{Grating as Row, RigorousGrating};
 use hairline_optics::groove_spectrum::GrooveSpectrum;
-use hairline_optics::metal::Metal;
+use hairline_optics::metal::{Metal, MetalIndex};
 use hairline_optics::rigorous::{Efficiencies, FineGrooves, Medium};
 use hairline_optics::section::GrooveShape;
 use hairline_optics::spectrum::Observer;
 use hairline_optics::table::ScratchTable;
 use std::cell::OnceCell;
-use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, OnceLock};
 
 /// A material's reflection before textures: a metallic part with the base colour as its reflectance at normal incidence, and
 /// a dielectric one over a diffuse body of the base colour.
@@ -38,14 +38,14 @@ pub struct MaterialOptics {
 }
 
 /// The surface whose reflectance a curve tabulates.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Reflector {
     /// Schlick's approximation, for metals that are given by a colour.
     Schlick,
     /// A metal's measured refractive index.
-    Metal(Metal),
+    Metal(MetalIndex),
     /// A metal's measured refractive index, under a clear plate.
-    Covered(Metal, Cover),
+    Covered(MetalIndex, Cover),
     /// A dielectric's refractive index. The metal of a mix has the weight of its dielectric.
     Dielectric(f64),
 }
@@ -53,12 +53,12 @@ pub enum Reflector {
 impl Reflector {
     /// Reflector of a material.
     pub fn new(material: &Material) -> Self {
-        match material.base {
-            Base::Metal(metal) => Self::Metal(metal),
-            Base::Covered { metal, cover } => Self::Covered(metal, cover),
-            Base::Dielectric { ior, .. } => Self::Dielectric(ior),
+        match &material.base {
+            Base::Metal(metal) => Self::Metal(metal.clone()),
+            Base::Covered { metal, cover } => Self::Covered(metal.clone(), *cover),
+            Base::Dielectric { ior, .. } => Self::Dielectric(*ior),
             Base::MetallicRoughness { metallic, .. }
-                if metallic < 1.0 || material.metallic_roughness_texture.is_some() =>
+                if *metallic < 1.0 || material.metallic_roughness_texture.is_some() =>
             {
                 dielectric_ior(material.dielectric_f0).map_or(Self::Schlick, Self::Dielectric)
             }
@@ -69,7 +69,7 @@ impl Reflector {
     /// Reflector of every coat.
     pub const COAT: Self = Self::Dielectric(COAT_IOR);
 
-    fn curve(self, observer: &Observer) -> FresnelCurve {
+    fn curve(&self, observer: &Observer) -> FresnelCurve {
         match self {
             Self::Schlick => FresnelCurve::schlick().clone(),
             Self::Metal(metal) => FresnelCurve::new(|cos_theta| {
@@ -78,7 +78,7 @@ impl Reflector {
             Self::Covered(metal, cover) => {
                 FresnelCurve::new(|cos_theta| cover.reflectance_seen_by(observer, metal, cos_theta))
             }
-            Self::Dielectric(ior) => FresnelCurve::dielectric(ior),
+            Self::Dielectric(ior) => FresnelCurve::dielectric(*ior),
         }
     }
 }
@@ -88,7 +88,7 @@ pub struct ScratchTables {
     /// Distinct tables.
     pub tables: Vec<Arc<ScratchTable>>,
     /// The metals, each with tables for all shapes; none for white.
-    pub metals: Vec<Option<Metal>>,
+    pub metals: Vec<Option<MetalIndex>>,
     /// Shapes of the scratches.
     pub shapes: GrooveShapes,
     /// Distinct curves of reflectance over the angle.
@@ -108,12 +108,12 @@ pub struct ScratchTables {
 }
 
 /// Everything that the table of a grating depends on.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct GratingSpectrum {
     /// The grooves.
     pub row: Row,
     /// The metal that they are in; none for white's reflectance.
-    pub metal: Option<Metal>,
+    pub metal: Option<MetalIndex>,
     /// Standard deviation of the coherence window on the surface.
     pub coherence_um: f64,
     /// Grooves of its rigorous efficiencies; none where they are scalar.
@@ -125,11 +125,11 @@ pub struct GratingSpectrum {
 impl GratingSpectrum {
     /// The grooves with their efficiencies.
     fn rigorous<'a>(
-        &self,
+        &'a self,
         efficiencies: &'a Efficiencies,
         observer: &'a Observer,
     ) -> Option<RigorousGrating<'a>> {
-        let medium = self.fine?.medium;
+        let medium = &self.fine.as_ref()?.medium;
         Some(RigorousGrating {
             row: self.row,
             efficiencies,
@@ -150,7 +150,7 @@ impl ScratchTables {
     /// As [`Self::new`]; none where `cancelled` says so, which is asked from any thread.
     pub fn unless(scene: &Scene, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         // Colours given in RGB have no spectrum: their scratches use white's table and take the colour at the end.
-        let mut metals: Vec<Option<Metal>> = Vec::new();
+        let mut metals: Vec<Option<MetalIndex>> = Vec::new();
         let mut reflectors: Vec<Reflector> = Vec::new();
         let shapes = GrooveShapes::new(scene);
         let shape_count = shapes.shapes().len();
@@ -158,9 +158,9 @@ impl ScratchTables {
             .materials
             .iter()
             .map(|material| {
-                let metal = match material.base {
+                let metal = match &material.base {
                     Base::Metal(metal) | Base::Covered { metal, .. } if material.coat.is_none() => {
-                        Some(metal)
+                        Some(metal.clone())
                     }
                     _ => None,
                 };
@@ -193,7 +193,7 @@ impl ScratchTables {
             if cancelled() {
                 return None;
             }
-            of_shapes.push(shaped_tables(&scene.observer, &metals, &shape));
+            of_shapes.push(shaped_tables(scene, &metals, &shape));
         }
         let of_metal = |i: usize| of_shapes.iter().map(move |tables| Arc::clone(&tables[i]));
         let mut tables: Vec<_> = (0..metals.len()).flat_map(of_metal).collect();
@@ -215,15 +215,19 @@ impl ScratchTables {
         all.grating_spectra = all.spectra(scene);
         for of in &all.grating_spectra {
             let efficiencies = match &of.fine {
-                Some(fine) => Some(efficiencies(fine, cancelled)?),
+                Some(fine) => {
+                    let make = || efficiencies(fine, cancelled);
+                    Some(scene.tables.efficiencies.value(fine.clone(), make)?)
+                }
                 None => None,
             };
             let observer = &scene.observer;
             let rigorous = (efficiencies.as_ref()).and_then(|it| of.rigorous(it, observer));
             let table = match rigorous {
                 Some(rigorous) => rigorous.table(of.coherence_um),
-                None => (of.row)
-                    .table_seen_by(observer, of.coherence_um, |nm| reflectance(of.metal, nm)),
+                None => (of.row).table_seen_by(observer, of.coherence_um, |nm| {
+                    reflectance(of.metal.as_ref(), nm)
+                }),
             };
             tables.push(Arc::new(table));
             all.efficiencies.push(efficiencies);
@@ -237,7 +241,7 @@ impl ScratchTables {
         let shapes: Vec<_> = self.shapes.shapes().collect();
         let scratches = self.grating_tables_at();
         for (at, table) in self.tables[..scratches].iter_mut().enumerate() {
-            let metal = self.metals[at / shapes.len()];
+            let metal = self.metals[at / shapes.len()].as_ref();
             let of_metal = |nm| reflectance(metal, nm);
             *table = Arc::new(ScratchTable::smooth(&shapes[at % shapes.len()], of_metal));
         }
@@ -272,11 +276,12 @@ impl ScratchTables {
         let material_of = &self.of[material];
         let (cover, fine) = (cover(material_of), fine_grooves(grating, material_of));
         GratingSpectrum {
-            row: match (cover, fine) {
+            row: match (cover, &fine) {
                 (Some(cover), None) => grating.row.in_cover(&cover),
                 _ => grating.row,
             },
-            metal: self.metals[self.materials[material].table as usize / self.shape_count()],
+            metal: self.metals[self.materials[material].table as usize / self.shape_count()]
+                .clone(),
             coherence_um: self.of[material].coherence_um,
             fine,
             cover,
@@ -313,18 +318,16 @@ impl ScratchTables {
     }
 }
 
-/// The table of scratches in a metal, or in a material without a spectrum. Each is made once a process: it is the same in
-/// every scene.
-fn scratch_table(metal: Option<Metal>) -> Arc<ScratchTable> {
+/// The table of scratches in a metal, or in a material without a spectrum. Those of measured metals are constants, made when first asked for.
+fn scratch_table(kept: &KeptTables, metal: Option<&MetalIndex>) -> Arc<ScratchTable> {
     static MADE: [OnceLock<Arc<ScratchTable>>; Metal::ALL.len() + 1] =
         [const { OnceLock::new() }; Metal::ALL.len() + 1];
     let make = || ScratchTable::new(|nm| reflectance(metal, nm));
     let at = match metal {
-        Some(Metal::Own(_)) => return kept_table(metal, &GrooveShape::default(), make),
-        Some(measured) => Metal::ALL
-            .iter()
-            .position(|it| *it == measured)
-            .unwrap_or(0),
+        Some(MetalIndex::Own(_)) => return kept_table(kept, metal, &GrooveShape::default(), make),
+        Some(MetalIndex::Measured(measured)) => {
+            Metal::ALL.iter().position(|it| it == measured).unwrap_or(0)
+        }
         None => Metal::ALL.len(),
     };
     // Not within `get_or_init`: a thread that waits for the parts of a table may take up another scene, which would wait for the table for ever.
@@ -335,28 +338,27 @@ fn scratch_table(metal: Option<Metal>) -> Arc<ScratchTable> {
     Arc::clone(MADE[at].get_or_init(|| made))
 }
 
-/// Tables of further shapes that the process keeps: 8 MB each.
-const KEPT_TABLES: usize = 24;
-
 /// The tables of grooves of a shape in metals. What the shape sends is computed once for all of them.
 fn shaped_tables(
-    observer: &Observer,
-    metals: &[Option<Metal>],
+    scene: &Scene,
+    metals: &[Option<MetalIndex>],
     shape: &GrooveShape,
 ) -> Vec<Arc<ScratchTable>> {
+    let (observer, kept) = (&scene.observer, &*scene.tables);
     let grid = OnceCell::new();
-    let made = |metal: Option<Metal>| {
+    let made = |metal: Option<&MetalIndex>| {
         let is_rectangle = *shape == GrooveShape::default();
         let grid = (!is_rectangle).then(|| grid.get_or_init(|| GrooveSpectrum::new(shape)));
         ScratchTable::seen_by(observer, grid, |nm| reflectance(metal, nm))
     };
-    let table = |metal: &Option<Metal>| {
+    let table = |metal: &Option<MetalIndex>| {
+        let metal = metal.as_ref();
         if observer.is_of_bands() {
-            return Arc::new(made(*metal));
+            return Arc::new(made(metal));
         }
         match *shape == GrooveShape::default() {
-            true => scratch_table(*metal),
-            false => kept_table(*metal, shape, || made(*metal)),
+            true => scratch_table(kept, metal),
+            false => kept_table(kept, metal, shape, || made(metal)),
         }
     };
     metals.iter().map(table).collect()
@@ -364,28 +366,18 @@ fn shaped_tables(
 
 /// One of the last tables of shapes, and of metals that scenes bring.
 fn kept_table(
-    metal: Option<Metal>,
+    kept: &KeptTables,
+    metal: Option<&MetalIndex>,
     shape: &GrooveShape,
     make: impl FnOnce() -> ScratchTable,
 ) -> Arc<ScratchTable> {
-    type Kept = VecDeque<(Option<Metal>, GrooveShape, Arc<ScratchTable>)>;
-    static KEPT: Mutex<Kept> = Mutex::new(VecDeque::new());
-    // Not locked while a table is made, as above.
-    let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((.., made)) = kept().iter().find(|it| (it.0, &it.1) == (metal, shape)) {
-        return Arc::clone(made);
-    }
-    let made = Arc::new(make());
-    let mut kept = kept();
-    kept.push_back((metal, shape.clone(), Arc::clone(&made)));
-    if kept.len() > KEPT_TABLES {
-        kept.pop_front();
-    }
-    made
+    let key = (metal.cloned(), shape.clone());
+    let table = kept.scratches.value(key, || Some(make()));
+    table.expect("it is made or kept")
 }
 
 /// Reflectance at normal incidence.
-fn reflectance(metal: Option<Metal>, wavelength_nm: f64) -> f64 {
+fn reflectance(metal: Option<&MetalIndex>, wavelength_nm: f64) -> f64 {
     metal.map_or(1.0, |m| m.reflectance(1.0, wavelength_nm))
 }
 
@@ -403,23 +395,23 @@ fn material_optics(
         table,
         coat_curve: None,
     };
-    match material.base {
+    match &material.base {
         Base::Mirror => metal([1.0; 3]),
         Base::Metal(m) => metal(observer.channels(|nm| m.reflectance(1.0, nm))),
         Base::Covered { metal: m, cover } => metal(cover.reflectance_seen_by(observer, m, 1.0)),
-        Base::ColoredMetal { base_color } => metal(base_color),
+        Base::ColoredMetal { base_color } => metal(*base_color),
         Base::Dielectric { ior, base_color } => MaterialOptics {
             metallic: 0.0,
             dielectric_f0: ((ior - 1.0) / (ior + 1.0)).powi(2),
-            ..metal(base_color)
+            ..metal(*base_color)
         },
         Base::MetallicRoughness {
             base_color,
             metallic,
         } => MaterialOptics {
-            metallic,
+            metallic: *metallic,
             dielectric_f0: material.dielectric_f0,
-            ..metal(base_color)
+            ..metal(*base_color)
         },
     }
 }

@@ -7,13 +7,14 @@
 use glam::{DVec2, DVec3, Vec3};
 use hairline_image::Batches;
 use hairline_optics::scratch::DEPTH_MAX_NM;
+use hairline_optics::section::Section;
 use hairline_optics::spectrum::Observer;
 use std::ops::Range;
 use std::sync::Arc;
 
 use crate::environment::Environment;
 use crate::grating::Grating;
-use crate::section_id::SectionId;
+use crate::kept_tables::KeptTables;
 
 pub use crate::light::{Cone, Doors, Light, LightShape};
 pub use hairline_model::material::*;
@@ -76,6 +77,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Notes on the scene file and its models for the author, a line each: a key that has no effect any more, a part of a model that is not shown.
     pub notes: Vec<String>,
+    /// Tables that were computed for this scene and for others of its builder.
+    pub tables: Arc<KeptTables>,
 }
 
 impl Scene {
@@ -180,14 +183,14 @@ impl Object {
 }
 
 /// The cross section of a groove. It travels whole, from the layer that draws it to what shades it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Profile {
     /// Width of the opening, with the shoulders beside it.
     pub width_um: f32,
     /// Depth of the deepest place.
     pub depth_nm: f32,
     /// Shape of the cross section.
-    pub section: SectionId,
+    pub section: Section,
 }
 
 impl Profile {

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use hairline_image::{Picture, exr_file, held, in_gamut};
+use hairline_image::{FilePath, Picture, exr_file, in_gamut};
 use image::codecs::hdr::HdrDecoder;
 use image::{ImageDecoder, ImageError};
 
@@ -65,11 +65,11 @@ pub enum Error {
 const WIDTH_MAX: u32 = 16384;
 
 /// Width and height of a map; only the file's head is read.
-pub fn size_px(path: &Path) -> Result<[u32; 2], Error> {
+pub fn size_px(path: &FilePath) -> Result<[u32; 2], Error> {
     check_regular(path).map_err(|e| cannot_read(path, &e))?;
     let size_px = match ending(path).as_deref() {
         Some("hdr") => {
-            let file = held::open(path).map_err(|e| cannot_read(path, &e))?;
+            let file = path.open().map_err(|e| cannot_read(path, &e))?;
             let (_, file) = radiance_header::take(file).map_err(|e| cannot_read(path, &e))?;
             let decoder = HdrDecoder::new(file).map_err(|e| from_radiance(path, e))?;
             decoder.dimensions().into()
@@ -86,13 +86,13 @@ fn ending(path: &Path) -> Option<String> {
 }
 
 /// Reads an equirectangular map.
-pub fn read(path: &Path) -> Result<Picture, Error> {
+pub fn read(path: &FilePath) -> Result<Picture, Error> {
     read_if(path, &check_size)
 }
 
 /// Reads a picture of any shape whose size a check allows.
 pub fn read_picture(
-    path: &Path,
+    path: &FilePath,
     check: &dyn Fn([u32; 2]) -> io::Result<()>,
 ) -> Result<Picture, Error> {
     read_if(path, &|path: &Path, size_px: [u32; 2]| {
@@ -102,7 +102,7 @@ pub fn read_picture(
 }
 
 /// Reads a picture whose size is right.
-fn read_if(path: &Path, check_size: CheckSize) -> Result<Picture, Error> {
+fn read_if(path: &FilePath, check_size: CheckSize) -> Result<Picture, Error> {
     check_regular(path).map_err(|e| cannot_read(path, &e))?;
     match ending(path).as_deref() {
         Some("hdr") => read_radiance(path, check_size),
@@ -115,7 +115,7 @@ fn read_if(path: &Path, check_size: CheckSize) -> Result<Picture, Error> {
             Ok(picture)
         }
         _ => Err(Error::UnknownEnding {
-            path: path.to_owned(),
+            path: path.to_path_buf(),
         }),
     }
 }
@@ -156,7 +156,7 @@ fn from_exr(path: &Path, error: hairline_image::Error) -> Error {
 }
 
 /// Notes on a map's file for the scene's author.
-pub(crate) fn notes(path: &Path) -> Vec<String> {
+pub(crate) fn notes(path: &FilePath) -> Vec<String> {
     let is_exr = ending(path).as_deref() == Some("exr");
     let window = is_exr.then(|| exr_file::window(path).ok()).flatten();
     let part = window.filter(|window| !window.covers());
@@ -167,14 +167,14 @@ pub(crate) fn notes(path: &Path) -> Vec<String> {
 
 /// Reads a Radiance picture. What its header says that radiances were multiplied by is undone. Colours of other primaries become those of Rec.709; a
 /// picture that does not state its primaries is taken to be in Rec.709 already, as all write it.
-fn read_radiance(path: &Path, check_size: CheckSize) -> Result<Picture, Error> {
-    let file = held::open(path).map_err(|e| cannot_read(path, &e))?;
+fn read_radiance(path: &FilePath, check_size: CheckSize) -> Result<Picture, Error> {
+    let file = path.open().map_err(|e| cannot_read(path, &e))?;
     let (header, file) = radiance_header::take(file).map_err(|e| cannot_read(path, &e))?;
     let decoder = HdrDecoder::new(file).map_err(|e| from_radiance(path, e))?;
     let size_px: [u32; 2] = decoder.dimensions().into();
     check_size(path, size_px)?;
     let corrupt = |reason| Error::Corrupt {
-        path: path.to_owned(),
+        path: path.to_path_buf(),
         reason,
     };
     let Header { factor, primaries } = header.map_err(corrupt)?;

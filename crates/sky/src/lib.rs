@@ -10,9 +10,7 @@
 
 #![warn(unreachable_pub)]
 
-use std::path::Path;
-
-use hairline_image::Picture;
+use hairline_image::{FilePath, Picture};
 use hairline_scene::Environment;
 use hairline_scene::environment::EnvironmentMaps;
 
@@ -45,13 +43,14 @@ pub use file::{Error, read, read_picture, size_px};
 /// # Errors
 /// [`Error`] names the file and what is wrong with it.
 pub fn load(
-    path: &Path,
+    path: impl Into<FilePath>,
     rotation_rad: f64,
     intensity: f64,
     visible: bool,
 ) -> Result<Environment, Error> {
-    let mut maps = maps_of(file::read(path)?, true);
-    maps.notes = file::notes(path);
+    let path = path.into();
+    let mut maps = maps_of(file::read(&path)?, true);
+    maps.notes = file::notes(&path);
     Ok(Environment::new(maps, rotation_rad, intensity, visible))
 }
 

@@ -17,6 +17,7 @@ use hairline_editor::Document;
 use hairline_editor::bookmarks::Bookmarks;
 use hairline_editor::own_presets::OwnPresets;
 use hairline_editor::settings::Settings;
+use hairline_image::FilePath;
 use hairline_scene::Transport;
 use web_time::Instant;
 
@@ -37,7 +38,7 @@ use crate::model_export::ModelExport;
 use crate::notices::Notices;
 use crate::overlays::Overlays;
 use crate::panels;
-use crate::platform::{self, HAS_DISK};
+use crate::platform::HAS_DISK;
 use crate::reading::ReadingState;
 use crate::snapshots::Snapshots;
 use crate::tools::Toolbox;
@@ -107,13 +108,13 @@ impl Viewer {
         options: Options,
     ) -> Result<Self, hairline_document::Error> {
         let mut notices = Notices::default();
-        let document = match options.scene.as_deref().map(open) {
+        let document = match options.scene.as_deref().map(FilePath::from).map(open) {
             Some(Ok(document)) => document,
             other => {
                 if let Some(Err(error)) = other {
                     notices.error("open", error.to_string());
                 }
-                read("built-in scene", options.built_in)?
+                read("built-in scene", options.built_in, FilePath::default())?
             }
         };
         let store = options.state_dir.as_ref();
@@ -329,7 +330,6 @@ impl Viewer {
         if let Some(pause) = self.work.engine.work() {
             ctx.request_repaint_after(pause);
         }
-        platform::hand_out_files();
         if let Some(failed) = self.files.autosave(&self.work.document) {
             let text = format!("No autosave: {failed}");
             self.work.notices.error("autosave", text);
@@ -416,20 +416,24 @@ impl eframe::App for Viewer {
 }
 
 /// Opens a scene file, or a model in a scene of its own.
-fn open(path: &Path) -> Result<Document, hairline_document::Error> {
-    match Description::is_model(path) {
+fn open(path: FilePath) -> Result<Document, hairline_document::Error> {
+    match Description::is_model(&path) {
         true => {
-            let folder = path.parent().unwrap_or(Path::new(""));
-            Ok(Document::untitled(Description::for_model(path)?, folder))
+            let scene = Description::for_model(&path)?;
+            Ok(Document::untitled(scene, path.folder()))
         }
         false => Document::open(path),
     }
 }
 
 /// Reads the text of a scene without a file; errors call it by this name.
-fn read(name: &str, text: &str) -> Result<Document, hairline_document::Error> {
+fn read(
+    name: &str,
+    text: &str,
+    base_dir: impl Into<FilePath>,
+) -> Result<Document, hairline_document::Error> {
     let description = Document::read(text, Path::new(name))?;
-    Ok(Document::untitled(description, PathBuf::new()))
+    Ok(Document::untitled(description, base_dir))
 }
 
 fn dropped_files(ctx: &egui::Context) -> Vec<PathBuf> {

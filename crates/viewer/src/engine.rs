@@ -34,13 +34,13 @@ mod steps;
 mod task;
 mod view;
 
-use std::path::PathBuf;
 use std::sync::Arc;
 #[cfg(not(target_arch = "wasm32"))]
 use std::thread::JoinHandle;
 use std::time::Duration;
 
 use hairline_document::description::Description;
+use hairline_image::FilePath;
 
 pub use backend::Backend;
 pub use build::{BuildStages, Built};
@@ -120,8 +120,14 @@ impl Engine {
     }
 
     /// Wants `description` in the picture. Revisions grow; a newer one replaces one that waits.
-    pub fn set_scene(&self, revision: u64, description: Arc<Description>, base_dir: PathBuf) {
-        self.shared.want_scene(revision, description, base_dir);
+    pub fn set_scene(
+        &self,
+        revision: u64,
+        description: Arc<Description>,
+        base_dir: impl Into<FilePath>,
+    ) {
+        self.shared
+            .want_scene(revision, description, base_dir.into());
     }
 
     /// Wants the picture from here.

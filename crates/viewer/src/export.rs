@@ -231,8 +231,8 @@ impl Export {
     fn begin(&mut self, work: &mut Workspace, mut form: Form) {
         let wish = Self::wish(work, &form);
         let checked = match wish.is_animation() {
-            true => Animation::check(&wish.path),
-            false => Output::check(&wish.frame_path(0)).map(drop),
+            true => Animation::check(wish.base_dir.at(&wish.path)),
+            false => Output::check(wish.base_dir.at(wish.frame_path(0))).map(drop),
         };
         match checked {
             Err(error) => {

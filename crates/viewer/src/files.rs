@@ -15,6 +15,7 @@ use hairline_editor::Document;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::autosave::{self, Autosave, Pending};
 use hairline_editor::recent::Recent;
+use hairline_image::FilePath;
 use web_time::Instant;
 
 use crate::platform::HAS_THREADS;
@@ -244,7 +245,7 @@ impl Files {
 
     /// Reads the head of a model or a map in a thread of its own, since a large file takes long. The answer comes from
     /// [`Self::chosen`].
-    pub fn probe(&mut self, purpose: Purpose, path: PathBuf, wake: egui::Context) {
+    pub fn probe(&mut self, purpose: Purpose, path: FilePath, wake: egui::Context) {
         let (sender, answer) = channel();
         self.probes.push(answer);
         let work = move || {
@@ -252,7 +253,7 @@ impl Files {
                 Purpose::Environment => probe::environment(&path).map(|_| None),
                 _ => probe::mesh(&path).map(Some),
             };
-            let _ = sender.send(Choice::Probed(purpose, path, probed));
+            let _ = sender.send(Choice::Probed(purpose, path.to_path_buf(), probed));
             wake.request_repaint();
         };
         if HAS_THREADS {

@@ -2,7 +2,6 @@
 
 mod picture;
 
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 
@@ -10,6 +9,7 @@ use egui::{Align2, Context, Id, Rect, ScrollArea, TextureHandle, TextureOptions,
 use hairline_document::Description;
 use hairline_document::description::Look;
 use hairline_editor::{Document, Selection};
+use hairline_image::FilePath;
 
 use crate::command::Command;
 use crate::engine::Engine;
@@ -77,7 +77,7 @@ impl Looks {
         }
     }
 
-    fn make_missing(&mut self, ctx: &Context, base_dir: &Path) {
+    fn make_missing(&mut self, ctx: &Context, base_dir: &FilePath) {
         let is_missing = |scene: &&Arc<_>| !self.pictures.iter().any(|(of, _)| of == *scene);
         let missing: Vec<_> = self.scenes.iter().filter(is_missing).cloned().collect();
         if missing.is_empty() {

@@ -6,6 +6,7 @@ use std::sync::mpsc::{Receiver, channel};
 
 use hairline_document::gltf_scene::Export;
 use hairline_document::{Description, Loader};
+use hairline_image::FilePath;
 use hairline_image::output::write_atomically;
 
 use crate::jobs::Job;
@@ -33,12 +34,12 @@ impl ModelExport {
     pub fn start(
         &mut self,
         description: Arc<Description>,
-        base_dir: PathBuf,
+        base_dir: FilePath,
         path: &Path,
         wake: egui::Context,
     ) {
         let (sender, outcome) = channel();
-        let output = path.to_owned();
+        let output = base_dir.at(path);
         let work = move || {
             // Nobody hears of an export whose place was taken.
             let _ = sender.send(write(&description, &base_dir, &output));
@@ -83,7 +84,7 @@ impl ModelExport {
     }
 }
 
-fn write(description: &Description, base_dir: &Path, path: &Path) -> Outcome {
+fn write(description: &Description, base_dir: &FilePath, path: &FilePath) -> Outcome {
     let exported = Loader::default().export(description, base_dir, Export::default());
     let exported = exported.map_err(|error| error.to_string())?;
     write_atomically(path, &exported.bytes).map_err(|error| error.to_string())?;

@@ -4,7 +4,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use eframe::{WebOptions, WebRunner};
-use hairline_image::held;
+use hairline_document::Description;
+use hairline_editor::Document;
+use hairline_image::{FilePath, Memory};
 use hairline_scene::Transport;
 use wasm_bindgen::JsValue;
 use web_sys::HtmlCanvasElement;
@@ -18,6 +20,7 @@ const NARROW_PX: i32 = 760;
 
 /// The viewer in a page.
 pub struct Page {
+    files: Arc<Memory>,
     runner: WebRunner,
     context: egui::Context,
 }
@@ -41,6 +44,9 @@ impl Page {
             ..Default::default()
         };
         web.wgpu_options.wgpu_setup = device::setup();
+        let save = |path: &Path, bytes: &[u8]| crate::script::save(&path.to_string_lossy(), bytes);
+        let files = Arc::new(Memory::new(save));
+        let base_dir = FilePath::new(files.clone(), "");
         let runner = WebRunner::new();
         let context = Arc::new(std::sync::OnceLock::new());
         let place = Arc::clone(&context);
@@ -76,6 +82,9 @@ impl Page {
                 };
                 let _ = place.set(created.egui_ctx.clone());
                 let mut viewer = Viewer::new(&created.egui_ctx, state, options)?;
+                let built_in = Description::clone(viewer.document().description());
+                let built_in = Document::untitled(built_in, base_dir);
+                viewer.document_mut().replace(built_in);
                 if is_narrow {
                     viewer.hide_panels();
                 }
@@ -84,7 +93,11 @@ impl Page {
         );
         started.await?;
         let context = context.get().cloned().unwrap_or_default();
-        Ok(Self { runner, context })
+        Ok(Self {
+            files,
+            runner,
+            context,
+        })
     }
 
     /// Reads something of the viewer. None after a panic, of which [`Self::failure`] tells, and while the viewer itself works.
@@ -105,7 +118,7 @@ impl Page {
     pub fn take(&self, files: Vec<(String, Vec<u8>)>) {
         let names: Vec<String> = files.iter().map(|(name, _)| name.clone()).collect();
         for (name, bytes) in files {
-            held::hold(Path::new(&name), bytes);
+            self.files.hold(Path::new(&name), &bytes);
         }
         let is_for_a_model = |name: &str| {
             let ending = Path::new(name).extension().unwrap_or_default();
@@ -125,7 +138,8 @@ impl Page {
 
     /// Opens the scene in the fragment of an address, if the fragment holds one.
     pub fn open_link(&self, fragment: &str) {
-        self.change(|viewer, context| viewer.open_link(context, fragment));
+        let hold = |path: &Path, bytes: &[u8]| self.files.hold(path, bytes);
+        self.change(|viewer, context| viewer.open_link(context, fragment, hold));
     }
 
     /// Message of a mistake of the program, once there was one.

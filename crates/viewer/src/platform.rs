@@ -23,13 +23,3 @@ pub(crate) fn page_address() -> Option<String> {
     #[cfg(not(target_arch = "wasm32"))]
     None
 }
-
-/// Makes the page hand out the files that were written.
-pub(crate) fn hand_out_files() {
-    #[cfg(target_arch = "wasm32")]
-    for path in hairline_image::held::take_written() {
-        if let Some(bytes) = hairline_image::held::bytes(&path) {
-            crate::script::save(&path.to_string_lossy(), &bytes);
-        }
-    }
-}

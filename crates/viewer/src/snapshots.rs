@@ -257,7 +257,7 @@ impl Snapshots {
         let snapshot = Snapshot {
             name: format!("Look {}", self.taken),
             description: Arc::clone(document.description()),
-            base_dir: document.base_dir().to_owned(),
+            base_dir: document.base_dir().to_path_buf(),
             size_px: view.size_px,
             view: Some(view),
             picture: None,

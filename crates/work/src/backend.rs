@@ -211,13 +211,9 @@ impl<'a> Painter<'a> {
         let Rendered {
             samples, wanted, ..
         } = rendered;
-        let mut alpha = hairline_cpu::alpha(scene, self.triangles(), samples, wanted);
-        if self.task.transport.shadows
-            && let Some(shadows) = hairline_cpu::caught_shadows(scene, wanted, is_stopped)
-        {
-            let pixels = alpha.iter_mut().zip(shadows);
-            pixels.for_each(|(alpha, shadow)| *alpha += shadow);
-        }
+        let (counts, shadows) = ([samples, wanted], self.task.transport.shadows);
+        let alpha =
+            hairline_cpu::picture_alpha(scene, self.triangles(), counts, shadows, is_stopped);
         rendered.image.alpha = Some(alpha);
         Ok(rendered)
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use anyhow::{Result, anyhow};
 use glam::{DVec2, DVec3, Vec3};
 use hairline_optics::section::Section;
-use hairline_scene::{Light, Profile, Scene, Scratch, SectionId, Segment};
+use hairline_scene::{Light, Profile, Scene, Scratch, Segment};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -172,7 +172,7 @@ impl Stage {
                 profile: Profile {
                     width_um: self.width_um as f32,
                     depth_nm: self.depth_nm as f32,
-                    section: SectionId::new(&(self.section)()),
+                    section: (self.section)(),
                 },
                 layer: 0,
                 closed: false,

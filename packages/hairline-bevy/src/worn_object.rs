@@ -8,8 +8,9 @@ use hairline_document::description::{Grating, Scratches as Layer, metal_names};
 use hairline_document::{Error, object_of_gratings};
 use hairline_engine::{GratingField, GratingTexels, LaidGrating, Pieces};
 use hairline_optics::metal::Metal;
+use hairline_optics::section::Section;
 use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_GRATING_ROWS, ROWS};
-use hairline_scene::{DEFAULT_COHERENCE_UM, SectionId};
+use hairline_scene::DEFAULT_COHERENCE_UM;
 use serde_json::{Value, json};
 
 use crate::Scratches;
@@ -114,7 +115,7 @@ impl WornObject {
                 let mut pieces = Pieces::default();
                 for (i, row, laid) in layers {
                     let section = Layer::section_from_json(row.get("profile").cloned());
-                    let section = SectionId::new(&section.map_err(|error| error.to_string())?);
+                    let section = section.map_err(|error| error.to_string())?;
                     let way = format!("scratches[{i}].laid");
                     read_layer(gltf, laid, &way, (i as u32, section), &mut pieces)?;
                 }
@@ -156,7 +157,7 @@ fn read_layer(
     gltf: &gltf::Gltf,
     laid: &Value,
     way: &str,
-    (layer, section): (u32, SectionId),
+    (layer, section): (u32, Section),
     pieces: &mut Pieces,
 ) -> Result<(), String> {
     let three = |key| accessor::<[f32; 3]>(gltf, laid, way, key, Dimensions::Vec3, DataType::F32);

@@ -22,6 +22,7 @@ use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_document::gltf_scene::Export;
 use hairline_document::{Description, Loader};
 use hairline_image::{Image as Film, Layer};
+use hairline_optics::metal::MetalIndex;
 use hairline_scene::{Base, LightShape, Scene};
 
 /// The most that a picture may be off, as rms over that of the picture.
@@ -267,7 +268,7 @@ fn draw(scene: &Scene, is_turned: bool) -> Vec<[f32; 3]> {
         ..default()
     };
     let metal = match scene.materials[0].base {
-        Base::Metal(metal) => Some(metal),
+        Base::Metal(MetalIndex::Measured(metal)) => Some(metal),
         Base::MetallicRoughness {
             base_color: [r, g, b],
             metallic,

@@ -36,7 +36,7 @@ fn before_a_wall(base: Base, wall: Base) -> Scene {
 
 /// A scratched plate that the camera sees in a mirror alone.
 fn in_a_mirror() -> Scene {
-    let mut scene = plate(Base::Metal(Metal::Silver), VIEW);
+    let mut scene = plate(Base::Metal(Metal::Silver.into()), VIEW);
     scene.materials[0].roughness = 0.1;
     scratch(&mut scene, VIEW, 40);
     scene.lights = vec![sphere(VIEW, 0.35, -0.3, 0.08)];
@@ -84,11 +84,11 @@ pub(super) fn scenes() -> [(&'static str, Scene); 5] {
         ("a wall", before_a_wall(WHITE, WHITE)),
         (
             "a gold wall",
-            before_a_wall(Base::Mirror, Base::Metal(Metal::Gold)),
+            before_a_wall(Base::Mirror, Base::Metal(Metal::Gold.into())),
         ),
         (
             "a mirror",
-            before_a_wall(Base::Metal(Metal::Copper), Base::Mirror),
+            before_a_wall(Base::Metal(Metal::Copper.into()), Base::Mirror),
         ),
         (
             "a wall by rows of grooves",

@@ -7,7 +7,7 @@ use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Layer;
 use hairline_optics::metal::Metal;
 use hairline_optics::section::Section;
-use hairline_scene::{Anisotropy, Base, Coat, Cone, LightShape, Scene, SectionId, Specular};
+use hairline_scene::{Anisotropy, Base, Coat, Cone, LightShape, Scene, Specular};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -43,8 +43,8 @@ fn plates() {
     for (base, angle_deg, pixel_um, count, batches) in [
         (Base::Mirror, 30.0_f64, 10.0, 24, 6),
         (Base::Mirror, 60.0, 40.0, 24, 8),
-        (Base::Metal(Metal::Gold), 45.0, 30.0, 24, 6),
-        (Base::Metal(Metal::Aluminium), 50.0, 120.0, 40, 10),
+        (Base::Metal(Metal::Gold.into()), 45.0, 30.0, 24, 6),
+        (Base::Metal(Metal::Aluminium.into()), 50.0, 120.0, 40, 10),
         (dielectric, 45.0, 60.0, 30, 10),
     ] {
         let view = View {
@@ -52,7 +52,7 @@ fn plates() {
             pixel_um,
             size_px: 8,
         };
-        let mut scene = plate(base, view);
+        let mut scene = plate(base.clone(), view);
         light(&mut scene, view);
         scratch(&mut scene, view, count);
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, batches));
@@ -77,7 +77,7 @@ fn lamps_as_small_as_pixels() {
         direction_deg: 20.0,
     };
     for anisotropy in [None, Some(brushed)] {
-        let mut scene = plate(Base::Metal(Metal::Silver), view);
+        let mut scene = plate(Base::Metal(Metal::Silver.into()), view);
         scene.materials[0].roughness = 0.03;
         scene.materials[0].anisotropy = anisotropy;
         scene.lights = vec![
@@ -103,8 +103,8 @@ fn coated_plates() {
         ior: 1.3,
         base_color: [0.4, 0.1, 0.05],
     };
-    for (base, weight) in [(Base::Metal(Metal::Gold), 1.0), (body, 0.6)] {
-        let mut scene = plate(base, view);
+    for (base, weight) in [(Base::Metal(Metal::Gold.into()), 1.0), (body, 0.6)] {
+        let mut scene = plate(base.clone(), view);
         scene.materials[0].roughness = 0.4;
         light(&mut scene, view);
         scratch(&mut scene, view, 24);
@@ -139,12 +139,22 @@ fn plates_under_coats_of_other_normals() {
     };
     let [leaning_far, leaning_less] = [(0, 1.0), (1, 0.8)].map(Some);
     for (base, weight, maps, strength) in [
-        (Base::Metal(Metal::Gold), 1.0, [leaning_far, None], 0.0),
-        (body, 0.6, [leaning_far, leaning_less], 0.0),
+        (
+            Base::Metal(Metal::Gold.into()),
+            1.0,
+            [leaning_far, None],
+            0.0,
+        ),
+        (body.clone(), 0.6, [leaning_far, leaning_less], 0.0),
         (body, 1.0, [leaning_far, None], 0.0),
-        (Base::Metal(Metal::Silver), 0.8, [None, leaning_less], 0.5),
+        (
+            Base::Metal(Metal::Silver.into()),
+            0.8,
+            [None, leaning_less],
+            0.5,
+        ),
     ] {
-        let mut scene = plate(base, view);
+        let mut scene = plate(base.clone(), view);
         light(&mut scene, view);
         scene.lights.push(sphere(view, 0.995, -0.8, 0.2));
         scratch(&mut scene, view, 24);
@@ -208,7 +218,7 @@ fn plates_of_faint_and_coloured_reflections() {
         (75.0, 0.3, 0.4, [0.2, 1.0, 5.0]),
         (82.0, 0.15, 0.0, [1.0; 3]),
     ] {
-        let (_, mut scene) = scratched_plate(base, angle_deg, roughness);
+        let (_, mut scene) = scratched_plate(base.clone(), angle_deg, roughness);
         let full = closed(&scene);
         scene.materials[0].specular = Specular { weight, color };
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
@@ -231,13 +241,13 @@ fn brushed_plates() {
         ior: 1.5,
         base_color: [0.4, 0.1, 0.05],
     };
-    let gold = Base::Metal(Metal::Gold);
+    let gold = Base::Metal(Metal::Gold.into());
     for (base, angle_deg, roughness, strength, direction_deg) in [
-        (gold, 30.0, 0.25, 0.5, 0.0),
+        (gold.clone(), 30.0, 0.25, 0.5, 0.0),
         (gold, 65.0, 0.2, 0.6, 35.0),
         (body, 50.0, 0.4, 0.7, -60.0),
     ] {
-        let (view, mut scene) = scratched_plate(base, angle_deg, roughness);
+        let (view, mut scene) = scratched_plate(base.clone(), angle_deg, roughness);
         scene.lights.push(tube(view, -0.3, -0.2, 0.2, 0.05));
         let round = closed(&scene);
         scene.materials[0].anisotropy = Some(Anisotropy {
@@ -266,7 +276,7 @@ fn tubes() {
             pixel_um,
             size_px: 8,
         };
-        let mut scene = plate(Base::Metal(Metal::Aluminium), view);
+        let mut scene = plate(Base::Metal(Metal::Aluminium.into()), view);
         scene.lights = vec![
             tube(view, 0.12, -0.05, half_rad, radius_rad),
             tube(view, -0.02, 0.14, half_rad, radius_rad),
@@ -302,7 +312,7 @@ fn disks_and_stars() {
         ("disks", vec![0.06; 24]),
         ("stars", (0..10).map(star).collect()),
     ] {
-        let mut scene = plate(Base::Metal(Metal::Aluminium), view);
+        let mut scene = plate(Base::Metal(Metal::Aluminium.into()), view);
         let light = |x, y, larger: f64| {
             outline(view, x, y, corners_rad.iter().map(|radius| radius * larger))
         };
@@ -328,7 +338,7 @@ fn cones() {
         size_px: 8,
     };
     for (radius_rad, limit) in [(0.01, 0.03), (0.02, 0.06), (0.04, 0.15)] {
-        let mut scene = plate(Base::Metal(Metal::Aluminium), view);
+        let mut scene = plate(Base::Metal(Metal::Aluminium.into()), view);
         scene.lights = vec![
             sphere(view, 0.12, -0.05, radius_rad),
             sphere(view, 0.0, -0.16, radius_rad),
@@ -482,12 +492,12 @@ fn check_profiles(profiles: &[(Section, f32)]) {
         size_px: 8,
     };
     for (section, width_um) in profiles {
-        let mut scene = plate(Base::Metal(Metal::Gold), view);
+        let mut scene = plate(Base::Metal(Metal::Gold.into()), view);
         light(&mut scene, view);
         scratch_alike(&mut scene, view, 24, *width_um, 250.0);
         let as_rectangles = scene.clone();
         for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {
-            scratch.profile.section = SectionId::new(section);
+            scratch.profile.section = section.clone();
         }
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
         let name = format!("{section:?}, {width_um} um");

@@ -97,7 +97,7 @@ fn scratches_out_of_focus() {
         pixel_um: 60.0,
         size_px: 24,
     };
-    let mut scene = plate(Base::Metal(Metal::Aluminium), view);
+    let mut scene = plate(Base::Metal(Metal::Aluminium.into()), view);
     scratch(&mut scene, view, 40);
     let distance_m = scene.camera.position_m.distance(scene.camera.target_m);
     // Blurs what is 1 % nearer than the focus by two pixels to either side.

@@ -51,13 +51,16 @@ pub fn over(environment: Environment) -> Environment {
 #[test]
 fn a_smooth_sky() {
     let environment = over(hairline_sky::from_map(sky([128, 64]), 0.0, 1.0, false));
-    for (base, angle_rad) in [(Base::Mirror, 0.4), (Base::Metal(Metal::Aluminium), 0.9)] {
+    for (base, angle_rad) in [
+        (Base::Mirror, 0.4),
+        (Base::Metal(Metal::Aluminium.into()), 0.9),
+    ] {
         let view = View {
             angle_rad,
             pixel_um: 40.0,
             size_px: 8,
         };
-        let mut scene = plate(base, view);
+        let mut scene = plate(base.clone(), view);
         scene.materials[0].roughness = 0.3;
         scene.environment = Some(environment.clone());
         scratch(&mut scene, view, 20);
@@ -79,13 +82,16 @@ fn a_smooth_sky() {
 /// and split sum.
 #[test]
 fn a_sun_in_the_sky() {
-    check_sun(Base::Metal(Metal::Aluminium), 0.9, [512, 256], false);
+    check_sun(Base::Metal(Metal::Aluminium.into()), 0.9, [512, 256], false);
 }
 
 #[test]
 #[ignore = "long: cargo long"]
 fn a_sun_left_in_the_sky_is_a_stain() {
-    for (base, angle_rad) in [(Base::Mirror, 0.4), (Base::Metal(Metal::Aluminium), 0.9)] {
+    for (base, angle_rad) in [
+        (Base::Mirror, 0.4),
+        (Base::Metal(Metal::Aluminium.into()), 0.9),
+    ] {
         check_sun(base, angle_rad, [1024, 512], true);
     }
 }
@@ -97,7 +103,7 @@ fn check_sun(base: Base, angle_rad: f64, size_px: [u32; 2], whole_too: bool) {
         pixel_um: 40.0,
         size_px: 8,
     };
-    let mut scene = plate(base, view);
+    let mut scene = plate(base.clone(), view);
     scene.materials[0].roughness = 0.3;
     scratch(&mut scene, view, 20);
     let toward = scenes::off_the_mirror(angle_rad, 0.1, 0.02);
@@ -186,7 +192,7 @@ fn a_window_in_the_sky() {
         pixel_um: 40.0,
         size_px: 8,
     };
-    let mut scene = plate(Base::Metal(Metal::Aluminium), view);
+    let mut scene = plate(Base::Metal(Metal::Aluminium.into()), view);
     scene.materials[0].roughness = 0.3;
     scratch(&mut scene, view, 20);
     let map_from_world = over(hairline_sky::uniform([1.0; 3])).map_from_world();

@@ -11,7 +11,7 @@ use hairline_optics::scratch::phase_step_energy;
 use hairline_optics::section::Section;
 use hairline_optics::spectrum;
 use hairline_reference::{Model, Settings};
-use hairline_scene::{Base, Scene, SectionId};
+use hairline_scene::{Base, Scene};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -165,7 +165,7 @@ fn check_alone(grooves: &[(Section, f32, f64)]) {
             scene
         };
         let profile = &mut Arc::make_mut(&mut scene.objects[0].scratches)[0].profile;
-        profile.section = SectionId::new(section);
+        profile.section = section.clone();
         let (full, ours) = (sampled(&scene, FULL, 16), closed(&scene));
         let name = format!("{section:?}, {width_um} um, closed form and full");
         let found = compared(&name, &ours, &full, Layer::Scratches);

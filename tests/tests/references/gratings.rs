@@ -320,7 +320,7 @@ fn a_fine_grating_under_a_cover() {
     };
     let covered = |cover| {
         let mut scene = grated(row(1.6, 0.6, 0.03, 0.05), 0.0, 0.1);
-        let metal = Metal::Aluminium;
+        let metal = Metal::Aluminium.into();
         scene.materials[0].base = Base::Covered { metal, cover };
         scene
     };
@@ -358,7 +358,7 @@ fn fine_gratings_of_more_pitches_in_metals() {
 fn check_in_metal(rows: &[(Row, f64, Settings, u32, f64)], noise: f64) {
     let metal = |row, light_rad, is_rigorous| {
         let mut scene = grated(row, 0.0, light_rad);
-        scene.materials[0].base = Base::Metal(Metal::Aluminium);
+        scene.materials[0].base = Base::Metal(Metal::Aluminium.into());
         scene.objects[0].gratings[0].is_rigorous = is_rigorous;
         scene
     };

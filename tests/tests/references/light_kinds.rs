@@ -16,7 +16,7 @@ const VIEW: View = View {
 
 /// Aluminium whose highlight is wide enough for the base to be lit, under two lights beside the mirror's direction.
 fn scene(light: impl Fn(f64, f64) -> Light) -> Scene {
-    let mut scene = plate(Base::Metal(Metal::Aluminium), VIEW);
+    let mut scene = plate(Base::Metal(Metal::Aluminium.into()), VIEW);
     scene.materials[0].roughness = 0.2;
     scene.textures = Arc::new(vec![soft_box()]);
     scene.lights = vec![light(0.12, -0.05), light(0.0, -0.16)];

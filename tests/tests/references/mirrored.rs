@@ -30,7 +30,7 @@ fn add_wall(scene: &mut Scene, base: Base, roughness: f64) {
 
 /// The plate, before the mirror stands up. The light shines from the viewer's side: on what the mirror shows.
 fn scene(view: View, scratches: u32) -> Scene {
-    let mut scene = plate(Base::Metal(Metal::Aluminium), view);
+    let mut scene = plate(Base::Metal(Metal::Aluminium.into()), view);
     let lamp = sphere(view, -0.12, 0.12, 0.1);
     let (center_m, radius_m) = lamp.bounding_sphere();
     scene.lights = vec![Light::sphere(center_m * ACROSS, radius_m, lamp.radiance)];
@@ -145,13 +145,13 @@ fn a_white_corner_under_a_white_sky() {
     };
     for (plate_base, wall_base, roughness) in [
         (Base::Mirror, Base::Mirror, 0.0),
-        (Base::Mirror, white, 0.3),
+        (Base::Mirror, white.clone(), 0.3),
         (white, Base::Mirror, 0.6),
     ] {
-        let mut scene = plate(plate_base, view);
+        let mut scene = plate(plate_base.clone(), view);
         scene.materials[0].roughness = roughness;
         scene.environment = furnace();
-        add_wall(&mut scene, wall_base, roughness);
+        add_wall(&mut scene, wall_base.clone(), roughness);
         for bounces in [1, 3] {
             let settings = Settings { bounces, ..LINEAR };
             let image = sampled(&scene, settings, 8);

@@ -76,9 +76,9 @@ const BODIED: Base = Base::Dielectric {
 #[test]
 fn a_soft_box() {
     let mut failures = Vec::new();
-    for (base, angle_rad) in [(Base::Metal(Metal::Aluminium), 0.4), (BODIED, 0.9)] {
+    for (base, angle_rad) in [(Base::Metal(Metal::Aluminium.into()), 0.4), (BODIED, 0.9)] {
         let view = View { angle_rad, ..VIEW };
-        let [scene, even] = [Some(0), None].map(|picture| lit(base, view, picture));
+        let [scene, even] = [Some(0), None].map(|picture| lit(base.clone(), view, picture));
         let name = format!("soft box on {base:?} from {angle_rad} rad");
         failures.extend(wrong(&name, &scene, &even, [0.02, 0.03]));
     }
@@ -89,9 +89,9 @@ fn a_soft_box() {
 #[test]
 fn a_soft_box_on_a_coat() {
     let mut failures = Vec::new();
-    for (base, weight) in [(Base::Metal(Metal::Gold), 1.0), (BODIED, 0.6)] {
+    for (base, weight) in [(Base::Metal(Metal::Gold.into()), 1.0), (BODIED, 0.6)] {
         let [scene, even] = [Some(0), None].map(|picture| {
-            let mut scene = lit(base, VIEW, picture);
+            let mut scene = lit(base.clone(), VIEW, picture);
             scene.materials[0].coat = Some(Coat {
                 weight,
                 roughness: 0.15,
@@ -122,7 +122,7 @@ fn check_on_gratings(gratings: &[(f64, f64, u32)], is_rigorous: bool) {
     let mut failures = Vec::new();
     for &(jitter_um, angle_std_rad, scratches) in gratings {
         let [scene, even] = [Some(0), None].map(|picture| {
-            let mut scene = lit(Base::Metal(Metal::Aluminium), VIEW, picture);
+            let mut scene = lit(Base::Metal(Metal::Aluminium.into()), VIEW, picture);
             if scratches == 0 {
                 scene.objects[0].scratches = Arc::default();
                 scene.objects[0].segments = Arc::default();

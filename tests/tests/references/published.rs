@@ -115,7 +115,7 @@ fn aslant() -> Scene {
         pixel_um: 20.0,
         size_px: 24,
     };
-    let mut scene = plate(Base::Metal(Metal::Gold), view);
+    let mut scene = plate(Base::Metal(Metal::Gold.into()), view);
     let star = (0..10).map(|i| {
         let (sin, cos) = (0.2 * std::f64::consts::PI * f64::from(i)).sin_cos();
         let radius = if i % 2 == 0 { 0.5 } else { 0.2 };

@@ -132,7 +132,7 @@ fn make_scenes() -> Vec<(&'static str, Scene)> {
         [2e-3, 2e-3],
     );
 
-    let mut slit = scratched(Base::Metal(Metal::Gold));
+    let mut slit = scratched(Base::Metal(Metal::Gold.into()));
     slit.lights = vec![panel(VIEW, -0.1, 0.12, [0.06, 0.05])];
     cover(
         &mut slit,
@@ -181,7 +181,7 @@ fn make_scenes() -> Vec<(&'static str, Scene)> {
     leans.materials[0].normal_texture = Some((0, 1.0));
 
     // Two thin sheets a micrometre apart.
-    let mut sheets = scratched(Base::Metal(Metal::Aluminium));
+    let mut sheets = scratched(Base::Metal(Metal::Aluminium.into()));
     sheets.lights = vec![sphere(VIEW, 0.1, 0.1, 0.06), sphere(VIEW, -0.15, 0.0, 0.06)];
     for reach_m in [1e-3, 1.001e-3] {
         cover(

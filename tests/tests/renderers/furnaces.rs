@@ -32,7 +32,7 @@ fn bases() -> [(Base, bool); 6] {
         ),
         (gltf(0.0), true),
         (gltf(0.5), true),
-        (Base::Metal(Metal::Silver), false),
+        (Base::Metal(Metal::Silver.into()), false),
     ]
 }
 
@@ -57,7 +57,7 @@ fn check(name: &str, mut scene: Scene) {
     for (kind, returns_all) in bases() {
         for roughness in [0.02, 0.1, 0.3, 0.6, 1.0] {
             let mut materials = scene.materials.clone();
-            materials[0].base = kind;
+            materials[0].base = kind.clone();
             materials[0].roughness = roughness;
             scene.materials = materials;
             scene.render.filter_std_px = 0.5;

@@ -27,9 +27,12 @@ fn white_furnace() {
     let half_side = 2e-3;
     for (base, reflectance) in [
         (Base::Mirror, [1.0; 3]),
-        (Base::Metal(Metal::Gold), Metal::Gold.reflectance_rgb(0.93)),
+        (
+            Base::Metal(Metal::Gold.into()),
+            Metal::Gold.reflectance_rgb(0.93),
+        ),
     ] {
-        let mut scene = square(base, half_side, 64);
+        let mut scene = square(base.clone(), half_side, 64);
         scene.environment = furnace();
         lay_random(&mut scene, half_side, 150, 3e-3, 5);
         let image = picture(&scene);

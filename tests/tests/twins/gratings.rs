@@ -363,7 +363,7 @@ fn light_from_all_around() {
 /// Rigorous light of a viewer's direction: value, slope, and what is missing in the mirror's direction.
 #[test]
 fn fine_gratings_by_incidence() {
-    let medium = Medium::Metal(Metal::Aluminium);
+    let medium = Medium::Metal(Metal::Aluminium.into());
     let row = Row {
         pitch_um: 0.5,
         width_um: 0.2,
@@ -374,14 +374,14 @@ fn fine_gratings_by_incidence() {
         width_um: row.width_um,
         depth_nm: row.depth_nm,
         above: 1.0,
-        medium,
+        medium: medium.clone(),
     };
     let efficiencies = Efficiencies::new(&grooves, &|| false).unwrap();
     let rigorous = RigorousGrating {
         row,
         efficiencies: &efficiencies,
         observer: Observer::eye(),
-        medium,
+        medium: &medium,
         is_colored: false,
         cover: None,
     };

@@ -217,7 +217,7 @@ fn write_page(folder: &Path, scene: &Scene) -> anyhow::Result<()> {
     let profile = match object
         .scratches
         .first()
-        .map(|it| it.profile.section.section())
+        .map(|it| it.profile.section.clone())
     {
         None | Some(Section::Rectangle) => json!("rectangle"),
         Some(Section::V) => json!("v"),

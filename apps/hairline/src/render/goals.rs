@@ -1,9 +1,9 @@
 //! Destination of the pictures of a sequence: numbered files, an animation, or both.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::anyhow;
-use hairline_image::{Animation, Output};
+use hairline_image::{Animation, Output, output};
 
 use crate::cli;
 use crate::scene_file;
@@ -67,7 +67,7 @@ impl Goals {
         let pictures = pictures.map_or(Ok(Vec::new()), |path| {
             let numbers = 1..=frames;
             numbers
-                .map(|number| Output::check(&numbered(&path, number, frames)))
+                .map(|number| Output::check(output::numbered(&path, number, frames)))
                 .collect::<Result<_, _>>()
         })?;
         Ok(Self {
@@ -95,35 +95,5 @@ impl Goals {
             parts.push(format!("{} was not written", path.display()));
         }
         parts.join("; ")
-    }
-}
-
-/// NAME-0001.png for NAME.png: as many digits as the last one needs, so that names sort as the frames do.
-fn numbered(path: &Path, number: u32, last: u32) -> PathBuf {
-    let digits = last.to_string().len().max(4);
-    with_suffix(path, &format!("{number:0digits$}"))
-}
-
-/// NAME-SUFFIX.png for NAME.png.
-pub fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
-    let mut name = path.file_stem().unwrap_or_default().to_owned();
-    name.push("-");
-    name.push(suffix);
-    if let Some(ending) = path.extension() {
-        name.push(".");
-        name.push(ending);
-    }
-    path.with_file_name(name)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_sort_as_frames_do() {
-        let name = |number, last| numbered(Path::new("/a.b/pan.old.png"), number, last);
-        assert_eq!(name(7, 24), Path::new("/a.b/pan.old-0007.png"));
-        assert_eq!(name(7, 12345), Path::new("/a.b/pan.old-00007.png"));
     }
 }

@@ -6,9 +6,8 @@ use std::path::Path;
 use anyhow::anyhow;
 use hairline_document::description::Look;
 use hairline_document::text::shown;
-use hairline_image::{Display, Image, Output};
+use hairline_image::{Display, Image, Output, output};
 
-use super::goals::with_suffix;
 use crate::cli;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::{Progress, Terminal};
@@ -86,7 +85,7 @@ fn outputs(looks: &[Look], arguments: &cli::Render) -> Result<Vec<Output>, Failu
                 "\"{one}\" and \"{other}\" have one file, by \"{part}\"; {right}"
             )));
         }
-        outputs.push(Output::check(&with_suffix(&path, &part))?);
+        outputs.push(Output::check(output::with_suffix(&path, &part))?);
     }
     Ok(outputs)
 }

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::grey_map::GreyMap;
 use crate::scratches;
 use crate::stamp::Stamp;
-use hairline_scene::{Scene, SectionId};
+use hairline_scene::Scene;
 
 /// A `[[scratches]]` table and where it goes.
 struct Coat<'a> {
@@ -58,7 +58,7 @@ impl<'a> Work<'a> {
             let key = format!("scratches[{i}]");
             tables.push(scratches::Table {
                 layer: &coat.table.layer,
-                section: SectionId::new(&coat.table.profile),
+                section: &coat.table.profile,
                 strokes: &coat.table.strokes,
                 number: coat.number,
                 ground: &ground.ground,

@@ -4,10 +4,13 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::{DMat4, DVec3};
+use hairline_image::FilePath;
 use hairline_model::mesh_file::{self, FileContents, Placing, UsedContents};
 use hairline_model::text::shown;
 use hairline_optics::section::Section;
-use hairline_scene::{Environment, Material, Mesh, NodeTriangles, Scratch, Segment, Texture};
+use hairline_scene::{
+    Environment, KeptTables, Material, Mesh, NodeTriangles, Scratch, Segment, Texture,
+};
 use hairline_sky::BuiltInMap;
 
 use super::parts::{OnPart, PartGround, Surroundings};
@@ -23,6 +26,7 @@ use crate::{model_notes, shape};
 #[derive(Clone, Default)]
 pub(super) struct BuildCache {
     pub surfaces: Vec<Arc<KeptSurface>>,
+    pub tables: Arc<KeptTables>,
     pub textures: Textures,
     pub pictures: Vec<KeptPicture>,
     pub groove_pictures: Vec<KeptGroovePicture>,
@@ -44,7 +48,7 @@ pub(super) enum MapKey {
 }
 
 impl MapKey {
-    pub(super) fn new(map: &Map, base_dir: &Path) -> Self {
+    pub(super) fn new(map: &Map, base_dir: &FilePath) -> Self {
         match map {
             Map::File(file) => Self::File(Stamp::of(&base_dir.join(file))),
             Map::BuiltIn(map) => Self::BuiltIn(*map),
@@ -69,7 +73,7 @@ impl SurfaceKey {
     pub(super) fn new(
         object: &description::Object,
         lights_of: Option<&Path>,
-        base_dir: &Path,
+        base_dir: &FilePath,
         world_up: DVec3,
     ) -> Self {
         let (file, placing) = match &object.surface {
@@ -183,7 +187,7 @@ impl KeptSurface {
         }
         Ok(Self {
             key: surface_key,
-            others: files.iter().map(|path| Stamp::of(path)).collect(),
+            others: files.iter().map(Stamp::of).collect(),
             mesh: Arc::new(mesh),
             first_material: 0,
             materials: Arc::new(materials),

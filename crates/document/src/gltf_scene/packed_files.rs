@@ -1,10 +1,10 @@
-//! Pictures and lists in a glTF file, held in memory under paths that lead into the file: `worn.glb/mask.png`. Whoever reads files reads them there.
+//! Pictures and lists in a glTF file, read under paths that lead into the file: `worn.glb/mask.png`. Models there are read by `hairline-model`.
 
-use std::collections::HashMap;
-use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::io::{self, Cursor};
+use std::path::Path;
+use std::sync::Arc;
 
-use hairline_image::held;
+use hairline_image::{Error, Facts, FilePath, FileType, Files, Source};
 use hairline_model::flaw::Flaw;
 use hairline_model::gltf_file::GltfFile;
 use hairline_model::packed;
@@ -12,46 +12,57 @@ use serde_json::{Map, Value};
 
 use super::extension::{EXTENSION, Named, named};
 use super::scratch_lists;
-use crate::description::{Description, FileUse};
-use crate::stamp::Stamp;
 
-/// Files that are held, each with the version of the one that it lies in.
-static HELD: Mutex<Option<HashMap<PathBuf, Stamp>>> = Mutex::new(None);
+/// Files with what lies in glTF files.
+#[derive(Debug)]
+struct PackedFiles(Arc<dyn Files>);
 
-/// Holds the files of a description that lie in glTF files. What cannot be read is not held: who wants it tells.
-pub(crate) fn hold(description: &Description, base_dir: &Path) {
-    let mut held_files = HELD.lock().unwrap_or_else(PoisonError::into_inner);
-    let held_files = held_files.get_or_insert_default();
-    for (used_for, file) in description.files() {
-        let path = base_dir.join(file);
-        if matches!(used_for, FileUse::Mesh(_)) {
-            continue;
+/// The path, by which pictures and lists in glTF files are read too.
+pub(crate) fn with_packed(path: impl Into<FilePath>) -> FilePath {
+    let path = path.into();
+    let files = Arc::new(PackedFiles(Arc::clone(path.files())));
+    FilePath::new(files, &*path)
+}
+
+impl PackedFiles {
+    /// The glTF file that a path leads into, and the name of the picture or list there.
+    fn split(&self, path: &Path) -> Option<(FilePath, String)> {
+        let path = FilePath::new(Arc::clone(&self.0), path);
+        packed::split(&path).filter(|_| !packed::is_model(&path))
+    }
+}
+
+impl Files for PackedFiles {
+    fn facts(&self, path: &Path) -> io::Result<Facts> {
+        match self.split(path) {
+            Some((outer, _)) => Ok(Facts {
+                file_type: FileType::File,
+                length: None,
+                ..outer.facts()?
+            }),
+            None => self.0.facts(path),
         }
-        let known = held_files.get(&path);
-        if known.is_some_and(Stamp::is_current) {
-            continue;
+    }
+
+    fn open(&self, path: &Path) -> io::Result<Box<dyn Source>> {
+        let found = self.split(path);
+        match found.and_then(|(outer, name)| bytes_of(&outer, &name)) {
+            Some(bytes) => Ok(Box::new(Cursor::new(bytes))),
+            None => self.0.open(path),
         }
-        let inside = match known {
-            Some(stamp) => {
-                let name = path.strip_prefix(&stamp.path).ok();
-                let name = name.map(|it| it.to_string_lossy().into_owned());
-                name.map(|name| (stamp.path.clone(), name))
-            }
-            None => packed::split(&path),
-        };
-        let Some((outer, name)) = inside else {
-            continue;
-        };
-        let stamp = Stamp::of(&outer);
-        if let Some(bytes) = bytes_of(&outer, &name) {
-            held::hold(&path, bytes);
-            held_files.insert(path, stamp);
-        }
+    }
+
+    fn check_writable(&self, path: &Path) -> Result<(), Error> {
+        self.0.check_writable(path)
+    }
+
+    fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), Error> {
+        self.0.write(path, bytes)
     }
 }
 
 /// The bytes of one of the files in a glTF file.
-fn bytes_of(outer: &Path, name: &str) -> Option<Vec<u8>> {
+fn bytes_of(outer: &FilePath, name: &str) -> Option<Vec<u8>> {
     let file = GltfFile::read(outer).ok()?;
     let mut extension = file.extension(EXTENSION)?.as_object()?.clone();
     let files = files(&extension);

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hairline_image::FilePath;
 use hairline_model::flaw::Flaw;
 use hairline_model::gltf_file::{self, GltfFile};
 use hairline_model::mesh_file;
@@ -15,15 +16,15 @@ use crate::description::Description;
 use crate::error::Error;
 
 /// Whether a glTF file holds a scene.
-pub fn is_in(path: &Path) -> bool {
-    gltf_file::extension(path, EXTENSION).is_some()
+pub fn is_in(path: impl Into<FilePath>) -> bool {
+    gltf_file::extension(&path.into(), EXTENSION).is_some()
 }
 
 /// The scene that a glTF file holds; none where it holds a model alone. What its scene names lies in the file, below its own name.
 ///
 /// # Errors
 /// What is wrong with the scene, by the way to it in the file.
-pub(crate) fn read(path: &Path) -> Option<Result<Description, Error>> {
+pub(crate) fn read(path: &FilePath) -> Option<Result<Description, Error>> {
     let extension = gltf_file::extension(path, EXTENSION)?;
     let read = described(path, extension);
     Some(read.map_err(|error| {
@@ -35,7 +36,7 @@ pub(crate) fn read(path: &Path) -> Option<Result<Description, Error>> {
     }))
 }
 
-fn described(path: &Path, extension: Value) -> Result<Description, Error> {
+fn described(path: &FilePath, extension: Value) -> Result<Description, Error> {
     let Value::Object(extension) = extension else {
         return Err(Error::new("", "found no object", "must be an object"));
     };

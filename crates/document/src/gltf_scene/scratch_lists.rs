@@ -1,8 +1,8 @@
 //! Lists of scratches as accessors of a glTF file.
 
 use std::fmt::Write;
-use std::path::Path;
 
+use hairline_image::FilePath;
 use hairline_model::flaw::Flaw;
 use hairline_model::gltf_file::GltfFile;
 use hairline_scene::Profile;
@@ -16,9 +16,9 @@ use crate::scratches::{ListedRow, list_header, read_list};
 type Row = ([[f64; 3]; 2], Profile, u32);
 
 /// Adds the list of a CSV file, and returns what the extension has in its place.
-pub(super) fn write_file(file: &mut GltfFile, path: &Path, key: &str) -> Result<Value, Error> {
+pub(super) fn write_file(file: &mut GltfFile, path: &FilePath, key: &str) -> Result<Value, Error> {
     let rows = read_list(path, key)?;
-    let row = |row: &ListedRow| (row.ends_m, row.profile, row.scratch);
+    let row = |row: &ListedRow| (row.ends_m, row.profile.clone(), row.scratch);
     Ok(write(file, rows.iter().map(row)))
 }
 
@@ -28,7 +28,7 @@ pub(super) fn write_arrays(file: &mut GltfFile, arrays: &ScratchArrays) -> Value
     let rows = (0u32..).zip(rows);
     write(
         file,
-        rows.map(|(number, (ends_m, profile))| (*ends_m, *profile, number)),
+        rows.map(|(number, (ends_m, profile))| (*ends_m, profile.clone(), number)),
     )
 }
 

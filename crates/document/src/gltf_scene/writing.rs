@@ -12,6 +12,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use glam::{DMat4, DVec3};
+use hairline_image::FilePath;
 use hairline_model::gltf_file::GltfFile;
 use hairline_model::mesh_file::{self, quarter_turn};
 use hairline_model::reading::{self, FileKind};
@@ -19,6 +20,7 @@ use hairline_scene::ScratchTables;
 use serde_json::{Map, Value, json};
 
 use super::extension::{EXTENSION, LAID, Named, VERSION, named};
+use super::packed_files::with_packed;
 use super::scratch_lists;
 use crate::description::Description;
 use crate::error::Error;
@@ -53,9 +55,10 @@ impl Loader<'_> {
     pub fn export(
         &self,
         description: &Description,
-        base_dir: &Path,
+        base_dir: impl Into<FilePath>,
         export: Export,
     ) -> Result<Exported, Error> {
+        let base_dir = &with_packed(base_dir);
         let described = description.with_its_camera(base_dir)?.into_owned();
         // Whatever is wrong is told here.
         let scene = self.build(&described, base_dir)?;
@@ -131,7 +134,7 @@ impl Loader<'_> {
 }
 
 /// Whether the lights of the scene were made of those of its model, which are in the file.
-fn has_own_lights(described: &Description, base_dir: &Path) -> bool {
+fn has_own_lights(described: &Description, base_dir: &FilePath) -> bool {
     let model = described.lights_of.as_ref();
     let lights = model.map(|model| mesh_file::lights(&base_dir.join(model)));
     lights.is_some_and(|lights| lights.is_ok_and(|lights| !lights.is_empty()))
@@ -140,7 +143,7 @@ fn has_own_lights(described: &Description, base_dir: &Path) -> bool {
 /// Files of the scene, taken into the glTF file.
 struct Packed<'a> {
     loader: &'a Loader<'a>,
-    base_dir: &'a Path,
+    base_dir: &'a FilePath,
     file: &'a mut GltfFile,
     /// The extension's `files`.
     files: Vec<Value>,

@@ -4,9 +4,9 @@
 //! Lines are few, so all of them are laid when the layer is made ready.
 
 use std::f64::consts::PI;
-use std::path::Path;
 
 use glam::DVec3;
+use hairline_image::FilePath;
 use hairline_scene::Segment;
 use kurbo::{PathSeg, Point};
 use rayon::prelude::*;
@@ -80,7 +80,7 @@ impl<'a> Engraving<'a> {
         number: u64,
         ground: &'a Ground,
         table: &str,
-        base_dir: &Path,
+        base_dir: &FilePath,
     ) -> Result<Self, Error> {
         let key = format!("{table}.{}", layer.line.key().name);
         let lines = match &layer.line {

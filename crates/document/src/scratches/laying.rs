@@ -1,6 +1,7 @@
 //! Interface of all kinds of layers for laying a scratch.
 
-use hairline_scene::{Profile, SectionId, Segment};
+use hairline_optics::section::Section;
+use hairline_scene::{Profile, Segment};
 
 use super::walk::{Course, MeshPoint, Walker};
 use crate::description::Distribution;
@@ -85,6 +86,6 @@ pub(super) fn scratch_profile(
     Profile {
         width_um: drawn(width_um, normals[0], width, Profile::WIDTHS_UM),
         depth_nm: drawn(depth_nm, normals[1], depth, Profile::DEPTHS_NM),
-        section: SectionId::default(),
+        section: Section::default(),
     }
 }

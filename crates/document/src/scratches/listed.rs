@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
+use hairline_image::FilePath;
 use hairline_model::reading::{self, FileKind};
 use hairline_model::text::shown;
 use hairline_scene::{Profile, Segment};
@@ -27,7 +28,7 @@ pub(super) const MORE_COLUMNS: [&str; 4] = ["scratch", "nx", "ny", "nz"];
 const OFF_SURFACE: f64 = 0.01;
 
 /// A row of the file.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ListedRow {
     /// Counted from 1.
     line: usize,
@@ -51,7 +52,7 @@ pub(crate) fn list_header(has_numbers: bool) -> String {
 }
 
 /// Reads all rows. `key` is the way to the layer's table in the scene file.
-pub(crate) fn read(path: &Path, key: &str) -> Result<Vec<ListedRow>, Error> {
+pub(crate) fn read(path: &FilePath, key: &str) -> Result<Vec<ListedRow>, Error> {
     // The rows take about as much as the text, twice.
     let text = reading::read(path, FileKind::File, 1.0 / 6.0).map_err(|error| {
         Error::new(
@@ -210,7 +211,7 @@ impl<'a> Listed<'a> {
         path: &Path,
         ground: &'a Ground,
     ) -> Result<Self, Error> {
-        let row = |i: usize| (rows[i].ends_m, rows[i].profile);
+        let row = |i: usize| (rows[i].ends_m, rows[i].profile.clone());
         let begins = |i: &usize| *i == 0 || rows[*i].scratch != rows[i - 1].scratch;
         let first = (0..rows.len()).filter(begins).map(|i| i as u32);
         let first = first.chain([rows.len() as u32]).collect();
@@ -228,7 +229,7 @@ impl<'a> Listed<'a> {
         ground: &'a Ground,
     ) -> Result<Self, Error> {
         let (ends_m, profiles) = (arrays.ends_m(), arrays.profiles());
-        let row = |i: usize| (ends_m[i], profiles[i]);
+        let row = |i: usize| (ends_m[i], profiles[i].clone());
         let first = (0..=ends_m.len() as u32).collect();
         Self::placed(loader, first, row, ground, |i, end, found, right| {
             Error::new(format!("{key}.ends_m[{i}][{end}]"), found, right)
@@ -320,7 +321,7 @@ impl Laying for Listed<'_> {
         // Fewer than three segments cannot go round.
         let is_closed = first.start.point_m == last.end_m && segments.len() - begin > 2;
         Groove {
-            profile: first.profile,
+            profile: first.profile.clone(),
             course: match is_closed {
                 true => Course::Closed,
                 false => Course::Open,

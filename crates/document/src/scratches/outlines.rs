@@ -1,7 +1,6 @@
 //! Outlines that are engraved: those of letters and of drawings.
 
-use std::path::Path;
-
+use hairline_image::FilePath;
 use hairline_model::reading::{self, FileKind};
 use kurbo::{Affine, BezPath, Point, Shape, Vec2};
 use usvg::tiny_skia_path::{PathSegment, Point as SvgPoint};
@@ -40,7 +39,7 @@ pub(super) fn letters(line: &str, height_m: f64) -> Vec<Stamp> {
 }
 
 /// The outlines of an SVG file, as large as `fit_m`. `key` is the way to its name in the scene file.
-pub(super) fn drawing(path: &Path, key: &str, fit_m: f64) -> Result<Stamp, Error> {
+pub(super) fn drawing(path: &FilePath, key: &str, fit_m: f64) -> Result<Stamp, Error> {
     let wrong = |found: String| {
         let found = format!("\"{}\" {found}", path.display());
         Error::new(

@@ -25,7 +25,7 @@ pub fn write_scratches<'a>(
     let names = columns().into_iter().chain(MORE_COLUMNS);
     writeln!(out, "{}", names.collect::<Vec<_>>().join(","))?;
     for (number, scratch) in scratches.into_iter().enumerate() {
-        let mut profile = scratch.profile;
+        let mut profile = scratch.profile.clone();
         let sizes = LISTED_SIZES.each_ref().map(|size| *(size.of)(&mut profile));
         for piece in object.pieces(scratch) {
             let ends = [piece.start_m, piece.end_m].map(|end| place(end).to_array());

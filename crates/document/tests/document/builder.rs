@@ -7,6 +7,7 @@ use std::sync::Arc;
 use crate::common::{self, Glb, cube, temporary_dir};
 use hairline_document::description::*;
 use hairline_document::{Loader, SceneBuilder, Stage};
+use hairline_image::{FilePath, Memory};
 use hairline_optics::section::Section;
 use hairline_scene::Scene;
 use rand::{RngExt, SeedableRng};
@@ -471,4 +472,41 @@ fn a_hidden_object_is_as_if_it_were_not_there() {
         low_m.distance(high_m)
     };
     assert!(ground_m(&hidden) < 1.01 * ground_m(&whole));
+}
+
+/// Models, maps and lists are read from memory as from a disk, and one that is held anew is read anew.
+#[test]
+fn files_in_memory_make_the_same_scene() {
+    let dir = temporary_dir();
+    let description = files_and_scene(dir.path());
+    let on_disk = hairline_document::build(&description, dir.path()).unwrap();
+    let memory = Arc::new(Memory::new(|_, _| {}));
+    for (_, file) in description.files() {
+        memory.hold(file, &std::fs::read(dir.path().join(file)).unwrap());
+    }
+    let base_dir = FilePath::new(memory.clone(), "");
+    let mut builder = SceneBuilder::new();
+    let mut build = || builder.build(&Loader::default(), &description, &base_dir);
+    assert_equal(&build().unwrap(), &on_disk, "in memory");
+    let longer = format!("{HEADER}-0.05,0,0,0.05,0,0,2,100\n");
+    memory.hold(Path::new("list.csv"), longer.as_bytes());
+    assert_ne!(
+        build().unwrap().objects[0].segments,
+        on_disk.objects[0].segments
+    );
+}
+
+#[test]
+fn scenes_of_one_builder_share_what_renderers_compute() {
+    let dir = temporary_dir();
+    let mut description = files_and_scene(dir.path());
+    let mut builder = SceneBuilder::new();
+    let mut build =
+        |description: &Description| builder.build(&Loader::default(), description, dir.path());
+    let first = build(&description).unwrap();
+    description.camera.exposure_ev += 1.0;
+    let second = build(&description).unwrap();
+    assert!(Arc::ptr_eq(&first.tables, &second.tables));
+    let other = hairline_document::build(&description, dir.path()).unwrap();
+    assert!(!Arc::ptr_eq(&first.tables, &other.tables));
 }

@@ -38,7 +38,7 @@ fn the_example_of_the_documentation_works() {
     .unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(scene.render.size_px, [1280, 720]);
     assert_eq!(scene.render.tone_map, ToneMap::Neutral);
-    assert_eq!(scene.materials[0].base, Base::Metal(Metal::Iron));
+    assert_eq!(scene.materials[0].base, Base::Metal(Metal::Iron.into()));
     assert_eq!(scene.lights.len(), 2);
     assert_eq!(scene.lights[0].radiance, [40.0, 0.96 * 40.0, 0.9 * 40.0]);
     assert_eq!(scene.objects[0].scratches.len(), 10_000);

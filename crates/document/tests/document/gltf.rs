@@ -297,7 +297,7 @@ fn a_cube_without_normals_is_flat_shaded() {
         base_color: [1.0; 3],
         metallic: 1.0,
     };
-    assert_eq!((material.base, material.roughness), (default, 1.0));
+    assert_eq!((&material.base, material.roughness), (&default, 1.0));
 }
 
 #[test]

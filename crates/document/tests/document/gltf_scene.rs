@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use hairline_document::description::Surface;
 use hairline_document::gltf_scene::{Export, Exported};
-use hairline_document::{Arrays, Description, Loader, MeshArrays, ScratchArrays};
+use hairline_document::{Arrays, Description, Loader, MeshArrays, ScratchArrays, inputs};
+use hairline_image::{FilePath, Memory};
 use hairline_optics::grating::GRATING_DEPTH_NM;
 use hairline_optics::table::rows_down_to;
 use hairline_scene::{Scene, ScratchTables};
@@ -321,6 +322,26 @@ light = [{ kind = "sphere", center_m = [0.0, 0.0, 1.0], radius_m = 0.1 }]
         after.objects[0].mesh.triangles
     );
     assert_eq!(before.objects[0].segments, after.objects[0].segments);
+}
+
+/// What lies in a file is read there, wherever the file is, by whoever asks for it.
+#[test]
+fn what_lies_in_a_file_in_memory_is_read_from_there() {
+    let (dir, description) = whole();
+    let bytes = exported(&description, dir.path()).bytes;
+    let memory = Memory::new(|_, _| {});
+    memory.hold(Path::new("worn.glb"), &bytes);
+    let file = FilePath::new(Arc::new(memory), "worn.glb");
+    let again = Description::for_model(&file).unwrap();
+    let loader = Loader::default();
+    let before = hairline_document::build(&description, dir.path()).unwrap();
+    check_same(&before, &loader.build(&again, file.folder()).unwrap());
+    let picture = png([2, 2], [90, 180, 220, 255]);
+    assert_eq!(inputs::bytes(file.join("box.png")).unwrap(), picture);
+    assert!(inputs::is_there(file.join("box.png")));
+    assert_eq!(inputs::file_of(file.join("box.png")), *file);
+    let gone = inputs::bytes(file.join("gone.png"));
+    assert!(gone.is_err(), "a name that the file does not hold");
 }
 
 #[test]

@@ -193,7 +193,7 @@ fn a_written_list_reads_back_as_the_same_scratches() {
         laid.scratches.iter().any(|it| it.closed) && laid.scratches.iter().any(|it| !it.closed)
     );
     for (a, b) in laid.scratches.iter().zip(again.scratches.iter()) {
-        assert_eq!((a.profile, a.closed), (b.profile, b.closed));
+        assert_eq!((&a.profile, a.closed), (&b.profile, b.closed));
         let [long, other] = [laid.length_m(a), again.length_m(b)];
         assert!((long - other).abs() < 1e-6 + 1e-4 * long, "{long} {other}");
         let [first, last] = [laid.pieces(a), again.pieces(b)].map(|it| it[it.len() / 2]);

@@ -2,18 +2,18 @@
 
 use crate::common::{self, Glb, cube, temporary_dir};
 use hairline_document::probe;
-use hairline_image::{Display, Output, Picture};
+use hairline_image::{Display, FilePath, Output, Picture};
 
 /// The message about a file of these bytes, without the folder.
 fn message<T>(
     name: &str,
     bytes: &[u8],
-    look: impl Fn(&std::path::Path) -> Result<T, hairline_document::Error>,
+    look: impl Fn(FilePath) -> Result<T, hairline_document::Error>,
 ) -> String {
     let dir = temporary_dir();
     let path = dir.path().join(name);
     std::fs::write(&path, bytes).unwrap();
-    let Err(error) = look(&path) else {
+    let Err(error) = look(FilePath::from(&path)) else {
         return "it can be used".to_owned();
     };
     assert_eq!(error.file(), Some(path.as_path()));

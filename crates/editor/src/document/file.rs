@@ -6,9 +6,10 @@ use std::time::SystemTime;
 
 use hairline_document::description::FileUse;
 use hairline_document::{Description, Error, inputs, reading};
+use hairline_image::FilePath;
 use hairline_image::output::write_atomically;
 
-use super::{Document, layout, next_revision};
+use super::{Document, layout};
 use crate::paths;
 
 /// Reason why a document was not saved.
@@ -44,18 +45,18 @@ impl Document {
     ///
     /// # Errors
     /// What is wrong in the file, with its line.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
-        let path = path.as_ref();
+    pub fn open(path: impl Into<FilePath>) -> Result<Self, Error> {
+        let path = &path.into();
         let text = reading::scene_text(path)?;
         let description = Self::read(&text, path)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
+        let folder = path.folder();
         // The camera of a file becomes the scene's own here, so that it can be moved.
         let seen = description
-            .with_its_camera(folder)
+            .with_its_camera(&folder)
             .map_err(|error| error.in_scene_file(&text, path))?
             .into_owned();
         Ok(Self {
-            path: Some(path.to_owned()),
+            path: Some(path.to_path_buf()),
             text: Some(text.into()),
             ..Self::untitled(seen, folder)
         })
@@ -99,7 +100,7 @@ impl Document {
         let Some(path) = self.path.clone() else {
             return Ok(());
         };
-        let text = reading::scene_text(&path)?;
+        let text = reading::scene_text(self.base_dir.at(&path))?;
         let description = Self::read(&text, &path)?;
         self.edit("Reload", |d| *d = description);
         self.text = Some(text.into());
@@ -123,7 +124,7 @@ impl Document {
     pub fn files(&self) -> Vec<PathBuf> {
         let named = self.state.description.files().into_iter();
         named
-            .map(|(_, path)| inputs::file_of(&self.base_dir.join(path)))
+            .map(|(_, path)| inputs::file_of(self.base_dir.join(path)))
             .collect()
     }
 
@@ -133,7 +134,7 @@ impl Document {
         let mut missing: Vec<(FileUse, PathBuf)> = Vec::new();
         for (of, path) in self.state.description.files() {
             let is_known = missing.iter().any(|(_, known)| known == path);
-            if !is_known && !inputs::is_there(&self.base_dir.join(path)) {
+            if !is_known && !inputs::is_there(self.base_dir.join(path)) {
                 missing.push((of, path.clone()));
             }
         }
@@ -147,7 +148,9 @@ impl Document {
         if let (Ok(written), Some(since)) = (written, since)
             && written <= since
         {
-            self.text = reading::scene_text(path).ok().map(Into::into);
+            self.text = reading::scene_text(self.base_dir.at(path))
+                .ok()
+                .map(Into::into);
         }
     }
 
@@ -189,7 +192,7 @@ impl Document {
         }
         rebased.text = Some(rebased.write(path)?);
         rebased.path = Some(path.to_owned());
-        rebased.base_dir = folder.to_owned();
+        rebased.base_dir = self.base_dir.at(folder);
         rebased.was_saved();
         *self = rebased;
         Ok(())
@@ -204,7 +207,7 @@ impl Document {
         if let Some(original) = &self.text {
             text = layout::kept(original, description, text);
         }
-        write_atomically(path, text.as_bytes())?;
+        write_atomically(self.base_dir.at(path), text.as_bytes())?;
         Ok(text.into())
     }
 
@@ -239,7 +242,7 @@ impl Document {
         };
         let description = change(&self.state.description);
         if !Arc::ptr_eq(&description, &self.state.description) {
-            self.revision = next_revision();
+            self.revision += 1;
         }
         self.state.description = description;
         self.history.rewrite(&mut change);

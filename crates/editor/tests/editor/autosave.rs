@@ -80,7 +80,10 @@ fn a_crash_leaves_the_document_with_its_paths() {
     assert_eq!(recovered.description(), document.description());
     assert!(recovered.is_modified());
     assert_eq!(recovered.path(), Some(file.as_path()));
-    assert_eq!(recovered.base_dir(), scenes.path().canonicalize().unwrap());
+    assert_eq!(
+        **recovered.base_dir(),
+        *scenes.path().canonicalize().unwrap()
+    );
     let text = std::fs::read_dir(folder.path()).unwrap().flatten();
     let text = text.map(|e| std::fs::read_to_string(e.path()).unwrap());
     let header = format!("# autosave of {}\n", file.display());

@@ -82,6 +82,16 @@ fn an_edit_is_a_step_unless_it_changes_nothing() {
 }
 
 #[test]
+fn a_document_in_the_place_of_another_has_later_revisions() {
+    let mut shown = document();
+    set_exposure(&mut shown, 1.0);
+    let edited = shown.revision();
+    shown.replace(document());
+    assert!(shown.revision() > edited && !shown.is_modified());
+    assert_eq!(shown.undo(), None, "the history is the other's");
+}
+
+#[test]
 fn a_drag_is_one_step_until_it_ends_or_another_begins() {
     let mut document = document();
     let (here, there) = (DragKey::of("slider"), DragKey::of(("gizmo", 1)));
@@ -202,7 +212,7 @@ fn what_is_saved_opens_again_and_counts_as_saved() {
     std::fs::write(&file, SCENE).unwrap();
     let mut document = Document::open(&file).unwrap();
     assert_eq!(
-        (document.title(), document.base_dir()),
+        (document.title(), &**document.base_dir()),
         ("plate.toml".into(), folder.path())
     );
     assert!(!document.is_modified());

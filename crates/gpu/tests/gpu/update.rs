@@ -90,7 +90,8 @@ fn edit(made: &mut Made, kind: u32, random: &mut impl Rng) {
         2 => scene.materials[0].roughness = random.random_range(0.1..0.5),
         3 => {
             let metals = [Metal::Gold, Metal::Copper, Metal::Aluminium];
-            scene.materials[0].base = Base::Metal(metals[random.random_range(0..metals.len())]);
+            let metal = metals[random.random_range(0..metals.len())];
+            scene.materials[0].base = Base::Metal(metal.into());
         }
         4 => scene.textures = Arc::new(vec![texture(random.random_range(0..200))]),
         5 => scene.environment = Some(map(random.random_range(0.0..1.0))),

@@ -1,7 +1,6 @@
 //! Files and data URIs that a glTF file names, taken into its one buffer.
 
-use std::path::Path;
-
+use hairline_image::FilePath;
 use serde_json::{Value, json};
 
 use super::{GltfFile, push};
@@ -28,7 +27,7 @@ impl GltfFile {
     }
 
     /// Takes in all that buffers and images name. Buffers without bytes, which stand for packed ones, stay behind the one with all bytes.
-    pub(super) fn embed(&mut self, folder: &Path) -> Result<(), Flaw> {
+    pub(super) fn embed(&mut self, folder: &FilePath) -> Result<(), Flaw> {
         let has_chunk = !self.bin.is_empty();
         // Number and offset that each buffer gets.
         let mut places = Vec::new();
@@ -70,7 +69,7 @@ impl GltfFile {
         self.embed_images(folder)
     }
 
-    fn embed_images(&mut self, folder: &Path) -> Result<(), Flaw> {
+    fn embed_images(&mut self, folder: &FilePath) -> Result<(), Flaw> {
         for i in 0..self.list("images").len() {
             let Some(uri) = self.list("images")[i].get("uri").and_then(Value::as_str) else {
                 continue;

@@ -1,7 +1,6 @@
 //! Reading of a glTF file with all that it names.
 
-use std::path::Path;
-
+use hairline_image::FilePath;
 use serde_json::Value;
 
 use super::GltfFile;
@@ -10,7 +9,7 @@ use crate::mesh_file;
 use crate::packed;
 
 /// The value of a root's extension; none where the file has none, or cannot be read. The bytes of the file are left alone.
-pub fn extension(path: &Path, name: &str) -> Option<Value> {
+pub fn extension(path: &FilePath, name: &str) -> Option<Value> {
     let text = mesh_file::whole_text(path)?;
     // Most files have none, and need not be parsed.
     text.windows(name.len()).find(|it| *it == name.as_bytes())?;
@@ -23,7 +22,7 @@ impl GltfFile {
     ///
     /// # Errors
     /// What is wrong with the file.
-    pub fn read(path: &Path) -> Result<Self, Flaw> {
+    pub fn read(path: &FilePath) -> Result<Self, Flaw> {
         let part = packed::split(path);
         let path = part.as_ref().map_or(path, |(file, _)| file);
         let bytes = mesh_file::file(path)?.bytes;
@@ -46,7 +45,7 @@ impl GltfFile {
         if part.is_some() {
             file.bin.truncate(file.used_length());
         }
-        file.embed(path.parent().unwrap_or(Path::new("")))?;
+        file.embed(&path.folder())?;
         Ok(file)
     }
 }

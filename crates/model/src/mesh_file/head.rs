@@ -1,13 +1,13 @@
 //! Size and files of a glTF file by its text, before its contents are read.
 
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use gltf::json::deserialize::from_slice;
 use gltf::json::mesh::Mode;
 use gltf::json::validation::Checked::Valid;
 use gltf::json::{Index, Root, Value, mesh::Primitive, mesh::Semantic};
-use hairline_image::held;
+use hairline_image::FilePath;
 
 use super::instances;
 use super::left_out::{self, LeftOut, UsedContents};
@@ -35,7 +35,7 @@ pub struct FileCounts {
 }
 
 /// Counts the triangles and vertices that a glTF file places; `None` where it cannot be read.
-pub fn counts(path: &Path) -> Option<FileCounts> {
+pub fn counts(path: &FilePath) -> Option<FileCounts> {
     if let Some(format) = OtherFormat::of(path) {
         return of_length(path, format);
     }
@@ -59,12 +59,9 @@ pub fn counts(path: &Path) -> Option<FileCounts> {
 }
 
 /// Counts what a file of another format has at most, by its length.
-fn of_length(path: &Path, format: OtherFormat) -> Option<FileCounts> {
+fn of_length(path: &FilePath, format: OtherFormat) -> Option<FileCounts> {
     check_regular(path).ok()?;
-    let length = match held::bytes(path) {
-        Some(bytes) => bytes.len() as f64,
-        None => path.metadata().ok()?.len() as f64,
-    };
+    let length = path.facts().ok()?.length.unwrap_or(0) as f64;
     let triangles = length / format.bytes_a_triangle();
     Some(FileCounts {
         triangles,
@@ -111,18 +108,17 @@ impl FileCounts {
 }
 
 /// The files that a glTF file names, each with its use; none where it cannot be read.
-pub fn names(path: &Path) -> Vec<(String, PathBuf)> {
+pub fn names(path: &FilePath) -> Vec<(String, PathBuf)> {
     if let Some(format) = OtherFormat::of(path) {
         return format.names(path);
     }
     let Some((root, _)) = head(path) else {
         return Vec::new();
     };
-    let file = packed::file_of(path);
-    let base_dir = file.parent().unwrap_or(Path::new(""));
+    let base_dir = packed::file_of(path).folder();
     let named = |what: &'static str, i: usize, uri: &Option<String>| {
         let uri = uri.as_deref().filter(|uri| !is_data(uri))?;
-        Some((format!("{what} {i}"), beside(uri, base_dir)))
+        Some((format!("{what} {i}"), beside(uri, &base_dir).to_path_buf()))
     };
     let buffers = (0..)
         .zip(&root.buffers)
@@ -134,7 +130,7 @@ pub fn names(path: &Path) -> Vec<(String, PathBuf)> {
 }
 
 /// Names of the perspective cameras of a file: their own, else their nodes', else their numbers.
-pub fn camera_names(path: &Path) -> Vec<String> {
+pub fn camera_names(path: &FilePath) -> Vec<String> {
     let Some((root, _)) = head(path) else {
         return Vec::new();
     };
@@ -149,13 +145,13 @@ pub fn camera_names(path: &Path) -> Vec<String> {
 }
 
 /// Lists the contents of a glTF file that the picture does not have; empty where it cannot be read.
-pub fn left_out(path: &Path, wanted: UsedContents) -> Vec<LeftOut> {
+pub fn left_out(path: &FilePath, wanted: UsedContents) -> Vec<LeftOut> {
     let root = text(path).and_then(|text| from_slice(&text).ok());
     root.map_or_else(Vec::new, |root| left_out::of(&root, wanted))
 }
 
 /// Reads the text, and returns its length too.
-fn head(path: &Path) -> Option<(Root, f64)> {
+fn head(path: &FilePath) -> Option<(Root, f64)> {
     let text = text(path)?;
     Some((
         root::read(&text, OptionalElements::default()).ok()?,
@@ -164,7 +160,7 @@ fn head(path: &Path) -> Option<(Root, f64)> {
 }
 
 /// The text of a .gltf file, or the first chunk of a .glb file.
-fn text(path: &Path) -> Option<Vec<u8>> {
+fn text(path: &FilePath) -> Option<Vec<u8>> {
     match packed::split(path) {
         Some((file, name)) => alone(&whole_text(&file)?, &name),
         None => whole_text(path),
@@ -178,12 +174,12 @@ pub(super) fn alone(text: &[u8], name: &str) -> Option<Vec<u8>> {
 }
 
 /// The text of a file with all that it holds; none of another format than glTF.
-pub(crate) fn whole_text(path: &Path) -> Option<Vec<u8>> {
+pub(crate) fn whole_text(path: &FilePath) -> Option<Vec<u8>> {
     if OtherFormat::of(path).is_some() {
         return None;
     }
     check_regular(path).ok()?;
-    let mut file = held::open(path).ok()?;
+    let mut file = path.open().ok()?;
     let mut start = [0; 20];
     file.read_exact(&mut start).ok()?;
     let mut text = Vec::new();

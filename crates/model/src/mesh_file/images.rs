@@ -1,9 +1,9 @@
 //! The images of a glTF file as the scene's textures, each once for every way in which it is looked up.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
 
 use gltf::texture::{MagFilter, WrappingMode};
+use hairline_image::FilePath;
 
 use super::source::{Buffers, resource};
 use super::spec_gloss::SpecGloss;
@@ -12,11 +12,11 @@ use crate::texture::{self, Channels, Texels, texture_bytes};
 use crate::texture::{Sampling, Texture, Wrap};
 
 pub(super) struct Images<'a> {
-    pub base_dir: &'a Path,
+    pub base_dir: &'a FilePath,
     pub buffers: &'a Buffers,
     pub textures: &'a mut Vec<Texture>,
     /// The files that were read.
-    pub files: &'a mut Vec<PathBuf>,
+    pub files: &'a mut Vec<FilePath>,
     /// Memory that is left for textures.
     pub free_bytes: f64,
     /// Whether textures get their mip chains, which take longer than the rest.

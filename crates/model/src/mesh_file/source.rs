@@ -1,11 +1,10 @@
 //! The bytes that a glTF file refers to: its own binary chunk, other files, data URIs.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
 
 use gltf::Gltf;
 use gltf::buffer::View;
-use hairline_image::held;
+use hairline_image::FilePath;
 
 use super::meshopt;
 use super::stock::FILE_SHARE;
@@ -24,8 +23,8 @@ pub(super) struct Buffers {
 impl Buffers {
     pub(super) fn read(
         gltf: &Gltf,
-        base_dir: &Path,
-        files: &mut Vec<PathBuf>,
+        base_dir: &FilePath,
+        files: &mut Vec<FilePath>,
     ) -> Result<Self, Flaw> {
         let read = |buffer: gltf::Buffer| {
             let what = format!("buffer {}", buffer.index());
@@ -107,9 +106,9 @@ pub(crate) fn is_data(uri: &str) -> bool {
 /// Reads a URI of a glTF file: a data URI or a file beside it, which is added to `files`.
 pub(crate) fn resource(
     uri: &str,
-    base_dir: &Path,
+    base_dir: &FilePath,
     what: &str,
-    files: &mut Vec<PathBuf>,
+    files: &mut Vec<FilePath>,
 ) -> Result<Vec<u8>, Flaw> {
     if is_data(uri) {
         let (head, data) = uri.split_once(',').unwrap_or((uri, ""));
@@ -155,11 +154,11 @@ pub(crate) fn resource(
 }
 
 /// The file that a URI names. Where there is none: names that exporters left unescaped, and backslashes of Windows between folders.
-pub(super) fn beside(uri: &str, base_dir: &Path) -> PathBuf {
+pub(super) fn beside(uri: &str, base_dir: &FilePath) -> FilePath {
     let name = percent_decoded(uri);
     let others = [uri, &name.replace('\\', "/")].map(|name| base_dir.join(name));
     let path = base_dir.join(name);
-    let is_there = |path: &PathBuf| held::open(path).is_ok();
+    let is_there = |path: &FilePath| path.open().is_ok();
     let other = others.into_iter().find(|it| *it != path && is_there(it));
     match is_there(&path) {
         true => path,

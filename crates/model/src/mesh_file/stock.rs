@@ -1,8 +1,7 @@
 //! Materials, textures and notes that a file brings besides its triangles.
 
-use std::path::PathBuf;
-
 use glam::DVec3;
+use hairline_image::FilePath;
 
 use crate::material::Material;
 use crate::mesh::NodeTriangles;
@@ -20,7 +19,7 @@ pub struct FileContents<'a> {
     /// Textures, to which those of the file are added.
     pub textures: &'a mut Vec<Texture>,
     /// The files that it refers to and that were read.
-    pub files: &'a mut Vec<PathBuf>,
+    pub files: &'a mut Vec<FilePath>,
     /// The middle of a file that stood too far off, in its own frame: it was put at the origin.
     pub moved_from: &'a mut Option<DVec3>,
     /// Notes on the file for its author.

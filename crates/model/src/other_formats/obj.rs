@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::io::{self, BufRead, Cursor, Read};
 use std::path::{Path, PathBuf};
 
-use hairline_image::held;
+use hairline_image::FilePath;
 use serde_json::{Value, json};
 use tobj::LoadOptions;
 
@@ -22,7 +22,7 @@ const OPTIONS: LoadOptions = LoadOptions {
     ignore_lines: true,
 };
 
-pub(super) fn translated(bytes: &[u8], folder: &Path) -> Result<Translated, Flaw> {
+pub(super) fn translated(bytes: &[u8], folder: &FilePath) -> Result<Translated, Flaw> {
     let (files, notes) = (RefCell::default(), RefCell::default());
     let materials = |name: &Path| read_materials(name, folder, &files, &notes);
     // Comments may be in any encoding.
@@ -77,9 +77,10 @@ pub(super) fn translated(bytes: &[u8], folder: &Path) -> Result<Translated, Flaw
 }
 
 /// The .mtl files of an OBJ file, and their images; none where it cannot be read.
-pub(super) fn names(path: &Path, folder: &Path) -> Option<Vec<(String, PathBuf)>> {
+pub(super) fn names(path: &FilePath) -> Option<Vec<(String, PathBuf)>> {
+    let folder = &path.folder();
     let mut bytes = Vec::new();
-    held::open(path).ok()?.read_to_end(&mut bytes).ok()?;
+    path.open().ok()?.read_to_end(&mut bytes).ok()?;
     let text = String::from_utf8_lossy(&bytes);
     let libraries = text
         .lines()
@@ -89,13 +90,13 @@ pub(super) fn names(path: &Path, folder: &Path) -> Option<Vec<(String, PathBuf)>
         let (files, notes) = (RefCell::default(), RefCell::default());
         let materials = read_materials(Path::new(library.trim()), folder, &files, &notes);
         let named = files.into_inner().into_iter();
-        names.extend(named.map(|file| ("materials".to_owned(), file)));
+        names.extend(named.map(|file| ("materials".to_owned(), file.to_path_buf())));
         for material in materials.into_iter().flat_map(|(materials, _)| materials) {
             let images = images(&material).into_iter().flatten();
             names.extend(images.map(|uri| {
                 (
                     format!("image of {}", shown(&material.name)),
-                    folder.join(uri),
+                    folder.join(uri).to_path_buf(),
                 )
             }));
         }
@@ -106,13 +107,15 @@ pub(super) fn names(path: &Path, folder: &Path) -> Option<Vec<(String, PathBuf)>
 /// Reads a .mtl file. One that is not there leaves the materials out, with a note.
 fn read_materials(
     name: &Path,
-    folder: &Path,
-    files: &RefCell<Vec<PathBuf>>,
+    folder: &FilePath,
+    files: &RefCell<Vec<FilePath>>,
     notes: &RefCell<Vec<String>>,
 ) -> tobj::MTLLoadResult {
     let path = folder.join(name.to_string_lossy().replace('\\', "/"));
     let mut bytes = Vec::new();
-    let read = held::open(&path).and_then(|mut file| file.read_to_end(&mut bytes));
+    let read = path
+        .open()
+        .and_then(|mut file| file.read_to_end(&mut bytes));
     files.borrow_mut().push(path);
     if let Err(error) = read {
         let name = shown(&name.to_string_lossy());

@@ -1,7 +1,6 @@
 //! A model's file as glTF, put together of triangles and materials.
 
-use std::path::PathBuf;
-
+use hairline_image::FilePath;
 use serde_json::{Value, json};
 
 use crate::flaw::Flaw;
@@ -13,7 +12,7 @@ pub(crate) struct Translated {
     /// A glTF file, text or binary.
     pub bytes: Vec<u8>,
     /// The files that it names in turn and that were read already.
-    pub files: Vec<PathBuf>,
+    pub files: Vec<FilePath>,
     /// Notes for its author, a line each.
     pub notes: Vec<String>,
 }

@@ -8,7 +8,7 @@ use super::spectral_mode::{SpectralMode, rgb};
 use crate::cover::Cover;
 use crate::fresnel;
 use crate::ggx::{ggx_albedo, ggx_alpha};
-use crate::metal::Metal;
+use crate::metal::MetalIndex;
 use crate::spectrum::{WAVELENGTH_COUNT, WAVELENGTH_MIN_NM, WAVELENGTH_STEP_NM};
 
 /// Nodes over the square root of the cosine.
@@ -44,7 +44,8 @@ pub struct Conductor {
 
 impl Conductor {
     /// A metal under a layer, as a base of this roughness.
-    pub fn new(metal: Metal, overlay: Overlay, roughness: f64) -> Self {
+    pub fn new(metal: impl Into<MetalIndex>, overlay: Overlay, roughness: f64) -> Self {
+        let metal = metal.into();
         let nm = |i: usize| WAVELENGTH_MIN_NM + i as f64 * WAVELENGTH_STEP_NM;
         let n_k: Vec<_> = (0..WAVELENGTH_COUNT)
             .map(|i| metal.n_k(nm(i)).into())
@@ -56,7 +57,7 @@ impl Conductor {
             if let Overlay::Cover(cover) = &overlay {
                 // Light that facets scatter once more meets the plate once more.
                 let [once, straight] =
-                    [cos, 1.0].map(|cos| cover.reflectance_rgb(metal, cos).into());
+                    [cos, 1.0].map(|cos| cover.reflectance_rgb(&metal, cos).into());
                 return [once, once * straight];
             }
             let once = rgb(|nm| bare(cos, nm));
@@ -79,7 +80,7 @@ impl Conductor {
     }
 
     /// A bare metal.
-    pub fn of_metal(metal: Metal, roughness: f64) -> Self {
+    pub fn of_metal(metal: impl Into<MetalIndex>, roughness: f64) -> Self {
         Self::new(metal, Overlay::Bare, roughness)
     }
 

@@ -374,7 +374,7 @@ impl FineGrating {
             row,
             efficiencies: &self.efficiencies,
             observer: Observer::eye(),
-            medium: self.medium,
+            medium: &self.medium,
             is_colored: false,
             cover: self.cover,
         }

@@ -30,14 +30,14 @@ const FINE: Grating = Grating {
 /// Rigorous efficiencies of [`FINE`], computed once.
 fn fine(cover: Option<Cover>) -> FineGrating {
     static MADE: [OnceLock<Arc<Efficiencies>>; 2] = [const { OnceLock::new() }; 2];
-    let medium = Medium::Metal(Metal::Gold);
+    let medium = Medium::Metal(Metal::Gold.into());
     let make = || {
         let grooves = FineGrooves {
             pitch_um: FINE.pitch_um,
             width_um: FINE.width_um,
             depth_nm: FINE.depth_nm,
             above: cover.map_or(1.0, |it| it.ior),
-            medium,
+            medium: medium.clone(),
         };
         Efficiencies::new(&grooves, &|| false).unwrap().into()
     };

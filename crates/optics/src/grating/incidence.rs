@@ -26,7 +26,7 @@ pub struct RigorousGrating<'a> {
     /// What the channels are.
     pub observer: &'a Observer,
     /// Material whose efficiencies they are.
-    pub medium: Medium,
+    pub medium: &'a Medium,
     /// Whether the grooves are in a material of another colour, which its shading brings.
     pub is_colored: bool,
     /// A plate over the grooves, of the index that the efficiencies have above them.
@@ -359,19 +359,19 @@ mod tests {
             depth_spread: 0.0,
             jitter_um: 0.0,
         };
-        let medium = Medium::Metal(Metal::Gold);
+        let medium = Medium::Metal(Metal::Gold.into());
         let grooves = FineGrooves {
             pitch_um: row.pitch_um,
             width_um: row.width_um,
             depth_nm: row.depth_nm,
             above: 1.0,
-            medium,
+            medium: medium.clone(),
         };
         let efficiencies = Efficiencies::new(&grooves, &|| false).unwrap();
         let rigorous = RigorousGrating {
             row,
             efficiencies: &efficiencies,
-            medium,
+            medium: &medium,
             observer: Observer::eye(),
             is_colored: false,
             cover: None,

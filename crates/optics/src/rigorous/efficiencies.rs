@@ -7,39 +7,39 @@
 #[cfg(not(target_arch = "wasm32"))]
 use super::coupled_waves::{CoupledWaves, Relief};
 use crate::fresnel;
-use crate::metal::Metal;
+use crate::metal::MetalIndex;
 use num_complex::Complex64;
 use rayon::prelude::*;
 
 /// Material of grooves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Medium {
     /// A metal of measured index.
-    Metal(Metal),
+    Metal(MetalIndex),
     /// A clear material of a refractive index.
     Dielectric(f64),
 }
 
 impl Medium {
     /// Unpolarised reflectance of a flat surface under a medium of the index `above`, by the cosine in air.
-    pub fn reflectance(self, above: f64, cos_theta: f64, wavelength_nm: f64) -> f64 {
+    pub fn reflectance(&self, above: f64, cos_theta: f64, wavelength_nm: f64) -> f64 {
         let index = self.index(wavelength_nm) / above;
         fresnel::conductor(fresnel::inner_cos(cos_theta, above), index.re, index.im)
     }
 
-    pub(crate) fn index(self, wavelength_nm: f64) -> Complex64 {
+    pub(crate) fn index(&self, wavelength_nm: f64) -> Complex64 {
         match self {
             Self::Metal(metal) => {
                 let (n, k) = metal.n_k(wavelength_nm);
                 Complex64::new(n, k)
             }
-            Self::Dielectric(ior) => Complex64::from(ior),
+            Self::Dielectric(ior) => Complex64::from(*ior),
         }
     }
 }
 
 /// Rectangular grooves, which are symmetric.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FineGrooves {
     /// Distance from one groove to the next.
     pub pitch_um: f64,

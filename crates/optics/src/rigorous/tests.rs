@@ -149,7 +149,7 @@ fn the_table_is_the_coupled_waves() {
         width_um: 0.32,
         depth_nm: 105.0,
         above: 1.0,
-        medium: Medium::Metal(Metal::Aluminium),
+        medium: Medium::Metal(Metal::Aluminium.into()),
     };
     let table = Efficiencies::new(&grooves, &|| false).unwrap();
     let again = Efficiencies::from_values(&grooves, table.values()).unwrap();

@@ -26,12 +26,12 @@ fn reflectance(reflector: Reflector, alpha: f64) -> &'static Reflectance {
     type Made = Vec<(Reflector, f64, &'static Reflectance)>;
     static MADE: Mutex<Made> = Mutex::new(Vec::new());
     let mut made = MADE.lock().unwrap();
-    if let Some((.., found)) = made.iter().find(|m| (m.0, m.1) == (reflector, alpha)) {
+    if let Some((.., found)) = made.iter().find(|m| (&m.0, m.1) == (&reflector, alpha)) {
         return found;
     }
     let new: &'static Reflectance = Box::leak(Box::new(Reflectance::at(
         Observer::eye(),
-        reflector,
+        reflector.clone(),
         &[alpha.sqrt()],
     )));
     made.push((reflector, alpha, new));
@@ -39,7 +39,7 @@ fn reflectance(reflector: Reflector, alpha: f64) -> &'static Reflectance {
 }
 
 fn gold(cos: f64, alpha: f64) -> BaseLobes<'static> {
-    let reflectance = reflectance(Reflector::Metal(Metal::Gold), alpha);
+    let reflectance = reflectance(Reflector::Metal(Metal::Gold.into()), alpha);
     let ends = MixedEnds::pure(ReflectanceEnds {
         f0: Metal::Gold.reflectance_rgb(1.0).into(),
         f90: 1.0,

@@ -33,9 +33,15 @@ impl Viewer {
 
     pub(super) fn fulfil(&mut self, ctx: &egui::Context, wish: Wish) {
         let opened = match wish {
-            Wish::New => super::read("new scene", EMPTY).map_err(|error| error.to_string()),
+            Wish::New => {
+                let base_dir = self.work.document.base_dir().at("");
+                super::read("new scene", EMPTY, base_dir).map_err(|error| error.to_string())
+            }
             Wish::Example(i) => self.work.examples.open(i, &self.files.examples()),
-            Wish::Open(path) => super::open(&path).map_err(|error| error.to_string()),
+            Wish::Open(path) => {
+                let path = self.work.document.base_dir().at(path);
+                super::open(path).map_err(|error| error.to_string())
+            }
             Wish::Quit => {
                 self.is_closing = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
@@ -193,13 +199,19 @@ impl Viewer {
         }
     }
 
-    /// Opens the scene in the fragment of an address, if there is one. If it is broken, shows the error and changes nothing.
-    pub fn open_link(&mut self, ctx: &egui::Context, fragment: &str) {
+    /// Opens the scene in the fragment of an address, if there is one: `hold` makes a file of its text. If it is broken, shows the error and
+    /// changes nothing.
+    pub fn open_link(
+        &mut self,
+        ctx: &egui::Context,
+        fragment: &str,
+        hold: impl FnOnce(&Path, &[u8]),
+    ) {
         let path = Path::new("scene.toml");
         match link::text(fragment) {
             None => {}
             Some(Ok(text)) => {
-                hairline_image::held::hold(path, text.into_bytes());
+                hold(path, text.as_bytes());
                 self.wish(ctx, Wish::Open(path.to_owned()));
             }
             Some(Err(error)) => self.work.notices.error("open", error.to_string()),
@@ -211,7 +223,7 @@ impl Viewer {
         self.files.reopen();
         (self.asked, self.typed, self.sought) = (None, None, None);
         let work = &mut self.work;
-        work.document = document;
+        work.document.replace(document);
         work.engine.forget_scene();
         work.free_view.end();
         work.toolbox.tool = Tool::Select;

@@ -119,10 +119,13 @@ impl Viewer {
         match ending.to_string_lossy().to_lowercase().as_str() {
             "toml" => self.wish(ctx, Wish::Open(path.to_owned())),
             // One that holds a scene is one.
-            _ if Description::is_model(path) => match gltf_scene::is_in(path) {
-                true => self.wish(ctx, Wish::Open(path.to_owned())),
-                false => self.probe(ctx, Purpose::AddModel, path),
-            },
+            _ if Description::is_model(path) => {
+                let file = self.work.document.base_dir().at(path);
+                match gltf_scene::is_in(file) {
+                    true => self.wish(ctx, Wish::Open(path.to_owned())),
+                    false => self.probe(ctx, Purpose::AddModel, path),
+                }
+            }
             "hdr" | "exr" => self.probe(ctx, Purpose::Environment, path),
             "csv" => self.add_list(path),
             "svg" => self.work.engrave_drawing(&absolute(path)),
@@ -147,7 +150,8 @@ impl Viewer {
     }
 
     fn probe(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {
-        self.files.probe(purpose, absolute(path), ctx.clone());
+        let path = self.work.document.base_dir().at(absolute(path));
+        self.files.probe(purpose, path, ctx.clone());
     }
 
     /// Takes a model or a map that was looked into.

@@ -1,11 +1,11 @@
 //! A description made ready to be painted.
 
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
 use hairline_document::description::Description;
 use hairline_document::{Loader, SceneBuilder};
+use hairline_image::FilePath;
 use hairline_index::{Pieces, ScratchIndex, TriangleIndex, Watch};
 use hairline_scene::{Scene, ScratchTables};
 use web_time::Instant;
@@ -109,7 +109,7 @@ impl ViewBuilder {
         revision: u64,
         asked: Instant,
         description: &Arc<Description>,
-        base_dir: &Path,
+        base_dir: &FilePath,
     ) -> Option<Built> {
         let start = Instant::now();
         let last = self.last.as_ref();
@@ -168,7 +168,7 @@ impl ViewBuilder {
         revision: u64,
         asked: Instant,
         description: Arc<Description>,
-        base_dir: &Path,
+        base_dir: &FilePath,
         view: Option<View>,
     ) -> Result<Option<Built>, hairline_document::Error> {
         let start = Instant::now();
@@ -285,7 +285,7 @@ mod tests {
                 1,
                 now,
                 Arc::new(description),
-                Path::new(""),
+                &FilePath::default(),
                 None,
             );
             let built = built.unwrap().unwrap();

@@ -246,16 +246,15 @@ mod tests {
     use super::super::steps::SHADOW_SAMPLES;
     use super::*;
     use hairline_fixtures::scenes::scratched_plate;
-    use hairline_image::{Batch, Display, ToneMap};
+    use hairline_image::{Batch, Display, FilePath, ToneMap};
     use hairline_scene::Transport;
-    use std::path::Path;
 
     /// A plate with shadows in a view so large that its rounds take several bands.
     fn order() -> Order {
         let description = Arc::new(scratched_plate().description());
         let now = Instant::now();
         let built = ViewBuilder::default()
-            .build(&|| false, 1, now, description, Path::new(""), None)
+            .build(&|| false, 1, now, description, &FilePath::default(), None)
             .unwrap()
             .unwrap();
         let view = View {

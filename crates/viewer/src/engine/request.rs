@@ -1,11 +1,11 @@
 //! Requests of the interface and results of the threads: one lock, held for as long as it takes to move a pointer.
 
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use hairline_document::description::Description;
+use hairline_image::FilePath;
 use web_time::Instant;
 
 use super::{Backend, Built, Event, Frame, View, Wake};
@@ -14,7 +14,7 @@ use super::{Backend, Built, Event, Frame, View, Wake};
 pub(super) struct WantedScene {
     pub revision: u64,
     pub description: Arc<Description>,
-    pub base_dir: PathBuf,
+    pub base_dir: FilePath,
     pub asked: Instant,
 }
 
@@ -22,7 +22,7 @@ pub(super) struct WantedScene {
 struct State {
     wanted_scene: Option<WantedScene>,
     /// Folder from which the paths of the newest description start.
-    base_dir: PathBuf,
+    base_dir: FilePath,
     is_building: bool,
     built: Option<Arc<Built>>,
     /// Sketch of a newer description than that of `built`.
@@ -154,7 +154,7 @@ impl Shared {
             .0
     }
 
-    pub fn want_scene(&self, revision: u64, description: Arc<Description>, base_dir: PathBuf) {
+    pub fn want_scene(&self, revision: u64, description: Arc<Description>, base_dir: FilePath) {
         let mut state = self.lock();
         state.asked = revision;
         state.base_dir.clone_from(&base_dir);

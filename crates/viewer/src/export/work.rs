@@ -7,7 +7,9 @@ use std::time::Duration;
 use hairline_document::{Description, description};
 use hairline_editor::navigate::{self, Turns};
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, Method, RenderOptions, Renderer};
-use hairline_image::{Animation, Batches, Display, Finish, Image, Output, filter_traced};
+use hairline_image::{
+    Animation, Batches, Display, FilePath, Finish, Image, Output, filter_traced, output,
+};
 use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
@@ -33,7 +35,7 @@ impl Motion {
         match self {
             Self::Turntable { .. } if self.is_animation(path) => path.to_owned(),
             Self::Still => path.to_owned(),
-            Self::Turntable { .. } => numbered(path, frame + 1),
+            Self::Turntable { frames, .. } => output::numbered(path, frame + 1, frames),
         }
     }
 
@@ -52,7 +54,7 @@ pub(super) struct Wish {
     /// Description with the export's camera, exposure and filter.
     pub description: Arc<Description>,
     /// Folder from which its paths start.
-    pub base_dir: PathBuf,
+    pub base_dir: FilePath,
     pub size_px: [u32; 2],
     pub samples: u32,
     /// Shadows and bounces, as the window has them.
@@ -165,12 +167,6 @@ impl Wish {
             tone_map: self.description.render.tone_map,
         }
     }
-}
-
-fn numbered(path: &Path, number: u32) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let ending = path.extension().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{stem}-{number:04}.{ending}"))
 }
 
 /// Progress of an export.
@@ -294,7 +290,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
     };
     let begin = || {
         Animation::begin(
-            &wish.path,
+            wish.base_dir.at(&wish.path),
             wish.size_px,
             wish.frames(),
             FPS,
@@ -310,7 +306,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         let output = match animation {
             Some(_) => None,
             None => {
-                let output = Output::check(&wish.frame_path(frame));
+                let output = Output::check(wish.base_dir.at(wish.frame_path(frame)));
                 Some(output.map_err(|error| error.to_string())?.finished(&finish))
             }
         };
@@ -353,12 +349,10 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         if wish.is_transparent {
             let batches = wish.batches(&scene.camera);
             let all = batches.map_or(wish.samples, |it| it.samples());
-            let mut alpha = hairline_cpu::alpha(&scene, &seen.triangles, all, all);
-            if wish.transport.shadows {
-                let shadows = hairline_cpu::caught_shadows(&scene, all, &|| stop.is_asked());
-                let pixels = alpha.iter_mut().zip(shadows.unwrap_or_default());
-                pixels.for_each(|(alpha, shadow)| *alpha += shadow);
-            }
+            let (triangles, shadows) = (&seen.triangles, wish.transport.shadows);
+            let is_stopped = || stop.is_asked();
+            let alpha =
+                hairline_cpu::picture_alpha(&scene, triangles, [all; 2], shadows, &is_stopped);
             image.alpha = Some(alpha);
         }
         let written = match (&mut animation, &output) {
@@ -542,16 +536,4 @@ pub(super) fn fitting(scene_px: [u32; 2], within_px: [u32; 2]) -> [u32; 2] {
     let [width, height] = scene_px.map(|side| f64::from(side.max(1)));
     let scale = (f64::from(within_px[0]) / width).min(f64::from(within_px[1]) / height);
     [width, height].map(|side| ((side * scale).round() as u32).max(1))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pictures_of_a_turntable_are_numbered_before_the_ending() {
-        let path = Path::new("/a.b/pan.old.png");
-        assert_eq!(numbered(path, 7), Path::new("/a.b/pan.old-0007.png"));
-        assert_eq!(numbered(path, 12345), Path::new("/a.b/pan.old-12345.png"));
-    }
 }

@@ -1,11 +1,10 @@
 //! The small picture of a look, by the CPU, without shadows.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use egui::ColorImage;
 use hairline_document::Description;
-use hairline_image::{Display, png};
+use hairline_image::{Display, FilePath, png};
 use hairline_scene::Transport;
 use web_time::Instant;
 
@@ -35,7 +34,7 @@ pub(super) fn size_px(scene: &Description) -> [u32; 2] {
 /// Makes a picture of each scene, until `stop` is set. A scene that cannot be built has none.
 pub(super) fn make(
     scenes: Vec<Arc<Description>>,
-    base_dir: &Path,
+    base_dir: &FilePath,
     stop: &Stop,
     take: &dyn Fn(SmallPicture),
 ) {

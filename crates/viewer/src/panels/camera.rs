@@ -56,7 +56,7 @@ fn show_file_cameras(ui: &mut Ui, work: &mut Workspace) {
     let description = work.document.description();
     let files: Vec<_> = description.mesh_files().map(Path::to_owned).collect();
     // Files are not read for each frame of the window.
-    let key = Id::unique(("cameras of files", work.document.base_dir(), files));
+    let key = Id::unique(("cameras of files", &**work.document.base_dir(), files));
     let known = ui.data(|data| data.get_temp::<Arc<[String]>>(key));
     let names = known.unwrap_or_else(|| {
         let names: Arc<[String]> = description.file_cameras(work.document.base_dir()).into();

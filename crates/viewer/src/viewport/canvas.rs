@@ -230,7 +230,7 @@ mod tests {
         let description = bare_plate().description();
         let camera = super::super::camera(&description.camera);
         let mut engine = Engine::start_in_turn(Arc::new(|| {}));
-        engine.set_scene(1, Arc::new(description), Default::default());
+        engine.set_scene(1, Arc::new(description), "");
         engine.set_view(View {
             camera,
             size_px: [40, 30],

@@ -2,7 +2,7 @@
 
 use hairline_model::gltf_file::GltfFile;
 use hairline_model::text::shown;
-use hairline_optics::metal::Metal;
+use hairline_optics::metal::MetalIndex;
 use serde_json::{Value, json};
 
 use crate::description::{Material, MaterialKind, MetalColor};
@@ -11,7 +11,9 @@ use crate::description::{Material, MaterialKind, MetalColor};
 pub(super) fn write(material: &Material, file: &mut GltfFile, notes: &mut Vec<String>) -> usize {
     let (color, metallic) = match &material.kind {
         MaterialKind::Metal(MetalColor::Measured(metal)) => (metal.reflectance_rgb(1.0), 1.0),
-        MaterialKind::Metal(MetalColor::Own(rows)) => (Metal::own(rows).reflectance_rgb(1.0), 1.0),
+        MaterialKind::Metal(MetalColor::Own(rows)) => {
+            (MetalIndex::own(rows).reflectance_rgb(1.0), 1.0)
+        }
         MaterialKind::Metal(MetalColor::Color(color)) => (*color, 1.0),
         MaterialKind::Dielectric { base_color, .. } => (*base_color, 0.0),
         MaterialKind::MetallicRoughness {

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use glam::{DMat3, DMat4};
+use hairline_image::FilePath;
 use hairline_model::gltf_file::GltfFile;
 use hairline_model::mesh_file;
 use hairline_model::surface::Surface as Triangles;
@@ -24,7 +25,7 @@ const GENERATOR: &str = concat!("Hairline ", env!("CARGO_PKG_VERSION"));
 pub(super) struct Objects<'a> {
     loader: &'a Loader<'a>,
     described: &'a Description,
-    base_dir: &'a Path,
+    base_dir: &'a FilePath,
     gltf_from_world: DMat4,
     pub file: GltfFile,
     /// Nodes of the objects that are not hidden.
@@ -44,7 +45,7 @@ impl<'a> Objects<'a> {
     pub(super) fn new(
         loader: &'a Loader<'a>,
         described: &'a Description,
-        base_dir: &'a Path,
+        base_dir: &'a FilePath,
         gltf_from_world: DMat4,
     ) -> Result<Self, Error> {
         let models = models(described, loader);
