@@ -46,7 +46,7 @@ pub enum Command {
     /// `pattern = "file"` of scenes.
     Scratches(Scratches),
     /// Write a scene as one glTF file (.glb) that other programs open, with its scratches by the extension HAIRLINE_scratches. Hairline opens it as
-    /// the same scene.
+    /// the same scene. Or write its model as one file that phones show (.usdz).
     Export(Export),
     /// Print a shell's completions of this command line.
     Completions(Completions),
@@ -95,7 +95,7 @@ pub struct Scratches {
 pub struct Export {
     /// The scene file (TOML), or a model (.glb, .gltf, .obj, .stl), which gets the wear and the lamps that `render` shows it with; - reads a scene from stdin.
     pub scene: PathBuf,
-    /// The file: .glb.
+    /// The file: .glb; or .usdz, for phones: what the scene is about, with its materials, without lights and scratches.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// Whether the scratches are in it as they lie too, 44 bytes for each straight piece, for programs that lay none by themselves. Hairline and its

@@ -8,4 +8,4 @@ mod writing;
 
 pub use extension::VERSION;
 pub use reading::is_in;
-pub use writing::{Export, Exported};
+pub use writing::Exported;

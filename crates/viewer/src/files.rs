@@ -10,6 +10,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
 use hairline_document::description::FileUse;
+use hairline_document::export::Format;
 use hairline_document::probe::{self, MeshSummary};
 use hairline_editor::Document;
 use hairline_editor::actions::pictures::PictureOf;
@@ -70,7 +71,7 @@ impl Purpose {
             Self::Environment => ("Environment maps", &["hdr", "exr"]),
             Self::Screenshot => ("Pictures", &["png", "exr"]),
             Self::Turntable => ("Pictures and animations", &["png", "exr", "apng", "mp4"]),
-            Self::ExportModel => ("glTF models", &["glb"]),
+            Self::ExportModel => ("Models", &Format::ENDINGS),
             Self::Find(FileUse::Map) => Self::Environment.filter(),
             Self::Find(FileUse::Mesh(_)) => Self::AddModel.filter(),
             Self::ScratchList | Self::Find(FileUse::ScratchList(_)) => {

@@ -26,4 +26,6 @@ mod scratch_studio;
 mod scratches;
 mod strokes;
 mod studio;
+mod subject;
+mod usdz;
 mod wild_meshes;

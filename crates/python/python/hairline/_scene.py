@@ -243,7 +243,8 @@ class Scene:
 
     def export(self, path: Path, *, laid: bool = False) -> list[str]:
         """Writes one glTF file (.glb) that other programs open, with its scratches by the extension HAIRLINE_scratches.
-        :func:`hairline.load` opens it as the same scene. Arrays in memory are in it too; a mesh in memory is rounded to single precision.
+        :func:`hairline.load` opens it as the same scene. A name that ends in .usdz gets what the scene is about, with its materials, for
+        phones: without lights and scratches. Arrays in memory are in it too; a mesh in memory is rounded to single precision.
 
         :param laid: whether the scratches are in it as they lie too, for programs that lay none: 44 bytes for each straight piece.
         :return: notes on what other programs do not show.
