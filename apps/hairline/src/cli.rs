@@ -7,6 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairline_console::{Backend, EXIT_CODES, Switch, View};
 use hairline_document::DEFAULT_SAMPLES;
+use hairline_document::export::BAKE_PX;
 use hairline_document::schema::camera::EXPOSURE_EV;
 use hairline_document::schema::object::TIME_S;
 use hairline_editor::navigate;
@@ -102,6 +103,10 @@ pub struct Export {
     /// packages for three.js and Bevy lay them.
     #[arg(long, value_enum, default_value_t = Switch::Off)]
     pub laid: Switch,
+    /// Write the model alone, with its scratches drawn into normal maps and roughness maps of so many texels a side, for programs that know no
+    /// scratches. Its texture coordinates must not overlap.
+    #[arg(long, value_name = "SIZE_PX", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(i64::from(*BAKE_PX.start())..=i64::from(*BAKE_PX.end())))]
+    pub bake: Option<u32>,
     /// The time of the models' animations, seconds, at which the scratches lie, in place of the scene's.
     #[arg(long, value_name = "SECONDS", value_parser = parse_time)]
     pub time: Option<f64>,

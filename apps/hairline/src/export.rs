@@ -75,5 +75,6 @@ fn contents(arguments: &cli::Export) -> Result<Export, Failure> {
     Ok(Export {
         format,
         laid: arguments.laid == Switch::On,
+        bake_px: arguments.bake,
     })
 }

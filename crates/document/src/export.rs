@@ -1,5 +1,6 @@
 //! A scene as one file for other programs.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use crate::description::Description;
@@ -42,7 +43,12 @@ pub struct Export {
     /// Whether a glTF file has scratches as they lie too, for programs that lay none: 44 bytes a straight piece; and the tables of all gratings, 0.2 to
     /// 2 MiB each. Those of fine gratings, 4 MiB each, always are: no other program solves Maxwell's equations.
     pub laid: bool,
+    /// Texels of a side of the maps into which scratches are drawn, in [`BAKE_PX`]: the file then has the model alone, for programs that know no scratches.
+    pub bake_px: Option<u32>,
 }
+
+/// Least and greatest [`Export::bake_px`].
+pub const BAKE_PX: RangeInclusive<u32> = 16..=4096;
 
 impl Loader<'_> {
     /// Makes one file of a scene and all that it names. Files are looked for in `base_dir`.
@@ -55,14 +61,21 @@ impl Loader<'_> {
         base_dir: &Path,
         export: Export,
     ) -> Result<Exported, Error> {
-        if export.laid && export.format == Format::Usdz {
+        if export.format == Format::Glb && export.bake_px.is_none() {
+            return self.export_scene(description, base_dir, export.laid);
+        }
+        if export.laid {
             let found = "found scratches as they lie";
             let right = "must be off in a file for programs that know no scratches";
             return Err(Error::new("laid", found, right));
         }
+        let mut model = PlainModel::new(self, description, base_dir)?;
+        if let Some(size_px) = export.bake_px {
+            model.bake(self, size_px)?;
+        }
         match export.format {
-            Format::Glb => self.export_scene(description, base_dir, export.laid),
-            Format::Usdz => PlainModel::new(self, description, base_dir)?.to_usdz(),
+            Format::Glb => model.to_glb(),
+            Format::Usdz => model.to_usdz(),
         }
     }
 }

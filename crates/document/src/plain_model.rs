@@ -1,5 +1,7 @@
 //! What a scene is about, for programs that know no scratches: triangles and their materials.
 
+mod bake;
+mod glb;
 mod parts;
 mod pictures;
 mod usd;
@@ -24,6 +26,8 @@ pub(crate) struct PlainModel {
     objects: Vec<usize>,
     /// From the world to a frame whose y is up.
     file_from_world: DMat3,
+    /// Whether its materials have the scratches in their maps.
+    is_baked: bool,
 }
 
 impl PlainModel {
@@ -45,7 +49,15 @@ impl PlainModel {
             objects: subject::objects(&described, &boxes_m),
             file_from_world: quarter_turn(described.camera.world_up(), DVec3::Y),
             scene,
+            is_baked: false,
         })
+    }
+
+    /// The binary glTF file.
+    pub(crate) fn to_glb(&self) -> Result<Exported, Error> {
+        let mut notes = self.notes();
+        let bytes = glb::file(self, &mut notes)?;
+        Ok(Exported { bytes, notes })
     }
 
     /// The package for phones.
@@ -76,7 +88,7 @@ impl PlainModel {
         let mut notes = Vec::new();
         let mut note = |what: &str| notes.push(format!("{what} are not in the file"));
         note("lights and the camera");
-        if self.objects().any(|it| !it.scratches.is_empty()) {
+        if !self.is_baked && self.objects().any(|it| !it.scratches.is_empty()) {
             note("scratches");
         }
         if self.objects().any(|it| !it.gratings.is_empty()) {

@@ -95,6 +95,7 @@ pub(crate) fn export(
     folder: PathBuf,
     path: PathBuf,
     laid: bool,
+    bake_px: Option<u32>,
 ) -> PyResult<Vec<String>> {
     let py = table.py();
     let mut stock = Stock::default();
@@ -115,7 +116,12 @@ pub(crate) fn export(
             arrays,
             ..Loader::default()
         };
-        loader.export(&description, &folder, Export { format, laid })
+        let export = Export {
+            format,
+            laid,
+            bake_px,
+        };
+        loader.export(&description, &folder, export)
     });
     let exported = exported.map_err(|error| errors::of_scene(py, &error))?;
     let written = write_atomically(&path, &exported.bytes);

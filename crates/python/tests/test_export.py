@@ -49,6 +49,17 @@ def test_a_wrong_extension_is_told_and_the_model_is_plain(tmp_path, scene):
     assert any("HAIRLINE_scratches.version: found version 7" in note for note in plain.notes)
 
 
+def test_a_baked_model_is_plain(tmp_path, scene):
+    path = tmp_path / "baked.glb"
+    scene.export(path, bake=64)
+    plain = hairline.load(path)
+    assert len(plain.scratches) == 0 and b"HAIRLINE" not in path.read_bytes()
+    with pytest.raises(hairline.SceneError, match="bake: found 8; must be a whole number from 16 to 4096"):
+        scene.export(path, bake=8)
+    with pytest.raises(hairline.SceneError, match="laid: found scratches as they lie; must be off"):
+        scene.export(path, bake=64, laid=True)
+
+
 def errors_of_usd(path):
     """What the validators of Pixar's library find wrong in a package."""
     pytest.importorskip("pxr", reason="packages of USD are read by usd-core")
@@ -61,11 +72,11 @@ def errors_of_usd(path):
     return stage, [error.GetErrorAsString() for error in context.Validate(stage)]
 
 
-@pytest.mark.parametrize("name", ["plate.toml", "models/spoon.glb"])
-def test_models_for_phones_are_valid(tmp_path, repository, name):
+@pytest.mark.parametrize("name, bake", [("plate.toml", None), ("plate.toml", 64), ("models/spoon.glb", None)])
+def test_models_for_phones_are_valid(tmp_path, repository, name, bake):
     path = tmp_path / "model.usdz"
-    notes = hairline.load(repository / "scenes" / name).export(path)
-    assert "scratches are not in the file" in notes
+    notes = hairline.load(repository / "scenes" / name).export(path, bake=bake)
+    assert ("scratches are not in the file" in notes) == (bake is None)
     stage, errors = errors_of_usd(path)
     assert errors == []
     from pxr import UsdGeom, UsdShade

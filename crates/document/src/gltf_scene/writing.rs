@@ -3,9 +3,9 @@
 mod grooves;
 mod laid;
 mod lamps;
-mod looks;
+pub(crate) mod looks;
 mod nodes;
-mod objects;
+pub(crate) mod objects;
 
 use std::cell::LazyCell;
 use std::collections::HashMap;

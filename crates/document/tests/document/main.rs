@@ -5,6 +5,7 @@
 mod common;
 
 mod bad_input;
+mod baked;
 mod builder;
 mod description;
 mod draco;
