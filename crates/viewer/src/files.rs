@@ -51,7 +51,7 @@ impl Purpose {
             Self::Environment => "Set the environment",
             Self::Screenshot => "Save a picture",
             Self::Turntable => "Export a turntable: name of the first frame",
-            Self::ExportModel => "Export the model with its scratches",
+            Self::ExportModel => "Export the model: .glb with its scratches, .usdz for phones",
             Self::Drawing => "Engrave a drawing",
             Self::ScratchList => "Save the list of scratches",
             Self::Find(_) => "Find the file",

@@ -8,7 +8,7 @@ use hairline_scene::Scene;
 
 use crate::common::{object, scene_with, temporary_dir};
 
-const PLANE_M: f64 = 0.02;
+const PLANE_M: f64 = 0.01;
 const ROUGHNESS: f64 = 0.1;
 
 /// A model of a square plate with its scratches in maps of so many texels a side, opened again.
@@ -67,7 +67,7 @@ fn maps_hold_the_mean_square_slope_of_the_scratches() {
     ] {
         let depth_nm = f64::min(100.0 * width_um, 2000.0);
         let text = plate(&format!(
-            "pattern = \"random\"\ncount = 300\nlength_m = 0.006\nprofile = \"{profile}\"\nwidth_um = {width_um:?}\ndepth_nm = {depth_nm:?}"
+            "pattern = \"random\"\ncount = 100\nlength_m = 0.003\nprofile = \"{profile}\"\nwidth_um = {width_um:?}\ndepth_nm = {depth_nm:?}"
         ));
         let laid = from_toml(&text, "s.toml", dir.path()).unwrap();
         let object = &laid.objects[0];
@@ -78,7 +78,7 @@ fn maps_hold_the_mean_square_slope_of_the_scratches() {
         let share = 1e-6 * covered.sum::<f64>() / PLANE_M.powi(2);
         let slope = 2e-3 * depth_nm / width_um;
         let expected = factor * slope * slope * share;
-        let size_px = if finer { 256 } else { 1024 };
+        let size_px = if finer { 128 } else { 512 };
         let [drawn, widened] = mean_squares(&baked(&text, dir.path(), size_px).unwrap());
         let error = (drawn + widened) / expected - 1.0;
         assert!(
@@ -93,30 +93,21 @@ fn maps_hold_the_mean_square_slope_of_the_scratches() {
 #[test]
 fn walls_of_a_wide_scratch_lean_to_its_middle() {
     let dir = temporary_dir();
-    let list = "x0_m,y0_m,z0_m,x1_m,y1_m,z1_m\n-0.008,0.001,0,0.008,0.001,0\n";
-    std::fs::write(dir.path().join("one.csv"), list).unwrap();
     let text = plate(
-        "pattern = \"file\"\nfile = \"one.csv\"\nprofile = \"v\"\nwidth_um = 90.0\ndepth_nm = 2000.0",
+        "pattern = \"curve\"\npoints_m = [[-0.004, 0.001, 0], [0.004, 0.001, 0]]\nprofile = \"v\"\nwidth_um = 90.0\ndepth_nm = 2000.0",
     );
-    let scene = baked(&text, dir.path(), 1024).unwrap();
+    let scene = baked(&text, dir.path(), 512).unwrap();
     let material = &scene.materials[scene.objects[0].mesh.triangle_materials[0] as usize];
     let (normals, _) = material.normal_texture.unwrap();
-    let rows = scene.textures[normals].levels[0].chunks(1024);
-    let greens: Vec<i32> = rows.map(|row| i32::from(row[512][1]) - 128).collect();
-    // The upper row is the one of greater y: y = 1 mm is 9 mm below the upper edge.
-    let middle = (1024.0 * 9.0 / 20.0) as usize;
-    let (above, below) = (&greens[middle - 4..middle], &greens[middle + 1..middle + 5]);
-    // A slope of 2 d / W = 0.044 is 5.6 codes.
-    assert!(above.iter().min() == Some(&-6), "{above:?}");
-    assert!(below.iter().max() == Some(&6), "{below:?}");
-    assert!(
-        greens[..middle - 4]
-            .iter()
-            .chain(&greens[middle + 5..])
-            .all(|it| *it == 0)
-    );
-    let reds = scene.textures[normals].levels[0].iter().map(|it| it[0]);
-    assert!(reds.clone().all(|it| it == 128));
+    let rows = scene.textures[normals].levels[0].chunks(512);
+    let greens: Vec<i32> = rows.map(|row| i32::from(row[256][1]) - 128).collect();
+    // Its middle is 4 of 10 mm below the upper edge. A slope of 2 d / W = 0.044 is 5.6 codes.
+    assert!([-5, -6].contains(&greens[203]), "{:?}", &greens[200..210]);
+    assert!([5, 6].contains(&greens[206]), "{:?}", &greens[200..210]);
+    let far = greens[..202].iter().chain(&greens[208..]);
+    assert!(far.copied().all(|it| it == 0));
+    let mut reds = scene.textures[normals].levels[0].iter().map(|it| it[0]);
+    assert!(reds.all(|it| it == 128));
 }
 
 #[test]
@@ -126,15 +117,9 @@ fn scratches_in_a_coat_are_in_its_maps() {
         .replace("roughness =", "clearcoat = 0.7\nroughness =");
     let scene = baked(&text, dir.path(), 64).unwrap();
     let material = &scene.materials[scene.objects[0].mesh.triangle_materials[0] as usize];
-    assert_eq!(
-        (material.normal_texture, material.roughness),
-        (None, ROUGHNESS)
-    );
-    assert!(
-        material
-            .coat
-            .is_some_and(|coat| coat.weight == 0.7 && coat.roughness > 0.0)
-    );
+    assert!(material.normal_texture.is_none() && (material.roughness - ROUGHNESS).abs() < 1e-6);
+    let coat = material.coat.unwrap();
+    assert!((coat.weight - 0.7).abs() < 1e-6 && coat.roughness > 0.0);
     assert!(material.coat_normal_texture.is_some() && material.coat_textures[1].is_some());
 }
 

@@ -137,16 +137,21 @@ fn baked(own: &Own, sum: &TexelSum) -> Baked {
     let scratches = DVec2::from(sum.lean.map(f64::from));
     let variance = f64::from(sum.square) - scratches.length_squared();
     let lean = own.lean + scratches;
-    let normal = lean.extend(1.0).normalize();
-    let codes = (ZERO + ONE * normal).round();
-    let rounded = (codes.truncate() - ZERO) / (codes.z - ZERO).max(1.0);
-    let lost = match sum.square > 0.0 {
-        true => lean.length_squared() - rounded.length_squared(),
-        false => 0.0,
+    let alpha2 = own.roughness.powi(4) + own.variance + variance;
+    let exact = ONE * lean.extend(1.0).normalize();
+    let with_lost = |codes: DVec3| {
+        let drawn = codes.truncate() / codes.z.max(1.0);
+        let lost = lean.length_squared() - drawn.length_squared();
+        let is_scratched = sum.square > 0.0;
+        (codes, if is_scratched { alpha2 + lost } else { alpha2 })
     };
-    let alpha2 = own.roughness.powi(4) + own.variance + variance + lost;
+    // A slope that was rounded up takes more than there is off a smooth surface.
+    let (codes, alpha2) = match with_lost(exact.round()) {
+        (_, less) if less < 0.0 => with_lost(exact.truncate().trunc().extend(exact.z.round())),
+        rounded => rounded,
+    };
     Baked {
-        normal: codes.to_array().map(|code| code as u8),
+        normal: (ZERO + codes).to_array().map(|code| code as u8),
         roughness: alpha2.clamp(0.0, 1.0).sqrt().sqrt(),
         metallic: (own.metallic * f64::from(FULL)).round() as u8,
     }
