@@ -38,7 +38,7 @@ const TOOLS: [&str; 11] = [
     "SurfaceTopography>=1.18; python_version >= '3.10'",
 ];
 /// Packages that single tests need, which are skipped where there are none for the interpreter.
-const OF_SINGLE_TESTS: [&str; 2] = ["mitsuba", "pyyaml"];
+const OF_SINGLE_TESTS: [&str; 3] = ["mitsuba", "pyyaml", "usd-core"];
 
 /// Imported modules are compiled at that time.
 const QUIETLY: [&str; 6] = [

@@ -7,6 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairline_console::{Backend, EXIT_CODES, Switch, View};
 use hairline_document::DEFAULT_SAMPLES;
+use hairline_document::export::BAKE_PX;
 use hairline_document::schema::camera::EXPOSURE_EV;
 use hairline_document::schema::object::TIME_S;
 use hairline_editor::navigate;
@@ -46,7 +47,7 @@ pub enum Command {
     /// `pattern = "file"` of scenes.
     Scratches(Scratches),
     /// Write a scene as one glTF file (.glb) that other programs open, with its scratches by the extension HAIRLINE_scratches. Hairline opens it as
-    /// the same scene.
+    /// the same scene. Or write its model as one file that phones show (.usdz).
     Export(Export),
     /// Print a shell's completions of this command line.
     Completions(Completions),
@@ -95,13 +96,17 @@ pub struct Scratches {
 pub struct Export {
     /// The scene file (TOML), or a model (.glb, .gltf, .obj, .stl), which gets the wear and the lamps that `render` shows it with; - reads a scene from stdin.
     pub scene: PathBuf,
-    /// The file: .glb.
+    /// The file: .glb; or .usdz, for phones: what the scene is about, with its materials, without lights and scratches.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// Whether the scratches are in it as they lie too, 44 bytes for each straight piece, for programs that lay none by themselves. Hairline and its
     /// packages for three.js and Bevy lay them.
     #[arg(long, value_enum, default_value_t = Switch::Off)]
     pub laid: Switch,
+    /// Write the model alone, with its scratches drawn into normal maps and roughness maps of so many texels a side, for programs that know no
+    /// scratches. Its texture coordinates must not overlap.
+    #[arg(long, value_name = "SIZE_PX", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(i64::from(*BAKE_PX.start())..=i64::from(*BAKE_PX.end())))]
+    pub bake: Option<u32>,
     /// The time of the models' animations, seconds, at which the scratches lie, in place of the scene's.
     #[arg(long, value_name = "SECONDS", value_parser = parse_time)]
     pub time: Option<f64>,

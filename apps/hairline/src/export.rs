@@ -1,9 +1,9 @@
-//! `hairline export`: a scene as one glTF file.
+//! `hairline export`: a scene as one file for other programs.
 
 use anyhow::anyhow;
 use hairline_console::{Switch, tell};
 use hairline_document::Loader;
-use hairline_document::gltf_scene::Export;
+use hairline_document::export::{Export, Format};
 use hairline_image::output::{check_writable, write_atomically};
 use hairline_memory::in_words;
 use hairline_work::failure::Failure;
@@ -20,13 +20,7 @@ const LARGE: f64 = 1e6;
 /// Writes the file.
 pub fn run(arguments: &cli::Export) -> Result<(), Failure> {
     let output = arguments.output.as_path();
-    let ending = output.extension().unwrap_or_default();
-    if !ending.eq_ignore_ascii_case("glb") {
-        return Err(Failure::Input(anyhow!(
-            "--output: found \"{}\"; must end in .glb",
-            output.display()
-        )));
-    }
+    let export = contents(arguments)?;
     check_writable(output)?;
     let interrupt = Interrupt::listen().map_err(cannot_listen)?;
     let overrides = Overrides {
@@ -44,9 +38,6 @@ pub fn run(arguments: &cli::Export) -> Result<(), Failure> {
     };
     let loaded = scene_file::load(Some(&arguments.scene), &overrides, &[output]);
     let loaded = loaded.map_err(stopped)?;
-    let export = Export {
-        laid: arguments.laid == Switch::On,
-    };
     let loader = Loader {
         cancelled: &|| interrupt.is_asked(),
         ..Loader::default()
@@ -69,4 +60,21 @@ pub fn run(arguments: &cli::Export) -> Result<(), Failure> {
         ));
     }
     Ok(())
+}
+
+/// Contents of the file, by its ending and the flags.
+fn contents(arguments: &cli::Export) -> Result<Export, Failure> {
+    let output = &arguments.output;
+    let format = Format::of(output).ok_or_else(|| {
+        Failure::Input(anyhow!(
+            "--output: found \"{}\"; {}",
+            output.display(),
+            Format::RIGHT
+        ))
+    })?;
+    Ok(Export {
+        format,
+        laid: arguments.laid == Switch::On,
+        bake_px: arguments.bake,
+    })
 }

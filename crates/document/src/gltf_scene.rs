@@ -4,8 +4,8 @@ mod extension;
 pub(crate) mod packed_files;
 pub(crate) mod reading;
 mod scratch_lists;
-mod writing;
+pub(crate) mod writing;
 
 pub use extension::VERSION;
 pub use reading::is_in;
-pub use writing::{Export, Exported};
+pub use writing::Exported;

@@ -46,7 +46,6 @@ pub mod selection;
 pub mod settings;
 pub mod shown;
 pub mod strength;
-pub mod subject;
 pub mod wear;
 
 pub use actions::ActionError;

@@ -198,5 +198,21 @@ pub enum Base {
     },
 }
 
+impl Base {
+    /// Base colour and metallic of glTF that come closest to it.
+    pub fn color_and_metallic(&self) -> ([f64; 3], f64) {
+        match self {
+            Self::Mirror => ([1.0; 3], 1.0),
+            Self::Metal(metal) | Self::Covered { metal, .. } => (metal.reflectance_rgb(1.0), 1.0),
+            Self::ColoredMetal { base_color } => (*base_color, 1.0),
+            Self::Dielectric { base_color, .. } => (*base_color, 0.0),
+            Self::MetallicRoughness {
+                base_color,
+                metallic,
+            } => (*base_color, *metallic),
+        }
+    }
+}
+
 /// Coherence of a surface whose file does not tell it: that of glTF, which has no such key.
 pub const DEFAULT_COHERENCE_UM: f64 = 20.0;

@@ -55,6 +55,28 @@ impl Section {
         }
     }
 
+    /// Slopes over half of the section, in parts as wide, from the middle to the rim: of the depth over the deepest by the distance in half widths. `count`
+    /// divides 60. An upright wall has none: at the rim its height leans over the half width, as that of a V.
+    pub fn slopes(&self, count: usize) -> Vec<PartSlope> {
+        let rim = self.depth_share(1.0_f64.next_down());
+        let depth = |step: usize| {
+            let x = step as f64 / SLOPE_STEPS as f64;
+            let wall = if step == SLOPE_STEPS { 0.0 } else { rim * x };
+            self.depth_share(x) - wall
+        };
+        let steps = SLOPE_STEPS / count;
+        let part = |i: usize| {
+            let slopes = (i * steps..(i + 1) * steps)
+                .map(|step| (depth(step + 1) - depth(step)) * SLOPE_STEPS as f64);
+            let mean = |of: fn(f64) -> f64| slopes.clone().map(of).sum::<f64>() / steps as f64;
+            PartSlope {
+                mean: mean(|slope| slope),
+                mean_square: mean(|slope| slope * slope),
+            }
+        };
+        (0..count).map(part).collect()
+    }
+
     /// The parts that a wide groove counts as, side by side.
     ///
     /// The light of a floor comes from its two edges, (46) of docs/model.md, and that of slopes from all of them. Floors wider than the widest class
@@ -97,6 +119,18 @@ impl Section {
             .collect()
     }
 }
+
+/// Slopes of a part of a section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PartSlope {
+    /// Their mean.
+    pub mean: f64,
+    /// The mean of their squares.
+    pub mean_square: f64,
+}
+
+/// Straight lines that half a section counts as for its slopes. The feet of shoulders lie between two.
+const SLOPE_STEPS: usize = 60;
 
 /// A section under a coherence window.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -189,6 +223,29 @@ pub fn width_class(windows: f64) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn slopes_are_those_of_the_section() {
+        let all = |section: Section| section.slopes(1)[0];
+        // An upright wall leans as a V does.
+        let listed = |depths: &[f64]| Section::Listed(depths.into());
+        for section in [Section::V, Section::Rectangle, listed(&[1.0, 0.4])] {
+            let slope = all(section.clone());
+            assert!((slope.mean + 1.0).abs() < 1e-12 && (slope.mean_square - 1.0).abs() < 1e-12);
+            assert!(
+                section
+                    .slopes(12)
+                    .iter()
+                    .all(|it| (it.mean + 1.0).abs() < 1e-12)
+            );
+        }
+        // The integrals of the squares of 2x, and of 2x/0.36 to 0.6 and 5 (1 - 2t) from there on.
+        assert!((all(Section::Round).mean_square - 4.0 / 3.0).abs() < 1e-3);
+        let shoulders = 8.0 / 3.6 + 0.4 * 25.0 / 3.0;
+        assert!((all(Section::Shoulders).mean_square / shoulders - 1.0).abs() < 3e-3);
+        // What lies above the surface at the rim comes down to it.
+        assert!((all(listed(&[1.0, -0.5])).mean + 1.0).abs() < 1e-12);
+    }
 
     #[test]
     fn covers_are_two_thirds_of_the_width_over_what_is_taken() {

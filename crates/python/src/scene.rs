@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use hairline_cpu::unrounded_light;
 use hairline_document::estimate::{Estimate, scratches_bytes, textures_bytes};
-use hairline_document::gltf_scene::Export;
+use hairline_document::export::{Export, Format};
 use hairline_document::inputs::is_same_file;
 use hairline_document::{Description, Error, Loader, SceneBuilder, Stage, reading};
 use hairline_image::Display;
@@ -88,25 +88,22 @@ pub(crate) fn to_toml(table: &Bound<'_, PyDict>) -> PyResult<String> {
     text.map_err(|error| errors::of_work(py, &error.to_string()))
 }
 
-/// Writes a scene as one glTF file, and returns notes on what other programs do not show.
+/// Writes a scene as one file for other programs, and returns notes on what other programs do not show.
 #[pyfunction]
 pub(crate) fn export(
     table: &Bound<'_, PyDict>,
     folder: PathBuf,
     path: PathBuf,
     laid: bool,
+    bake_px: Option<u32>,
 ) -> PyResult<Vec<String>> {
     let py = table.py();
     let mut stock = Stock::default();
     let description = described(py, stock.table(table)?)?;
-    if !path
-        .extension()
-        .unwrap_or_default()
-        .eq_ignore_ascii_case("glb")
-    {
+    let format = Format::of(&path).ok_or_else(|| {
         let found = format!("found {:?}", path.display().to_string());
-        return Err(errors::of_argument("path", found, "must end in .glb"));
-    }
+        errors::of_argument("path", found, Format::RIGHT)
+    })?;
     let inputs = description.inputs(&folder);
     if let Some(input) = inputs.iter().find(|it| is_same_file(&it.path, &path)) {
         let found = format!("found {}", input.what);
@@ -119,7 +116,12 @@ pub(crate) fn export(
             arrays,
             ..Loader::default()
         };
-        loader.export(&description, &folder, Export { laid })
+        let export = Export {
+            format,
+            laid,
+            bake_px,
+        };
+        loader.export(&description, &folder, export)
     });
     let exported = exported.map_err(|error| errors::of_scene(py, &error))?;
     let written = write_atomically(&path, &exported.bytes);

@@ -10,6 +10,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
 use hairline_document::description::FileUse;
+use hairline_document::export::Format;
 use hairline_document::probe::{self, MeshSummary};
 use hairline_editor::Document;
 use hairline_editor::actions::pictures::PictureOf;
@@ -51,7 +52,7 @@ impl Purpose {
             Self::Environment => "Set the environment",
             Self::Screenshot => "Save a picture",
             Self::Turntable => "Export a turntable: name of the first frame",
-            Self::ExportModel => "Export the model with its scratches",
+            Self::ExportModel => "Export the model: .glb with its scratches, .usdz for phones",
             Self::Drawing => "Engrave a drawing",
             Self::ScratchList => "Save the list of scratches",
             Self::Find(_) => "Find the file",
@@ -71,7 +72,7 @@ impl Purpose {
             Self::Environment => ("Environment maps", &["hdr", "exr"]),
             Self::Screenshot => ("Pictures", &["png", "exr"]),
             Self::Turntable => ("Pictures and animations", &["png", "exr", "apng", "mp4"]),
-            Self::ExportModel => ("glTF models", &["glb"]),
+            Self::ExportModel => ("Models", &Format::ENDINGS),
             Self::Find(FileUse::Map) => Self::Environment.filter(),
             Self::Find(FileUse::Mesh(_)) => Self::AddModel.filter(),
             Self::ScratchList | Self::Find(FileUse::ScratchList(_)) => {

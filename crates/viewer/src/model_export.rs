@@ -1,10 +1,10 @@
-//! Export of the scene as one glTF file, in the background.
+//! Export of the scene as one file for other programs, in the background.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 
-use hairline_document::gltf_scene::Export;
+use hairline_document::export::{Export, Format};
 use hairline_document::{Description, Loader};
 use hairline_image::FilePath;
 use hairline_image::output::write_atomically;
@@ -85,7 +85,11 @@ impl ModelExport {
 }
 
 fn write(description: &Description, base_dir: &FilePath, path: &FilePath) -> Outcome {
-    let exported = Loader::default().export(description, base_dir, Export::default());
+    let export = Export {
+        format: Format::of(path).unwrap_or_default(),
+        ..Export::default()
+    };
+    let exported = Loader::default().export(description, base_dir, export);
     let exported = exported.map_err(|error| error.to_string())?;
     write_atomically(path, &exported.bytes).map_err(|error| error.to_string())?;
     Ok(exported.notes)

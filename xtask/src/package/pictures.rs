@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context, ensure};
 use glam::DMat4;
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
-use hairline_document::gltf_scene::Export;
+use hairline_document::export::Export;
 use hairline_document::{Description, Loader, write_scratches};
 use hairline_image::{Image, Layer};
 use hairline_optics::section::Section;
@@ -159,7 +159,11 @@ fn write_pages(root: &Path, output: &Path) -> anyhow::Result<Vec<(&'static str, 
         let text = std::fs::read_to_string(&file)?;
         let described = Description::from_toml(&text, &file)?;
         for (file, laid) in [("worn.glb", true), ("seeds.glb", false)] {
-            let exported = Loader::default().export(&described, &tests, Export { laid })?;
+            let export = Export {
+                laid,
+                ..Export::default()
+            };
+            let exported = Loader::default().export(&described, &tests, export)?;
             write(&folder.join(file), &exported.bytes)?;
         }
         Ok((name, scene))
@@ -171,7 +175,11 @@ fn write_pages(root: &Path, output: &Path) -> anyhow::Result<Vec<(&'static str, 
 pub(super) fn write_model(scene: &Path, model: &Path) -> anyhow::Result<()> {
     let described = Description::from_toml(&std::fs::read_to_string(scene)?, scene)?;
     let folder = scene.parent().context("a scene without a folder")?;
-    let exported = Loader::default().export(&described, folder, Export { laid: true })?;
+    let export = Export {
+        laid: true,
+        ..Export::default()
+    };
+    let exported = Loader::default().export(&described, folder, export)?;
     write(model, &exported.bytes)
 }
 

@@ -69,7 +69,11 @@ fn wrong_names_are_refused() {
     for (arguments, message) in [
         (
             "export s.toml -o worn.gltf",
-            "--output: found \"worn.gltf\"; must end in .glb",
+            "--output: found \"worn.gltf\"; must end in .glb or .usdz",
+        ),
+        (
+            "export s.toml -o worn.usdz --laid on",
+            "laid: found scratches as they lie; must be off",
         ),
         ("export worn.glb -o worn.glb", "would be overwritten"),
         ("export s.toml -o nowhere/worn.glb", "nowhere"),

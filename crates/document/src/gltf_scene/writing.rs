@@ -3,9 +3,9 @@
 mod grooves;
 mod laid;
 mod lamps;
-mod looks;
+pub(crate) mod looks;
 mod nodes;
-mod objects;
+pub(crate) mod objects;
 
 use std::cell::LazyCell;
 use std::collections::HashMap;
@@ -30,33 +30,22 @@ use objects::Objects;
 /// The share of the free memory that a file in a scene may take.
 const FILE_SHARE: f64 = 0.25;
 
-/// Contents of a glTF file of a scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Export {
-    /// Whether scratches are in it as they lie too, for programs that lay none: 44 bytes a straight piece; and the tables of all gratings, 0.2 to 2 MiB
-    /// each. Those of fine gratings, 4 MiB each, always are: no other program solves Maxwell's equations.
-    pub laid: bool,
-}
-
-/// A glTF file of a scene.
+/// A file for other programs.
 #[derive(Clone, Debug)]
 pub struct Exported {
-    /// The binary file.
+    /// The file.
     pub bytes: Vec<u8>,
     /// Notes on what other programs do not show, a line each.
     pub notes: Vec<String>,
 }
 
 impl Loader<'_> {
-    /// Makes one binary glTF file of a scene and all that it names. Files are looked for in `base_dir`.
-    ///
-    /// # Errors
-    /// What is wrong with the scene, or what of it a file cannot hold, by its key.
-    pub fn export(
+    /// Makes one binary glTF file of a scene and all that it names, with the scratches as they lie if `is_laid`.
+    pub(crate) fn export_scene(
         &self,
         description: &Description,
         base_dir: impl Into<FilePath>,
-        export: Export,
+        is_laid: bool,
     ) -> Result<Exported, Error> {
         let base_dir = &with_packed(base_dir);
         let described = description.with_its_camera(base_dir)?.into_owned();
@@ -98,7 +87,7 @@ impl Loader<'_> {
         packed.name(&mut tables, &names)?;
         let files = packed.files;
         let layers = tables.get_mut("scratches").and_then(Value::as_array_mut);
-        let layers = layers.filter(|_| export.laid);
+        let layers = layers.filter(|_| is_laid);
         for (i, layer) in layers.into_iter().flatten().enumerate() {
             if let Some(laid) = laid::write(&described, &scene, i, &mut file) {
                 layer[LAID] = laid;
@@ -109,15 +98,7 @@ impl Loader<'_> {
         let spectra = LazyCell::new(|| ScratchTables::new(&scene));
         for (i, grating) in gratings.into_iter().flatten().enumerate() {
             let known = &mut known;
-            let laid = grooves::write(
-                &described,
-                &scene,
-                &spectra,
-                i,
-                export.laid,
-                known,
-                &mut file,
-            );
+            let laid = grooves::write(&described, &scene, &spectra, i, is_laid, known, &mut file);
             if let Some(laid) = laid {
                 grating[LAID] = laid;
             }

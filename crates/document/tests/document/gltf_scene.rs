@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use hairline_document::description::Surface;
-use hairline_document::gltf_scene::{Export, Exported};
+use hairline_document::export::Export;
+use hairline_document::gltf_scene::Exported;
 use hairline_document::{Arrays, Description, Loader, MeshArrays, ScratchArrays, inputs};
 use hairline_image::{FilePath, Memory};
 use hairline_optics::grating::GRATING_DEPTH_NM;
@@ -74,7 +75,10 @@ fn whole() -> (tempfile::TempDir, Description) {
 
 fn exported(description: &Description, dir: &Path) -> Exported {
     let loader = Loader::default();
-    let export = Export { laid: true };
+    let export = Export {
+        laid: true,
+        ..Export::default()
+    };
     loader.export(description, dir, export).unwrap()
 }
 

@@ -5,6 +5,7 @@
 mod common;
 
 mod bad_input;
+mod baked;
 mod builder;
 mod description;
 mod draco;
@@ -26,4 +27,6 @@ mod scratch_studio;
 mod scratches;
 mod strokes;
 mod studio;
+mod subject;
+mod usdz;
 mod wild_meshes;

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::common::{png, scene_with, temporary_dir};
 use glam::{DVec3, Vec3, vec3};
 use hairline_document::description::Description;
-use hairline_document::gltf_scene::Export;
+use hairline_document::export::Export;
 use hairline_document::{Loader, build, probe};
 use hairline_scene::{Base, Scene};
 

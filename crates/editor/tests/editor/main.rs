@@ -9,7 +9,6 @@ mod navigate;
 mod on_disk;
 mod place_light;
 mod quantity;
-mod subject;
 mod undo;
 
 use proptest::prelude::ProptestConfig;

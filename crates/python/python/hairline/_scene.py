@@ -241,14 +241,18 @@ class Scene:
         """Writes the scene file. Files that it names are not copied: write it where they are."""
         write_whole(path, self.to_toml().encode())
 
-    def export(self, path: Path, *, laid: bool = False) -> list[str]:
+    def export(self, path: Path, *, laid: bool = False, bake: Optional[int] = None) -> list[str]:
         """Writes one glTF file (.glb) that other programs open, with its scratches by the extension HAIRLINE_scratches.
-        :func:`hairline.load` opens it as the same scene. Arrays in memory are in it too; a mesh in memory is rounded to single precision.
+        :func:`hairline.load` opens it as the same scene. A name that ends in .usdz gets what the scene is about, with its materials, for
+        phones: without lights and scratches. Arrays in memory are in it too; a mesh in memory is rounded to single precision.
 
         :param laid: whether the scratches are in it as they lie too, for programs that lay none: 44 bytes for each straight piece.
+        :param bake: texels of a side of normal maps and roughness maps into which the scratches are drawn, 16 to 4096. The file then has the model
+            alone, for programs that know no scratches. Its texture coordinates must not overlap.
         :return: notes on what other programs do not show.
         """
-        return core.export(self.to_dict(), self.folder, path, _switch("laid", laid))
+        bake_px = None if bake is None else _whole("bake", bake, 16, 4096)
+        return core.export(self.to_dict(), self.folder, path, _switch("laid", laid), bake_px)
 
     def build(self, *, size: Optional[tuple[int, int]] = None, progress: Progress = False) -> core.Built:
         """Reads the files, builds the meshes and lays the scratches. :meth:`render` does it by itself, and what has not changed

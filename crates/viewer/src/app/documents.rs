@@ -91,7 +91,9 @@ impl Viewer {
     ) {
         let (_, endings) = purpose.filter();
         let path = match chosen.extension() {
-            Some(ending) if ending.eq_ignore_ascii_case(endings[0]) => chosen.to_owned(),
+            Some(ending) if endings.iter().any(|it| ending.eq_ignore_ascii_case(it)) => {
+                chosen.to_owned()
+            }
             // Not with_extension: a name may hold dots of its own.
             _ => PathBuf::from(format!("{}.{}", chosen.display(), endings[0])),
         };

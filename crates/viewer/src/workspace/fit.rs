@@ -113,7 +113,7 @@ impl Workspace {
         if description.objects.is_empty() {
             return Vec::new();
         }
-        hairline_editor::subject::objects(description, &self.boxes_m())
+        hairline_document::subject::objects(description, &self.boxes_m())
     }
 
     /// The box around an object, or around all that the scene is about, in metres: as it was built last.

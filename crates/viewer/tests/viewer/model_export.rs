@@ -64,3 +64,14 @@ fn a_file_that_the_scene_is_made_of_is_not_written_over() {
     harness.get_by_label_contains("the scene is made of it");
     assert!(std::fs::read(&path).unwrap() == before);
 }
+
+#[test]
+fn the_ending_makes_a_model_for_phones() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.usdz");
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    export_to(&mut harness, &path);
+    wait_until(&mut harness, "the file", |_| path.exists());
+    assert!(std::fs::read(&path).unwrap().starts_with(b"PK"));
+}

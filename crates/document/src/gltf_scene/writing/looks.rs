@@ -2,49 +2,62 @@
 
 use hairline_model::gltf_file::GltfFile;
 use hairline_model::text::shown;
-use hairline_optics::metal::MetalIndex;
+use hairline_scene::{AlphaRule, Base, GLTF_DIELECTRIC_F0, Material};
 use serde_json::{Value, json};
 
-use crate::description::{Material, MaterialKind, MetalColor};
-
-/// Adds a material, and returns its number.
-pub(super) fn write(material: &Material, file: &mut GltfFile, notes: &mut Vec<String>) -> usize {
-    let (color, metallic) = match &material.kind {
-        MaterialKind::Metal(MetalColor::Measured(metal)) => (metal.reflectance_rgb(1.0), 1.0),
-        MaterialKind::Metal(MetalColor::Own(rows)) => {
-            (MetalIndex::own(rows).reflectance_rgb(1.0), 1.0)
-        }
-        MaterialKind::Metal(MetalColor::Color(color)) => (*color, 1.0),
-        MaterialKind::Dielectric { base_color, .. } => (*base_color, 0.0),
-        MaterialKind::MetallicRoughness {
-            base_color,
-            metallic,
-            ..
-        } => (*base_color, *metallic),
-        MaterialKind::Mirror => ([1.0; 3], 1.0),
-    };
+/// Adds a material without its textures, and returns its number.
+pub(crate) fn write(material: &Material, file: &mut GltfFile, notes: &mut Vec<String>) -> usize {
+    let (color, metallic) = material.base.color_and_metallic();
     let [r, g, b] = color.map(|c| c.clamp(0.0, 1.0));
-    let is_mirror = material.kind == MaterialKind::Mirror;
+    let alpha = material.cutout.map_or(1.0, |it| it.alpha);
+    let is_mirror = material.base == Base::Mirror;
     let mut written = json!({
         "name": material.name,
         "pbrMetallicRoughness": {
-            "baseColorFactor": [r, g, b, 1.0],
+            "baseColorFactor": [r, g, b, alpha],
             "metallicFactor": metallic,
             "roughnessFactor": if is_mirror { 0.0 } else { material.roughness },
         },
     });
+    match material.cutout.map(|it| it.rule) {
+        Some(AlphaRule::AtLeast(least)) => {
+            written["alphaMode"] = json!("MASK");
+            written["alphaCutoff"] = json!(least);
+        }
+        Some(AlphaRule::Share) => written["alphaMode"] = json!("BLEND"),
+        None => {}
+    }
+    let brightest = material.emission.into_iter().fold(0.0, f64::max);
+    if brightest > 0.0 {
+        written["emissiveFactor"] = json!(material.emission.map(|c| c / brightest.max(1.0)));
+    }
     let mut extend = |name: &str, value: Value| {
         written["extensions"][name] = value;
         file.use_extension(name);
     };
-    match &material.kind {
-        MaterialKind::Dielectric { ior, .. } => {
+    if brightest > 1.0 {
+        let strength = json!({ "emissiveStrength": brightest });
+        extend("KHR_materials_emissive_strength", strength);
+    }
+    if material.is_unlit {
+        extend("KHR_materials_unlit", json!({}));
+    }
+    match &material.base {
+        Base::Dielectric { ior, .. } => {
             extend("KHR_materials_ior", json!({ "ior": ior }));
         }
-        MaterialKind::MetallicRoughness { specular, .. } => extend(
-            "KHR_materials_specular",
-            json!({ "specularFactor": specular.weight, "specularColorFactor": specular.color }),
-        ),
+        Base::MetallicRoughness { .. } => {
+            let specular = &material.specular;
+            extend(
+                "KHR_materials_specular",
+                json!({ "specularFactor": specular.weight, "specularColorFactor": specular.color }),
+            );
+            if material.dielectric_f0 != GLTF_DIELECTRIC_F0 {
+                let root = material.dielectric_f0.sqrt();
+                let ior = (1.0 + root) / (1.0 - root);
+                extend("KHR_materials_ior", json!({ "ior": ior }));
+            }
+        }
         _ => {}
     }
     if let Some(coat) = &material.coat {
@@ -62,7 +75,7 @@ pub(super) fn write(material: &Material, file: &mut GltfFile, notes: &mut Vec<St
             }),
         );
     }
-    if material.cover.is_some() {
+    if matches!(material.base, Base::Covered { .. }) {
         let name = shown(&material.name);
         notes.push(format!(
             "material \"{name}\": other programs show no plate over it"

@@ -13,13 +13,15 @@ use serde_json::{Value, json};
 
 use super::looks;
 use super::nodes::{children, node};
+use crate::convert;
 use crate::description::{Description, FileUse, Grating, GroovePattern, Object, Surface};
 use crate::error::Error;
 use crate::gltf_scene::extension::EXTENSION;
 use crate::loader::Loader;
 use crate::shape;
 
-const GENERATOR: &str = concat!("Hairline ", env!("CARGO_PKG_VERSION"));
+/// Name of the program in its files.
+pub(crate) const GENERATOR: &str = concat!("Hairline ", env!("CARGO_PKG_VERSION"));
 
 /// Objects that are being written.
 pub(super) struct Objects<'a> {
@@ -214,7 +216,8 @@ impl<'a> Objects<'a> {
             Surface::Mesh(path) => it.material == object.material && self.is_array(path),
             Surface::Shape(_) => false,
         });
-        let number = looks::write(material, &mut self.file, &mut self.notes);
+        let material = convert::material(material);
+        let number = looks::write(&material, &mut self.file, &mut self.notes);
         self.file.pushes_own = false;
         self.looks.insert(name.clone(), number);
         Some(number)

@@ -1,9 +1,7 @@
 //! Subject of a scene: the objects that a view of the whole scene frames.
 
+use crate::description::Description;
 use glam::DVec3;
-use hairline_document::Description;
-
-use crate::actions::objects;
 
 /// Largest thickness of a ground, as a share of its longest side.
 const FLAT: f64 = 0.03;
@@ -20,7 +18,8 @@ pub fn objects(description: &Description, boxes_m: &[(DVec3, DVec3)]) -> Vec<usi
     let mut by_size = subject.clone();
     by_size.sort_by(|&a, &b| size_m(&boxes_m[b]).total_cmp(&size_m(&boxes_m[a])));
     for i in by_size {
-        if !objects::layers(description, i).is_empty() {
+        let own = description.objects.get(i).map(|it| it.name.as_str());
+        if (description.scratches.iter()).any(|layer| Some(layer.object.as_str()) == own) {
             continue;
         }
         let others = subject.iter().filter(|&&other| other != i);

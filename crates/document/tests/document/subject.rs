@@ -2,15 +2,20 @@
 
 use glam::DVec3;
 use hairline_document::Description;
-use hairline_editor::subject::objects;
-use hairline_fixtures::{BALL, SceneFile};
+use hairline_document::subject::objects;
+
+use crate::common::scene_with;
 
 fn scene() -> Description {
-    let mut file = SceneFile::seen_from([0.0, -1.0, 1.0]).mirror("m");
-    for name in ["pan", "lid", "table"] {
-        file = file.object(name, "m", BALL);
-    }
-    file.random("pan", 10).description()
+    let ball = |name: &str| {
+        format!(
+            "[[object]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius_m = 0.05 }} }}\nmaterial = \"steel\"\n"
+        )
+    };
+    let objects = ["pan", "lid", "table"].map(ball).concat();
+    let scratches = "[[scratches]]\nobject = \"pan\"\npattern = \"random\"\ncount = 10\n";
+    let text = scene_with(&(objects + scratches));
+    Description::from_toml(&text, "scene.toml".as_ref()).unwrap()
 }
 
 fn around(middle: [f64; 3], half: [f64; 3]) -> (DVec3, DVec3) {
