@@ -223,6 +223,8 @@ const CROSSINGS: &str = "
 Where grooves cross there is one floor, so random grooves whose shares add up to ρ cover p = 1 - exp(-ρ), 26 % in place of 30 %; (9) of [model.md](../model.md) goes by that. By ρ in its place narrow grooves of 2 µm at 30 % had 1.107 of their light and the base 0.701.
 Parts of wide grooves count there by the floors that they belong to: without it 50 µm had 1.20 and 30 µm at a coherence of 5 µm 1.26. What is left is largest for grooves about as wide as the class of narrow ones ends, 0.3 of the window: many of them within one window would by (9) take more than there is, and its bound takes
 17 % of their light. For these the two split the light in other ways: what a groove sends in the mirror's direction is of the base in the whole field, and of the scratches in the closed form. So the sum of both stands beside them.
+Both follow from the statistics of random grooves, (9a) of [model.md](../model.md): the total of all directions is right, but crossings leave more of the light of edges, which goes far from the mirror's direction, than of the light near it. By theory the ratio of scratches at 30 % cover is 0.82
+for 6 µm under 20 µm and 1.04 for 1.5 µm under 5 µm.
 ";
 const PROFILES: &str = "
 For the whole field a groove is 24 strips of one depth each, or four on a micrometre. Directions differ by 3° at most, so that few of them cross.

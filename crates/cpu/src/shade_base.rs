@@ -7,7 +7,7 @@ use glam::DVec3;
 use hairline_optics::band::Cap;
 use hairline_optics::brushed_lobe::BrushedLobe;
 use hairline_optics::coat::CoatPart;
-use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
+use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, EnvironmentTap, environment_lobe};
 use hairline_optics::facets::FacetAxes;
 use hairline_optics::filtered_lobe::{
     FilteredLobe, LobePart, PixelSlopes, filtered_lobe, filtered_lobe_around,
@@ -498,13 +498,17 @@ fn reflected(
     let (mut all, mut grazing) = (DVec3::ZERO, DVec3::ZERO);
     let (mut weights, mut grazing_weights) = (0.0, 0.0);
     for (tap, radiance) in taps.iter().zip(radiance) {
-        weights += tap.weight;
-        grazing_weights += tap.grazing_weight;
+        let weight = EnvironmentTap::held(tap.weight, weights);
+        let grazing_weight = EnvironmentTap::held(tap.grazing_weight, grazing_weights);
+        weights += weight;
+        grazing_weights += grazing_weight;
         // Running means, which of equal values are exact.
-        all += (radiance - all) * (tap.weight / weights);
-        grazing += (radiance - grazing) * (tap.grazing_weight / grazing_weights);
+        all += (radiance - all) * (weight / weights);
+        grazing += (radiance - grazing) * (grazing_weight / grazing_weights);
     }
     let normal = DVec3::from(of.fresnel.f0) * lobe.albedo;
+    // Of a map that is bright below the horizon alone, the last look-up may take more than the others found.
+    let [all, grazing] = [all, grazing].map(|light| light.max(DVec3::ZERO));
     normal * all + (DVec3::from(of.albedo) - normal) * grazing
 }
 

@@ -3,7 +3,8 @@
 //!
 //! Seen along the normal GGX reflects a round lobe; seen from aside the lobe is longer in the plane of view and normal than across it, and a
 //! rough one is cut by the horizon. One round look-up puts a seventh of the light where it does not belong at 45 degrees, a quarter at 60; it
-//! shows as highlights that are not drawn out, in a veil. Places, widths and shares are fitted to GGX and tabulated (`cargo lab fit-lobes`).
+//! shows as highlights that are not drawn out, in a veil. Places, widths and shares are fitted to GGX and tabulated (`cargo lab fit-lobes`). The last
+//! look-up, at the horizon, has a share below zero: it takes away what the others of a rough lobe put below.
 
 use crate::ggx::ggx_g1;
 use crate::lobe_table::{environment_middle_table, environment_table};
@@ -19,11 +20,20 @@ pub struct EnvironmentTap {
     pub direction: DVec3,
     /// Perceptual.
     pub roughness: f64,
-    /// Relative weight of the round lobe in the GGX lobe. The first one's is above zero.
+    /// Relative weight of the round lobe in the GGX lobe. The first one's is above zero; the last one's is at most zero, see [`EnvironmentTap::held`].
     pub weight: f64,
-    /// Relative weight of the round lobe times (1 - cos)^5 at the half vector: what facets reflect beyond normal incidence. The first one's is above
-    /// zero.
+    /// The same for the lobe times the weight of a dielectric at the half vector: what facets reflect beyond normal incidence.
     pub grazing_weight: f64,
+}
+
+/// The most that the last look-up takes of what the others add up to.
+const MOST_TAKEN: f64 = 0.5;
+
+impl EnvironmentTap {
+    /// A weight after others of a sum.
+    pub fn held(weight: f64, sum: f64) -> f64 {
+        weight.max(-MOST_TAKEN * sum)
+    }
 }
 
 /// A lobe with the parameters of its look-ups in an environment.

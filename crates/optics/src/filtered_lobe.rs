@@ -34,6 +34,9 @@ const FACETS_TAILS: [f64; 2] = [1.5, 3.2];
 /// Ratio of the second term to the first, in the square of it, of the series of blurred tails; and the least denominator.
 const BLUR_SERIES: f64 = 1.125;
 const BLUR_LEAST: f64 = 0.4;
+/// First terms between which the sharp lobe's tails go: a round spread has at most 1.4. Beside a thin one the term is tens of times as large, and the
+/// series says nothing.
+const BLUR_KNOWN: [f64; 2] = [2.0, 4.0];
 /// Increase of a squared alpha over a variance of slopes, for lights.
 const LIGHT_WIDENING: f64 = 3.3;
 /// Increase of both squared alphas, over that of the surface, for each logarithm of what a lobe's peak loses.
@@ -311,6 +314,7 @@ impl FilteredLobe {
         let towards = (variance.dot(slope * slope) + 2.0 * covariance * slope.x * slope.y) / square;
         let across = variance.x + variance.y - towards;
         let first = (10.0 * towards - 2.0 * across) / square;
+        let share = share * (1.0 - smoothstep(BLUR_KNOWN, first));
         Far {
             share,
             blurred: 1.0 + share * first / (1.0 - BLUR_SERIES * first).max(BLUR_LEAST),

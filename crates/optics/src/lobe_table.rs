@@ -15,7 +15,7 @@ pub const LOBE_TABLE_SIZE: usize = 32;
 pub const FRESNEL_NODES: usize = 128;
 
 /// Look-ups of an environment for a lobe: [`crate::environment_lobe`].
-pub const ENVIRONMENT_TAPS: usize = 5;
+pub const ENVIRONMENT_TAPS: usize = 6;
 
 /// The smallest viewer cosine that lobes are made for. A viewer at or below the horizon (it happens with interpolated
 /// normals) gets the lobe of this one.
@@ -110,7 +110,7 @@ pub fn ltc_table() -> &'static LobeTable {
 }
 
 /// Look-up `i` of an environment: (slope from the mirror direction over alpha, alpha over that of the surface, share, share of the lobe times
-/// (1 - cos)^5), see [`crate::environment_lobe`].
+/// a dielectric's weight), see [`crate::environment_lobe`].
 pub fn environment_table(i: usize) -> &'static LobeTable {
     static TABLES: LazyLock<[LobeTable; ENVIRONMENT_TAPS]> = LazyLock::new(|| {
         let bytes = include_bytes!("../data/lobe_environment.bin");

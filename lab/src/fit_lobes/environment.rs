@@ -1,33 +1,46 @@
 //! Fits the look-ups of `optics::environment_lobe`: round lobes in the plane of view and normal that together are GGX, with one set of shares,
-//! and GGX times (1 - cos)^5, with another.
+//! and GGX times the weight of a dielectric's reflectance beyond normal incidence, with another.
+//!
+//! Places of all but the last are fitted without it. The last lies at the horizon and takes away what the others put below.
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
 use hairline_optics::environment_lobe::ENVIRONMENT_TAPS;
-use hairline_optics::fresnel::schlick_weight;
+use hairline_optics::fresnel::{dielectric_weight, schlick_weight};
 use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_g1, ggx_pdf, ggx_sample};
 use hairline_optics::lobe_table::{LOBE_MIN_COS, LOBE_TABLE_SIZE, LobeTable, lobe_table_node};
 
 use super::search::{grid, nelder_mead, uniform_direction};
 
 const N: usize = ENVIRONMENT_TAPS;
+/// Look-ups that add light.
+const ADDING: usize = N - 1;
 /// Slopes from the mirror direction over alpha, then logarithms of alphas over that of the surface.
-type Places = [f64; 2 * N];
+type Places = [f64; 2 * ADDING];
 /// Usual shares, to which shares are drawn where the fit leaves them open, and the strength of this pull, relative to the lobe.
-const USUAL_SHARES: [f64; N] = [0.2661, 0.2399, 0.2399, 0.1271, 0.1271];
+const USUAL_SHARES: [f64; N] = [0.2661, 0.2399, 0.2399, 0.1271, 0.1271, 0.0];
 const SHARES_HELD: f64 = 1e-4;
 /// The least share of the first, from which the mean is taken on.
 const FIRST_SHARE: f64 = 0.004;
+/// The last look-up's angle from the normal, on the side of the mirror direction, and its alpha. Best places of single nodes are about there, and
+/// errors hardly depend on either.
+const TAKING_FROM_NORMAL_DEG: f64 = 95.0;
+const TAKING_ALPHA: f64 = 0.25;
+/// The most that it takes away.
+const MOST_TAKEN: f64 = 0.4;
+/// Alphas from which on it takes anything, and that much: the horizon does not cut sharp lobes.
+const TAKEN_FROM_ALPHA: [f64; 2] = [0.05, 0.15];
 /// Strength of the pull of places towards those of the nodes before.
 const PLACES_HELD: f64 = 2e-5;
 /// Bounds of the logarithms. Narrower look-ups would fit narrow lobes better, as a row of dots.
 const NARROWEST: f64 = -1.5;
 const WIDEST: f64 = 1.0;
-/// A dielectric's reflectance along the normal, which weights the second set.
+/// Refractive index of the dielectric, and its reflectance along the normal, which weights the second set.
+const IOR: f64 = 1.5;
 const NORMAL_REFLECTANCE: f64 = 0.04;
 
-/// A fitted node: (slope, alpha ratio, share, share of (1 - cos)^5) of each look-up.
+/// A fitted node: (slope, alpha ratio, share, share of the dielectric's weight) of each look-up.
 #[derive(Clone, Copy)]
 pub struct Node {
     places: Places,
@@ -67,30 +80,48 @@ pub fn fit() -> Vec<Node> {
 
 fn fit_node(row: usize, column: usize, held: Places) -> Node {
     let (roughness, cos_o) = lobe_table_node(row, column);
-    let target = Target::new(cos_o.max(LOBE_MIN_COS), ggx_alpha(roughness));
+    let (cos_o, alpha) = (cos_o.max(LOBE_MIN_COS), ggx_alpha(roughness));
+    // Metals that are given by a colour have Schlick's curve. Places serve them too.
+    let target = Target::new(cos_o, alpha, schlick_weight);
     let cost = |p: &Places| {
         let moved: f64 = p.iter().zip(&held).map(|(a, b)| (a - b) * (a - b)).sum();
-        target.fit(p).error2 + PLACES_HELD * moved
+        target.fit(&look_ups(p, [0.0, 0.0]), 0.0).error2 + PLACES_HELD * moved
     };
     let mut places = held;
     for scale in [1.0, 0.4, 0.4] {
-        let steps = std::array::from_fn(|i| scale * if i < N { 0.3 } else { 0.15 });
+        let steps = std::array::from_fn(|i| scale * if i < ADDING { 0.3 } else { 0.15 });
         places = nelder_mead(&cost, places, steps).0;
     }
-    let fit = target.fit(&places);
+    let turn = TAKING_FROM_NORMAL_DEG.to_radians() - cos_o.acos();
+    let looked_up = look_ups(
+        &places,
+        [(0.5 * turn).tan() / alpha, (TAKING_ALPHA / alpha).ln()],
+    );
+    let target = Target::new(cos_o, alpha, |cos| dielectric_weight(cos, IOR));
+    let fit = target.fit(&looked_up, most_taken(alpha));
     let tap = |i: usize| {
-        [
-            places[i],
-            places[N + i].exp(),
-            fit.shares[i],
-            fit.grazing[i],
-        ]
+        let [slope, ratio] = looked_up[i];
+        [slope, ratio.exp(), fit.shares[i], fit.grazing[i]]
     };
     Node {
         places,
         taps: std::array::from_fn(|i| tap(i).map(|x| x as f32)),
         rms: fit.plain2.sqrt(),
     }
+}
+
+/// Slope and logarithm of each look-up, given those of the last.
+fn look_ups(places: &Places, last: [f64; 2]) -> [[f64; 2]; N] {
+    std::array::from_fn(|i| match i {
+        ADDING => last,
+        _ => [places[i], places[ADDING + i]],
+    })
+}
+
+/// What the last look-up may take away.
+fn most_taken(alpha: f64) -> f64 {
+    let [from, whole] = TAKEN_FROM_ALPHA;
+    MOST_TAKEN * ((alpha - from) / (whole - from)).clamp(0.0, 1.0)
 }
 
 /// A table for each look-up.
@@ -120,7 +151,7 @@ struct Target {
     wo: DVec3,
     alpha: f64,
     points: Vec<Point>,
-    /// Integrals of the squares of GGX and of GGX times (1 - cos)^5, both over their integrals.
+    /// Integrals of the squares of GGX and of GGX times the weight, both over their integrals.
     plain2: f64,
     grazing2: f64,
     /// Weight of the second.
@@ -145,7 +176,7 @@ struct Fit {
 }
 
 impl Target {
-    fn new(cos_o: f64, alpha: f64) -> Self {
+    fn new(cos_o: f64, alpha: f64, rises: impl Fn(f64) -> f64) -> Self {
         let wo = DVec3::new((1.0 - cos_o * cos_o).sqrt(), 0.0, cos_o);
         let wide = (3.0 * alpha).min(1.0);
         let drawn = |alpha: f64| grid().map(move |u| ggx_sample(wo, alpha, u));
@@ -162,7 +193,7 @@ impl Target {
                     weight: 1.0 / (count * density),
                     per_density: 1.0 / density,
                     plain,
-                    grazing: plain * schlick_weight(wo.dot((wi + wo).normalize())),
+                    grazing: plain * rises(wo.dot((wi + wo).normalize())),
                 }
             })
             .collect();
@@ -183,10 +214,9 @@ impl Target {
         }
     }
 
-    fn fit(&self, places: &Places) -> Fit {
-        let lobes: [RoundLobe; N] = std::array::from_fn(|i| {
-            RoundLobe::new(self.wo, self.alpha, places[i], places[N + i].exp())
-        });
+    fn fit(&self, looked_up: &[[f64; 2]; N], most_taken: f64) -> Fit {
+        let lobes: [RoundLobe; N] =
+            looked_up.map(|[slope, ratio]| RoundLobe::new(self.wo, self.alpha, slope, ratio.exp()));
         let mut products = [[0.0; N]; N];
         let (mut plain, mut grazing) = ([0.0; N], [0.0; N]);
         for point in &self.points {
@@ -200,13 +230,14 @@ impl Target {
                 }
             }
         }
-        let (plain, plain2) = shares(&products, &plain, self.plain2);
-        let (grazing, grazing2) = shares(&products, &grazing, self.grazing2);
-        let outside: f64 = (0..N)
-            .map(|i| {
-                (places[N + i] - WIDEST).max(0.0)
-                    + (NARROWEST - places[N + i]).max(0.0)
-                    + (places[i].abs() * self.alpha - 1.0).max(0.0)
+        let (plain, plain2) = shares(&products, &plain, self.plain2, most_taken);
+        let (grazing, grazing2) = shares(&products, &grazing, self.grazing2, most_taken);
+        let outside: f64 = looked_up[..ADDING]
+            .iter()
+            .map(|[slope, ratio]| {
+                (ratio - WIDEST).max(0.0)
+                    + (NARROWEST - ratio).max(0.0)
+                    + (slope.abs() * self.alpha - 1.0).max(0.0)
             })
             .sum();
         Fit {
@@ -258,8 +289,13 @@ impl RoundLobe {
     }
 }
 
-/// Shares of at least 0 whose sum is 1, and the square of the residual over the target's.
-fn shares(products: &[[f64; N]; N], target: &[f64; N], target2: f64) -> ([f64; N], f64) {
+/// Shares whose sum is 1, of at least 0 but for the last, which is 0 at most; and the square of the residual over the target's.
+fn shares(
+    products: &[[f64; N]; N],
+    target: &[f64; N],
+    target2: f64,
+    most_taken: f64,
+) -> ([f64; N], f64) {
     let held = SHARES_HELD * target2;
     let whole = 10.0 * target2;
     let mut x = USUAL_SHARES;
@@ -270,8 +306,12 @@ fn shares(products: &[[f64; N]; N], target: &[f64; N], target2: f64) -> ([f64; N
                 .map(|j| (products[i][j] + whole) * x[j])
                 .sum();
             let wanted = target[i] + whole + held * USUAL_SHARES[i] - others;
-            let least = if i == 0 { FIRST_SHARE } else { 0.0 };
-            x[i] = (wanted / (products[i][i] + whole + held)).max(least);
+            let [least, most] = match i {
+                0 => [FIRST_SHARE, f64::INFINITY],
+                ADDING => [-most_taken, 0.0],
+                _ => [0.0, f64::INFINITY],
+            };
+            x[i] = (wanted / (products[i][i] + whole + held)).clamp(least, most);
         }
     }
     let sum: f64 = x.iter().sum();

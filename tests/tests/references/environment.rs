@@ -24,7 +24,7 @@ pub fn sky([width, height]: [u32; 2]) -> Picture {
 }
 
 /// Direction of a texel in the map's frame.
-fn direction([width, height]: [u32; 2], i: u32) -> DVec3 {
+pub fn direction([width, height]: [u32; 2], i: u32) -> DVec3 {
     environment_dir(DVec2::new(
         (f64::from(i % width) + 0.5) / f64::from(width),
         (f64::from(i / width) + 0.5) / f64::from(height),

@@ -661,14 +661,16 @@ fn small_lights() {
     .check(&rows.clear, 0);
 }
 
-/// A look-up of whatever viewer is somewhere, no wider than any lobe, and the first one counts.
+/// A look-up of whatever viewer is somewhere, no wider than any lobe, the first one counts, and the last one takes away.
 fn is_tap(i: usize, [x, y, z, roughness, weight, grazing_weight]: [f64; 6]) -> bool {
     let length = (x * x + y * y + z * z).sqrt();
     (length - 1.0).abs() < 1e-4
         && (0.0..=1.0).contains(&roughness)
-        && [weight, grazing_weight]
-            .into_iter()
-            .all(|w| (0.0..=1.0).contains(&w) && (i > 0 || w > 1e-3))
+        && [weight, grazing_weight].into_iter().all(|w| match i {
+            0 => (1e-3..=1.5).contains(&w),
+            _ if i + 1 == ENVIRONMENT_TAPS => (-0.5..=0.0).contains(&w),
+            _ => (0.0..=1.5).contains(&w),
+        })
 }
 
 #[test]

@@ -1,11 +1,12 @@
 // The GGX lobe over an environment: a few round lobes in a row. Needs ltc, environment. Twin: optics::environment_lobe, which explains it.
 // Needs: ltc, environment.
 
-const ENVIRONMENT_TAPS: u32 = 5u;
+const ENVIRONMENT_TAPS: u32 = 6u;
 const ENVIRONMENT_MIN_COSINE_OVER_ALPHA: f32 = 20.0;
 const ENVIRONMENT_ROUND: f32 = 1e-4;
 const ENVIRONMENT_MASKING_MIN_COS: f32 = 1e-5;
 const ENVIRONMENT_SHOWN_MAX: f32 = 4.0;
+const ENVIRONMENT_MOST_TAKEN: f32 = 0.5;
 
 struct EnvironmentLobe {
     x_axis: vec2f,
@@ -22,7 +23,7 @@ struct EnvironmentTap {
     direction: vec3f,
     roughness: f32,
     weight: f32,
-    grazing_weight: f32,        // the same for the lobe times (1 - cos)^5 at the half vector
+    grazing_weight: f32,        // the same for the lobe times a dielectric's weight at the half vector
 }
 
 fn environment_lobe(lobe: LtcLobe, shapes: texture_2d<f32>) -> EnvironmentLobe {
@@ -98,12 +99,15 @@ fn environment_reflected(
     for (var i = 0u; i < ENVIRONMENT_TAPS; i += 1u) {
         let tap = environment_tap(looked_up, shapes, i);
         let radiance = environment_prefiltered(levels, map_from_surface * tap.direction, tap.roughness);
-        weights += tap.weight;
-        grazing_weights += tap.grazing_weight;
+        let weight = max(tap.weight, -ENVIRONMENT_MOST_TAKEN * weights);
+        let grazing_weight = max(tap.grazing_weight, -ENVIRONMENT_MOST_TAKEN * grazing_weights);
+        weights += weight;
+        grazing_weights += grazing_weight;
         // Running means, which of equal values are exact.
-        all += (radiance - all) * (tap.weight / weights);
-        grazing += (radiance - grazing) * (tap.grazing_weight / grazing_weights);
+        all += (radiance - all) * (weight / weights);
+        grazing += (radiance - grazing) * (grazing_weight / grazing_weights);
     }
     let normal = reflecting.fresnel.at_normal * lobe.albedo;
-    return normal * all + (reflecting.albedo - normal) * grazing;
+    // Of a map that is bright below the horizon alone, the last look-up may take more than the others found.
+    return normal * max(all, vec3f(0.0)) + (reflecting.albedo - normal) * max(grazing, vec3f(0.0));
 }

@@ -118,8 +118,8 @@ struct FilteredLobeFar {
 // By the vector irradiance in the cosine space of the first part.
 fn filtered_lobe_far(filtered: FilteredLobe, first: vec3f) -> FilteredLobeFar {
     let widths = first.xy / max(first.z, 1e-15);
-    let share = smoothstep(1.3, 2.6, length(widths));
-    if share <= 0.0 {
+    let off_core = smoothstep(1.3, 2.6, length(widths));
+    if off_core <= 0.0 {
         return FilteredLobeFar(0.0, 1.0);
     }
     // The mean of r^-4 about r, by the first terms of its series.
@@ -130,6 +130,8 @@ fn filtered_lobe_far(filtered: FilteredLobe, first: vec3f) -> FilteredLobeFar {
     let towards = dot(variance, slope * slope) + 2.0 * filtered.spread.z * slope.x * slope.y;
     let across = variance.x + variance.y - towards;
     let term = (10.0 * towards - 2.0 * across) / square;
+    // Beside a thin spread the series says nothing.
+    let share = off_core * (1.0 - smoothstep(2.0, 4.0, term));
     return FilteredLobeFar(share, 1.0 + share * term / max(1.0 - 1.125 * term, 0.4));
 }
 

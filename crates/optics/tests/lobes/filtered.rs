@@ -10,7 +10,7 @@ use hairline_optics::filtered_lobe::{
 use hairline_optics::fresnel::{FresnelCurve, FresnelRgb};
 use hairline_optics::ggx::{ggx_alpha, ggx_eval};
 use hairline_optics::ltc::{
-    LobeFresnel, LtcLobe, ltc_lobe, ltc_reflected, ltc_sphere_vector, ltc_vector,
+    LobeFresnel, LtcLobe, ltc_lobe, ltc_reflected, ltc_sphere_vector, ltc_vector, sphere_light,
 };
 
 /// A lobe over a pixel, and the sharp one.
@@ -228,6 +228,53 @@ fn lamps_as_wide_as_the_lobe_are_right() {
                 );
                 println!("variance {t} alpha^2, radius {radius:.2} alpha: {ours:.3}, {exact:.3}");
                 assert!((ours - exact).abs() < 0.05, "{t} {radius}: {ours} {exact}");
+            }
+        }
+    }
+}
+
+/// The mean over normals that differ one way of what the sharp lobe reflects of a lamp.
+fn lamp_over_normals(to_lamp: DVec3, radius: f64, wo: DVec3, roughness: f64, std: DVec2) -> f64 {
+    const STEPS: i32 = 400;
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for i in -STEPS..=STEPS {
+        let t = 4.0 * f64::from(i) / f64::from(STEPS);
+        let weight = (-0.5 * t * t).exp();
+        let normal = (t * std).extend(1.0).normalize();
+        let (x, y) = normal.any_orthonormal_pair();
+        let [wo, to_lamp] = [wo, to_lamp].map(|w| DVec3::new(w.dot(x), w.dot(y), w.dot(normal)));
+        let sin2 = radius.sin().powi(2);
+        sum += weight * sphere_light(wo, roughness, white(), to_lamp, sin2)[0];
+        weights += weight;
+    }
+    sum / weights
+}
+
+/// The rim of a can: normals that differ one way by twenty alphas, and a lamp that is many alphas wide. Beside the rim's highlight the lamp was reflected
+/// with up to twice its radiance.
+#[test]
+fn wide_lamps_beside_a_thin_spread_stay_dark() {
+    const ROUGHNESS: f64 = 0.08;
+    const RADIUS_RAD: f64 = 0.138;
+    let (sin, cos) = 34f64.to_radians().sin_cos();
+    let wo = DVec3::new(sin, 0.0, cos);
+    let sharp = ltc_lobe(wo, ROUGHNESS);
+    let of = LobeFresnel::new(white(), wo, ROUGHNESS);
+    for angle in [0.0, 1.0, 1.57, 2.2] {
+        let std = 0.13 * DVec2::from_angle(angle);
+        let filtered = filtered_lobe(sharp.alpha, one_way(0.13 * 0.13, angle), cos);
+        for beside in [0.0, 0.03, 0.06, 0.075, 0.085, 0.095] {
+            for along in [-0.1, -0.05, -0.02, 0.0, 0.02, 0.05, 0.1] {
+                let m = DVec2::from_angle(angle).rotate(DVec2::new(along, beside));
+                let half = m.extend(1.0).normalize();
+                let to_lamp = 2.0 * half.dot(wo) * half - wo;
+                let sin2 = RADIUS_RAD.sin().powi(2);
+                let ours = sphere_of_parts((&filtered, &sharp), &of, to_lamp, sin2);
+                let exact = lamp_over_normals(to_lamp, RADIUS_RAD, wo, ROUGHNESS, std);
+                assert!(
+                    (ours - exact).abs() < 0.08,
+                    "{angle} {beside} {along}: {ours} {exact}"
+                );
             }
         }
     }
