@@ -4,6 +4,7 @@ use std::io::Read;
 use std::path::Path;
 
 use hairline_memory::{budget_bytes, in_words};
+use hairline_model::packed::refuse_other_model;
 use hairline_model::reading::{FileKind, read};
 
 use crate::error::Error;
@@ -18,6 +19,8 @@ const TEXT_BYTES: f64 = 64.0;
 /// # Errors
 /// Why it cannot be read.
 pub fn scene_text(path: &Path) -> Result<String, Error> {
+    refuse_other_model(path)
+        .map_err(|flaw| Error::new("", flaw.found, flaw.right).at(path, None))?;
     let bytes = read(path, FileKind::FileOrPipe, TEXT_SHARE).map_err(|reason| {
         let found = format!("cannot be read ({reason})");
         Error::new("", found, "give the path of a scene file (TOML)").at(path, None)

@@ -239,6 +239,7 @@ fn folder(path: &Path) -> PathBuf {
 
 /// A file as glTF.
 pub(crate) fn file(path: &Path) -> Result<Translated, Flaw> {
+    packed::refuse_other_model(path)?;
     let mut bytes = reading::read(path, FileKind::File, FILE_SHARE).map_err(|error| {
         Flaw::new(
             format!("it cannot be read ({error})"),

@@ -451,6 +451,7 @@ fn other_files_than_scenes_are_refused_with_their_use() {
         ("render map.hdr", "an environment map"),
         ("render model.fbx", "export it as .glb"),
     ] {
+        ("render model.STEP", "it is a model of another format"),
         let text = stderr_of(&hairline(folder.path(), arguments).code(2));
         assert!(text.contains(message), "{arguments}: {text}");
     }
