@@ -14,7 +14,7 @@ use hairline_console::{Switch, tell};
 use hairline_document::inputs::is_same_file;
 use hairline_editor::shown::{LITTLE, Shown};
 use hairline_image::exr_file::Notes;
-use hairline_image::{Animation, Display, Format, Image, Output};
+use hairline_image::{Animation, Display, Finish, Format, Image, Output};
 use hairline_published::Method;
 use hairline_scene::{Scene, Transport};
 
@@ -41,6 +41,11 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         is_filtered: arguments.filter == Switch::On,
         is_transparent: false,
     };
+    if arguments.shadows_only && !task.transport.shadows {
+        return Err(Failure::Input(anyhow!(
+            "--shadows-only: nothing is left without shadows; leave --shadows off and --method published out"
+        )));
+    }
     let motion = Motion::of(&arguments.sequence, arguments.time)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
     let target = match &motion {
@@ -83,6 +88,13 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     };
     task.is_transparent = loaded.description.cuts_out() && arguments.bands.is_none();
     let finish = loaded.finish.clone();
+    let left_out = match &arguments.bands {
+        None => target.left_out(&finish),
+        Some(_) => Vec::new(),
+    };
+    for note in left_out {
+        tell(format_args!("note: {note}"));
+    }
     let notes = notes(&task, &method);
     let write = |output: &Output, image: &Image, display: &Display, notes: &Notes| {
         let output = output.clone().finished(&finish);
@@ -99,12 +111,12 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
             if let Some(cli::Bands(bands_nm)) = &arguments.bands {
                 return write_bands(scene, bands_nm, task, &output);
             }
-            let shadows = task.transport.shadows;
-            let mut painter = Painter::open(scene, task, &terminal)?;
-            let interrupt = match shadows {
+            // Before the trees are built, which takes seconds.
+            let interrupt = match task.transport.shadows {
                 true => Interrupt::listen().map_err(cannot_listen)?,
                 false => Interrupt::default(),
             };
+            let mut painter = Painter::open(scene, task, &terminal)?;
             let progress = Progress::start("rendering");
             let is_stopped = || interrupt.is_asked();
             let rendered = painter.render(scene, &is_stopped, &|share| progress.set(share))?;
@@ -267,6 +279,31 @@ impl Target<'_> {
                 pictures.chain(goals.animation.as_deref()).collect()
             }
         }
+    }
+}
+
+impl Target<'_> {
+    /// Notes on what the files do not have of what their pictures would.
+    fn left_out(&self, finish: &Finish) -> Vec<String> {
+        let (pictures, animation) = match self {
+            Self::One(output) => (std::slice::from_ref(output), None),
+            Self::Looks => (&[][..], None),
+            Self::Many(_, goals) => (&goals.pictures[..], goals.animation.as_deref()),
+        };
+        let mut notes = Vec::new();
+        if let Some(path) = animation.filter(|_| finish.is_deep) {
+            let path = path.display();
+            notes.push(format!("{path}: animations have 8 bits a channel, not 16"));
+        }
+        let mut linear = pictures.iter();
+        let linear = linear.find(|it| it.format() == Format::Exr);
+        if let Some(output) = linear.filter(|_| finish.behind.is_some()) {
+            let path = output.path().display();
+            notes.push(format!(
+                "{path}: an .exr has alpha in place of the picture behind; end the name in .png for it"
+            ));
+        }
+        notes
     }
 }
 

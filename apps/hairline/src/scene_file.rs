@@ -63,6 +63,9 @@ pub struct Loaded {
     pub folder: PathBuf,
     /// What its PNGs have besides the colours.
     pub finish: Finish,
+    /// Text and name of the file, for errors.
+    text: String,
+    name: PathBuf,
     /// Builder of the scene, which keeps its parts.
     builder: SceneBuilder,
 }
@@ -73,9 +76,25 @@ impl Loaded {
     /// # Errors
     /// [`Failure::Input`] where a model cannot be read any more.
     pub fn show(&mut self, description: &Description) -> Result<(), Failure> {
-        let loader = Loader::default();
-        self.scene = (self.builder).build(&loader, description, &self.folder)?;
+        self.scene = self.built(description)?;
         Ok(())
+    }
+
+    /// The scene with a look of its own.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] where what the look names cannot be read.
+    pub fn with_look(&mut self, index: usize) -> Result<Scene, Failure> {
+        let mut seen = self.description.clone();
+        let look = self.description.looks[index].clone();
+        look.apply(&mut seen);
+        let built = self.built(&seen);
+        let wrong = |error| look.own_error(index, error);
+        Ok(built.map_err(|error| wrong(error).in_scene_file(&self.text, &self.name))?)
+    }
+
+    fn built(&mut self, description: &Description) -> Result<Scene, hairline_document::Error> {
+        (self.builder).build(&Loader::default(), description, &self.folder)
     }
 }
 
@@ -181,9 +200,18 @@ pub fn load(
     let mut builder = SceneBuilder::new();
     let built = builder.build(&loader, &description, &source.folder);
     let mut scene = built.map_err(wrong)?;
+    let backdrop = description.backdrop(&source.folder);
+    let backdrop = backdrop.map_err(|error| match overrides.behind {
+        Some(behind) => Failure::Input(anyhow!(
+            "--behind {}: {}; must be a .png, .jpg or .webp, relative to the current folder",
+            behind.display(),
+            error.found()
+        )),
+        None => wrong(error).into(),
+    })?;
     let finish = Finish {
         is_deep: description.render.png_bits == 16,
-        behind: (description.backdrop(&source.folder).map_err(wrong)?).map(Arc::new),
+        behind: backdrop.map(Arc::new),
     };
     if let Some(wear) = overrides.wear {
         give_wear(&mut description, &scene, wear);
@@ -218,6 +246,8 @@ pub fn load(
         description,
         folder: source.folder,
         finish,
+        text: source.text,
+        name: source.name,
         builder,
     })
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::anyhow;
 use hairline_work::failure::Failure;
 
-/// Refuses pictures and lists with a hint at their use; files of other names are read.
+/// Refuses pictures and lists with a hint at their use. Files of other names are read, or refused there.
 ///
 /// # Errors
 /// [`Failure::Input`] that says what the file is for.
@@ -19,7 +19,6 @@ pub fn refuse_other_files(path: &Path) -> Result<(), Failure> {
         "hdr" | "exr" => "an environment map; name it in a scene as `file` of [environment]",
         "png" | "jpg" | "jpeg" | "webp" | "apng" | "tif" | "tiff" => "a picture",
         "csv" => "a list of scratches; name it in a scene as `file` of a [[scratches]]",
-        "fbx" | "ply" | "blend" | "usd" | "usdz" => "a model of another format; export it as .glb",
         _ => return Ok(()),
     };
     Err(Failure::Input(anyhow!(

@@ -69,6 +69,13 @@ impl Error {
         self
     }
 
+    /// An error whose key belongs to a table.
+    #[must_use]
+    pub(crate) fn below(mut self, table: &str) -> Self {
+        self.key = format!("{table}.{}", self.key);
+        self
+    }
+
     /// Adds the line to an error whose key belongs to the scene file of this text; `name` is the file's name in the error.
     /// Errors of [`from_toml`](crate::from_toml) have it already.
     #[must_use]

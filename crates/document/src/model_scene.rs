@@ -104,6 +104,13 @@ impl Description {
                 }
             }
         }
+        let is_metal = summary.metal_share > 0.5;
+        if summary.metal_share > 0.0 && !is_metal {
+            notes.push(format!(
+                "{}: at most half of its triangles are of metal, so no wear is laid on it; `--wear worn` lays it on all of them",
+                shown(&name.to_string_lossy())
+            ));
+        }
         let (least, most) = summary.bounds_m;
         let upright = |p: Vec3| turned(p.as_dvec3());
         let [a, b] = [least, most].map(upright);
@@ -151,7 +158,7 @@ impl Description {
             ground: Some(DARK_GROUND),
             materials: Vec::new(),
             gratings: Vec::new(),
-            scratches: match summary.metal_share > 0.5 {
+            scratches: match is_metal {
                 true => Wear::Worn.layers(&object, a.distance(b)),
                 false => Vec::new(),
             },

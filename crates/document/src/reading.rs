@@ -4,6 +4,7 @@ use std::io::Read;
 
 use hairline_image::FilePath;
 use hairline_memory::{budget_bytes, in_words};
+use hairline_model::packed::refuse_other_model;
 use hairline_model::reading::{FileKind, read};
 
 use crate::error::Error;
@@ -19,6 +20,8 @@ const TEXT_BYTES: f64 = 64.0;
 /// Why it cannot be read.
 pub fn scene_text(path: impl Into<FilePath>) -> Result<String, Error> {
     let path = path.into();
+    refuse_other_model(&path)
+        .map_err(|flaw| Error::new("", flaw.found, flaw.right).at(&path, None))?;
     let bytes = read(&path, FileKind::FileOrPipe, TEXT_SHARE).map_err(|reason| {
         let found = format!("cannot be read ({reason})");
         Error::new("", found, "give the path of a scene file (TOML)").at(&path, None)

@@ -1,7 +1,10 @@
 //! Light in which scratches show: small hard lamps whose highlights lie where the colours around them fill most of the visible surface, strips
 //! that draw the form, and a dark room.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
+use hairline_optics::ggx::{ggx_alpha, ggx_eval};
 use hairline_scene::{Base, Material, Mesh, Scene, Texture};
 
 use crate::description::{Camera, Description, Environment, Ground, Light, LightKind, Studio};
@@ -27,6 +30,9 @@ const LAMP_RADIANCE: f64 = 800.0;
 const DARKEST_BODY: f64 = 15.0;
 /// Places that are tried, at most.
 const PLACES_MAX: usize = 400;
+/// The radiance that lamps give to a seen point at most, but for a share of the points: highlights may be white.
+const BRIGHT: f64 = 0.75;
+const BRIGHT_SHARE: f64 = 0.25;
 /// Radiance of the room over that of a studio's room.
 const ROOM: f64 = 0.25;
 
@@ -110,7 +116,11 @@ impl Subject<'_> {
             distance_m: LAMP_DISTANCE * set.radius_m(),
             meshes: self.meshes,
         };
+        let centers_m = lamps.places(&seen);
         let radiance = LAMP_RADIANCE / self.mean_albedo(&seen).max(1.0 / DARKEST_BODY);
+        // Faces that mirror a lamp to the eye are brighter than what lies beside a highlight.
+        let brighter = self.brighter_points(&seen, &lamps, &centers_m);
+        let radiance = radiance.min(BRIGHT / brighter.max(f64::MIN_POSITIVE));
         let lamp = |(i, center_m): (usize, DVec3)| Light {
             name: Some(match i {
                 0 => "lamp".to_owned(),
@@ -118,10 +128,7 @@ impl Subject<'_> {
             }),
             radiance,
             color: [1.0, 0.95, 0.88],
-            ..Light::new(LightKind::sphere(
-                center_m.into(),
-                LAMP_RADIUS * set.radius_m(),
-            ))
+            ..Light::new(LightKind::sphere(center_m.into(), lamps.radius_m()))
         };
         let strip = |name, right, color| SoftBox {
             name,
@@ -135,33 +142,58 @@ impl Subject<'_> {
             strip("strip left", -2.8, [0.93, 0.97, 1.0]),
             strip("strip right", 2.8, [1.0, 0.95, 0.88]),
         ];
-        let centers_m = lamps.places(&seen);
         (centers_m.into_iter().enumerate().map(lamp))
             .chain(strips.map(|strip| set.soft_box(&Studio::default(), &strip)))
             .collect()
     }
 
+    /// The radiance that [`BRIGHT_SHARE`] of the seen points surpass, for lamps of radiance 1.
+    fn brighter_points(&self, seen: &[SeenPoint], lamps: &Lamps<'_>, at_m: &[DVec3]) -> f64 {
+        let materials = self.materials.iter();
+        let reflectances: Vec<_> = materials.map(|it| self.reflectances(it)).collect();
+        let radiance = |point: &SeenPoint| -> f64 {
+            let material = point.material as usize;
+            let alpha = ggx_alpha(self.materials[material].roughness);
+            let [mirrored, body] = reflectances[material];
+            let from_lamp = |lamp_m: &DVec3| {
+                let (wi, wo, distance_m) = lamps.directions(point, *lamp_m);
+                let angular_radius = lamps.radius_m() / distance_m;
+                // A mirror image is as wide as its lamp.
+                let lobe = mirrored * ggx_eval(wi, wo, alpha.max(angular_radius));
+                PI * angular_radius * angular_radius * (lobe + body / PI * wi.z.max(0.0))
+            };
+            at_m.iter().map(from_lamp).sum()
+        };
+        let mut all: Vec<f64> = seen.iter().map(radiance).collect();
+        all.sort_by(|a, b| b.total_cmp(a));
+        let nth = (BRIGHT_SHARE * all.len() as f64) as usize;
+        all.get(nth).copied().unwrap_or(0.0)
+    }
+
     /// Mean albedo of the visible bodies: what they look like beside the mirror images of the lamps.
     fn mean_albedo(&self, seen: &[SeenPoint]) -> f64 {
-        let materials = self.materials.iter();
-        let albedos: Vec<f64> = materials.map(|it| self.albedo(it)).collect();
+        let albedo = |material| {
+            let [mirrored, body] = self.reflectances(material);
+            body + beside_highlight(material.roughness) * mirrored
+        };
+        let albedos: Vec<f64> = self.materials.iter().map(albedo).collect();
         let sum: f64 = (seen.iter()).map(|it| albedos[it.material as usize]).sum();
         sum / seen.len().max(1) as f64
     }
 
-    fn albedo(&self, material: &Material) -> f64 {
+    /// The share of light that a metal mirrors, and the albedo of a body. The mirror images in dielectrics are left out.
+    fn reflectances(&self, material: &Material) -> [f64; 2] {
         let mean = |rgb: [f64; 3]| rgb.iter().sum::<f64>() / 3.0;
-        let rough = beside_highlight(material.roughness);
-        let color = match &material.base {
-            Base::Mirror => 0.0,
-            Base::Metal(metal) => rough * mean(metal.reflectance_rgb(1.0)),
-            Base::Covered { metal, cover } => rough * mean(cover.reflectance_rgb(metal, 1.0)),
-            Base::ColoredMetal { base_color, .. } => rough * mean(*base_color),
-            Base::Dielectric { base_color, .. } => mean(*base_color),
+        let of_base = match &material.base {
+            Base::Mirror => [1.0, 0.0],
+            Base::Metal(metal) => [mean(metal.reflectance_rgb(1.0)), 0.0],
+            Base::Covered { metal, cover } => [mean(cover.reflectance_rgb(metal, 1.0)), 0.0],
+            Base::ColoredMetal { base_color, .. } => [mean(*base_color), 0.0],
+            Base::Dielectric { base_color, .. } => [0.0, mean(*base_color)],
             Base::MetallicRoughness {
                 base_color,
                 metallic,
-            } => (1.0 - metallic + metallic * rough) * mean(*base_color),
+            } => [*metallic, 1.0 - metallic].map(|share| share * mean(*base_color)),
         };
         let of_texture = material.base_color_texture.map_or(1.0, |texture| {
             // Linear values from the displayed ones.
@@ -170,7 +202,7 @@ impl Subject<'_> {
                 |texel: &[u8; 4]| mean([0, 1, 2].map(|c| (f64::from(texel[c]) / 255.0).powf(2.2)));
             some.clone().map(linear).sum::<f64>() / some.count().max(1) as f64
         });
-        color * of_texture
+        of_base.map(|reflectance| reflectance * of_texture)
     }
 }
 
@@ -224,6 +256,25 @@ impl Lamps<'_> {
             left.retain(|it| !self.is_near(it, *lamp_m, apart_cos));
         }
         lamps
+    }
+
+    fn radius_m(&self) -> f64 {
+        LAMP_RADIUS / LAMP_DISTANCE * self.distance_m
+    }
+
+    /// Directions from a point to a lamp and to the eye, z along its normal, and the lamp's distance.
+    fn directions(&self, point: &SeenPoint, lamp_m: DVec3) -> (DVec3, DVec3, f64) {
+        let (x, y) = point.normal.any_orthonormal_pair();
+        let local = |to_m: DVec3| {
+            let to = (to_m - point.position_m).normalize_or(point.normal);
+            DVec3::new(to.dot(x), to.dot(y), to.dot(point.normal))
+        };
+        let distance_m = lamp_m.distance(point.position_m);
+        (
+            local(lamp_m),
+            local(self.eye_m),
+            distance_m.max(self.radius_m()),
+        )
     }
 
     /// Place of the lamp whose highlight lies at a point, or the nearest place above the ground.

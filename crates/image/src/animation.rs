@@ -6,6 +6,7 @@ use std::path::Path;
 use png::{BitDepth, ColorType, Compression, Encoder, Filter, SrgbRenderingIntent, Writer};
 
 use crate::mp4::Mp4;
+use crate::output::Format;
 use crate::png::quantize_finished;
 use crate::{Display, Error, FilePath, Finish, Image};
 
@@ -28,6 +29,22 @@ enum Encoded {
         bytes: Shared,
     },
     Mp4(Mp4),
+}
+
+/// Frames in a second where nothing else is asked for.
+pub const FPS: u16 = 30;
+
+/// Checks the ending of a name under which a sequence is to be written: numbered pictures, or an animation.
+///
+/// # Errors
+/// [`Error::NoSequence`].
+pub fn check_sequence(path: &Path) -> Result<(), Error> {
+    match Animation::is_asked_by(path) || Format::from_ending(path).is_ok() {
+        true => Ok(()),
+        false => Err(Error::NoSequence {
+            path: path.to_owned(),
+        }),
+    }
 }
 
 impl Animation {

@@ -13,6 +13,11 @@ pub const BATCH_ROUNDS: u32 = 16;
 /// Rounds of the first batch while somebody looks: of fewer, filtered, a picture is worse than one without.
 const FIRST_ROUNDS: u32 = 8;
 
+/// Rounds of the batch after so many.
+fn rounds_after(first: u32) -> u32 {
+    (3 * first).clamp(FIRST_ROUNDS, BATCH_ROUNDS)
+}
+
 /// Some of the samples of each pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Batch {
@@ -44,10 +49,9 @@ impl Batch {
     /// Batches in which `samples` rounds of rays add up while somebody looks: the first one is soon there, and later ones are as large as can be.
     pub fn growing(samples: u32) -> impl Iterator<Item = Self> {
         let after = move |first: u32| {
-            let count = (3 * first).clamp(FIRST_ROUNDS, BATCH_ROUNDS);
             (first < samples).then(|| Self {
                 first,
-                count: count.min(samples - first),
+                count: rounds_after(first).min(samples - first),
             })
         };
         std::iter::successors(after(0), move |batch| after(batch.first + batch.count))
@@ -90,7 +94,8 @@ pub struct Batches {
 }
 
 impl Batches {
-    /// Starts a picture of `samples` rounds of rays for each pixel, at least 1: the batches are as large as can be.
+    /// Starts a picture of `samples` rounds of rays for each pixel, at least 1: the batches are as large as can be, but for the first of several,
+    /// after which the picture can be stopped.
     pub fn of_rounds(samples: u32) -> Self {
         Self {
             image: None,
@@ -135,9 +140,13 @@ impl Batches {
 
     /// Batch to be added next; none if all are there.
     pub fn next(&self) -> Option<Batch> {
+        let size = match self.adds_traced && self.samples > BATCH_ROUNDS {
+            true => rounds_after(self.done),
+            false => self.size,
+        };
         (self.done < self.samples).then_some(Batch {
             first: self.done,
-            count: self.size.min(self.samples - self.done),
+            count: size.min(self.samples - self.done),
         })
     }
 
@@ -307,6 +316,12 @@ mod tests {
         assert_eq!(counts(64), [8, 16, 16, 16, 8]);
         assert_eq!(counts(3), [3]);
         assert_eq!(Batch::growing(64).last().unwrap().range().end, 64);
+    }
+
+    #[test]
+    fn the_first_of_many_rounds_are_soon_there() {
+        let first = |rounds| Batches::of_rounds(rounds).next().unwrap().count;
+        assert_eq!([4, 16, 17, 512].map(first), [4, 16, 8, 8]);
     }
 
     #[test]

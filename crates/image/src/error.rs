@@ -19,6 +19,12 @@ pub enum Error {
         /// The output path.
         path: PathBuf,
     },
+    /// The path of a sequence does not end in the name of a format of pictures or animations that can be written.
+    #[error("{}: end it in .png or .exr for numbered pictures, in .apng or .mp4 for one file that plays", path.display())]
+    NoSequence {
+        /// The output path.
+        path: PathBuf,
+    },
     /// The output path cannot be written.
     #[error("{}: cannot write: {reason}", path.display())]
     CannotWrite {

@@ -37,7 +37,7 @@ mod temporary;
 pub mod tone_map;
 mod traced;
 
-pub use animation::{Animation, FPS_MAX};
+pub use animation::{Animation, FPS, FPS_MAX, check_sequence};
 pub use backdrop::Backdrop;
 pub use bands::BandImage;
 pub use batches::{BATCH_ROUNDS, BATCH_SAMPLES, Batch, Batches, add_batch};

@@ -237,6 +237,7 @@ fn folder(path: &FilePath) -> FilePath {
 
 /// A file as glTF.
 pub(crate) fn file(path: &FilePath) -> Result<Translated, Flaw> {
+    packed::refuse_other_model(path)?;
     let mut bytes = reading::read(path, FileKind::File, FILE_SHARE).map_err(|error| {
         Flaw::new(
             format!("it cannot be read ({error})"),

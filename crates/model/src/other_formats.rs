@@ -2,6 +2,7 @@
 
 mod creased;
 mod obj;
+mod statements;
 mod stl;
 mod translated;
 

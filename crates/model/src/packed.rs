@@ -6,6 +6,8 @@ use std::path::Path;
 use hairline_image::FilePath;
 use serde_json::{Value, json};
 
+use crate::flaw::Flaw;
+
 /// Name of the extension by which a glTF file tells what it holds.
 pub const EXTENSION: &str = "HAIRLINE_scratches";
 /// Extensions of a file that are of no part of it.
@@ -13,6 +15,26 @@ const OF_THE_WHOLE: [&str; 2] = [EXTENSION, "EXT_lights_area"];
 
 /// Endings of models' files.
 pub const MODELS: [&str; 4] = ["glb", "gltf", "obj", "stl"];
+
+/// Endings of models that are not read.
+const OTHER_MODELS: [&str; 13] = [
+    "3ds", "3mf", "blend", "dae", "fbx", "iges", "igs", "ply", "step", "stp", "usd", "usdc", "usdz",
+];
+
+/// Refuses a model of a format that is not read, by its name.
+///
+/// # Errors
+/// What to do with it.
+pub fn refuse_other_model(path: &Path) -> Result<(), Flaw> {
+    let ending = path.extension().unwrap_or_default();
+    match (OTHER_MODELS.iter()).any(|it| ending.eq_ignore_ascii_case(it)) {
+        true => Err(Flaw::new(
+            "it is a model of another format",
+            "export it as .glb, .gltf, .obj or .stl",
+        )),
+        false => Ok(()),
+    }
+}
 
 /// Whether a file is a model by its name: .glb, .gltf, .obj or .stl.
 pub fn is_model(path: &Path) -> bool {

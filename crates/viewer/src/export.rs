@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use egui::{Align2, Id, ProgressBar, Rect};
 use hairline_document::{DEFAULT_SAMPLES, Description};
-use hairline_image::{Animation, Output};
+use hairline_image::{Animation, Output, check_sequence};
 use web_time::Instant;
 
 use crate::engine::SHADOW_SAMPLES;
@@ -159,6 +159,8 @@ impl Export {
             is_view_free: work.free_view.is_free(),
             is_snapshot: work.snapshots.cover(),
             cuts_out: description.cuts_out(),
+            is_deep: description.render.png_bits == 16,
+            has_backdrop: description.render.behind.is_some(),
             expected: self.expected(ctx, work, &form),
         };
         let answer = form.show(ctx, &scene);
@@ -222,6 +224,7 @@ impl Export {
             samples: form.samples,
             transport: work.wanted_transport(),
             motion: form.motion(),
+            fps: form.fps,
             path: form.path(),
             backend: work.engine.backend(),
         }
@@ -232,7 +235,13 @@ impl Export {
         let wish = Self::wish(work, &form);
         let checked = match wish.is_animation() {
             true => Animation::check(wish.base_dir.at(&wish.path)),
-            false => Output::check(wish.base_dir.at(wish.frame_path(0))).map(drop),
+            false => {
+                let ending = match form.is_turntable {
+                    true => check_sequence(&wish.path),
+                    false => Ok(()),
+                };
+                ending.and_then(|()| Output::check(wish.base_dir.at(wish.frame_path(0))).map(drop))
+            }
         };
         match checked {
             Err(error) => {

@@ -255,7 +255,7 @@ impl Snapshots {
         notices.clear("snapshot");
         self.taken += 1;
         let snapshot = Snapshot {
-            name: format!("Look {}", self.taken),
+            name: format!("Snapshot {}", self.taken),
             description: Arc::clone(document.description()),
             base_dir: document.base_dir().to_path_buf(),
             size_px: view.size_px,

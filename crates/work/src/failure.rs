@@ -39,7 +39,8 @@ impl From<hairline_image::Error> for Failure {
     fn from(error: hairline_image::Error) -> Self {
         match error {
             hairline_image::Error::UnknownEnding { .. }
-            | hairline_image::Error::NoAnimation { .. } => Self::Input(error.into()),
+            | hairline_image::Error::NoAnimation { .. }
+            | hairline_image::Error::NoSequence { .. } => Self::Input(error.into()),
             _ => Self::Work(error.into()),
         }
     }

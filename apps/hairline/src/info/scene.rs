@@ -24,6 +24,8 @@ struct Contents {
     gratings: Vec<Grating>,
     lights: Vec<Lamp>,
     environment: Option<Environment>,
+    /// Their names.
+    looks: Vec<String>,
     textures: usize,
     /// Contents of models that the picture does not have.
     left_out: Vec<LeftOut>,
@@ -250,6 +252,9 @@ fn contents(loaded: &Loaded) -> Contents {
         gratings: gratings.collect(),
         lights: lights.collect(),
         environment,
+        looks: (description.looks.iter())
+            .map(|it| it.name.clone())
+            .collect(),
         textures: scene.textures.len(),
         left_out: left_out(loaded),
         memory: Memory {
@@ -366,6 +371,10 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
             }
         }
     }
+    if !contents.looks.is_empty() {
+        writeln!(out, "looks: {}", contents.looks.len())?;
+    }
+    lines(out, &contents.looks, |name| format!("\"{}\"", shown(name)))?;
     writeln!(out, "textures: {}", contents.textures)?;
     writeln!(out, "left out of models: {}", contents.left_out.len())?;
     for it in &contents.left_out {

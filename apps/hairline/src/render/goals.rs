@@ -1,16 +1,13 @@
 //! Destination of the pictures of a sequence: numbered files, an animation, or both.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use hairline_image::{Animation, Output, output};
+use hairline_image::{Animation, FPS, Output, check_sequence, output};
 
 use crate::cli;
 use crate::scene_file;
 use hairline_work::failure::Failure;
-
-/// Default number of frames in a second.
-const DEFAULT_FPS: u16 = 30;
 
 /// Destination of the pictures.
 pub struct Goals {
@@ -51,15 +48,13 @@ impl Goals {
                 scene_file::picture_path(arguments.scene.as_deref(), ".png")
             });
         }
-        if let Some(path) = &pictures
-            && path
-                .extension()
-                .is_some_and(|ending| ending.eq_ignore_ascii_case("webp"))
-        {
-            let path = path.display();
-            return Err(Failure::Input(anyhow!(
-                "{path}: animations are written as animated PNG or as MPEG-4: end it in .apng or .mp4"
-            )));
+        if let Some(path) = &pictures {
+            if path == Path::new("-") {
+                return Err(Failure::Input(anyhow!(
+                    "--frames: -o - is one picture; name a file"
+                )));
+            }
+            check_sequence(path)?;
         }
         if let Some(path) = &animation {
             Animation::check(path)?;
@@ -73,7 +68,7 @@ impl Goals {
         Ok(Self {
             pictures,
             animation,
-            fps: flags.fps.unwrap_or(DEFAULT_FPS),
+            fps: flags.fps.unwrap_or(FPS),
         })
     }
 

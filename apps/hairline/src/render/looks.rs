@@ -27,7 +27,7 @@ pub fn run(
     (task, terminal): (Task, &Terminal),
     write: &dyn Fn(&Output, &Image, &Display) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let scene = loaded.description.clone();
+    let scene = &loaded.description;
     let outputs = outputs(&scene.looks, arguments)?;
     let paths: Vec<_> = outputs.iter().map(Output::path).collect();
     let inputs = scene.inputs(&loaded.folder);
@@ -35,25 +35,24 @@ pub fn run(
     let interrupt = Interrupt::listen().map_err(cannot_listen)?;
     let is_stopped = || interrupt.is_asked();
     let count = outputs.len();
+    // All of them, before the first is rendered: what is wrong with the last is told at once. They share what they have in common.
+    let scenes = (0..count).map(|i| loaded.with_look(i));
+    let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
     let mut progress = None;
-    for (i, (look, output)) in scene.looks.iter().zip(&outputs).enumerate() {
-        let mut seen = scene.clone();
-        look.apply(&mut seen);
-        seen.camera.exposure_ev = arguments.exposure.unwrap_or(seen.camera.exposure_ev);
-        loaded.show(&seen)?;
+    for (i, (scene, output)) in scenes.iter().zip(&outputs).enumerate() {
         // The renderer is reported once.
         let listener: &dyn Listener = if i == 0 { terminal } else { &Quiet };
-        let mut painter = Painter::open(&loaded.scene, task.clone(), listener)?;
+        let mut painter = Painter::open(scene, task.clone(), listener)?;
         let progress = &*progress.get_or_insert_with(|| Progress::start("rendering"));
         let done = |share: f64| progress.set((i as f64 + share) / count as f64);
-        let rendered = painter.render(&loaded.scene, &is_stopped, &done)?;
+        let rendered = painter.render(scene, &is_stopped, &done)?;
         if interrupt.is_asked() {
             let whole = format!("interrupted; {i} of {count} pictures are whole");
             return Err(Failure::Work(anyhow!("{whole}")));
         }
         let display = Display {
-            exposure_ev: seen.camera.exposure_ev,
-            tone_map: seen.render.tone_map,
+            exposure_ev: scene.camera.exposure_ev,
+            tone_map: scene.render.tone_map,
         };
         write(output, &rendered.image, &display)?;
     }
@@ -63,6 +62,11 @@ pub fn run(
 /// The file of each look: NAME-LOOK.png for -o NAME.png.
 fn outputs(looks: &[Look], arguments: &cli::Render) -> Result<Vec<Output>, Failure> {
     let refused = |what: String| Failure::Input(anyhow!("--looks: {what}"));
+    if arguments.exposure.is_some() {
+        let right = "leave it out, or write `exposure_ev` in each look";
+        let what = format!("--exposure would give all looks one exposure; {right}");
+        return Err(refused(what));
+    }
     let scene = arguments.scene.as_deref();
     if looks.is_empty() {
         let scene = scene.unwrap_or(Path::new("the built-in scene")).display();

@@ -295,7 +295,7 @@ fn info_tells_what_is_in_a_model() {
 fn info_tells_what_is_in_a_scene() {
     let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/maps/evening.hdr");
     let text = scene(&format!(
-        "[environment]\nfile = {map:?}\n[[scratches]]\nobject = \"plate\"\nname = \"cloth\"\npattern = \"random\"\ncount = 50\n"
+        "[environment]\nfile = {map:?}\n[[scratches]]\nobject = \"plate\"\nname = \"cloth\"\npattern = \"random\"\ncount = 50\n[[look]]\nname = \"at night\"\n"
     ));
     let folder = folder_with("s.toml", &text);
     let text = stdout_of(&hairline(folder.path(), "info s.toml").success());
@@ -305,6 +305,7 @@ fn info_tells_what_is_in_a_scene() {
         "random \"cloth\" on \"plate\": 50 scratches",
         "sphere \"lamp\" at (0.0600, 0.1000, 0.2500) m",
         "lamps found in it: 1",
+        "looks: 1\n  \"at night\"",
         "degrees above the horizon",
         "memory: about",
     ] {
@@ -450,6 +451,7 @@ fn other_files_than_scenes_are_refused_with_their_use() {
         ),
         ("render map.hdr", "an environment map"),
         ("render model.fbx", "export it as .glb"),
+        ("render model.STEP", "it is a model of another format"),
     ] {
         let text = stderr_of(&hairline(folder.path(), arguments).code(2));
         assert!(text.contains(message), "{arguments}: {text}");

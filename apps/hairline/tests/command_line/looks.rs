@@ -65,3 +65,25 @@ fn looks_that_have_no_files_are_refused() {
     assert!(message.contains("--frames"), "{message}");
     assert_eq!(names_in(folder.path()), ["s.toml"]);
 }
+
+#[test]
+fn what_a_look_lacks_is_told_before_any_is_rendered() {
+    let looks =
+        "[[look]]\nname = \"a\"\n[[look]]\nname = \"b\"\n[look.environment]\nfile = \"no.hdr\"\n";
+    let text = scene(looks);
+    let line = 1 + text.lines().position(|it| it.contains("no.hdr")).unwrap();
+    let folder = folder_with("s.toml", &text);
+    let refused = |flags: &str| {
+        let assert = hairline(folder.path(), &format!("render s.toml {flags}"));
+        stderr_of(&assert.code(2))
+    };
+    let message = refused("--looks");
+    let place = format!("s.toml:{line}: look[1].environment.file: ");
+    assert!(message.contains(&place), "{message}");
+    let message = refused("--looks --exposure 5");
+    assert!(
+        message.contains("would give all looks one exposure"),
+        "{message}"
+    );
+    assert_eq!(names_in(folder.path()), ["s.toml"]);
+}

@@ -192,3 +192,21 @@ fn an_stl_file_is_rendered() {
     let told = stderr_of(&hairline(folder.path(), "render cut.stl -o b.png").code(2));
     assert!(told.contains("cut.stl: it is cut off"), "{told}");
 }
+
+/// Faces that mirror a lamp to the camera as a whole show their scratches too.
+#[test]
+fn a_cube_of_metal_is_not_white() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = String::new();
+    for [x, y, z] in [0.0, 0.04].iter().flat_map(|y| {
+        [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]].map(|[x, z]| [x, *y, z])
+    }) {
+        text += &format!("v {x} {y} {z}\n");
+    }
+    text += "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+    fs::write(folder.path().join("cube.obj"), text).unwrap();
+    let (image, _) = rendered(folder.path(), "cube.obj");
+    let lit = image.base.iter().filter(|rgb| rgb[1] > 0.1).count();
+    let white = image.base.iter().filter(|rgb| rgb[1] > 1.0).count();
+    assert!(lit > 50 && 4 * white < lit, "{white} of {lit}");
+}

@@ -218,7 +218,7 @@ fn contradictions_are_2_and_nothing_is_written() {
     let folder = folder_with_scene();
     for (flags, message) in [
         ("--frames 3", "--turntable DEG, --zoom A:B"),
-        ("--frames 0 --turntable 9", "1..=100000"),
+        ("--frames 0 --turntable 9", "from 1 to 100000"),
         ("--time 0:1", "--time A:B is for a sequence"),
         ("--frames 2 --time 0:much", "FROM:TO"),
         ("--frames 2 --time 0:1 --stability", "not with --time A:B"),
@@ -233,9 +233,19 @@ fn contradictions_are_2_and_nothing_is_written() {
         ("--frames 2 --zoom 0:8", "1:8"),
         ("--frames 2 --zoom 1:90000", "from its target"),
         ("--frames 2 --zoom 1:2 --fps 12", "--animation FILE"),
-        ("--frames 2 --zoom 1:2 --fps 0", "1..=100"),
+        (
+            "--frames 2 --zoom 1:2 --fps 29.97",
+            "must be a whole number from 1 to 100",
+        ),
         ("--frames 1 --zoom 1:2 --stability", "--frames 2 or more"),
-        ("--frames 2 --zoom 1:2 -o a.webp", "end it in .apng"),
+        (
+            "--frames 2 --zoom 1:2 -o a.gif",
+            "error: a.gif: end it in .png or .exr for numbered pictures, in .apng or .mp4",
+        ),
+        (
+            "--frames 2 --zoom 1:2 -o -",
+            "--frames: -o - is one picture; name a file",
+        ),
         (
             "--frames 2 --zoom 1:2 --animation a.gif",
             ".apng, .png or .mp4",

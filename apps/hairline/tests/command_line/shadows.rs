@@ -1,5 +1,10 @@
 //! `render --shadows on`: refusals, and that it reaches the picture.
 
+#[cfg(unix)]
+use std::path::Path;
+#[cfg(unix)]
+use std::time::Duration;
+
 use crate::common::{folder_with, hairline, stderr_of};
 use hairline_image::exr_file;
 
@@ -153,30 +158,49 @@ fn shadows_hold_their_variance_and_closed_forms_have_none() {
     assert_eq!(render("--shadows off --bounces 0").0.noise, None);
 }
 
+/// Starts a command, and interrupts it so long after its first message. Returns its exit code and its further messages.
 #[cfg(unix)]
-#[test]
-fn an_interrupted_picture_has_the_samples_that_are_done() {
+fn interrupted(folder: &Path, arguments: &str, after: Duration) -> (Option<i32>, String) {
     use std::io::{BufRead, BufReader, Read};
     use std::process::{Command, Stdio};
-    use std::time::Duration;
 
-    let folder = folder_with("screened.toml", SCREENED);
-    let flags = "--backend cpu --shadows on --samples 1024 --size 160x120";
     let mut child = Command::new(env!("CARGO_BIN_EXE_hairline"))
-        .current_dir(folder.path())
-        .args(format!("render screened.toml -o out.exr {flags}").split(' '))
+        .current_dir(folder)
+        .args(arguments.split(' '))
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
     let mut stderr = BufReader::new(child.stderr.take().unwrap());
     stderr.read_line(&mut String::new()).unwrap();
-    std::thread::sleep(Duration::from_millis(1500));
+    std::thread::sleep(after);
     let id = child.id().to_string();
     let killed = Command::new("kill").args(["-INT", &id]).status();
     assert!(killed.unwrap().success());
     let mut rest = String::new();
     stderr.read_to_string(&mut rest).unwrap();
-    assert_eq!(child.wait().unwrap().code(), Some(0), "{rest}");
+    (child.wait().unwrap().code(), rest)
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_is_heard_while_scratches_are_sorted() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = "render --backend cpu --size 64x36 --samples 1024";
+    let (code, messages) = interrupted(folder.path(), arguments, Duration::ZERO);
+    assert!(
+        code == Some(1) && messages.contains("interrupted before the first samples"),
+        "{code:?} {messages}"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_picture_has_the_samples_that_are_done() {
+    let folder = folder_with("screened.toml", SCREENED);
+    let flags = "--backend cpu --shadows on --samples 1024 --size 160x120";
+    let arguments = format!("render screened.toml -o out.exr {flags}");
+    let (code, rest) = interrupted(folder.path(), &arguments, Duration::from_millis(1500));
+    assert_eq!(code, Some(0), "{rest}");
     let (image, notes) = exr_file::read_image_with_notes(&folder.path().join("out.exr")).unwrap();
     let samples = image.noise.unwrap().samples[0];
     assert!(

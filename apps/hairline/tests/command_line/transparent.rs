@@ -242,3 +242,35 @@ fn a_picture_behind_is_seen_beside_the_objects_and_through_shadows() {
     let image = exr_file::read_image(&folder.path().join("a.exr")).unwrap();
     assert!(image.alpha.is_some());
 }
+
+#[test]
+fn what_flags_of_a_cutout_do_not_do_is_told() {
+    let scene = format!("[render]\nsize_px = [16, 16]\n{BALL}");
+    let folder = folder_with("s.toml", &seen_from_above(&scene));
+    let render = |flags: &str| {
+        let arguments = format!("render s.toml --backend cpu --samples 1 {flags}");
+        hairline(folder.path(), &arguments)
+    };
+    let refused = |flags: &str| stderr_of(&render(flags).code(2));
+    let message = refused("--shadows-only --shadows off");
+    assert!(
+        message.contains("--shadows-only: nothing is left"),
+        "{message}"
+    );
+    let message = refused("--behind no.png");
+    assert!(
+        message.contains("error: --behind no.png: ")
+            && message.contains("relative to the current folder"),
+        "{message}"
+    );
+    let sky = image::RgbImage::new(4, 4);
+    sky.save(folder.path().join("sky.png")).unwrap();
+    let told = |flags: &str| stderr_of(&render(flags).success());
+    let message = told("--behind sky.png -o a.exr");
+    assert!(message.contains("note: a.exr: an .exr has"), "{message}");
+    let message = told("--png-bits 16 --frames 2 --turntable 9 -o a.apng");
+    assert!(
+        message.contains("note: a.apng: animations have 8"),
+        "{message}"
+    );
+}

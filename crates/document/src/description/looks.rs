@@ -69,6 +69,20 @@ impl Look {
         }
     }
 
+    /// An error of a scene that has this look, the look of this number: what the look gives has its keys.
+    #[must_use]
+    pub fn own_error(&self, index: usize, error: Error) -> Error {
+        let is_own = match error.key().split(['.', '[']).next() {
+            Some("camera") => self.camera.is_some(),
+            Some("environment" | "studio" | "light") => self.has_light(),
+            _ => false,
+        };
+        match is_own {
+            true => error.below(&format!("look[{index}]")),
+            false => error,
+        }
+    }
+
     /// Gives a scene this look.
     pub fn apply(&self, description: &mut Description) {
         if let Some(camera) = &self.camera {

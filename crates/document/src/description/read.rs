@@ -103,9 +103,19 @@ pub(super) fn keys_without_effect(
 impl Read for Render {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         // `gather` was a key of earlier versions: see `keys_without_effect`.
+        let older = match value.get_ref() {
+            DeValue::Table(entries) => entries.get("gather").map(|_| "gather"),
+            _ => None,
+        };
         let known = render::RENDER.keys.iter().map(|key| key.name);
-        let known: Vec<_> = known.chain(["gather"]).collect();
+        let known: Vec<_> = known.chain(older).collect();
         let table = Table::read(value, key, &known)?;
+        if let Some(bits) = table.get(render::PNG_BITS.name)
+            && !matches!(bits.get_ref(), DeValue::Integer(_))
+        {
+            let key = table.way(render::PNG_BITS.name);
+            return Err(wrong_type(bits, &key, "8 or 16"));
+        }
         Self::read_keys(&table)
     }
 }

@@ -462,6 +462,11 @@ impl<T: Read> Read for Vec<T> {
                 key,
                 &format!("written `[[{key}]]`, since there may be several"),
             )),
+            // `[look.light]`.
+            DeValue::Table(_) if key.ends_with("].light") => {
+                let right = "an array: write `light = [{ … }]` or `[[look.light]]`";
+                Err(wrong_type(value, key, right))
+            }
             _ => Err(wrong_type(value, key, "an array")),
         }
     }

@@ -563,6 +563,22 @@ fn long_work_reports_its_progress() {
     assert_eq!(scratches.last().unwrap().done, 100_000);
 }
 
+#[test]
+fn keys_of_render_say_what_is_right() {
+    let message = |line: &str| {
+        let text = scene_with(&format!("[render]\n{line}\n"));
+        let read = Description::from_toml(&text, Path::new("a.toml"));
+        read.unwrap_err().to_string()
+    };
+    let bits = message("png_bits = \"16\"");
+    assert!(bits.ends_with("must be 8 or 16"), "{bits}");
+    let keys = message("quality = 3");
+    assert!(
+        keys.contains("png_bits") && !keys.contains("gather"),
+        "{keys}"
+    );
+}
+
 /// `gather` was a key of earlier versions: files that have it load, and say that it has no effect.
 #[test]
 fn a_key_without_effect_is_noted() {

@@ -253,14 +253,40 @@ fn what_is_cut_off_or_broken_is_told() {
         (
             "stl",
             b"solid a\nfacet normal 0 0 0\nouter loop\nvertex 1 2\nendsolid",
+            "line 4: vertex: it has 2 of 3 numbers",
+        ),
+        (
+            "stl",
+            b"solid a\nfacet normal 0 0 0\nouter loop\nvertex 1 nan 2\nendsolid",
+            "line 4: vertex: \"nan\" is no finite number",
+        ),
+        (
+            "stl",
+            b"solid a\nfacet normal 0 0 0\nendsolid",
             "it is no valid STL",
         ),
         (
             "obj",
             b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\nf 1 2 3\n",
-            "it is no valid OBJ (face vertex index out of bounds in line 5 or before); must be a whole OBJ file",
+            "line 4: vertex 9; there are 3; must be a whole OBJ file",
         ),
-        ("obj", b"v 0 0 0\nv 1 0 zero\n", "in line 2 or before"),
+        (
+            "obj",
+            b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -4\n",
+            "line 4: vertex -4; there are 3",
+        ),
+        (
+            "obj",
+            b"v 0 0 0\nv 1 0 zero\n",
+            "line 2: v: \"zero\" is no finite number",
+        ),
+        ("obj", b"v 0 0 0\nv 1 1e99 0\n", "line 2: v: \"1e99\" is no"),
+        ("obj", b"v 0 0 0\nf 1 1 ?\n", "in line 2 or before"),
+        (
+            "step",
+            b"",
+            "it is a model of another format; export it as .glb",
+        ),
         ("obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "it has no triangles"),
         ("obj", b"\xff\xfe", "it has no triangles"),
     ] {
@@ -289,4 +315,66 @@ fn what_is_cut_off_or_broken_is_told() {
             .as_dvec3(),
         size
     );
+}
+
+const TRIANGLE: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\n";
+
+/// Notes on a model file, or what is wrong with it, with a file of materials beside it.
+fn notes_of(obj: &str, mtl: &str) -> Result<String, String> {
+    let dir = temporary_dir();
+    std::fs::write(dir.path().join("a.obj"), obj).unwrap();
+    std::fs::write(dir.path().join("a.mtl"), mtl).unwrap();
+    let built = build(&described("a.obj"), dir.path());
+    built
+        .map(|scene| scene.notes.join("\n"))
+        .map_err(|error| error.to_string())
+}
+
+#[test]
+fn what_a_material_lacks_is_told_by_its_line() {
+    let face = TRIANGLE.to_owned() + "f 1 2 3\n";
+    let missing = "newmtl paint\nKd 1 0 0\nmap_Kd wood.png\nnorm C:\\bumps.png\n";
+    let notes = notes_of(&face, missing).unwrap();
+    assert!(
+        notes.contains("a.mtl:3: its map_Kd, ") && notes.contains("wood.png\", cannot be read"),
+        "{notes}"
+    );
+    assert!(notes.contains("a.mtl:4: its norm is at"), "{notes}");
+    for (mtl, message) in [
+        (
+            "newmtl paint\nKd hello 1\n",
+            "a.mtl:2: Kd: found \"hello 1\"; must be 3 numbers",
+        ),
+        ("newmtl paint\nKd 1 1\n", "a.mtl:2: Kd: found \"1 1\""),
+        ("newmtl\n", "a.mtl:1: newmtl: found \"\"; must be a name"),
+    ] {
+        let error = notes_of(&face, mtl).unwrap_err();
+        assert!(error.contains(message), "{error}");
+    }
+}
+
+#[test]
+fn what_an_obj_file_has_in_vain_is_told() {
+    let obj = TRIANGLE.to_owned() + "f 1 2\nusemtl nope\nf 1 2 3\n";
+    let notes = notes_of(&obj, "newmtl paint\n").unwrap();
+    for note in [
+        "line 6: a face of fewer than 3 corners left out (1 in all)",
+        "line 7: usemtl nope: no .mtl file has it",
+    ] {
+        assert!(notes.contains(note), "{notes}");
+    }
+}
+
+#[test]
+fn a_model_that_is_metal_for_a_smaller_part_says_why_it_has_no_wear() {
+    let dir = temporary_dir();
+    let path = dir.path().join("a.obj");
+    let faces = "f 1 2 3\nusemtl gold\nf 1 3 2\n";
+    std::fs::write(&path, TRIANGLE.to_owned() + faces).unwrap();
+    let mtl = "newmtl paint\nnewmtl gold\nPm 1\n";
+    std::fs::write(dir.path().join("a.mtl"), mtl).unwrap();
+    let scene = Description::for_model(&path).unwrap();
+    assert!(scene.scratches.is_empty());
+    let notes = scene.notes.join("\n");
+    assert!(notes.contains("no wear is laid on it"), "{notes}");
 }

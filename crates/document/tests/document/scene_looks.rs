@@ -97,4 +97,11 @@ fn a_mistake_in_a_look_is_named_by_its_line() {
         message("[[look]]\nname = \"a\"\nexposure_ev = 99\n"),
         at(3, "look[0].exposure_ev: found 99; must be from -64 to 64")
     );
+    assert_eq!(
+        message("[[look]]\nname = \"a\"\n[look.light]\nkind = \"sphere\"\n"),
+        at(
+            3,
+            "look[0].light: found a table; must be an array: write `light = [{ … }]` or `[[look.light]]`"
+        )
+    );
 }

@@ -9,12 +9,16 @@ use serde_json::{Value, json};
 use tobj::LoadOptions;
 
 use super::creased::add_normals;
+use super::statements::{self, Found};
 use super::translated::{Part, Translated, bare_metal, begun, finished, push_part};
 use crate::flaw::Flaw;
 use crate::gltf_file::GltfFile;
+use crate::mesh_file::resource;
 use crate::text::shown;
 
 const RIGHT: &str = "must be a whole OBJ file";
+/// The images of a material that are read: of its colour, and its normals.
+const IMAGES: [&str; 2] = ["map_Kd", "norm"];
 const OPTIONS: LoadOptions = LoadOptions {
     single_index: true,
     triangulate: true,
@@ -23,12 +27,12 @@ const OPTIONS: LoadOptions = LoadOptions {
 };
 
 pub(super) fn translated(bytes: &[u8], folder: &FilePath) -> Result<Translated, Flaw> {
-    let (files, notes) = (RefCell::default(), RefCell::default());
-    let materials = |name: &Path| read_materials(name, folder, &files, &notes);
+    let library = Library::in_folder(folder);
     // Comments may be in any encoding.
     let text = String::from_utf8_lossy(bytes);
+    let found = statements::check_obj(&text).map_err(|found| Flaw::new(found, RIGHT))?;
     let mut lines = Counted::new(&text);
-    let read = tobj::load_obj_buf(&mut lines, &OPTIONS, materials);
+    let read = tobj::load_obj_buf(&mut lines, &OPTIONS, |name| library.with_images(name));
     let (models, materials) = read.map_err(|error| {
         let found = format!(
             "it is no valid OBJ ({error} in line {} or before)",
@@ -36,16 +40,21 @@ pub(super) fn translated(bytes: &[u8], folder: &FilePath) -> Result<Translated, 
         );
         Flaw::new(found, RIGHT)
     })?;
+    let Library {
+        files, notes, flaw, ..
+    } = library;
     let materials = materials.map_err(|error| {
-        Flaw::new(
-            format!("its .mtl file is not valid ({error})"),
-            "must be a whole .mtl file",
-        )
+        let found = format!("its .mtl file is not valid ({error})");
+        let other = || Flaw::new(found, "must be a whole .mtl file");
+        flaw.into_inner().unwrap_or_else(other)
     })?;
+    let mut notes = notes.into_inner();
+    let tells_materials = notes.is_empty() || !materials.is_empty();
+    notes.extend(taken_in_silence(&found, &materials, tells_materials));
     let mut file = begun();
     let mut translation = Materials {
         file: &mut file,
-        notes: notes.into_inner(),
+        notes,
     };
     for material in &materials {
         translation.push(material);
@@ -86,10 +95,10 @@ pub(super) fn names(path: &FilePath) -> Option<Vec<(String, PathBuf)>> {
         .lines()
         .filter_map(|line| line.trim().strip_prefix("mtllib "));
     let mut names = Vec::new();
-    for library in libraries {
-        let (files, notes) = (RefCell::default(), RefCell::default());
-        let materials = read_materials(Path::new(library.trim()), folder, &files, &notes);
-        let named = files.into_inner().into_iter();
+    for name in libraries {
+        let library = Library::in_folder(folder);
+        let materials = library.read(Path::new(name.trim()));
+        let named = library.files.into_inner().into_iter();
         names.extend(named.map(|file| ("materials".to_owned(), file.to_path_buf())));
         for material in materials.into_iter().flat_map(|(materials, _)| materials) {
             let images = images(&material).into_iter().flatten();
@@ -104,28 +113,117 @@ pub(super) fn names(path: &FilePath) -> Option<Vec<(String, PathBuf)>> {
     Some(names)
 }
 
-/// Reads a .mtl file. One that is not there leaves the materials out, with a note.
-fn read_materials(
-    name: &Path,
-    folder: &FilePath,
-    files: &RefCell<Vec<FilePath>>,
-    notes: &RefCell<Vec<String>>,
-) -> tobj::MTLLoadResult {
-    let path = folder.join(name.to_string_lossy().replace('\\', "/"));
-    let mut bytes = Vec::new();
-    let read = path
-        .open()
-        .and_then(|mut file| file.read_to_end(&mut bytes));
-    files.borrow_mut().push(path);
-    if let Err(error) = read {
-        let name = shown(&name.to_string_lossy());
-        notes.borrow_mut().push(format!(
-            "its materials, \"{name}\", cannot be read ({error}); it is shown as a metal"
+/// Notes on what is read in silence. Without a .mtl file that cannot be read there are none on materials.
+fn taken_in_silence(
+    found: &Found<'_>,
+    materials: &[tobj::Material],
+    tells_materials: bool,
+) -> Vec<String> {
+    let mut notes = Vec::new();
+    let (count, line) = found.short_faces;
+    if count > 0 {
+        notes.push(format!(
+            "line {line}: a face of fewer than 3 corners left out ({count} in all)"
         ));
-        return Ok(Default::default());
     }
-    let text = String::from_utf8_lossy(&bytes);
-    tobj::load_mtl_buf(&mut Cursor::new(text.as_bytes()))
+    let is_known = |name: &str| materials.iter().any(|it| it.name == name);
+    let unknown = found.used.iter().find(|(_, name)| !is_known(name));
+    if let Some((line, name)) = unknown.filter(|_| tells_materials) {
+        let name = shown(name);
+        notes.push(format!(
+            "line {line}: usemtl {name}: no .mtl file has it; what uses it is shown as a metal"
+        ));
+    }
+    notes
+}
+
+/// The .mtl files of an OBJ file, as they are read.
+struct Library<'a> {
+    folder: &'a FilePath,
+    files: RefCell<Vec<FilePath>>,
+    notes: RefCell<Vec<String>>,
+    flaw: RefCell<Option<Flaw>>,
+}
+
+impl<'a> Library<'a> {
+    fn in_folder(folder: &'a FilePath) -> Self {
+        Self {
+            folder,
+            files: RefCell::default(),
+            notes: RefCell::default(),
+            flaw: RefCell::default(),
+        }
+    }
+
+    /// Reads a .mtl file. One that is not there leaves the materials out, with a note.
+    fn read(&self, name: &Path) -> tobj::MTLLoadResult {
+        match self.text(name) {
+            Some(text) => self.parsed(name, &text),
+            None => Ok(Default::default()),
+        }
+    }
+
+    /// Reads a .mtl file. Images that are not there are left out, with a note.
+    fn with_images(&self, name: &Path) -> tobj::MTLLoadResult {
+        let Some(text) = self.text(name) else {
+            return Ok(Default::default());
+        };
+        let (mut materials, numbers) = self.parsed(name, &text)?;
+        let name = shown(&name.to_string_lossy());
+        for (line, key, rest) in statements::of(&text) {
+            let uri = image(rest).filter(|_| IMAGES.contains(&key));
+            let flaw = uri.as_deref().and_then(|uri| self.lacks(uri, key));
+            let Some(flaw) = flaw else {
+                continue;
+            };
+            let note = format!("{name}:{line}: {}; left out", flaw.found);
+            self.notes.borrow_mut().push(note);
+            for material in &mut materials {
+                (material.diffuse_texture).take_if(|it| image(it) == uri && key == IMAGES[0]);
+                let normals = material.unknown_param.get(key).and_then(|it| image(it));
+                if normals == uri {
+                    material.unknown_param.remove(key);
+                }
+            }
+        }
+        Ok((materials, numbers))
+    }
+
+    /// Why an image cannot be read, if so.
+    fn lacks(&self, uri: &str, key: &str) -> Option<Flaw> {
+        let mut files = Vec::new();
+        let flaw = resource(uri, self.folder, key, &mut files).err();
+        if flaw.is_some() {
+            // Whoever watches the model's files sees that it comes.
+            self.files.borrow_mut().extend(files);
+        }
+        flaw
+    }
+
+    fn text(&self, name: &Path) -> Option<String> {
+        let path = (self.folder).join(name.to_string_lossy().replace('\\', "/"));
+        let mut bytes = Vec::new();
+        let read = path
+            .open()
+            .and_then(|mut file| file.read_to_end(&mut bytes));
+        self.files.borrow_mut().push(path);
+        if let Err(error) = read {
+            let name = shown(&name.to_string_lossy());
+            self.notes.borrow_mut().push(format!(
+                "its materials, \"{name}\", cannot be read ({error}); it is shown as a metal"
+            ));
+            return None;
+        }
+        Some(String::from_utf8_lossy(&bytes).into_owned())
+    }
+
+    fn parsed(&self, name: &Path, text: &str) -> tobj::MTLLoadResult {
+        if let Err(flaw) = statements::check_mtl(name, text) {
+            self.flaw.replace(Some(flaw));
+            return Err(tobj::LoadError::MaterialParseError);
+        }
+        tobj::load_mtl_buf(&mut Cursor::new(text.as_bytes()))
+    }
 }
 
 /// A part with its triangles, normals made where it has none.
@@ -158,7 +256,7 @@ fn part(model: &tobj::Model, material: usize) -> Part {
 
 /// The images of a material that are used: of its colour, and its normals.
 fn images(material: &tobj::Material) -> [Option<String>; 2] {
-    let normals = material.unknown_param.get("norm");
+    let normals = material.unknown_param.get(IMAGES[1]);
     [&material.diffuse_texture, &normals.cloned()].map(|it| it.as_deref().and_then(image))
 }
 

@@ -5,6 +5,7 @@ use std::io::Cursor;
 use serde_json::json;
 
 use super::creased::add_normals;
+use super::statements;
 use super::translated::{Part, Translated, bare_metal, begun, finished, push_part};
 use crate::flaw::Flaw;
 
@@ -16,7 +17,10 @@ const TRIANGLE: usize = 50;
 pub(super) fn translated(bytes: &[u8]) -> Result<Translated, Flaw> {
     let readable = readable(bytes)?;
     let mesh = stl_io::read_stl(&mut Cursor::new(readable)).map_err(|error| {
-        let found = format!("it is no valid STL ({error})");
+        let found = match wrong_number(bytes) {
+            Some(wrong) => wrong,
+            None => format!("it is no valid STL ({error})"),
+        };
         Flaw::new(found, RIGHT)
     })?;
     let mut part = Part {
@@ -49,6 +53,20 @@ pub(super) fn translated(bytes: &[u8]) -> Result<Translated, Flaw> {
             "it names no unit and no material; taken for millimetres, z up, of a metal (`scale = 1000` where it is in metres)".to_owned(),
         ],
         ..Translated::default()
+    })
+}
+
+/// The first line of a text whose numbers are wrong.
+fn wrong_number(bytes: &[u8]) -> Option<String> {
+    let text = str::from_utf8(bytes).ok()?;
+    statements::of(text).find_map(|(line, key, rest)| {
+        let numbers = match key {
+            "vertex" => rest,
+            "facet" => rest.strip_prefix("normal")?,
+            _ => return None,
+        };
+        let wrong = statements::check_numbers(numbers, 3).err()?;
+        Some(format!("line {line}: {key}: {wrong}"))
     })
 }
 

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use egui::{Checkbox, DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
 use hairline_editor::navigate::Turns;
-use hairline_image::{BATCH_SAMPLES, Batches};
+use hairline_image::{Animation, BATCH_SAMPLES, Batches, FPS, FPS_MAX};
 
 use super::work::{Expected, Motion};
 use crate::engine::SHADOW_SAMPLES;
@@ -28,6 +28,8 @@ pub(super) struct Form {
     pub is_transparent: bool,
     pub frames: u32,
     pub degrees: f64,
+    /// Pictures of an animation in a second.
+    pub fps: u16,
     /// What a turntable turns.
     pub turns: Turns,
     /// Path as typed.
@@ -54,6 +56,10 @@ pub(super) struct ExportContext {
     pub is_snapshot: bool,
     /// Whether the scene says that its pictures have an alpha.
     pub cuts_out: bool,
+    /// Whether the scene's PNGs have 16 bits a channel.
+    pub is_deep: bool,
+    /// Whether the scene has a picture behind the objects.
+    pub has_backdrop: bool,
     /// What is known of the pictures beforehand.
     pub expected: Expected,
 }
@@ -76,6 +82,7 @@ impl Form {
             is_transparent: false,
             frames: 120,
             degrees: 360.0,
+            fps: FPS,
             turns: Turns::Object,
             path: path.display().to_string(),
             refused: None,
@@ -108,7 +115,16 @@ impl Form {
     /// Replaces the typed path by another one.
     pub fn set_path(&mut self, path: &Path) {
         self.path = path.display().to_string();
-        (self.refused, self.question) = (None, None);
+        self.take_path();
+    }
+
+    /// Takes what was typed. A video whose program is not there is refused at once.
+    fn take_path(&mut self) {
+        let path = self.path();
+        let is_video = (path.extension()).is_some_and(|it| it.eq_ignore_ascii_case("mp4"));
+        let checked = (self.is_turntable && is_video).then(|| Animation::check(&path));
+        self.refused = checked.and_then(Result::err).map(|error| error.to_string());
+        self.question = None;
     }
 
     fn is_too_large(&self) -> bool {
@@ -180,10 +196,14 @@ impl Form {
                         "In all, about the camera's up through its target. The step after the last picture would \
                          complete it, so that 360° go round without a jump",
                     );
+                    if self.motion().is_animation(&self.path()) {
+                        let fps = DragValue::new(&mut self.fps).range(1..=FPS_MAX);
+                        row(ui, "Pictures in a second", fps);
+                    }
                 }
                 answer = self.path_row(ui);
             });
-            self.remarks(ui);
+            self.remarks(ui, scene);
             self.expectations(ui, scene.expected);
             if scene.is_snapshot {
                 ui.colored_label(
@@ -318,7 +338,7 @@ impl Form {
             let edit = TextEdit::singleline(&mut self.path).desired_width(300.0);
             let response = ui.add(edit).labelled_by(label.id);
             if response.changed() {
-                (self.refused, self.question) = (None, None);
+                self.take_path();
             }
             if ui.button("Choose file…").clicked() {
                 answer = Some(Answer::ChooseFile);
@@ -329,16 +349,23 @@ impl Form {
     }
 
     /// Remarks on the result.
-    fn remarks(&mut self, ui: &mut Ui) {
+    fn remarks(&mut self, ui: &mut Ui, scene: &ExportContext) {
         let first = self.motion().path(&self.path(), 0);
         let ending = first.extension().unwrap_or_default().to_string_lossy();
         let format = match ending.to_lowercase().as_str() {
-            "png" => "PNG: with the look of the window.",
+            "png" => match (scene.is_deep, scene.has_backdrop) {
+                (false, false) => "PNG: with the look of the window.",
+                (true, false) => "PNG: with the look of the window, 16 bits a channel.",
+                (false, true) => "PNG: with the look of the window, and the picture behind.",
+                (true, true) => {
+                    "PNG: with the look of the window and the picture behind, 16 bits a channel."
+                }
+            },
             "apng" if self.is_turntable => {
-                "APNG: one file that browsers play, 25 pictures in a second, as the window shows them."
+                "APNG: one file that browsers play, as the window shows it, 8 bits a channel."
             }
             "mp4" if self.is_turntable => {
-                "MP4: one file that players play, 25 pictures in a second, made by the program ffmpeg."
+                "MP4: one file that players play, made by the program ffmpeg."
             }
             "exr" => {
                 "EXR: linear radiance, with the layers base, scratches, density, depth and normal."
@@ -414,6 +441,16 @@ mod tests {
         assert_eq!(path(" /tmp/a.exr "), Path::new("/tmp/a.exr"));
         assert_eq!(path("/tmp/a.jpg"), Path::new("/tmp/a.jpg"));
         assert_eq!(path("/"), Path::new("/"));
+    }
+
+    #[test]
+    fn a_video_is_refused_as_soon_as_it_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("nowhere/a.mp4");
+        let mut form = Form::new(true, [4, 4], 8, Path::new("a.png"));
+        form.set_path(&path);
+        let refused = Animation::check(&path).unwrap_err().to_string();
+        assert_eq!(form.refused, Some(refused));
     }
 
     #[test]

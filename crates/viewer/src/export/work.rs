@@ -45,9 +45,6 @@ impl Motion {
     }
 }
 
-/// Pictures of an animation in a second.
-pub(super) const FPS: u16 = 25;
-
 /// Request for an export.
 #[derive(Clone)]
 pub(super) struct Wish {
@@ -62,6 +59,8 @@ pub(super) struct Wish {
     /// Whether the background is transparent; the environment is not seen then.
     pub is_transparent: bool,
     pub motion: Motion,
+    /// Pictures of an animation in a second.
+    pub fps: u16,
     /// Path of the export; a turntable's pictures have numbers in their names.
     pub path: PathBuf,
     pub backend: Backend,
@@ -293,7 +292,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
             wish.base_dir.at(&wish.path),
             wish.size_px,
             wish.frames(),
-            FPS,
+            wish.fps,
             wish.is_transparent,
             &finish,
         )

@@ -56,7 +56,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
                 ui.add(egui::Label::new(file.display().to_string()).truncate());
                 false
             });
-            let axes = [(Up::Y, "y, as in glTF"), (Up::Z, "z, as in CAD")];
+            let axes = [(Up::Y, "y"), (Up::Z, "z, as in CAD")];
             form.choice(
                 "Up",
                 "Which axis of the model's file points up",

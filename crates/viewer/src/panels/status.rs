@@ -79,7 +79,7 @@ pub(super) fn summary(engine: &Engine, viewport: &Viewport) -> String {
     let is_stale = viewport.canvas.is_stale();
     let what = activity(&frame, is_stale);
     match frame.painted.left.filter(|_| !is_stale) {
-        _ if engine.is_paused() && !frame.painted.is_final => format!("paused: {what}"),
+        _ if engine.is_paused() && !frame.painted.is_final => "paused".to_owned(),
         Some(_) if engine.is_resting() => "paused while an export runs".to_owned(),
         Some(left) => format!("{} left: {what}", rough(left)),
         None => what,
@@ -107,23 +107,30 @@ fn picture(frame: &Frame, is_stale: bool, engine: &Engine) -> Vec<String> {
         ),
         None => (activity(frame, is_stale), painted.left),
     };
-    let mut parts = vec![
-        format!("{width} × {height}, {}", milliseconds(painted.time)),
-        what,
-    ];
-    if engine.is_paused() && !painted.is_final {
-        parts.push("paused".to_owned());
-    } else if let Some(left) = left.filter(|_| !is_stale) {
-        parts.push(match engine.is_resting() {
-            true => "paused while an export runs".to_owned(),
-            false => format!("{} left", rough(left)),
-        });
-    }
+    let mut parts = vec![format!(
+        "{width} × {height}, {}",
+        milliseconds(painted.time)
+    )];
+    parts.extend(match engine.is_paused() && !painted.is_final {
+        true => vec!["paused".to_owned()],
+        false => with_time_left(what, left.filter(|_| !is_stale), engine.is_resting()),
+    });
     if !painted.passes.is_empty() {
         let device: Duration = painted.passes.iter().map(|pass| pass.time).sum();
         parts.push(format!("device {}", milliseconds(device)));
     }
     parts
+}
+
+/// What is done, and the time that it takes.
+fn with_time_left(what: String, left: Option<Duration>, is_resting: bool) -> Vec<String> {
+    let time = match left {
+        Some(_) if is_resting => "paused while an export runs".to_owned(),
+        Some(left) => format!("{} left", rough(left)),
+        None if what.ends_with('%') => "time left: estimating…".to_owned(),
+        None => return vec![what],
+    };
+    vec![what, time]
 }
 
 /// What the picture and the last edit took.
@@ -278,7 +285,17 @@ fn grouped(n: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::grouped;
+    use super::{Duration, grouped, with_time_left};
+
+    #[test]
+    fn work_with_a_share_says_something_of_its_time() {
+        let told = |what: &str, left| with_time_left(what.to_owned(), left, false).concat();
+        assert_eq!(told("finished", None), "finished");
+        let share = "finishing, 31 %";
+        assert!(told(share, None).contains("estimating"));
+        let left = Some(Duration::from_secs(7));
+        assert!(told(share, left).ends_with("7 s left"));
+    }
 
     #[test]
     fn thousands_are_set_apart() {

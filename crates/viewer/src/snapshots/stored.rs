@@ -1,4 +1,4 @@
-//! Snapshots beside the scene's file: `plate.looks` beside `plate.toml`, with a scene file and a picture for each look.
+//! Snapshots beside the scene's file: `plate.snapshots` beside `plate.toml`, with a scene file and a picture for each.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,12 @@ use image::{ExtendedColorType, ImageEncoder};
 
 /// The folder of a scene's snapshots.
 pub(super) fn folder(scene: &Path) -> PathBuf {
-    scene.with_extension("looks")
+    // The name of earlier versions.
+    let older = scene.with_extension("looks");
+    match older.is_dir() {
+        true => older,
+        false => scene.with_extension("snapshots"),
+    }
 }
 
 /// A look as it is read.
@@ -36,7 +41,7 @@ pub(super) fn read(folder: &Path) -> Vec<Stored> {
             })
         })
         .collect();
-    // Look 10 comes after Look 9.
+    // Snapshot 10 comes after Snapshot 9.
     looks.sort_by(|a, b| (a.name.len(), &a.name).cmp(&(b.name.len(), &b.name)));
     looks
 }

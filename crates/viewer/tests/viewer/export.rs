@@ -313,6 +313,9 @@ fn a_turntable_is_one_file_that_plays() {
     let bytes = std::fs::read(&path).unwrap();
     let at = bytes.windows(4).position(|it| it == b"acTL").unwrap();
     assert_eq!(bytes[at + 4..at + 8], 3_u32.to_be_bytes());
+    // fcTL holds the time of a frame, behind five numbers of four bytes.
+    let at = bytes.windows(4).position(|it| it == b"fcTL").unwrap();
+    assert_eq!(bytes[at + 24..at + 28], [0, 1, 0, 30]);
     let first = png::read_picture(&path).unwrap();
     assert_eq!(first.size_px, [48, 32]);
     let said = harness.state().messages().concat();
@@ -350,7 +353,25 @@ fn a_path_that_cannot_be_written_is_told_before_the_work() {
         // The question stays, so that the path can be mended.
         common::click_on(&mut harness, "Cancel");
     }
+    export_turntable(&mut harness, &folder.path().join("a.gif"), 3);
+    let said = harness.state().messages().concat();
+    assert!(
+        said.contains("a.gif: end it in .png or .exr for numbered pictures"),
+        "{said}"
+    );
     assert_eq!(names(folder.path()), ["file"]);
+}
+
+#[test]
+fn the_form_says_what_a_png_has() {
+    let mut harness = viewer(TINY);
+    let document = harness.state_mut().document_mut();
+    document.edit("by the test", |d| d.render.png_bits = 16);
+    common::wait_built(&mut harness);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::P);
+    harness.run_steps(3);
+    let remark = "PNG: with the look of the window, 16 bits a channel.";
+    assert!(harness.query_by_label_contains(remark).is_some());
 }
 
 #[test]

@@ -47,20 +47,20 @@ fn a_snapshot_is_flipped_to_and_restored_as_one_step() {
     let before = harness.state().document().description().clone();
     common::key(&mut harness, Key::S);
     harness.run_steps(2);
-    assert!(!is_shown(&harness, "Look 1"));
+    assert!(!is_shown(&harness, "Snapshot 1"));
     turn(&mut harness);
     let turned = harness.state().document().description().clone();
     common::key(&mut harness, Key::J);
     harness.run_steps(2);
-    assert!(is_shown(&harness, "Look 1"));
+    assert!(is_shown(&harness, "Snapshot 1"));
     // The current look stays what it is.
     assert_eq!(*harness.state().document().description(), turned);
-    click(&mut harness, "Look 1");
-    assert!(!is_shown(&harness, "Look 1"));
+    click(&mut harness, "Snapshot 1");
+    assert!(!is_shown(&harness, "Snapshot 1"));
     click(&mut harness, "Restore");
     assert_eq!(*harness.state().document().description(), before);
     let document = harness.state_mut().document_mut();
-    assert_eq!(document.undo().as_deref(), Some("Restore Look 1"));
+    assert_eq!(document.undo().as_deref(), Some("Restore Snapshot 1"));
     assert_eq!(*harness.state().document().description(), turned);
 }
 
@@ -90,8 +90,8 @@ fn a_snapshot_that_is_flipped_to_has_the_frame_of_the_picture() {
     let now = dims(&harness);
     assert!(now > 0);
     click(&mut harness, "Snapshot");
-    click(&mut harness, "Look 1");
-    assert!(is_shown(&harness, "Look 1"));
+    click(&mut harness, "Snapshot 1");
+    assert!(is_shown(&harness, "Snapshot 1"));
     assert_eq!(dims(&harness), now);
 }
 
@@ -101,12 +101,12 @@ fn snapshots_belong_to_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("a.toml");
     std::fs::write(&scene, common::SMALL).unwrap();
-    let looks = folder.path().join("a.looks");
+    let looks = folder.path().join("a.snapshots");
     let mut harness = common::viewer_of_file(&scene);
     finish(&mut harness);
     common::key(&mut harness, Key::S);
     common::wait_until(&mut harness, "its picture", |_| {
-        looks.join("Look 1.png").exists()
+        looks.join("Snapshot 1.png").exists()
     });
     let taken = harness.state().document().description().clone();
     turn(&mut harness);
@@ -118,7 +118,7 @@ fn snapshots_belong_to_the_file() {
     finish(&mut harness);
     let is_drawn = |harness: &Harness<'static, Viewer>| {
         let at = harness
-            .get_by_role_and_label(Role::Button, "Look 1")
+            .get_by_role_and_label(Role::Button, "Snapshot 1")
             .rect()
             .center();
         let shapes = harness.output().shapes.iter().map(|clipped| &clipped.shape);
@@ -136,15 +136,15 @@ fn snapshots_belong_to_the_file() {
         harness.step();
     }
     assert_ne!(*harness.state().document().description(), taken);
-    click(&mut harness, "Look 1");
-    assert!(is_shown(&harness, "Look 1"));
+    click(&mut harness, "Snapshot 1");
+    assert!(is_shown(&harness, "Snapshot 1"));
     click(&mut harness, "Restore");
     assert_eq!(*harness.state().document().description(), taken);
     click(&mut harness, "Snapshot");
     assert!(looks.join("Look 2.toml").exists());
     for _ in 0..2 {
         click(&mut harness, "Delete the snapshot");
-        if let Some(look) = harness.query_by_label("Look 1") {
+        if let Some(look) = harness.query_by_label("Snapshot 1") {
             look.click();
             harness.run_steps(3);
         }
@@ -159,15 +159,15 @@ fn looks_are_compared_side_by_side_and_under_a_slider_and_deleted() {
     turn(&mut harness);
     common::key(&mut harness, Key::S);
     harness.run_steps(2);
-    click(&mut harness, "Look 1");
+    click(&mut harness, "Snapshot 1");
     click(&mut harness, "Side by side");
-    assert!(is_shown(&harness, "Look 1"));
+    assert!(is_shown(&harness, "Snapshot 1"));
     click(&mut harness, "Slider");
     let divider = "Divider between now and the snapshot";
     assert!(harness.query_by_label(divider).is_some());
     click(&mut harness, "Slider");
     assert!(harness.query_by_label(divider).is_none());
     click(&mut harness, "Delete the snapshot");
-    assert!(harness.query_by_label("Look 1").is_none());
+    assert!(harness.query_by_label("Snapshot 1").is_none());
     assert!(harness.query_by_label("Look 2").is_some());
 }
