@@ -199,7 +199,7 @@ impl Tree {
     /// Shapes of the grooves, two numbers each: the index of the cross section, and the class of widths.
     pub fn shapes(&self) -> Vec<u32> {
         let shapes = self.made.shapes.iter().flat_map(|shape| {
-            let known = self.sections.iter();
+            let mut known = self.sections.iter();
             let profile = known.position(|it| *it == shape.section);
             [profile.unwrap_or(0) as u32, shape.width_class.into()]
         });
