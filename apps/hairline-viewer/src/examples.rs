@@ -25,7 +25,7 @@ macro_rules! files {
 
 pub(crate) static EXAMPLES: Examples = Examples {
     scenes: scenes! {
-        "baubles" "bokeh" "bonnet" "brushed" "caseback" "closeup" "disc" "drawn" "dvd" "groove" "knife" "knob"
+        "baubles" "bokeh" "bonnet" "brushed" "caseback" "closeup" "disc" "drawn" "dvd" "engraved" "groove" "knife" "knob"
         "lamps" "lid" "lighter" "lights" "mirror" "movement" "pan" "phone" "plate" "record" "rings"
         "seal" "spoon" "sundial" "sunlit"
     },

@@ -78,7 +78,7 @@ macro_rules! scenes {
 
 scenes! {
     bokeh brushed built_in_scene closeup disc drawn dvd groove lid lights mirror pan phone plate profiles record spoon;
-    baubles bonnet caseback knife knob lamps lighter movement rings seal sundial sunlit
+    baubles bonnet caseback engraved knife knob lamps lighter movement rings seal sundial sunlit
 }
 
 #[test]
