@@ -158,9 +158,10 @@ impl Subject<'_> {
             let from_lamp = |lamp_m: &DVec3| {
                 let (wi, wo, distance_m) = lamps.directions(point, *lamp_m);
                 let angular_radius = lamps.radius_m() / distance_m;
-                // A mirror image is as wide as its lamp.
-                let lobe = mirrored * ggx_eval(wi, wo, alpha.max(angular_radius));
-                PI * angular_radius * angular_radius * (lobe + body / PI * wi.z.max(0.0))
+                let solid_angle = PI * angular_radius * angular_radius;
+                // A mirror image is no brighter than its lamp.
+                let image = (solid_angle * ggx_eval(wi, wo, alpha)).min(1.0);
+                mirrored * image + body * solid_angle / PI * wi.z.max(0.0)
             };
             at_m.iter().map(from_lamp).sum()
         };
