@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use hairline_scene::{Base, Material, Texture};
 
-use super::PlainModel;
+use super::model::PlainModel;
 use crate::error::Error;
 use crate::loader::Loader;
 use atlas::Atlas;

@@ -6,10 +6,11 @@ use hairline_model::gltf_file::GltfFile;
 use hairline_scene::{Material, Mesh, Object, Texture, Wrap};
 use serde_json::{Value, json};
 
-use super::PlainModel;
+use super::model::PlainModel;
 use super::parts::{Part, parts};
 use super::pictures::png;
 use crate::error::Error;
+use crate::gltf_scene::Exported;
 use crate::gltf_scene::writing::looks;
 use crate::gltf_scene::writing::objects::GENERATOR;
 
@@ -17,8 +18,17 @@ const NEAREST: u32 = 9728;
 const LINEAR: u32 = 9729;
 const LINEAR_MIPS: u32 = 9987;
 
+impl PlainModel {
+    /// The binary glTF file.
+    pub(crate) fn to_glb(&self) -> Result<Exported, Error> {
+        let mut notes = self.notes();
+        let bytes = file(self, &mut notes)?;
+        Ok(Exported { bytes, notes })
+    }
+}
+
 /// The file. `notes` get what other programs do not show.
-pub(super) fn file(model: &PlainModel, notes: &mut Vec<String>) -> Result<Vec<u8>, Error> {
+fn file(model: &PlainModel, notes: &mut Vec<String>) -> Result<Vec<u8>, Error> {
     let mut file = GltfFile::new(GENERATOR);
     file.pushes_own = true;
     let mut writer = Writer {

@@ -9,11 +9,28 @@ use std::fmt::Write as _;
 use glam::{Vec2, Vec3};
 use hairline_scene::{Mesh, Object};
 
-use super::PlainModel;
+use super::model::PlainModel;
 use super::parts::{Part, parts};
+use super::zip;
+use crate::error::Error;
+use crate::gltf_scene::Exported;
+
+impl PlainModel {
+    /// The package for phones.
+    pub(crate) fn to_usdz(&self) -> Result<Exported, Error> {
+        let bytes = zip::packed(&files(self)).map_err(|why| {
+            let right = "must have smaller models or pictures";
+            Error::new("", why, right)
+        })?;
+        Ok(Exported {
+            bytes,
+            notes: self.notes(),
+        })
+    }
+}
 
 /// The files of a package by their names. The stage is the first, as readers ask.
-pub(super) fn files(model: &PlainModel) -> Vec<(String, Vec<u8>)> {
+fn files(model: &PlainModel) -> Vec<(String, Vec<u8>)> {
     let mut stage = Stage {
         model,
         meshes: String::new(),
@@ -46,7 +63,7 @@ impl Stage<'_> {
         for part in parts(&object.mesh) {
             let (number, material) = (self.count, part.material);
             self.count += 1;
-            let name = quoted(&object.name);
+            let name = look::quoted(&object.name);
             let _ = write!(
                 self.meshes,
                 "
@@ -134,12 +151,6 @@ def Xform \"Root\" (
 "
         )
     }
-}
-
-/// A name as a text of USD.
-fn quoted(name: &str) -> String {
-    let name = name.replace(char::is_control, " ");
-    format!("\"{}\"", name.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
 fn triples(of: impl Iterator<Item = Vec3>) -> String {

@@ -5,7 +5,6 @@ use std::fmt::{Display, Write as _};
 
 use hairline_scene::{AlphaRule, Base, Material, Scene, Wrap};
 
-use super::quoted;
 use crate::plain_model::pictures::png;
 
 /// Names of the two sets of texture coordinates.
@@ -19,6 +18,12 @@ pub(super) fn path(number: usize) -> String {
 /// The name of a texture's file in the package.
 pub(super) fn picture_name(number: usize) -> String {
     format!("textures/{number}.png")
+}
+
+/// A name as a text of USD.
+pub(super) fn quoted(name: &str) -> String {
+    let name = name.replace(char::is_control, " ");
+    format!("\"{}\"", name.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
 /// The text of a material, by its number in the scene. `pictures` get the textures that it names.
