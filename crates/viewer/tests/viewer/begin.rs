@@ -249,3 +249,34 @@ fn strength_moves_count_width_and_depth_as_one_step() {
     assert_eq!(*description(&harness), *before);
     common::undo(&mut harness);
 }
+
+#[test]
+fn strength_is_typed_and_says_why_there_is_none() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    select(&mut harness, Selection::Layer(0));
+    for words in ["barely there", "heavy"] {
+        harness.get_by_label(words);
+    }
+    let mut all = Vec::new();
+    for typed in ["1", "0", "1"] {
+        harness
+            .get_by_role_and_label(Role::SpinButton, "Strength")
+            .focus();
+        harness.run_steps(2);
+        harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        harness.event(egui::Event::Text(typed.to_owned()));
+        harness.run_steps(2);
+        key(&mut harness, Key::Enter);
+        all.push(description(&harness));
+    }
+    assert_ne!(*all[0], *all[1]);
+    assert_eq!(*all[0], *all[2], "the way back is the way there");
+    harness.state_mut().document_mut().edit("None", |d| {
+        if let Layer::Laid(laid) = &mut d.scratches[0].layer {
+            laid.amount = Amount::Count(0);
+        }
+    });
+    harness.run_steps(2);
+    harness.get_by_label("there are no scratches: their number is 0");
+}
