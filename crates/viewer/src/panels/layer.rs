@@ -197,12 +197,7 @@ fn engraved_rows(form: &mut Form, engraved: &mut Engraved) {
             center_m,
             direction,
         } => {
-            let mut typed = text.clone();
-            form.text("Text", schema::scratches::TEXT.meaning, &mut typed);
-            // While it is typed anew nothing may be left.
-            if !typed.trim().is_empty() {
-                *text = typed;
-            }
+            form.text("Text", schema::scratches::TEXT.meaning, text);
             form.number(&schema::scratches::CAPITALS_M, height_m);
             form.vector(&schema::scratches::MIDDLE_M, center_m);
             form.vector(&schema::scratches::READING, direction);

@@ -311,13 +311,8 @@ fn shape_rows(form: &mut Form, shape: &mut Shape) {
             height_m,
             depth_m,
         } => {
-            let mut typed = line.clone();
             let tooltip = "What it says: Latin, Greek or Cyrillic letters";
-            form.text("Text", tooltip, &mut typed);
-            // While it is typed anew nothing may be left.
-            if !typed.trim().is_empty() {
-                *line = typed;
-            }
+            form.text("Text", tooltip, line);
             form.number(&schema::shape::CAPITALS_M, height_m);
             form.number(&schema::shape::DEPTH_M, depth_m);
         }
