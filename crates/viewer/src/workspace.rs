@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use hairline_document::description::{FileUse, Map};
 use hairline_document::{Description, Error};
+use hairline_editor::actions::layers;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::bookmarks::Bookmarks;
 use hairline_editor::own_presets::OwnPresets;
@@ -82,7 +83,10 @@ impl Workspace {
         action: impl FnOnce(&mut Description, Selection) -> Result<Selection, ActionError>,
     ) {
         match self.document.apply(label, action) {
-            Ok(()) => self.notices.clear("action"),
+            Ok(()) => {
+                self.notices.clear("action");
+                self.notices.clear("change");
+            }
             Err(error) => self.notices.error("action", error.to_string()),
         }
     }
@@ -156,7 +160,11 @@ impl Workspace {
             }
             match self.model_notes.is_empty() {
                 true => self.notices.clear("models"),
-                false => self.notices.note("models", self.model_notes.join("\n")),
+                false => {
+                    let titled = |note: &String| with_title(&built.description, note);
+                    let notes: Vec<_> = self.model_notes.iter().map(titled).collect();
+                    self.notices.note("models", notes.join("\n"));
+                }
             }
         }
     }
@@ -244,4 +252,15 @@ impl Workspace {
 fn flaw(description: &Description) -> Option<Error> {
     let is_right = description.check();
     is_right.and_then(|()| description.check_references()).err()
+}
+
+/// A message about a scene with the title of a layer, as the list has it, in the place of its number.
+pub(crate) fn with_title(description: &Description, message: &str) -> String {
+    let titled = || {
+        let (number, rest) = message.strip_prefix("scratches[")?.split_once(']')?;
+        let layer = description.scratches.get(number.parse::<usize>().ok()?)?;
+        let rest = rest.trim_start_matches(['.', ':', ' ']);
+        Some(format!("layer \"{}\": {rest}", layers::title(layer)))
+    };
+    titled().unwrap_or_else(|| message.to_owned())
 }

@@ -130,7 +130,7 @@ fn points_of_an_older_line_are_moved_and_taken_away() {
 }
 
 /// A ball whose middle is that of the picture.
-const BALL: &str = "[camera]\nposition_m = [0, -1, 0]\ntarget_m = [0, 0, 0]\nup = [0, 0, 1]\nfov_y_deg = 30\n\
+pub const BALL: &str = "[camera]\nposition_m = [0, -1, 0]\ntarget_m = [0, 0, 0]\nup = [0, 0, 1]\nfov_y_deg = 30\n\
     [[material]]\nname = \"steel\"\nkind = \"metal\"\nmetal = \"steel\"\n\
     [[object]]\nname = \"ball\"\nshape = { sphere = { radius_m = 0.1 } }\nmaterial = \"steel\"\n";
 
