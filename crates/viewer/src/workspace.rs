@@ -110,6 +110,16 @@ impl Workspace {
         }
     }
 
+    /// Whether there is an object to lay something on; else the window asks for one.
+    pub fn has_object(&mut self) -> bool {
+        let is_there = !self.document.description().objects.is_empty();
+        if !is_there {
+            let text = "Add an object first: scratches lie on objects.";
+            self.notices.note("action", text);
+        }
+        is_there
+    }
+
     /// Sets the map around the scene, or none.
     pub fn set_environment(&mut self, label: &str, map: Option<Map>) {
         let base_dir = self.document.base_dir().to_owned();
@@ -190,6 +200,7 @@ impl Workspace {
             Command::Gallery => HAS_PAGE || !self.examples.scenes.is_empty(),
             // A page would stand still until the CPU has rendered all of a picture.
             Command::Screenshot => HAS_THREADS || !matches!(self.engine.backend(), Backend::Cpu),
+            Command::Undo | Command::Delete if self.toolbox.lone_point().is_some() => true,
             Command::Undo => self.document.undo_label().is_some(),
             Command::Redo => self.document.redo_label().is_some(),
             Command::Rename

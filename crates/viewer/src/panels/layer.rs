@@ -8,6 +8,7 @@ use hairline_document::description::{
 };
 use hairline_document::schema;
 use hairline_editor::Selection;
+use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::presets::LayerPreset;
 use hairline_editor::strength::StrengthSlider;
 use hairline_optics::section::Section;
@@ -55,7 +56,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             form.number(&schema::scratches::JITTER_DEG, &mut brushed.jitter_deg);
             form.seed(&mut brushed.seed);
         }
-        Layer::Engraved(engraved) => engraved_rows(&mut form, engraved),
+        Layer::Engraved(engraved) => engraved_rows(&mut form, engraved, index),
         Layer::Listed(listed) => file_row(&mut form, &listed.file),
     }
     work.choose_picture(form.wanted());
@@ -183,7 +184,7 @@ fn file_row(form: &mut Form, file: &Path) {
     });
 }
 
-fn engraved_rows(form: &mut Form, engraved: &mut Engraved) {
+fn engraved_rows(form: &mut Form, engraved: &mut Engraved, index: usize) {
     match &mut engraved.line {
         Line::Curve { points_m, closed } => {
             form.toggle("Closed", schema::scratches::CLOSED.meaning, closed);
@@ -208,7 +209,10 @@ fn engraved_rows(form: &mut Form, engraved: &mut Engraved) {
             center_m,
             direction,
         } => {
-            file_row(form, file);
+            let mut named = Some(file.clone());
+            let meaning = schema::scratches::DRAWING.meaning;
+            form.picture("File", meaning, &mut named, PictureOf::Drawing(index));
+            *file = named.unwrap_or_default();
             form.number(&schema::scratches::EXTENT_M, fit_m);
             form.vector(&schema::scratches::MIDDLE_M, center_m);
             form.vector(&schema::scratches::READING, direction);

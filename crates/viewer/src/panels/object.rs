@@ -129,7 +129,11 @@ pub(super) fn add_layer(ui: &mut Ui, work: &mut Workspace, object: usize) {
         work.give_own_layers(preset, object);
     }
     ui.separator();
-    for command in [Command::EngraveText, Command::EngraveDrawing] {
+    for command in [
+        Command::EngraveText,
+        Command::EngraveDrawing,
+        Command::AddList,
+    ] {
         super::button(ui, work, command);
     }
 }

@@ -21,7 +21,7 @@ fn shown() -> Harness<'static, Viewer> {
 }
 
 /// Place at which the window shows a point.
-fn seen(harness: &Harness<'static, Viewer>, point_m: DVec3) -> Pos2 {
+pub fn seen(harness: &Harness<'static, Viewer>, point_m: DVec3) -> Pos2 {
     let (area, size_px) = (
         picture(harness),
         common::description(harness).render.size_px,
