@@ -35,6 +35,9 @@ use crate::reading::ReadingState;
 use crate::snapshots::Snapshots;
 use crate::tools::{Tool, Toolbox};
 
+/// Reason why some layers are no presets.
+pub(crate) const NO_PRESET: &str = "A preset is made of a material, a light, or scratches that a pattern lays. Scratches that were drawn, engraved or listed lie where they lie: select another part.";
+
 /// Workspace of all panels. It knows no panel: whoever shows a part of it takes it.
 pub(crate) struct Workspace {
     pub document: Document,
@@ -240,6 +243,17 @@ impl Workspace {
             Command::Reload => self.document.path().is_some(),
             Command::Revert => self.document.can_revert(),
             _ => true,
+        }
+    }
+
+    /// Reason why a command has nothing to work on, where the window does not show it.
+    pub fn why_not(&self, command: Command) -> Option<&'static str> {
+        match command {
+            Command::SavePreset => Some(NO_PRESET),
+            Command::ListScratches | Command::SaveList => {
+                Some("Select a layer of scratches first.")
+            }
+            _ => None,
         }
     }
 

@@ -21,6 +21,9 @@ impl Viewer {
     /// Runs a command, or shows why it cannot be run.
     pub(super) fn run(&mut self, ctx: &egui::Context, command: Command) {
         if !self.work.can(command) {
+            if let Some(why) = self.work.why_not(command) {
+                self.work.notices.note("command", why);
+            }
             return;
         }
         match command {

@@ -19,7 +19,7 @@ use crate::command::Command;
 use crate::parts;
 use crate::style::beside;
 use crate::tools::Tool;
-use crate::workspace::Workspace;
+use crate::workspace::{NO_PRESET, Workspace};
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let description = work.document.description().clone();
@@ -313,8 +313,10 @@ fn buttons(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches, d
                 }
             }
         });
-        if work.can(Command::SavePreset) {
-            super::button(ui, work, Command::SavePreset);
+        let keep = egui::Button::new(Command::SavePreset.label());
+        let keep = ui.add_enabled(work.can(Command::SavePreset), keep);
+        if keep.on_disabled_hover_text(NO_PRESET).clicked() {
+            work.wished.push(Command::SavePreset);
         }
         for command in [
             Command::Duplicate,

@@ -171,6 +171,29 @@ fn presets_of_ones_own_are_saved_and_given() {
     harness.run_steps(2);
     click_on(&mut harness, "Save the preset");
     assert!(presets.join("turned of mine.toml").is_file());
+    // One that is there is replaced by a second click.
+    let file = presets.join("turned of mine.toml");
+    std::fs::write(
+        &file,
+        format!("# mine\n{}", std::fs::read_to_string(&file).unwrap()),
+    )
+    .unwrap();
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
+    harness.run_steps(3);
+    harness.event(egui::Event::Text("turned of mine".to_owned()));
+    harness.run_steps(2);
+    click_on(&mut harness, "Save the preset");
+    assert!(
+        std::fs::read_to_string(&file)
+            .unwrap()
+            .starts_with("# mine")
+    );
+    click_on(&mut harness, "Replace the preset turned of mine for good");
+    assert!(
+        !std::fs::read_to_string(&file)
+            .unwrap()
+            .starts_with("# mine")
+    );
     // A broken file stays as it is.
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
     harness.run_steps(3);
@@ -196,6 +219,8 @@ fn presets_of_ones_own_are_saved_and_given() {
         name: None,
         ..layer.clone()
     };
+    let named = after.scratches[1].name.as_deref();
+    assert_eq!(named, Some("turned of mine"));
     let [first, second] = [0, 1].map(|i| plain(&after.scratches[i]));
     assert_eq!(first.object, second.object);
     undo(&mut harness);
