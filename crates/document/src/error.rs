@@ -110,6 +110,18 @@ impl Error {
     }
 }
 
+/// A length to three digits, in the unit that reads best.
+pub(crate) fn length(length_m: f64) -> String {
+    let (number, unit) = match length_m {
+        1.0.. => (length_m, "m"),
+        0.01.. => (1e2 * length_m, "cm"),
+        0.001.. => (1e3 * length_m, "mm"),
+        _ => (1e6 * length_m, "µm"),
+    };
+    let decimals = (2.0 - number.log10().floor()).clamp(0.0, 2.0) as usize;
+    format!("{number:.decimals$} {unit}")
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(place) = &self.place {

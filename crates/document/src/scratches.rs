@@ -91,6 +91,8 @@ pub(crate) struct Table<'a> {
 pub(crate) struct Laid {
     pub scratches: Vec<Scratch>,
     pub segments: Vec<Segment>,
+    /// Note for the layer's author about what was not laid.
+    pub note: Option<String>,
 }
 
 impl Laid {
@@ -170,6 +172,7 @@ pub(crate) fn lay(
             loader.report(Stage::Scratches, done, total);
         }
         plan.take(parts, &mut laid)?;
+        laid.note = plan.laying.note();
         all.push(laid);
     }
     Ok(all)

@@ -229,6 +229,18 @@ impl Document {
         Some(label)
     }
 
+    /// The description before the newest step; none where steps were undone.
+    pub fn before_step(&self) -> Option<&Arc<Description>> {
+        self.history.before()
+    }
+
+    /// Takes the newest step back for good, as if it had been refused; its label.
+    pub fn refuse_step(&mut self) -> Option<String> {
+        let label = self.undo()?;
+        self.history.drop_redo();
+        Some(label)
+    }
+
     /// One step forward again; its label.
     pub fn redo(&mut self) -> Option<String> {
         self.end_drag();

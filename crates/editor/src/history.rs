@@ -86,6 +86,17 @@ impl History {
         self.drop_oldest();
     }
 
+    /// The description before the newest step; none after steps back.
+    pub(crate) fn before(&self) -> Option<&Arc<Description>> {
+        let newest = self.undo.back().filter(|_| self.redo.is_empty());
+        newest.map(|step| &step.other.description)
+    }
+
+    /// Forgets the step that [`Self::redo`] would take.
+    pub(crate) fn drop_redo(&mut self) {
+        self.redo.pop();
+    }
+
     /// Takes the newest step out, for a drag that came back to where it began.
     pub(crate) fn pop(&mut self) {
         self.undo.pop_back();

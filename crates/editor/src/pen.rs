@@ -93,6 +93,25 @@ pub fn add_point(
     Ok(Selection::Layer(layer))
 }
 
+/// Inserts a point into a curve before the one at a place in its order.
+///
+/// # Errors
+/// [`ActionError::Missing`]: no such layer, no curve, or no such place.
+pub fn insert_point(
+    description: &mut Description,
+    layer: usize,
+    before: usize,
+    point_m: DVec3,
+) -> Result<Selection, ActionError> {
+    let point = in_object(description, layer, point_m)?;
+    let (points_m, _) = curve_mut(description, layer)?;
+    if before > points_m.len() {
+        return Err(ActionError::Missing("point"));
+    }
+    points_m.insert(before, point);
+    Ok(Selection::Layer(layer))
+}
+
 /// Leads a curve back to its first point.
 ///
 /// # Errors
@@ -101,6 +120,18 @@ pub fn close(description: &mut Description, layer: usize) -> Result<Selection, A
     let (_, closed) = curve_mut(description, layer)?;
     *closed = true;
     Ok(Selection::Layer(layer))
+}
+
+/// Name of the step that [`move_point`] makes.
+pub fn move_label(layer: &Scratches) -> &'static str {
+    match &layer.layer {
+        Layer::Engraved(engraved) => match engraved.line {
+            Line::Curve { .. } => "Move a point",
+            Line::Text { .. } => "Move a text",
+            Line::Svg { .. } => "Move a drawing",
+        },
+        _ => "Move",
+    }
 }
 
 /// Moves one of the [`points_m`] of a layer; one that is not there stays.

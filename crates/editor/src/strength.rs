@@ -13,19 +13,67 @@ const DEPTH_POWER: f64 = 0.0607;
 /// Largest count that the number reaches: more would not stay quick to edit.
 const MOST: f64 = 100_000.0;
 
-/// The strength of a layer on an object whose box has this diagonal; none where its scratches are a file's, are engraved, or are none.
-pub fn strength(layer: &Scratches, diagonal_m: f64) -> Option<f64> {
-    let cover = cover(layer, diagonal_m).filter(|cover| *cover > 0.0)?;
-    let share = (cover / COVER[0]).ln() / (COVER[1] / COVER[0]).ln();
-    Some(share.clamp(0.0, 1.0))
+/// Position of a layer on the slider of its strength, and its ends. All positions are counted from one layer, so that the way back is the way
+/// there; the ends reach as far as that one does.
+#[derive(Clone, Debug)]
+pub struct StrengthSlider {
+    /// The layer that the positions are counted from.
+    first: Scratches,
+    /// The layer at the position.
+    now: Scratches,
+    at: f64,
+    /// The shares that are covered at the ends.
+    ends: [f64; 2],
+    /// The diagonal of the box about its object.
+    diagonal_m: f64,
 }
 
-/// Gives a layer another strength.
-pub fn set_strength(layer: &mut Scratches, diagonal_m: f64, strength: f64) {
+impl StrengthSlider {
+    /// The slider of a layer on an object whose box has this diagonal; none where its scratches are a file's, are engraved, or are none. Where the
+    /// layer was changed by other means than `before`, its slider until then, the ends stay where they are.
+    pub fn new(layer: &Scratches, diagonal_m: f64, before: Option<Self>) -> Option<Self> {
+        let is_alike = |a: &Scratches, b: &Scratches| a.layer == b.layer && a.strokes == b.strokes;
+        let is_here = |it: &&Self| it.diagonal_m == diagonal_m && is_alike(&it.now, layer);
+        if let Some(same) = before.as_ref().filter(is_here) {
+            return Some(same.clone());
+        }
+        let cover = cover(layer, diagonal_m).filter(|cover| *cover > 0.0)?;
+        let [least, most] = before.map_or(COVER, |it| it.ends);
+        let ends = [least.min(cover), most.max(cover)];
+        Some(Self {
+            first: layer.clone(),
+            now: layer.clone(),
+            at: (cover / ends[0]).ln() / (ends[1] / ends[0]).ln(),
+            ends,
+            diagonal_m,
+        })
+    }
+
+    /// The position, from 0 to 1.
+    pub fn at(&self) -> f64 {
+        self.at
+    }
+
+    /// Goes to another position, and gives the layer the strength there.
+    pub fn go(&mut self, at: f64, layer: &mut Scratches) {
+        self.at = at.clamp(0.0, 1.0);
+        self.now = self.first.clone();
+        let [least, most] = self.ends;
+        cover_as(
+            &mut self.now,
+            self.diagonal_m,
+            least * (most / least).powf(self.at),
+        );
+        layer.layer.clone_from(&self.now.layer);
+        layer.strokes.clone_from(&self.now.strokes);
+    }
+}
+
+/// Makes a layer cover another share of the surface.
+fn cover_as(layer: &mut Scratches, diagonal_m: f64, after: f64) {
     let Some(before) = cover(layer, diagonal_m).filter(|cover| *cover > 0.0) else {
         return;
     };
-    let after = COVER[0] * (COVER[1] / COVER[0]).powf(strength.clamp(0.0, 1.0));
     let factor = (after / before).powf(1.0 / (1.0 + WIDTH_POWER));
     let (width_um, depth_nm) = match &mut layer.layer {
         Layer::Laid(laid) => {
@@ -148,15 +196,16 @@ mod tests {
     #[test]
     fn strength_moves_count_width_and_depth_and_comes_back() {
         let first = LayerPreset::RandomWear.layer("o", 0.2);
-        let is = strength(&first, 0.2).unwrap();
+        let slider = StrengthSlider::new(&first, 0.2, None).unwrap();
+        let is = slider.at();
         assert!((0.2..0.9).contains(&is), "{is}");
         let mut same = first.clone();
-        set_strength(&mut same, 0.2, is);
+        slider.clone().go(is, &mut same);
         assert_eq!(same, first);
         let at = |wanted: f64| {
             let mut layer = first.clone();
-            set_strength(&mut layer, 0.2, wanted);
-            let now = strength(&layer, 0.2).unwrap();
+            slider.clone().go(wanted, &mut layer);
+            let now = StrengthSlider::new(&layer, 0.2, None).unwrap().at();
             assert!((now - wanted).abs() < 0.01, "{now}, not {wanted}");
             let laid = laid(&layer);
             [count(&layer), laid.width_um.mean, laid.depth_nm.mean]
@@ -170,10 +219,43 @@ mod tests {
         assert!((tenfold.powf(WIDTH_POWER) / wider - 1.0).abs() < 0.01);
     }
 
+    /// A layer of widths and depths at their limits covers more than any preset.
+    #[test]
+    fn the_way_back_is_the_way_there() {
+        let mut first = LayerPreset::RandomWear.layer("o", 0.2);
+        let Layer::Laid(laid) = &mut first.layer else {
+            panic!("it is laid");
+        };
+        laid.amount = Amount::Count(10_000);
+        (laid.width_um.mean, laid.depth_nm.mean) = (100.0, 1990.0);
+        let mut layer = first.clone();
+        let mut slider = StrengthSlider::new(&layer, 0.2, None).unwrap();
+        assert_eq!(slider.at(), 1.0);
+        for at in [0.0, 0.4, 1.0] {
+            // Each pass of a window asks for the slider of the layer anew.
+            slider = StrengthSlider::new(&layer, 0.2, Some(slider)).unwrap();
+            slider.go(at, &mut layer);
+        }
+        assert_eq!(layer, first);
+        // A step that is undone leaves the ends where they are.
+        let mut weak = first.clone();
+        slider.go(0.0, &mut weak);
+        let slider = StrengthSlider::new(&first, 0.2, Some(slider)).unwrap();
+        let mut slider = StrengthSlider::new(&weak, 0.2, Some(slider)).unwrap();
+        assert!(slider.at() < 0.01, "{}", slider.at());
+        slider.go(1.0, &mut weak);
+        assert!(
+            (count(&weak) / 10_000.0 - 1.0).abs() < 0.1,
+            "{}",
+            count(&weak)
+        );
+    }
+
     #[test]
     fn strokes_become_denser() {
         let mut layer = drawn_layer("o", 0.01);
-        assert_eq!(strength(&layer, 0.2), None, "nothing was drawn");
+        let slider = |layer: &Scratches| StrengthSlider::new(layer, 0.2, None);
+        assert!(slider(&layer).is_none(), "nothing was drawn");
         layer.strokes.push(Stroke {
             points_m: vec![[0.0; 3]],
             radius_m: 0.01,
@@ -183,8 +265,8 @@ mod tests {
                 depth: 1.0,
             },
         });
-        let is = strength(&layer, 0.2).unwrap();
-        set_strength(&mut layer, 0.2, is - 0.2);
+        let mut slider = slider(&layer).unwrap();
+        slider.go(slider.at() - 0.2, &mut layer);
         let Brush::Paint { density_per_m, .. } = layer.strokes[0].brush else {
             panic!("it paints");
         };

@@ -88,6 +88,8 @@ pub struct Viewer {
     asked: Option<Arc<Description>>,
     /// Revision of the document that the engine was last told to build.
     asked_revision: u64,
+    /// Reason why there is no scene of the description that was asked for last, until an edit is looked for that is at fault.
+    not_built: Option<String>,
     /// Title that the window was given.
     title: String,
     /// Loss of the device that draws the window.
@@ -172,6 +174,7 @@ impl Viewer {
             was_typing: false,
             asked: None,
             asked_revision: 0,
+            not_built: None,
             title: String::new(),
             loss: WindowLoss::default(),
             #[cfg(not(target_arch = "wasm32"))]
@@ -249,6 +252,7 @@ impl Viewer {
             return;
         }
         self.hear_engine();
+        self.refuse_what_makes_no_scene(&ctx);
         self.work.try_lamps();
         self.work.turn_view(&ctx);
         // Files that are dropped onto a page are handled by the page.

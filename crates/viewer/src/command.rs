@@ -59,6 +59,7 @@ pub(crate) enum Command {
     BrushLarger,
     EngraveText,
     EngraveDrawing,
+    AddList,
     Deselect,
     Help,
     ListScratches,
@@ -219,6 +220,7 @@ const TABLE: &[Entry] = &[
     entry(Command::BrushLarger, Group::Tools, "Larger brush", Some((PLAIN, Key::CloseBracket))),
     entry(Command::EngraveText, Group::Tools, "Engrave a text", None),
     entry(Command::EngraveDrawing, Group::Tools, "Engrave a drawing (SVG)…", None),
+    entry(Command::AddList, Group::Tools, "Scratches from a list (CSV)…", None),
     entry(Command::Help, Group::Help, "Keys and mouse", Some((PLAIN, Key::F1))),
 ];
 

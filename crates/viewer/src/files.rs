@@ -34,6 +34,8 @@ pub(crate) enum Purpose {
     ExportModel,
     /// A drawing to be engraved.
     Drawing,
+    /// A list of scratches to be added.
+    AddList,
     /// The list of the selected layer's scratches.
     ScratchList,
     /// A file that the scene names and that is not there.
@@ -54,8 +56,10 @@ impl Purpose {
             Self::Turntable => "Export a turntable: name of the first frame",
             Self::ExportModel => "Export the model: .glb with its scratches, .usdz for phones",
             Self::Drawing => "Engrave a drawing",
+            Self::AddList => "Add the scratches of a list",
             Self::ScratchList => "Save the list of scratches",
             Self::Find(_) => "Find the file",
+            Self::Picture(PictureOf::Drawing(_)) => "Choose a drawing",
             Self::Picture(_) => "Choose a picture",
         }
     }
@@ -75,10 +79,12 @@ impl Purpose {
             Self::ExportModel => ("Models", &Format::ENDINGS),
             Self::Find(FileUse::Map) => Self::Environment.filter(),
             Self::Find(FileUse::Mesh(_)) => Self::AddModel.filter(),
-            Self::ScratchList | Self::Find(FileUse::ScratchList(_)) => {
+            Self::AddList | Self::ScratchList | Self::Find(FileUse::ScratchList(_)) => {
                 ("Lists of scratches", &["csv"])
             }
-            Self::Drawing | Self::Find(FileUse::Drawing(_)) => ("Drawings", &["svg"]),
+            Self::Drawing
+            | Self::Find(FileUse::Drawing(_))
+            | Self::Picture(PictureOf::Drawing(_)) => ("Drawings", &["svg"]),
             Self::Find(_) | Self::Picture(_) => {
                 ("Pictures", &["png", "jpg", "jpeg", "webp", "hdr", "exr"])
             }
@@ -106,6 +112,7 @@ impl Purpose {
             | Self::AddModel
             | Self::Environment
             | Self::Drawing
+            | Self::AddList
             | Self::Find(_)
             | Self::Picture(_) => String::new(),
             Self::SaveAs => format!("{stem}.toml"),

@@ -128,6 +128,8 @@ pub(crate) struct SurfacePoint {
 #[derive(Clone)]
 pub(crate) struct Span {
     pub ends_m: [DVec3; 2],
+    /// Whether both ends are on one object.
+    pub is_on_one: bool,
     /// The bends of the way on the surface between them; none where there is none.
     pub way_m: Option<Vec<DVec3>>,
 }
@@ -190,11 +192,16 @@ impl SpanRuler {
         let (ends, wake) = (ends.clone(), ctx.clone());
         let (ruler, found) = (Arc::clone(&self.ruler), Arc::clone(&self.found));
         let work = move || {
+            let is_on_one = Arc::ptr_eq(&ends[0].mesh, &ends[1].mesh);
             let way_m = way_m(
                 &ends,
                 &mut ruler.lock().unwrap_or_else(PoisonError::into_inner),
             );
-            *found.lock().unwrap_or_else(PoisonError::into_inner) = Some(Span { ends_m, way_m });
+            *found.lock().unwrap_or_else(PoisonError::into_inner) = Some(Span {
+                ends_m,
+                is_on_one,
+                way_m,
+            });
             wake.request_repaint();
         };
         match HAS_THREADS {

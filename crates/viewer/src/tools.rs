@@ -1,5 +1,6 @@
 //! Tools of the left mouse button in the picture.
 
+use glam::DVec3;
 use hairline_document::description::Camera;
 use hairline_editor::brush::BrushSettings;
 
@@ -15,7 +16,7 @@ hairline_image::listed! {
         /// Dragging removes scratches of the selected layer.
         Eraser = "Drag over an object to take scratches of the selected layer away";
         /// Clicks set the points of an engraved line.
-        Pen = "Click on an object to set the points of an engraved line; Enter or a double click ends it. Drag a point to move it, Delete takes it away";
+        Pen = "Click on an object to set the points of an engraved line; Enter or a click on its last point ends it. A click on a finished line inserts a point, a drag moves one, Delete takes it away";
         /// Click or drag moves the selected light so that its highlight falls there.
         PlaceLight = "Click on an object, or drag over it: the selected light moves so that its highlight falls there";
         /// Click keeps the selected layer to the part of the model that is there.
@@ -29,6 +30,12 @@ hairline_image::listed! {
     fn hint;
 }
 
+/// The step that makes a line of two points.
+pub(crate) const BEGIN_LINE: &str = "Engrave a line";
+
+/// A point that is no line yet: its object, and its place in world space.
+pub(crate) type LonePoint = (usize, DVec3);
+
 /// The tools and how they are set.
 pub(crate) struct Toolbox {
     pub tool: Tool,
@@ -36,6 +43,24 @@ pub(crate) struct Toolbox {
     pub brush: Option<BrushSettings>,
     /// Settings that fit the object that it was over last, with its number and the camera that saw it.
     pub fitted: Option<(usize, Camera, BrushSettings)>,
+    /// The point that the pen has set alone.
+    pub begun: Option<LonePoint>,
+    /// The first point of the line that the pen has made last: with its second one undone it is alone again.
+    pub first: Option<LonePoint>,
+}
+
+impl Toolbox {
+    /// The lone point of the pen in hand.
+    pub fn lone_point(&self) -> Option<LonePoint> {
+        self.begun.filter(|_| self.tool == Tool::Pen)
+    }
+
+    /// Takes the lone point away; whether there was one.
+    pub fn take_lone_point(&mut self) -> bool {
+        let was_there = self.lone_point().is_some();
+        self.begun = None;
+        was_there
+    }
 }
 
 impl Default for Toolbox {
@@ -44,6 +69,8 @@ impl Default for Toolbox {
             tool: Tool::Select,
             brush: None,
             fitted: None,
+            begun: None,
+            first: None,
         }
     }
 }

@@ -52,6 +52,12 @@ pub(crate) struct Viewport {
     is_placing: bool,
     /// A ruler follows the pointer.
     is_measuring: bool,
+    /// Place at which the primary button went down; none while it is up.
+    pressed_at: Option<egui::Pos2>,
+    /// Places at which it went down for the clicks of this pass.
+    clicks: Vec<egui::Pos2>,
+    /// Place at which it went up last.
+    released_at: Option<egui::Pos2>,
     /// Time at which the wheel was last turned, seconds: its turns in a row are one step.
     wheeled: f64,
     /// The button went down to close a popup, and does nothing else until it goes down again.
@@ -77,6 +83,9 @@ impl Viewport {
             pointed: None,
             is_placing: false,
             is_measuring: false,
+            pressed_at: None,
+            clicks: Vec::new(),
+            released_at: None,
             wheeled: f64::NEG_INFINITY,
             is_shielded: false,
         }

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use hairline_document::description::{FileUse, Map};
 use hairline_document::{Description, Error};
+use hairline_editor::actions::layers;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::bookmarks::Bookmarks;
 use hairline_editor::own_presets::OwnPresets;
@@ -33,6 +34,9 @@ use crate::platform::{HAS_PAGE, HAS_THREADS};
 use crate::reading::ReadingState;
 use crate::snapshots::Snapshots;
 use crate::tools::{Tool, Toolbox};
+
+/// Reason why some layers are no presets.
+pub(crate) const NO_PRESET: &str = "A preset is made of a material, a light, or scratches that a pattern lays. Scratches that were drawn, engraved or listed lie where they lie: select another part.";
 
 /// Workspace of all panels. It knows no panel: whoever shows a part of it takes it.
 pub(crate) struct Workspace {
@@ -82,7 +86,10 @@ impl Workspace {
         action: impl FnOnce(&mut Description, Selection) -> Result<Selection, ActionError>,
     ) {
         match self.document.apply(label, action) {
-            Ok(()) => self.notices.clear("action"),
+            Ok(()) => {
+                self.notices.clear("action");
+                self.notices.clear("change");
+            }
             Err(error) => self.notices.error("action", error.to_string()),
         }
     }
@@ -104,6 +111,16 @@ impl Workspace {
                 self.document.drag(label, key, |d| *d = changed);
             }
         }
+    }
+
+    /// Whether there is an object to lay something on; else the window asks for one.
+    pub fn has_object(&mut self) -> bool {
+        let is_there = !self.document.description().objects.is_empty();
+        if !is_there {
+            let text = "Add an object first: scratches lie on objects.";
+            self.notices.note("action", text);
+        }
+        is_there
     }
 
     /// Sets the map around the scene, or none.
@@ -156,7 +173,11 @@ impl Workspace {
             }
             match self.model_notes.is_empty() {
                 true => self.notices.clear("models"),
-                false => self.notices.note("models", self.model_notes.join("\n")),
+                false => {
+                    let titled = |note: &String| with_title(&built.description, note);
+                    let notes: Vec<_> = self.model_notes.iter().map(titled).collect();
+                    self.notices.note("models", notes.join("\n"));
+                }
             }
         }
     }
@@ -182,6 +203,7 @@ impl Workspace {
             Command::Gallery => HAS_PAGE || !self.examples.scenes.is_empty(),
             // A page would stand still until the CPU has rendered all of a picture.
             Command::Screenshot => HAS_THREADS || !matches!(self.engine.backend(), Backend::Cpu),
+            Command::Undo | Command::Delete if self.toolbox.lone_point().is_some() => true,
             Command::Undo => self.document.undo_label().is_some(),
             Command::Redo => self.document.redo_label().is_some(),
             Command::Rename
@@ -224,6 +246,17 @@ impl Workspace {
         }
     }
 
+    /// Reason why a command has nothing to work on, where the window does not show it.
+    pub fn why_not(&self, command: Command) -> Option<&'static str> {
+        match command {
+            Command::SavePreset => Some(NO_PRESET),
+            Command::ListScratches | Command::SaveList => {
+                Some("Select a layer of scratches first.")
+            }
+            _ => None,
+        }
+    }
+
     /// Whether a switch is on; none for commands that are no switch.
     pub fn is_on(&self, command: Command) -> Option<bool> {
         match command {
@@ -244,4 +277,15 @@ impl Workspace {
 fn flaw(description: &Description) -> Option<Error> {
     let is_right = description.check();
     is_right.and_then(|()| description.check_references()).err()
+}
+
+/// A message about a scene with the title of a layer, as the list has it, in the place of its number.
+pub(crate) fn with_title(description: &Description, message: &str) -> String {
+    let titled = || {
+        let (number, rest) = message.strip_prefix("scratches[")?.split_once(']')?;
+        let layer = description.scratches.get(number.parse::<usize>().ok()?)?;
+        let rest = rest.trim_start_matches(['.', ':', ' ']);
+        Some(format!("layer \"{}\": {rest}", layers::title(layer)))
+    };
+    titled().unwrap_or_else(|| message.to_owned())
 }

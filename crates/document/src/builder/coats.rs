@@ -84,6 +84,11 @@ impl<'a> Work<'a> {
                 laid: ground.on_the_whole(laid),
             }));
         }
+        for (i, coat) in coats.iter().enumerate().filter(|(_, coat)| coat.is_shown) {
+            if let Some(note) = coat.laid.as_ref().and_then(|kept| kept.laid.note.as_ref()) {
+                scene.notes.push(format!("scratches[{i}]: {note}"));
+            }
+        }
         for (i, object) in scene.objects.iter_mut().enumerate() {
             let layers = (0..).zip(&coats).filter_map(|(layer, coat)| {
                 let is_here = coat.is_shown && coat.object == i;

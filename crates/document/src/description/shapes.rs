@@ -183,7 +183,10 @@ const CHARACTERS_MOST: usize = 200;
 pub(super) fn check_letters(key: &str, line: &str) -> Check {
     let count = line.chars().count();
     if line.trim().is_empty() || count > CHARACTERS_MOST {
-        let found = format!("found {count} characters");
+        let found = match count > CHARACTERS_MOST {
+            true => format!("found {count} characters"),
+            false => format!("found {line:?}"),
+        };
         let right = format!("must be 1 to {CHARACTERS_MOST}, not blank");
         return Err(Error::new(key, found, right));
     }

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use hairline_image::FilePath;
 use hairline_scene::Segment;
-use kurbo::{PathSeg, Point};
+use kurbo::{PathEl, PathSeg, Point};
 use rayon::prelude::*;
 
 use super::curve::{Cubic, spline};
@@ -50,6 +50,9 @@ pub(super) struct Engraving<'a> {
     number: u64,
     ground: &'a Ground,
     runs: Vec<Run>,
+    /// Number of lines, and of those of which nothing is on the surface.
+    lines: usize,
+    lines_off: usize,
 }
 
 /// A line, or the part of it up to an edge of the surface.
@@ -114,10 +117,13 @@ impl<'a> Engraving<'a> {
             }
         };
         let mut runs: Vec<Run> = Vec::new();
+        let count = lines.len();
+        let mut lines_off = 0;
         for (together, lines) in (0..).step_by(TOGETHER).zip(lines.chunks(TOGETHER)) {
             loader.go_on()?;
             let laid: Vec<_> = lines.par_iter().map(|path| laid(ground, path)).collect();
             for (line, parts) in (together..).zip(laid) {
+                lines_off += usize::from(parts.is_empty());
                 for (course, segments) in parts {
                     let mut length_m = 0.0;
                     let lengths_m = segments.iter().map(|it| {
@@ -144,6 +150,8 @@ impl<'a> Engraving<'a> {
             number,
             ground,
             runs,
+            lines: count,
+            lines_off,
         })
     }
 
@@ -238,6 +246,17 @@ impl Laying for Engraving<'_> {
         }
     }
 
+    fn note(&self) -> Option<String> {
+        match (&self.layer.line, self.lines_off, self.lines) {
+            (_, 0, _) => None,
+            (Line::Curve { .. }, ..) => Some(
+                "the curve lays no scratch: it lies off the object, or its points are one place"
+                    .to_owned(),
+            ),
+            (_, off, all) => Some(format!("{off} of {all} outlines lie off the object")),
+        }
+    }
+
     fn middle(&self, index: u64) -> Option<MeshPoint> {
         if self.layer.line_m > 0.0 {
             let stroke = self.stroke(&self.ground.walker(), index);
@@ -292,13 +311,19 @@ impl<'a> Plate<'a> {
         }
     }
 
-    /// The outlines of a stamp in the plane that touches the surface at its place; none where the surface ends before it.
+    /// The outlines of a stamp in the plane that touches the surface at its place; where the surface ends before it they are empty.
     fn stamped(&self, stamp: &Stamp) -> Vec<Outline> {
         let walker = self.ground.walker();
         let sign = 1.0f64.copysign(stamp.x_m);
         let there = walker.ahead(self.middle, sign * self.right, stamp.x_m.abs());
         let Some((place, direction)) = there else {
-            return Vec::new();
+            let elements = stamp.outlines.elements().iter();
+            let begins = elements.filter(|element| matches!(element, PathEl::MoveTo(_)));
+            let nothing = begins.map(|_| Outline {
+                cubics: Vec::new(),
+                down: None,
+            });
+            return nothing.collect();
         };
         let normal = walker.normal(&place);
         let right = (sign * direction)

@@ -11,7 +11,7 @@ use super::neighbours::Neighbours;
 use super::random::Stream;
 use super::walk::{MeshPoint, Walker, shortest_piece_m};
 use crate::description::Distribution;
-use crate::error::Error;
+use crate::error::{Error, length};
 
 /// Half of the usual coherence width.
 const SHORTEST_M: f64 = 10e-6;
@@ -101,8 +101,11 @@ impl Ground {
             true => Ok(()),
             false => Err(Error::new(
                 key(),
-                format!("found a point {off_m:.3e} m off the object"),
-                format!("must be at most {most_m:.3e} m off, in metres of the object's own frame"),
+                format!("found a point {} off the object", length(off_m)),
+                format!(
+                    "must be at most {} off, in metres of the object's own frame",
+                    length(most_m)
+                ),
             )),
         }
     }

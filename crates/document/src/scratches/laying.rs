@@ -68,6 +68,11 @@ pub(super) trait Laying: Sync {
     /// Middle of a scratch, if it has one, where [`Laying::lay`] lays it.
     fn middle(&self, index: u64) -> Option<MeshPoint>;
 
+    /// Note about what it does not lay.
+    fn note(&self) -> Option<String> {
+        None
+    }
+
     /// Number of the layer's strokes before a scratch, its own included.
     fn strokes_before(&self, _index: u64) -> usize {
         0

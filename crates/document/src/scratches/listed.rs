@@ -15,7 +15,7 @@ use super::guide::Guide;
 use super::laying::{Groove, LISTED_SIZES, Laying};
 use super::walk::{Course, LONGEST_WAY, MeshPoint, Walker};
 use crate::arrays::ScratchArrays;
-use crate::error::Error;
+use crate::error::{Error, length};
 use crate::loader::Loader;
 
 const ENDS: [&str; 6] = ["x0_m", "y0_m", "z0_m", "x1_m", "y1_m", "z1_m"];
@@ -284,9 +284,13 @@ impl<'a> Listed<'a> {
                 let (i, end) = (wrong / 2, wrong % 2);
                 let (ends_m, _) = row(i);
                 let (_, distance_m) = closest.find(ground.point_in_world_m(ends_m[end]));
-                let found = format!("found a point {distance_m:.3e} m off the object's surface");
+                let found = format!(
+                    "found a point {} off the object's surface",
+                    length(distance_m)
+                );
                 let right = format!(
-                    "must be at most {tolerance_m:.3e} m off, in metres of the object's own frame"
+                    "must be at most {} off, in metres of the object's own frame",
+                    length(tolerance_m)
                 );
                 return Err(error(i, end, found, right));
             }

@@ -40,13 +40,11 @@ pub(super) fn letters(line: &str, height_m: f64) -> Vec<Stamp> {
 
 /// The outlines of an SVG file, as large as `fit_m`. `key` is the way to its name in the scene file.
 pub(super) fn drawing(path: &FilePath, key: &str, fit_m: f64) -> Result<Stamp, Error> {
+    const RIGHT: &str =
+        "must be an SVG file with shapes, relative to the scene file; letters as paths";
     let wrong = |found: String| {
         let found = format!("\"{}\" {found}", path.display());
-        Error::new(
-            key,
-            found,
-            "must be an SVG file with shapes, relative to the scene file; letters as paths",
-        )
+        Error::new(key, found, RIGHT)
     };
     let bytes = reading::read(path, FileKind::File, FILE_SHARE);
     let bytes = bytes.map_err(|why| wrong(format!("cannot be read ({why})")))?;
@@ -59,19 +57,39 @@ pub(super) fn drawing(path: &FilePath, key: &str, fit_m: f64) -> Result<Stamp, E
         ..Options::default()
     };
     let tree = Tree::from_data(&bytes, &options);
-    let tree = tree.map_err(|why| wrong(format!("is no drawing ({why})")))?;
+    let tree = tree.map_err(|why| match why {
+        usvg::Error::ParsingFailed(why) => {
+            let line = why.pos().row as usize;
+            Error::new("", format!("found no drawing ({why})"), RIGHT).at(path, Some(line))
+        }
+        why => wrong(format!("is no drawing ({why})")),
+    })?;
     let mut outlines = BezPath::new();
     add(tree.root(), &mut outlines);
     let bounds = outlines.bounding_box();
     let extent = bounds.width().max(bounds.height());
     if outlines.is_empty() || !(extent > 0.0) {
-        return Err(wrong("has no outlines".to_owned()));
+        return Err(wrong(match texts(&bytes) {
+            0 => "has no outlines".to_owned(),
+            1 => "has 1 text and no outlines; turn it into paths".to_owned(),
+            count => format!("has {count} texts and no outlines; turn them into paths"),
+        }));
     }
     let m_per_unit = fit_m / extent;
     // In SVG y points down.
     let upright = Affine::scale_non_uniform(m_per_unit, -m_per_unit);
     outlines.apply_affine(upright * Affine::translate(-bounds.center().to_vec2()));
     Ok(Stamp { x_m: 0.0, outlines })
+}
+
+/// The number of texts in an SVG file: no outlines are made of them.
+fn texts(bytes: &[u8]) -> usize {
+    let text = std::str::from_utf8(bytes).unwrap_or_default();
+    let document = usvg::roxmltree::Document::parse(text);
+    document.map_or(0, |it| {
+        let nodes = it.descendants();
+        nodes.filter(|node| node.has_tag_name("text")).count()
+    })
 }
 
 /// Adds all shapes of a group.

@@ -9,6 +9,9 @@ fn message(rest: &str) -> String {
     std::fs::write(dir.path().join("empty.csv"), "").unwrap();
     let blank = "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'/>";
     std::fs::write(dir.path().join("blank.svg"), blank).unwrap();
+    let letters =
+        "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'><text y='5'>a</text></svg>";
+    std::fs::write(dir.path().join("letters.svg"), letters).unwrap();
     hairline_document::from_toml(&scene_with(rest), "plate.toml", dir.path())
         .map(|_| "it loads".to_owned())
         .unwrap_or_else(|error| error.to_string())
@@ -773,7 +776,7 @@ fn curves_that_are_none() {
         ),
         (
             "points_m = [[0, 0, 0], [1, 0, 0]]",
-            "18: scratches[0].points_m[1]: found a point 9.200e-1 m off the object; must be at most 2.263e-1 m off, in metres of the object's own frame",
+            "18: scratches[0].points_m[1]: found a point 92.0 cm off the object; must be at most 22.6 cm off, in metres of the object's own frame",
         ),
         (
             "count = 3",
@@ -790,7 +793,7 @@ fn letters_and_drawings_that_are_none() {
     for (rest, expected) in [
         (
             "pattern = \"text\"\ntext = \" \"\nheight_m = 0.01",
-            "18: scratches[0].text: found 1 characters; must be 1 to 200, not blank",
+            "18: scratches[0].text: found \" \"; must be 1 to 200, not blank",
         ),
         (
             "pattern = \"text\"\ntext = \"\u{4e00}\"\nheight_m = 0.01",
@@ -802,15 +805,20 @@ fn letters_and_drawings_that_are_none() {
         ),
         (
             "pattern = \"text\"\ntext = \"a\"\nheight_m = 0.01\ncenter_m = [0, 1, 0]",
-            "20: scratches[0].center_m: found a point 9.200e-1 m off the object; must be at most 2.263e-1 m off, in metres of the object's own frame",
+            "20: scratches[0].center_m: found a point 92.0 cm off the object; must be at most 22.6 cm off, in metres of the object's own frame",
         ),
     ] {
         let found = scratches(&format!("{rest}\n"));
         assert_eq!(found, format!("plate.toml:{expected}"));
     }
+    let found = scratches("pattern = \"svg\"\nfile = \"empty.csv\"\nfit_m = 0.01\n");
+    assert!(found.contains("empty.csv:1: found no drawing ("), "{found}");
     for (file, why) in [
         ("none.svg", "cannot be read"),
-        ("empty.csv", "is no drawing"),
+        (
+            "letters.svg",
+            "has 1 text and no outlines; turn it into paths",
+        ),
         ("blank.svg", "has no outlines"),
     ] {
         let rest = format!("pattern = \"svg\"\nfile = \"{file}\"\nfit_m = 0.01\n");

@@ -3,7 +3,7 @@
 use crate::common::{object, scene_with, temporary_dir};
 use glam::{DVec3, Vec3};
 use hairline_document::description::Description;
-use hairline_scene::{Object, Scratch, Segment};
+use hairline_scene::{Object, Scene, Scratch, Segment};
 
 const PLANE: &str = "{ plane = { size_m = [0.2, 0.2] } }";
 const SPHERE: &str = "{ sphere = { radius_m = 0.05 } }";
@@ -19,6 +19,10 @@ const MARK: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="40" height=
 
 /// An object with an engraved layer, loaded from what is written of what was read.
 fn engraved(shape: &str, keys: &str) -> Object {
+    loaded(shape, keys).objects.remove(0)
+}
+
+fn loaded(shape: &str, keys: &str) -> Scene {
     let dir = temporary_dir();
     std::fs::write(dir.path().join("mark.svg"), MARK).unwrap();
     let path = dir.path().join("scene.toml");
@@ -30,7 +34,7 @@ fn engraved(shape: &str, keys: &str) -> Object {
     let written = read.to_toml().unwrap();
     assert_eq!(Description::from_toml(&written, &path).unwrap(), read);
     let scene = hairline_document::from_toml(&written, "scene.toml", dir.path());
-    scene.unwrap_or_else(|e| panic!("{e}")).objects.remove(0)
+    scene.unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn pieces<'o>(object: &'o Object, scratch: &Scratch) -> &'o [Segment] {
@@ -245,5 +249,34 @@ fn a_large_drawing_on_a_ball_is_whole() {
         let radius_m = it.start_m.x.hypot(it.start_m.z);
         assert!((radius_m - 0.0125).abs() < 1e-5, "{radius_m}");
         assert!(it.start_m.y < 0.0);
+    }
+}
+
+#[test]
+fn what_is_not_laid_is_told() {
+    for (keys, note) in [
+        (
+            "pattern = \"curve\"\npoints_m = [[0.12, 0, 0], [0.13, 0.01, 0]]",
+            Some(
+                "scratches[0]: the curve lays no scratch: it lies off the object, or its points are one place",
+            ),
+        ),
+        (
+            "pattern = \"curve\"\npoints_m = [[0.01, 0, 0], [0.01, 0, 0]]",
+            Some(
+                "scratches[0]: the curve lays no scratch: it lies off the object, or its points are one place",
+            ),
+        ),
+        (
+            "pattern = \"text\"\ntext = \"No. 1\"\nheight_m = 0.05\ncenter_m = [0.09, 0, 0]",
+            Some("scratches[0]: 2 of 5 outlines lie off the object"),
+        ),
+        (
+            "pattern = \"text\"\ntext = \"No. 1\"\nheight_m = 0.01",
+            None,
+        ),
+    ] {
+        let notes = loaded(PLANE, keys).notes;
+        assert_eq!(notes.first().map(String::as_str), note, "{keys}");
     }
 }

@@ -1,9 +1,9 @@
 //! Pictures of the scene that a file holds: masks, maps of density and direction, pictures on lights.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use hairline_document::Description;
-use hairline_document::description::{Grating, GroovePattern, Light, Scratches};
+use hairline_document::description::{FileUse, Grating, GroovePattern, Light, Scratches};
 
 use super::{ActionError, list};
 use crate::{Selection, paths};
@@ -15,6 +15,8 @@ pub enum PictureOf {
     LayerMask(usize),
     /// `where.density` of a `[[scratches]]`.
     LayerDensity(usize),
+    /// `file` of a `[[scratches]]` that is a drawing.
+    Drawing(usize),
     /// `mask` of a `[[grating]]`.
     GratingMask(usize),
     /// `directions` of a `[[grating]]` along texture coordinates.
@@ -35,39 +37,43 @@ pub fn set(
     file: &Path,
     base_dir: &Path,
 ) -> Result<Selection, ActionError> {
-    let (place, selection) = place(description, of)?;
-    *place = Some(paths::written(file, base_dir));
-    Ok(selection)
-}
-
-fn place(
-    description: &mut Description,
-    of: PictureOf,
-) -> Result<(&mut Option<PathBuf>, Selection), ActionError> {
+    let written = paths::written(file, base_dir);
+    let file = Some(written.clone());
     Ok(match of {
         PictureOf::LayerMask(i) => {
-            let layer = list::get_mut::<Scratches>(description, i)?;
-            (&mut layer.place.mask, Selection::Layer(i))
+            list::get_mut::<Scratches>(description, i)?.place.mask = file;
+            Selection::Layer(i)
         }
         PictureOf::LayerDensity(i) => {
-            let layer = list::get_mut::<Scratches>(description, i)?;
-            (&mut layer.place.density, Selection::Layer(i))
+            list::get_mut::<Scratches>(description, i)?.place.density = file;
+            Selection::Layer(i)
+        }
+        PictureOf::Drawing(i) => {
+            let mut files = description.files_mut().into_iter();
+            let named = files.find(|(used, _)| *used == FileUse::Drawing(i));
+            let (_, place) = named.ok_or(ActionError::Missing("drawing"))?;
+            *place = written;
+            Selection::Layer(i)
         }
         PictureOf::GratingMask(i) => {
-            let grating = list::get_mut::<Grating>(description, i)?;
-            (&mut grating.mask, Selection::Grating(i))
+            list::get_mut::<Grating>(description, i)?.mask = file;
+            Selection::Grating(i)
         }
         PictureOf::GratingDirections(i) => {
             match &mut list::get_mut::<Grating>(description, i)?.pattern {
-                GroovePattern::Uv { directions, .. } => (directions, Selection::Grating(i)),
+                GroovePattern::Uv { directions, .. } => *directions = file,
                 _ => return Err(ActionError::Missing("map of directions")),
             }
+            Selection::Grating(i)
         }
         PictureOf::Light(i) => {
-            let light = list::get_mut::<Light>(description, i)?;
-            (&mut light.picture, Selection::Light(i))
+            list::get_mut::<Light>(description, i)?.picture = file;
+            Selection::Light(i)
         }
         // The camera's panel has it.
-        PictureOf::Behind => (&mut description.render.behind, Selection::Camera),
+        PictureOf::Behind => {
+            description.render.behind = file;
+            Selection::Camera
+        }
     })
 }

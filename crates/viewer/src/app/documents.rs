@@ -224,6 +224,7 @@ impl Viewer {
     pub(super) fn replace_document(&mut self, ctx: &egui::Context, document: Document) {
         self.files.reopen();
         (self.asked, self.typed, self.sought) = (None, None, None);
+        self.not_built = None;
         let work = &mut self.work;
         work.document.replace(document);
         work.engine.forget_scene();

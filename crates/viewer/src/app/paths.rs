@@ -58,14 +58,15 @@ impl Viewer {
             Purpose::ExportModel | Purpose::ScratchList => {
                 self.write_beside(ctx, purpose, path, has_asked);
             }
+            Purpose::AddList => self.add_list(path),
             Purpose::Drawing => self.work.engrave_drawing(&absolute(path)),
             Purpose::Find(_) => self.take_found(path),
             Purpose::Picture(of) => {
                 let base_dir = self.work.document.base_dir().to_owned();
                 let file = absolute(path);
-                let label = "Choose a picture";
-                self.work
-                    .apply(label, |d, _| pictures::set(d, of, &file, &base_dir));
+                self.work.apply(purpose.title(), |d, _| {
+                    pictures::set(d, of, &file, &base_dir)
+                });
             }
         }
     }
@@ -127,6 +128,7 @@ impl Viewer {
                 }
             }
             "hdr" | "exr" => self.probe(ctx, Purpose::Environment, path),
+            "csv" | "svg" if !self.work.has_object() => {}
             "csv" => self.add_list(path),
             "svg" => self.work.engrave_drawing(&absolute(path)),
             _ => self.work.notices.error(

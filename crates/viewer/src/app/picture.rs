@@ -15,7 +15,7 @@ use crate::platform::HAS_DISK;
 use crate::reading;
 use crate::seen::makes_same_scene;
 use crate::viewport::Area;
-use crate::workspace::Workspace;
+use crate::workspace::{Workspace, with_title};
 
 impl Viewer {
     /// Shows the picture in the rest of the window, and returns its place.
@@ -137,7 +137,9 @@ impl Viewer {
                             false => Vec::new(),
                         };
                         if self.work.missing.is_empty() {
-                            notices.error("scene", message);
+                            let message = with_title(self.work.document.description(), &message);
+                            notices.error("scene", message.clone());
+                            self.not_built = Some(message);
                         } else {
                             eprintln!("error: {message}");
                         }
@@ -161,6 +163,31 @@ impl Viewer {
         self.work.tell_model_notes();
     }
 
+    /// Takes an edit back of which no scene can be built, as soon as no button is held, and tells why: an edited scene can be saved and loaded.
+    /// What was wrong before, or was made wrong by another program, is no edit's fault.
+    pub(super) fn refuse_what_makes_no_scene(&mut self, ctx: &egui::Context) {
+        if ctx.input(|input| input.pointer.any_down()) {
+            return;
+        }
+        let Some(why) = self.not_built.take() else {
+            return;
+        };
+        let work = &mut self.work;
+        let (built, before) = (work.engine.built(), work.document.before_step());
+        let is_at_fault = built.zip(before).is_some_and(|(built, before)| {
+            makes_same_scene(&built.description, before)
+                && !makes_same_scene(&built.description, work.document.description())
+        });
+        if !is_at_fault {
+            return;
+        }
+        if let Some(label) = work.document.refuse_step() {
+            work.wished_when_built = None;
+            let text = format!("{label}: it is as it was before. {why}");
+            work.notices.error("change", text);
+        }
+    }
+
     /// Hands the description to the engine if more than the view has changed.
     pub(super) fn ask_engine(&mut self) {
         let work = &mut self.work;
@@ -173,6 +200,7 @@ impl Viewer {
         let is_seen_alike = |asked: &Arc<_>| makes_same_scene(asked, description);
         if !self.asked.as_ref().is_some_and(is_seen_alike) {
             work.notices.clear("scene");
+            self.not_built = None;
             work.missing.clear();
             self.asked_revision = work.document.revision();
             work.engine.set_scene(

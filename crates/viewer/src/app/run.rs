@@ -12,7 +12,7 @@ use crate::free_view::ViewCommand;
 use crate::panels;
 use crate::platform::{self, HAS_PAGE};
 use crate::reading::ReadCommand;
-use crate::tools::Tool;
+use crate::tools::{BEGIN_LINE, Tool};
 
 /// Factor of a press of a bracket on the brush.
 const BRUSH_STEP: f64 = 1.25;
@@ -21,6 +21,9 @@ impl Viewer {
     /// Runs a command, or shows why it cannot be run.
     pub(super) fn run(&mut self, ctx: &egui::Context, command: Command) {
         if !self.work.can(command) {
+            if let Some(why) = self.work.why_not(command) {
+                self.work.notices.note("command", why);
+            }
             return;
         }
         match command {
@@ -52,14 +55,22 @@ impl Viewer {
             Command::KeepLook => self.work.keep_look(),
             Command::NextLook => self.work.take_next_look(),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+            // The lone point of the pen is newer than any step.
+            Command::Undo | Command::Delete if self.work.toolbox.take_lone_point() => {
+                (self.work.notices).note("undo", "The first point is taken away.");
+            }
             Command::Undo => {
                 self.work.snapshots.show_current();
                 if let Some(label) = self.work.document.undo() {
+                    if label == BEGIN_LINE {
+                        self.work.toolbox.begun = self.work.toolbox.first.take();
+                    }
                     self.work.notices.note("undo", format!("Undone: {label}"));
                 }
             }
             Command::Redo => {
                 self.work.snapshots.show_current();
+                self.work.toolbox.begun = None;
                 if let Some(label) = self.work.document.redo() {
                     let text = format!("Done again: {label}");
                     self.work.notices.note("undo", text);
@@ -98,8 +109,11 @@ impl Viewer {
             Command::Pick(tool) => self.work.toolbox.tool = tool,
             Command::BrushSmaller => self.work.scale_brush(1.0 / BRUSH_STEP),
             Command::BrushLarger => self.work.scale_brush(BRUSH_STEP),
+            Command::EngraveText | Command::EngraveDrawing | Command::AddList
+                if !self.work.has_object() => {}
             Command::EngraveText => self.work.engrave_text(),
             Command::EngraveDrawing => self.ask_path(ctx, Purpose::Drawing),
+            Command::AddList => self.ask_path(ctx, Purpose::AddList),
             // One thing at a time: the tool first.
             Command::Deselect if self.work.toolbox.tool != Tool::Select => {
                 self.work.toolbox.tool = Tool::Select;

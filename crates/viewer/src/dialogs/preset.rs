@@ -13,6 +13,8 @@ pub(crate) struct PresetLine {
     /// Number of lights in the scene, where all of them may go into the preset.
     lights: Option<usize>,
     all_lights: bool,
+    /// A name that is taken, whose preset is replaced if it is given once more.
+    asked: Option<String>,
     /// Reason why the name before was of no use.
     refused: Option<String>,
     /// The line has not had the keyboard yet.
@@ -26,6 +28,7 @@ impl PresetLine {
             taken,
             lights: lights.filter(|count| *count > 1),
             all_lights: false,
+            asked: None,
             refused: None,
             is_new: true,
         }
@@ -67,18 +70,33 @@ impl PresetLine {
             }
             if let Some(refused) = &self.refused {
                 ui.colored_label(ui.visuals().error_fg_color, refused);
-            } else if self.taken.iter().any(|taken| *taken == self.name.trim()) {
-                ui.weak("The preset of that name is replaced.");
             }
+            let name = self.name.trim();
+            let is_asked = self.asked.as_deref() == Some(name);
             ui.add_space(8.0);
             ui.horizontal(|ui| {
-                let save = ui.button("Save the preset").clicked() || entered;
+                let words = match is_asked {
+                    true => format!("Replace the preset {name} for good"),
+                    false => "Save the preset".to_owned(),
+                };
+                let save = ui.button(words).clicked() || entered;
                 (save, ui.button("Cancel").clicked())
             })
             .inner
         });
         let should_close = modal.should_close();
+        let name = self.name.trim();
         match modal.inner {
+            (true, _)
+                if self.asked.as_deref() != Some(name)
+                    && self.taken.iter().any(|it| it == name) =>
+            {
+                self.asked = Some(name.to_owned());
+                self.refused = Some(format!(
+                    "There is a preset {name} already: once more replaces it."
+                ));
+                None
+            }
             (true, _) => Some(Answer::SavePreset(self.name.clone(), self.all_lights)),
             (false, cancel) => (cancel || should_close).then_some(Answer::Cancel),
         }

@@ -10,14 +10,14 @@ use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{
     Align, Context, Event, FocusDirection, Id, Key as KeyboardKey, Layout, Response, Slider,
-    SliderClamping, TextEdit, Ui,
+    SliderClamping, TextEdit, Ui, vec2,
 };
 use hairline_document::Description;
 use hairline_document::description::Distribution;
 use hairline_document::schema::{self, Key};
 use hairline_editor::DragKey;
 use hairline_editor::actions::pictures::PictureOf;
-use hairline_editor::quantity::ShownUnit;
+use hairline_editor::quantity::{ShownUnit, Unit};
 use hairline_editor::ranges::{Range, range, second_range};
 
 use super::number::NumberBox;
@@ -186,12 +186,36 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// A slider between two extremes, without a number.
-    pub fn between(&mut self, label: &str, tooltip: &str, value: &mut f64) {
-        self.row(label, tooltip, |ui, text| {
-            ui.spacing_mut().slider_width = ui.available_width() - 12.0;
-            let slider = Slider::new(value, 0.0..=1.0).show_value(false);
-            ui.add(slider).labelled_by(text.id).changed()
+    /// A slider from 0 to 1, with words for its ends. Without a value it is grey, and the words say why.
+    pub fn between(
+        &mut self,
+        [label, tooltip]: [&'static str; 2],
+        words: [&str; 2],
+        value: Option<&mut f64>,
+    ) {
+        let range = Range {
+            label,
+            slider: 0.0..=1.0,
+            hard: 0.0..=1.0,
+            logarithmic: false,
+            unit: Unit::None,
+            is_whole: false,
+            tooltip,
+        };
+        match value {
+            Some(value) => self.ranged(&range, value),
+            None => self.row(label, tooltip, |ui, text| {
+                ui.disable();
+                slider_and_box(ui, text, &range, &mut 0.0)
+            }),
+        }
+        self.row("", "", |ui, _| {
+            let size = vec2(ui.available_width() - VALUE_WIDTH - 8.0, 0.0);
+            ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+                ui.weak(words[0]);
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.weak(words[1]));
+            });
+            false
         });
     }
 

@@ -50,6 +50,10 @@ fn overview(ui: &mut Ui, work: &Workspace) {
             "F1 shows all keys.",
         ],
     };
+    if description.objects.is_empty() {
+        ui.label("There is no object yet: \"+\" beside Objects adds one.");
+        return;
+    }
     for sentence in words {
         ui.label(sentence);
     }

@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use egui::Ui;
+use egui::{Id, Ui};
 use hairline_document::description::{
     Amount, Around, Distribution, Engraved, Laid, Layer, Line, Pattern, Scratches,
 };
 use hairline_document::schema;
 use hairline_editor::Selection;
+use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::presets::LayerPreset;
-use hairline_editor::strength::{set_strength, strength};
+use hairline_editor::strength::StrengthSlider;
 use hairline_optics::section::Section;
 
 use super::form::Form;
@@ -18,7 +19,7 @@ use crate::command::Command;
 use crate::parts;
 use crate::style::beside;
 use crate::tools::Tool;
-use crate::workspace::Workspace;
+use crate::workspace::{NO_PRESET, Workspace};
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let description = work.document.description().clone();
@@ -42,7 +43,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         "If a layer is solo, only solo layers are seen",
         &mut layer.solo,
     );
-    strength_row(&mut form, work, &mut layer, index);
+    strength_row(&mut form, &mut layer, index);
     let picks = layer_place::show(&mut form, &mut layer, index, names);
     profile(&mut form, &mut layer.profile);
     match &mut layer.layer {
@@ -55,7 +56,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             form.number(&schema::scratches::JITTER_DEG, &mut brushed.jitter_deg);
             form.seed(&mut brushed.seed);
         }
-        Layer::Engraved(engraved) => engraved_rows(&mut form, engraved),
+        Layer::Engraved(engraved) => engraved_rows(&mut form, engraved, index),
         Layer::Listed(listed) => file_row(&mut form, &listed.file),
     }
     work.choose_picture(form.wanted());
@@ -74,23 +75,48 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     buttons(ui, work, index, &layer, diagonal_m);
 }
 
-/// A row for the strength. A drag counts from the layer before it: small steps would add up their roundings.
-fn strength_row(form: &mut Form, work: &Workspace, layer: &mut Scratches, index: usize) {
-    let diagonal_m = form.diagonal_m;
-    let Some(before) = strength(layer, diagonal_m) else {
+/// A row for the strength. Its slider stays the same while the layer's panel is shown.
+fn strength_row(form: &mut Form, layer: &mut Scratches, index: usize) {
+    if !matches!(layer.layer, Layer::Laid(_) | Layer::Brushed(_)) {
+        return;
+    }
+    let id = Id::unique("slider of the strength");
+    let pass = form.ui.ctx().cumulative_pass_nr();
+    let kept = form.ui.data(|data| data.get_temp::<KeptSlider>(id));
+    let is_of_it = |kept: &KeptSlider| kept.layer == index && kept.pass + 1 >= pass;
+    let before = kept.filter(is_of_it).map(|kept| kept.slider);
+    let texts = [
+        "Strength",
+        "From barely there to heavy: count, width and depth together, as the grades of wear have them. \
+         Ten times as many scratches are 1.25 times as wide and 1.15 times as deep",
+    ];
+    let Some(mut slider) = StrengthSlider::new(layer, form.diagonal_m, before) else {
+        let why = match layer.layer {
+            Layer::Brushed(_) => "nothing is drawn yet",
+            _ => "there are no scratches: their number is 0",
+        };
+        form.between(texts, [why, ""], None);
         return;
     };
-    let mut wanted = before;
-    let tooltip = "From barely there to heavy: count, width and depth together, as the grades of wear have them. \
-                   Ten times as many scratches are 1.25 times as wide and 1.15 times as deep";
-    form.between("Strength", tooltip, &mut wanted);
-    if wanted != before {
-        let first = work.document.before_drag();
-        if let Some(first) = first.and_then(|d| d.scratches.get(index)) {
-            layer.clone_from(first);
-        }
-        set_strength(layer, diagonal_m, wanted);
+    let mut wanted = slider.at();
+    form.between(texts, ["barely there", "heavy"], Some(&mut wanted));
+    if wanted != slider.at() {
+        slider.go(wanted, layer);
     }
+    let kept = KeptSlider {
+        layer: index,
+        pass,
+        slider,
+    };
+    form.ui.data_mut(|data| data.insert_temp(id, kept));
+}
+
+/// The slider that was shown last.
+#[derive(Clone)]
+struct KeptSlider {
+    layer: usize,
+    pass: u64,
+    slider: StrengthSlider,
 }
 
 /// A row for the cross section. Depths of a file's own are one more choice.
@@ -158,7 +184,7 @@ fn file_row(form: &mut Form, file: &Path) {
     });
 }
 
-fn engraved_rows(form: &mut Form, engraved: &mut Engraved) {
+fn engraved_rows(form: &mut Form, engraved: &mut Engraved, index: usize) {
     match &mut engraved.line {
         Line::Curve { points_m, closed } => {
             form.toggle("Closed", schema::scratches::CLOSED.meaning, closed);
@@ -172,12 +198,7 @@ fn engraved_rows(form: &mut Form, engraved: &mut Engraved) {
             center_m,
             direction,
         } => {
-            let mut typed = text.clone();
-            form.text("Text", schema::scratches::TEXT.meaning, &mut typed);
-            // While it is typed anew nothing may be left.
-            if !typed.trim().is_empty() {
-                *text = typed;
-            }
+            form.text("Text", schema::scratches::TEXT.meaning, text);
             form.number(&schema::scratches::CAPITALS_M, height_m);
             form.vector(&schema::scratches::MIDDLE_M, center_m);
             form.vector(&schema::scratches::READING, direction);
@@ -188,7 +209,10 @@ fn engraved_rows(form: &mut Form, engraved: &mut Engraved) {
             center_m,
             direction,
         } => {
-            file_row(form, file);
+            let mut named = Some(file.clone());
+            let meaning = schema::scratches::DRAWING.meaning;
+            form.picture("File", meaning, &mut named, PictureOf::Drawing(index));
+            *file = named.unwrap_or_default();
             form.number(&schema::scratches::EXTENT_M, fit_m);
             form.vector(&schema::scratches::MIDDLE_M, center_m);
             form.vector(&schema::scratches::READING, direction);
@@ -290,8 +314,10 @@ fn buttons(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches, d
                 }
             }
         });
-        if work.can(Command::SavePreset) {
-            super::button(ui, work, Command::SavePreset);
+        let keep = egui::Button::new(Command::SavePreset.label());
+        let keep = ui.add_enabled(work.can(Command::SavePreset), keep);
+        if keep.on_disabled_hover_text(NO_PRESET).clicked() {
+            work.wished.push(Command::SavePreset);
         }
         for command in [
             Command::Duplicate,

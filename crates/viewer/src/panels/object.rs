@@ -129,7 +129,11 @@ pub(super) fn add_layer(ui: &mut Ui, work: &mut Workspace, object: usize) {
         work.give_own_layers(preset, object);
     }
     ui.separator();
-    for command in [Command::EngraveText, Command::EngraveDrawing] {
+    for command in [
+        Command::EngraveText,
+        Command::EngraveDrawing,
+        Command::AddList,
+    ] {
         super::button(ui, work, command);
     }
 }
@@ -311,13 +315,8 @@ fn shape_rows(form: &mut Form, shape: &mut Shape) {
             height_m,
             depth_m,
         } => {
-            let mut typed = line.clone();
             let tooltip = "What it says: Latin, Greek or Cyrillic letters";
-            form.text("Text", tooltip, &mut typed);
-            // While it is typed anew nothing may be left.
-            if !typed.trim().is_empty() {
-                *line = typed;
-            }
+            form.text("Text", tooltip, line);
             form.number(&schema::shape::CAPITALS_M, height_m);
             form.number(&schema::shape::DEPTH_M, depth_m);
         }

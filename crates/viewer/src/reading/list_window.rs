@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use egui::{Align2, Button, Label, Response, RichText, ScrollArea, TextStyle, Ui, vec2};
+use egui::{Align2, Button, DragValue, Label, Response, RichText, ScrollArea, TextStyle, Ui, vec2};
 use hairline_editor::Selection;
 use hairline_editor::actions::layers;
 
@@ -33,8 +33,9 @@ pub(super) fn show_list(ui: &Ui, work: &mut Workspace, picture: &Response) {
     let title = named.map_or(String::new(), |it| format!("List: {}", layers::title(it)));
     let built = work.engine.built().filter(|built| !built.is_sketch());
     let corner = (
-        Align2::LEFT_BOTTOM,
-        picture.rect.left_bottom() + vec2(12.0, -12.0),
+        // Messages stand at the lower edge, and badges in the corner.
+        Align2::LEFT_TOP,
+        picture.rect.left_top() + vec2(12.0, 44.0),
     );
     let mut is_open = true;
     window(&title, &mut is_open, corner, picture.rect)
@@ -95,15 +96,24 @@ fn rows(ui: &mut Ui, work: &mut Workspace, built: &Built, object: usize, layer: 
         }
         chosen
     };
-    let chosen = area.show_rows(ui, height, own.len(), show).inner;
-    if let Some(index) = chosen {
-        work.measure.picked = PickedScratch::new(built, object, index);
-    }
+    let mut chosen = area.show_rows(ui, height, own.len(), show).inner;
     ui.separator();
     ui.horizontal(|ui| {
         ui.label(format!("{} scratches", own.len()));
+        let label = ui.label("Go to");
+        let mut number = picked.unwrap_or(0);
+        let last = own.len().saturating_sub(1);
+        let go = DragValue::new(&mut number).range(0..=last);
+        let go = ui.add_enabled(!own.is_empty(), go.update_while_editing(false));
+        if go.labelled_by(label.id).changed() {
+            chosen = Some(own.start + number);
+            work.measure.reveals = true;
+        }
         if ui.button(Command::SaveList.label()).clicked() {
             work.wished.push(Command::SaveList);
         }
     });
+    if let Some(index) = chosen {
+        work.measure.picked = PickedScratch::new(built, object, index);
+    }
 }

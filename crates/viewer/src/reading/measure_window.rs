@@ -66,7 +66,7 @@ fn scratch_lines(built: &Built, picked: &PickedScratch) -> Option<Vec<(&'static 
         ("Layer", layers::title(layer).to_owned()),
         (
             "Scratch",
-            format!("{} of 0 to {}", picked.number(), count - 1),
+            format!("number {} (of {count}, from 0)", picked.number()),
         ),
         ("Width", texts.width),
         ("Depth", texts.depth),
@@ -79,6 +79,7 @@ fn scratch_lines(built: &Built, picked: &PickedScratch) -> Option<Vec<(&'static 
 fn span_lines(span: &Span) -> [(&'static str, String); 2] {
     let along = match span.along_m() {
         Some(along_m) => length(along_m),
+        None if !span.is_on_one => "no way: two objects".to_owned(),
         None => "no way: an end or a sharp edge is between".to_owned(),
     };
     [

@@ -112,6 +112,12 @@ impl Lens {
     }
 }
 
+/// Share of a line at which it is nearest to a point.
+pub(super) fn share_of_nearest(from: Pos2, to: Pos2, pos: Pos2) -> f32 {
+    let way = to - from;
+    ((pos - from).dot(way) / way.length_sq().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

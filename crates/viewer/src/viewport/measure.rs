@@ -6,7 +6,7 @@ use egui::{Align2, Color32, FontId, PointerButton, Pos2, Response, Ui};
 use glam::DVec3;
 use hairline_editor::Selection;
 
-use super::lens::Lens;
+use super::lens::{Lens, share_of_nearest};
 use super::pick::{self, Picked};
 use super::{Area, Viewport, ink};
 use crate::engine::Built;
@@ -43,11 +43,8 @@ impl Viewport {
                 work.measure.span.begin(from);
             }
         }
-        // The pass in which the button goes up has the last place.
         let is_held = response.dragged_by(PointerButton::Primary);
-        if let Some(pos) = response
-            .interact_pointer_pos()
-            .filter(|_| self.is_measuring)
+        if let Some(pos) = self.drag_pos(response).filter(|_| self.is_measuring)
             && let Some(to) = on_surface(work, pos)
         {
             work.measure.span.stretch(to);
@@ -109,12 +106,6 @@ fn nearest(built: &Built, lens: &Lens, hit: &Picked, pos: Pos2) -> Option<usize>
     near.sort_by(|a, b| a.0.total_cmp(&b.0));
     let is_seen = |it: &&(f32, usize, DVec3, DVec3)| pick::is_seen(built, lens, it.2, it.3);
     near.iter().find(is_seen).map(|it| it.1)
-}
-
-/// Share of a line at which it is nearest to a point.
-fn share_of_nearest(from: Pos2, to: Pos2, pos: Pos2) -> f32 {
-    let way = to - from;
-    ((pos - from).dot(way) / way.length_sq().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0)
 }
 
 /// Draws the scratch that was picked, and the ruler.

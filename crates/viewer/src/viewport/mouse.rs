@@ -24,6 +24,7 @@ impl Viewport {
         area: &Area,
         response: &Response,
     ) {
+        self.note_button(ui);
         let tool = work.toolbox.tool;
         let shift = ui.input(|input| input.modifiers.shift);
         let is_brush = matches!(tool, Tool::Brush | Tool::Eraser);
@@ -34,7 +35,8 @@ impl Viewport {
 
         let is_free = !alt && !shift && !self.is_shielded;
         self.place_by_drag(work, area, response, is_free);
-        self.pen.drag(ui, work, area, response, is_free);
+        let pos = self.drag_pos(response);
+        self.pen.drag(ui, work, area, response, pos, is_free);
         self.measure_by_drag(ui, work, area, response, is_free);
         // Alt orbits with any tool, as in every other program.
         let draws_region = tool == Tool::Region;
@@ -84,6 +86,44 @@ impl Viewport {
         context_menu(work, area, response);
     }
 
+    /// Takes the places of the primary button from its events: the pointer may be elsewhere when a slow pass begins.
+    fn note_button(&mut self, ui: &egui::Ui) {
+        self.clicks.clear();
+        let most = ui
+            .ctx()
+            .options(|options| options.input_options.max_click_dist);
+        ui.input(|input| {
+            for event in &input.events {
+                let egui::Event::PointerButton {
+                    pos,
+                    button: PointerButton::Primary,
+                    pressed,
+                    ..
+                } = event
+                else {
+                    continue;
+                };
+                if *pressed {
+                    self.pressed_at = Some(*pos);
+                    continue;
+                }
+                self.released_at = Some(*pos);
+                let from = self.pressed_at.take();
+                self.clicks
+                    .extend(from.filter(|from| from.distance(*pos) <= most));
+            }
+        });
+    }
+
+    /// Place of a drag by the primary button; in the pass in which the button goes up, that at which it did.
+    pub(super) fn drag_pos(&self, response: &Response) -> Option<egui::Pos2> {
+        let pos = response.interact_pointer_pos();
+        match response.drag_stopped_by(PointerButton::Primary) {
+            true => self.released_at.or(pos),
+            false => pos.filter(|_| response.dragged_by(PointerButton::Primary)),
+        }
+    }
+
     fn note_pointer(&mut self, ctx: &egui::Context, area: &Area, response: &Response) {
         if response.secondary_clicked() {
             self.pointed = response.interact_pointer_pos().map(|pos| (*area, pos));
@@ -117,7 +157,7 @@ impl Viewport {
     }
 
     fn click(&mut self, work: &mut Workspace, area: &Area, response: &Response) {
-        let Some(pos) = response.interact_pointer_pos() else {
+        let Some(pos) = self.clicks.last().copied().filter(|_| response.clicked()) else {
             return;
         };
         // A press on a handle that moved nothing.
@@ -125,8 +165,13 @@ impl Viewport {
             return;
         }
         if work.toolbox.tool == Tool::Pen {
-            if response.clicked() && !work.reading.probe.click(area.rect, pos) {
-                self.pen.click(work, area, pos, response.double_clicked());
+            if !work.reading.probe.click(area.rect, pos) {
+                for pos in &self.clicks {
+                    self.pen.click(work, area, *pos);
+                }
+                if response.double_clicked() {
+                    self.pen.end(work);
+                }
             }
             return;
         }
@@ -137,7 +182,7 @@ impl Viewport {
                     navigate::center_on(camera, hit.point_m)
                 });
             }
-        } else if response.clicked() && !work.reading.probe.click(area.rect, pos) {
+        } else if !work.reading.probe.click(area.rect, pos) {
             match (work.toolbox.tool, hit) {
                 (Tool::Select, _) => {
                     let picked = picked(work, area, pos);

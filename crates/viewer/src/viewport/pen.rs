@@ -1,14 +1,15 @@
-//! The pen: a click sets a point of an engraved line, a drag moves one, and Delete takes one away.
+//! The pen: a click sets a point of an engraved line or inserts one, a drag moves one, and Delete takes one away.
 
 use egui::{Color32, Context, CursorIcon, Key, Modifiers, PointerButton, Pos2, Response, Ui};
 use glam::DVec3;
 use hairline_document::Description;
 use hairline_editor::{DragKey, Selection, pen};
+use hairline_scene::Segment;
 
-use super::lens::Lens;
+use super::lens::{Lens, share_of_nearest};
 use super::{Area, ink, pick};
 use crate::engine::Built;
-use crate::tools::Tool;
+use crate::tools::{BEGIN_LINE, Tool};
 use crate::workspace::Workspace;
 
 /// Distance from a point at which the pointer is on it, points of the screen.
@@ -19,8 +20,6 @@ const CHOSEN: Color32 = Color32::from_rgb(255, 140, 90);
 /// The pen in the hand.
 #[derive(Default)]
 pub(super) struct PenTool {
-    /// The object and the place that a line begins at: it becomes one at its second point.
-    begun: Option<(usize, DVec3)>,
     /// The layer whose line the next click goes on with.
     open: Option<usize>,
     /// A layer and the point of it that Delete takes away.
@@ -55,6 +54,45 @@ impl Points {
         })
     }
 
+    /// The segments of its scratches, from end to end.
+    fn pieces<'b>(&self, built: &'b Built) -> impl Iterator<Item = &'b [Segment]> {
+        let object = built.scene.objects.get(self.object);
+        let laid = object.map(|object| (object, object.of_layer(self.layer as u32)));
+        laid.into_iter().flat_map(|(object, scratches)| {
+            let scratches = object.scratches[scratches].iter();
+            scratches.map(move |scratch| object.pieces(scratch))
+        })
+    }
+
+    /// The place among the points of one that is inserted where the pointer is on the curve; none beside it.
+    fn after(&self, built: &Built, lens: &Lens, pos: Pos2) -> Option<usize> {
+        let pieces: Vec<&Segment> = self.pieces(built).flatten().collect();
+        let ends_m = |piece: &Segment| [piece.start_m, piece.end_m].map(|end| end.as_dvec3());
+        let distance = |piece: &Segment| {
+            let [from_m, to_m] = ends_m(piece);
+            let is_seen = pick::is_seen(built, lens, from_m, piece.normal.as_dvec3());
+            let [from, to] = lens.segment(from_m, to_m).filter(|_| is_seen)?;
+            Some(from.lerp(to, share_of_nearest(from, to, pos)).distance(pos))
+        };
+        let distances = pieces.iter().copied().map(distance).enumerate();
+        let (at, _) = distances
+            .filter_map(|(i, distance)| Some((i, distance.filter(|it| *it <= REACH)?)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))?;
+        // The pieces go through the points in their order, on closed curves from any of them.
+        let piece_of = |point_m: &DVec3| {
+            let ends = pieces.iter().enumerate().flat_map(|(i, piece)| {
+                let [from, to] = ends_m(piece).map(|end_m| end_m.distance(*point_m));
+                [(i, from), (i + 1, to)]
+            });
+            ends.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
+        };
+        let starts = self.points_m.iter().filter_map(piece_of).enumerate();
+        let before = starts.clone().filter(|(_, start)| *start <= at);
+        let (last, _) =
+            (before.max_by_key(|(_, start)| *start)).or(starts.max_by_key(|(_, start)| *start))?;
+        Some(last + 1)
+    }
+
     /// The point under the pointer.
     fn at(&self, lens: &Lens, pos: Pos2) -> Option<usize> {
         let distance = |point_m: &DVec3| lens.project(*point_m).map(|it| it.distance(pos));
@@ -66,6 +104,12 @@ impl Points {
     }
 }
 
+/// Whether the pointer is on a place.
+fn is_at(lens: &Lens, place_m: DVec3, pos: Pos2) -> bool {
+    let at = lens.project(place_m);
+    at.is_some_and(|at| at.distance(pos) <= REACH)
+}
+
 impl PenTool {
     /// Whether a drag belongs to a point.
     pub fn is_held(&self) -> bool {
@@ -73,8 +117,8 @@ impl PenTool {
     }
 
     /// Ends the line; whether there was one.
-    fn end(&mut self) -> bool {
-        self.begun.take().is_some() | self.open.take().is_some()
+    pub fn end(&mut self, work: &mut Workspace) -> bool {
+        work.toolbox.take_lone_point() | self.open.take().is_some()
     }
 
     /// Lets go of a point; whether one was held.
@@ -84,14 +128,18 @@ impl PenTool {
 
     /// Keys of the pen, to be asked before the commands: Enter and Escape end the line, Delete takes the chosen point away.
     pub fn take_keys(&mut self, ctx: &Context, work: &mut Workspace) {
-        if work.toolbox.tool != Tool::Pen || ctx.text_edit_focused() {
+        if work.toolbox.tool != Tool::Pen {
+            work.toolbox.begun = None;
+            return;
+        }
+        if ctx.text_edit_focused() {
             return;
         }
         self.follow(work);
         let is_pressed = |key| ctx.input(|input| input.key_pressed(key));
         let take = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
         for key in [Key::Enter, Key::Escape] {
-            if is_pressed(key) && self.end() {
+            if is_pressed(key) && self.end(work) {
                 take(key);
             }
         }
@@ -133,15 +181,13 @@ impl PenTool {
         work: &mut Workspace,
         area: &Area,
         response: &Response,
+        pos: Option<Pos2>,
         is_free: bool,
     ) {
         self.follow(work);
-        if !response.dragged_by(PointerButton::Primary) {
-            self.held = None;
-            return;
-        }
         let points = Points::of(work.document.description(), work.selection());
         let Some(points) = points.filter(|_| work.toolbox.tool == Tool::Pen) else {
+            self.held = None;
             return;
         };
         let lens = Lens::new(&work.camera(), area);
@@ -151,28 +197,32 @@ impl PenTool {
             self.chosen = self.held.map(|point| (points.layer, point)).or(self.chosen);
             work.document.end_drag();
         }
-        let pos = response.interact_pointer_pos();
         let hit = pos.and_then(|pos| pick::surface(work, area, pos));
         if let (Some(point), Some(hit)) = (self.held, hit)
             && hit.object == points.object
         {
             let key = DragKey::of(("pen", points.layer, point));
-            work.drag("Move a point", key, |d| {
+            let label = pen::move_label(&work.document.description().scratches[points.layer]);
+            work.drag(label, key, |d| {
                 pen::move_point(d, points.layer, point, hit.point_m);
             });
         }
+        if !response.dragged_by(PointerButton::Primary) {
+            self.held = None;
+        }
     }
 
-    /// Takes up a click, which may be the second one of a double click.
-    pub fn click(&mut self, work: &mut Workspace, area: &Area, pos: Pos2, is_double: bool) {
-        if is_double {
-            self.end();
-            return;
-        }
+    /// Takes up a click.
+    pub fn click(&mut self, work: &mut Workspace, area: &Area, pos: Pos2) {
         self.follow(work);
         let lens = Lens::new(&work.camera(), area);
         let description = work.document.description().clone();
         let points = Points::of(&description, work.selection());
+        let begun = work.toolbox.lone_point();
+        if begun.is_some_and(|(_, place_m)| is_at(&lens, place_m, pos)) {
+            self.end(work);
+            return;
+        }
         if let Some(points) = &points
             && let Some(point) = points.at(&lens, pos)
         {
@@ -181,28 +231,46 @@ impl PenTool {
         }
         let hit = pick::surface(work, area, pos);
         let Some(hit) = hit.filter(|hit| hit.object < description.objects.len()) else {
+            if work.has_object() {
+                let text = "The pen engraves objects: click on one.";
+                work.notices.note("pen", text);
+            }
             return;
         };
-        match (self.open, self.begun) {
+        if let (None, None, Some(points)) = (self.open, begun, &points)
+            && points.object == hit.object
+            && let Some(built) = work.engine.built()
+            && let Some(point) = points.after(&built, &lens, pos)
+            && pen::curve(&description.scratches[points.layer]).is_some()
+        {
+            let layer = points.layer;
+            work.apply("Insert a point", |d, _| {
+                pen::insert_point(d, layer, point, hit.point_m)
+            });
+            self.chosen = Some((layer, point));
+            return;
+        }
+        match (self.open, begun) {
             (Some(layer), _) => {
                 let object = points.map(|it| it.object);
                 if object != Some(hit.object) {
-                    let text = "The line is on another object: Enter or a double click ends it.";
+                    let text = "The line is on another object: Enter or a click on its last point ends it.";
                     work.notices.note("pen", text);
                     return;
                 }
                 work.apply("Add a point", |d, _| pen::add_point(d, layer, hit.point_m));
             }
             (None, Some((object, from_m))) if object == hit.object => {
-                self.begun = None;
+                work.toolbox.begun = None;
+                work.toolbox.first = Some((object, from_m));
                 let ends_m = [from_m, hit.point_m];
-                work.apply("Engrave a line", |d, _| pen::begin(d, object, ends_m));
+                work.apply(BEGIN_LINE, |d, _| pen::begin(d, object, ends_m));
                 if let Selection::Layer(layer) = work.selection() {
                     self.open = Some(layer);
                 }
             }
             (None, _) => {
-                self.begun = Some((hit.object, hit.point_m));
+                work.toolbox.begun = Some((hit.object, hit.point_m));
                 self.chosen = None;
                 return;
             }
@@ -211,11 +279,14 @@ impl PenTool {
         self.chosen = points.map(|it| (it.layer, it.points_m.len() - 1));
     }
 
-    /// The first point of an open line closes it; others are chosen.
+    /// The first point of an open line closes it, the last one ends it; others are chosen.
     fn click_point(&mut self, work: &mut Workspace, points: &Points, point: usize) {
-        if self.open == Some(points.layer) && point == 0 && points.points_m.len() > 2 {
+        let last = points.points_m.len() - 1;
+        if self.open == Some(points.layer) && point == 0 && last > 1 {
             work.apply("Close the line", |d, _| pen::close(d, points.layer));
-            self.end();
+            self.end(work);
+        } else if self.open == Some(points.layer) && point == last {
+            self.end(work);
         }
         self.chosen = Some((points.layer, point));
     }
@@ -231,14 +302,15 @@ impl PenTool {
         let pointer = ui.input(|input| input.pointer.latest_pos());
         let pointer = pointer.filter(|_| ui.rect_contains_pointer(area.rect));
         let points = Points::of(work.document.description(), work.selection());
-        let last_m = match (&points, self.open, self.begun) {
+        let begun = work.toolbox.lone_point();
+        let last_m = match (&points, self.open, begun) {
             (Some(points), Some(_), _) => points.points_m.last().copied(),
             (_, _, begun) => begun.map(|(_, place_m)| place_m),
         };
         if let (Some(from), Some(to)) = (last_m.and_then(|it| lens.project(it)), pointer) {
             ink::segment(&painter, [from, to], 1.0, LINE.gamma_multiply(0.6));
         }
-        if let Some((_, place_m)) = self.begun
+        if let Some((_, place_m)) = begun
             && let Some(at) = lens.project(place_m)
         {
             ink::dot(&painter, at, 4.0, CHOSEN);
@@ -256,10 +328,7 @@ impl PenTool {
         let Some(points) = points else {
             return;
         };
-        let description = work.document.description();
-        if let Some(built) = work.engine.built()
-            && pen::curve(&description.scratches[points.layer]).is_some()
-        {
+        if let Some(built) = work.engine.built() {
             for way in ways(&built, &points, &lens) {
                 ink::line(&painter, way, 1.0, LINE);
             }
@@ -277,16 +346,10 @@ impl PenTool {
 
 /// The scratches of a layer on the screen, where they face the eye.
 fn ways(built: &Built, points: &Points, lens: &Lens) -> Vec<Vec<Pos2>> {
-    let Some(object) = built.scene.objects.get(points.object) else {
-        return Vec::new();
-    };
     let mut ways: Vec<Vec<Pos2>> = Vec::new();
-    let of_layer = object.scratches.iter();
-    for scratch in of_layer.filter(|it| it.layer as usize == points.layer) {
+    for pieces in points.pieces(built) {
         let mut way: Vec<Pos2> = Vec::new();
-        for segment in
-            &object.segments[scratch.segments.start as usize..scratch.segments.end as usize]
-        {
+        for segment in pieces {
             let end_m = segment.end_m.as_dvec3();
             let is_seen = segment.normal.as_dvec3().dot(lens.eye_m() - end_m) > 0.0;
             if !is_seen {

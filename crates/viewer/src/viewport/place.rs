@@ -34,13 +34,11 @@ impl Viewport {
         if response.drag_started_by(PointerButton::Primary) {
             self.is_placing = is_tool && is_free;
         }
-        if !response.dragged_by(PointerButton::Primary) {
-            self.is_placing = false;
-        }
-        let pos = response.interact_pointer_pos().filter(|_| self.is_placing);
+        let pos = self.drag_pos(response).filter(|_| self.is_placing);
         if let Some(hit) = pos.and_then(|pos| pick::surface(work, area, pos)) {
             place_light(work, &hit);
         }
+        self.is_placing &= response.dragged_by(PointerButton::Primary);
     }
 }
 

@@ -73,11 +73,14 @@ impl Workspace {
         let Some(parts) = self.preset(index) else {
             return;
         };
+        let of_preset = self.own_presets.list()[index].name.clone();
+        let of_preset = Some(of_preset).filter(|_| parts.scratches.len() == 1);
         self.apply("Add scratches", |d, mut selection| {
             let name = d.objects.get(object).map(|object| object.name.clone());
             for layer in parts.scratches {
                 let layer = Scratches {
                     object: name.clone().unwrap_or_default(),
+                    name: of_preset.clone().or(layer.name),
                     material: None,
                     node: None,
                     ..layer

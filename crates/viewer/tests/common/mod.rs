@@ -233,7 +233,8 @@ fn button(harness: &mut Harness<'static, Viewer>, pos: Pos2, pressed: bool) {
     harness.step();
 }
 
-fn button_event(pos: Pos2, pressed: bool) -> egui::Event {
+/// An event of the left button.
+pub fn button_event(pos: Pos2, pressed: bool) -> egui::Event {
     egui::Event::PointerButton {
         pos,
         button: PointerButton::Primary,

@@ -171,6 +171,29 @@ fn presets_of_ones_own_are_saved_and_given() {
     harness.run_steps(2);
     click_on(&mut harness, "Save the preset");
     assert!(presets.join("turned of mine.toml").is_file());
+    // One that is there is replaced by a second click.
+    let file = presets.join("turned of mine.toml");
+    std::fs::write(
+        &file,
+        format!("# mine\n{}", std::fs::read_to_string(&file).unwrap()),
+    )
+    .unwrap();
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
+    harness.run_steps(3);
+    harness.event(egui::Event::Text("turned of mine".to_owned()));
+    harness.run_steps(2);
+    click_on(&mut harness, "Save the preset");
+    assert!(
+        std::fs::read_to_string(&file)
+            .unwrap()
+            .starts_with("# mine")
+    );
+    click_on(&mut harness, "Replace the preset turned of mine for good");
+    assert!(
+        !std::fs::read_to_string(&file)
+            .unwrap()
+            .starts_with("# mine")
+    );
     // A broken file stays as it is.
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
     harness.run_steps(3);
@@ -196,6 +219,8 @@ fn presets_of_ones_own_are_saved_and_given() {
         name: None,
         ..layer.clone()
     };
+    let named = after.scratches[1].name.as_deref();
+    assert_eq!(named, Some("turned of mine"));
     let [first, second] = [0, 1].map(|i| plain(&after.scratches[i]));
     assert_eq!(first.object, second.object);
     undo(&mut harness);
@@ -248,4 +273,35 @@ fn strength_moves_count_width_and_depth_as_one_step() {
     undo(&mut harness);
     assert_eq!(*description(&harness), *before);
     common::undo(&mut harness);
+}
+
+#[test]
+fn strength_is_typed_and_says_why_there_is_none() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    select(&mut harness, Selection::Layer(0));
+    for words in ["barely there", "heavy"] {
+        harness.get_by_label(words);
+    }
+    let mut all = Vec::new();
+    for typed in ["1", "0", "1"] {
+        harness
+            .get_by_role_and_label(Role::SpinButton, "Strength")
+            .focus();
+        harness.run_steps(2);
+        harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        harness.event(egui::Event::Text(typed.to_owned()));
+        harness.run_steps(2);
+        key(&mut harness, Key::Enter);
+        all.push(description(&harness));
+    }
+    assert_ne!(*all[0], *all[1]);
+    assert_eq!(*all[0], *all[2], "the way back is the way there");
+    harness.state_mut().document_mut().edit("None", |d| {
+        if let Layer::Laid(laid) = &mut d.scratches[0].layer {
+            laid.amount = Amount::Count(0);
+        }
+    });
+    harness.run_steps(2);
+    harness.get_by_label("there are no scratches: their number is 0");
 }

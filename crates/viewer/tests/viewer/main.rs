@@ -35,6 +35,7 @@ mod picking;
 mod placing;
 mod reach;
 mod reading;
+mod refused;
 mod region;
 mod rest;
 mod shadows;

@@ -3,6 +3,7 @@
 use crate::common::{
     self, SMALL, click_at, click_on, drag, key, picture, viewer, wait_built, wait_until,
 };
+use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, Pos2, Rect, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -21,7 +22,7 @@ fn shown() -> Harness<'static, Viewer> {
 }
 
 /// Place at which the window shows a point.
-fn seen(harness: &Harness<'static, Viewer>, point_m: DVec3) -> Pos2 {
+pub fn seen(harness: &Harness<'static, Viewer>, point_m: DVec3) -> Pos2 {
     let (area, size_px) = (
         picture(harness),
         common::description(harness).render.size_px,
@@ -54,7 +55,7 @@ fn a_click_reads_the_nearest_scratch() {
     let at = seen(&harness, at);
     click_at(&mut harness, at);
     harness.run_steps(3);
-    harness.get_by_label("17 of 0 to 199");
+    harness.get_by_label("number 17 (of 200, from 0)");
     assert!(harness.query_all_by_label("turned").count() > 1);
     let shown = |of: String| {
         let texts = harness.query_all_by_label_contains(&of).count();
@@ -119,7 +120,22 @@ fn the_list_shows_few_rows_and_its_file_is_laid_again() {
     // Rows that are out of sight are not made.
     assert!(harness.query_by_label("3").is_some() && harness.query_by_label("150").is_none());
     click_on(&mut harness, "3");
-    harness.get_by_label("3 of 0 to 199");
+    harness.get_by_label("number 3 (of 200, from 0)");
+    // A number that is typed is gone to.
+    harness
+        .get_by_role_and_label(Role::SpinButton, "Go to")
+        .focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.event(Event::Text("150".to_owned()));
+    harness.run_steps(2);
+    key(&mut harness, Key::Enter);
+    harness.run_steps(2);
+    harness.get_by_label("number 150 (of 200, from 0)");
+    assert!(harness.query_by_label("150").is_some());
+    // Messages stand at the lower edge.
+    let button = harness.get_by_label("Save the list of scratches…").rect();
+    assert!(button.max.y < picture(&harness).max.y - 150.0);
     click_on(&mut harness, "Save the list of scratches…");
     harness.get_by_label("Path").focus();
     harness.run_steps(2);
@@ -148,4 +164,32 @@ fn the_list_shows_few_rows_and_its_file_is_laid_again() {
             after.scratches[200 + i].profile
         );
     }
+}
+
+#[test]
+fn commands_without_a_layer_say_what_is_missing() {
+    let mut harness = shown();
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::M);
+    harness.run_steps(2);
+    let told = harness.state().messages().concat();
+    assert!(told.contains("Select a layer of scratches"), "{told}");
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
+    harness.run_steps(2);
+    let told = harness.state().messages().concat();
+    assert!(told.contains("A preset is made of"), "{told}");
+}
+
+#[test]
+fn there_is_no_way_between_two_objects() {
+    let mut harness = viewer(format!("{SMALL}\n[ground]\n").leak());
+    wait_built(&mut harness);
+    key(&mut harness, Key::M);
+    let from = seen(&harness, DVec3::new(0.0, -0.02, 0.0));
+    let to = picture(&harness).right_bottom() - vec2(40.0, 40.0);
+    drag(&mut harness, from, to, 4);
+    wait_until(&mut harness, "the distance", |viewer| {
+        viewer.measured_m().is_some()
+    });
+    harness.run_steps(2);
+    harness.get_by_label("no way: two objects");
 }

@@ -123,6 +123,10 @@ fn a_text_of_characters_that_the_font_lacks_is_refused_by_name() {
     let told = harness.state().messages().concat();
     assert!(told.contains("Text: ") && told.contains('🎲'), "{told:?}");
     assert!(!told.contains("shape.text"), "{told:?}");
+    type_into(&mut harness, Role::TextInput, place, " ");
+    assert_eq!(*description(&harness), *before);
+    let told = harness.state().messages().concat();
+    assert!(told.contains("Text: found \" \""), "{told:?}");
     // The next good one takes the message away.
     type_into(&mut harness, Role::TextInput, place, "Ærø");
     let Surface::Shape(Shape::Text { line, .. }) = &description(&harness).objects[0].surface else {
