@@ -12,7 +12,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::{parsed, thrown};
 
-/// Lists and pictures that layers name.
+/// Lists, pictures and drawings that layers name.
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct Files(Arrays);
@@ -34,7 +34,13 @@ impl Files {
         added.map_err(|error| JsError::new(&format!("{name}: {error}")))
     }
 
-    /// Adds a list of straight scratches: six numbers for the ends of each, in the frame of the mesh, in metres.
+    /// Adds a drawing: an SVG file.
+    pub fn drawing(&mut self, name: &str, svg: &[u8]) {
+        self.0.insert_drawing(name, svg);
+    }
+
+    /// Adds a list of straight scratches: six numbers for the ends of each, in the frame of the mesh, in metres. With numbers of scratches they are pieces:
+    /// those side by side with one number are one scratch.
     ///
     /// # Errors
     /// Arrays of other lengths, numbers out of range.
@@ -44,10 +50,16 @@ impl Files {
         ends_m: &[f64],
         widths_um: &[f64],
         depths_nm: &[f64],
+        scratches: Option<Vec<u32>>,
     ) -> Result<(), JsError> {
         let ends = ends_m.as_chunks::<6>().0.iter();
         let ends = ends.map(|[a, b, c, d, e, f]| [[*a, *b, *c], [*d, *e, *f]]);
-        let list = ScratchArrays::new(ends.collect(), [widths_um, depths_nm]).map_err(thrown)?;
+        let list = ScratchArrays::new(ends.collect(), [widths_um, depths_nm]);
+        let list = match scratches {
+            Some(numbers) => list.and_then(|list| list.with_scratches(&numbers)),
+            None => list,
+        };
+        let list = list.map_err(thrown)?;
         self.0.insert_scratches(name, Arc::new(list));
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! Meshes, scratches and pictures in memory, which a program has computed and no file holds.
+//! Meshes, scratches, pictures and drawings in memory, which a program has computed and no file holds.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -22,6 +22,7 @@ pub struct Arrays {
     meshes: HashMap<PathBuf, Arc<MeshArrays>>,
     scratches: HashMap<PathBuf, Arc<ScratchArrays>>,
     pictures: HashMap<PathBuf, Arc<GreyMap>>,
+    drawings: HashMap<PathBuf, Arc<[u8]>>,
 }
 
 impl Arrays {
@@ -39,6 +40,11 @@ impl Arrays {
     /// Puts scratches in the place of a file.
     pub fn insert_scratches(&mut self, name: impl Into<PathBuf>, scratches: Arc<ScratchArrays>) {
         self.scratches.insert(name.into(), scratches);
+    }
+
+    /// Puts an SVG file in the place of one on disk.
+    pub fn insert_drawing(&mut self, name: impl Into<PathBuf>, svg: &[u8]) {
+        self.drawings.insert(name.into(), svg.into());
     }
 
     /// Puts a picture of a layer's places in the place of a file, for [`lay_on_mesh`](crate::lay_on_mesh): `rgba` is four bytes a texel, row by row from
@@ -98,6 +104,10 @@ impl Arrays {
 
     pub(crate) fn picture(&self, name: &Path) -> Option<&Arc<GreyMap>> {
         self.pictures.get(name)
+    }
+
+    pub(crate) fn drawing(&self, name: &Path) -> Option<&[u8]> {
+        self.drawings.get(name).map(|svg| &**svg)
     }
 
     pub(crate) fn scratches(&self, name: &Path) -> Option<&Arc<ScratchArrays>> {
@@ -206,11 +216,13 @@ impl MeshArrays {
 
 const SIZE_COUNT: usize = LISTED_SIZES.len();
 
-/// Straight scratches in the object's own frame.
+/// Straight scratches in the object's own frame, or the straight pieces of bent ones.
 #[derive(Clone, Debug)]
 pub struct ScratchArrays {
     ends_m: Vec<[[f64; 3]; 2]>,
     profiles: Vec<Profile>,
+    /// The first piece of each scratch, and the number of pieces.
+    first: Vec<u32>,
 }
 
 impl ScratchArrays {
@@ -265,7 +277,44 @@ impl ScratchArrays {
                 *(size.of)(profile) = *value as f32;
             }
         }
-        Ok(Self { ends_m, profiles })
+        Ok(Self {
+            ends_m,
+            profiles,
+            first: (0..=count as u32).collect(),
+        })
+    }
+
+    /// Makes one scratch of straight pieces side by side that have the same number. Each begins where the one before it ends, and has its sizes.
+    ///
+    /// # Errors
+    /// Too few or too many numbers, or a piece that does not go on, by its key.
+    pub fn with_scratches(mut self, numbers: &[u32]) -> Result<Self, Error> {
+        let count = self.ends_m.len();
+        if numbers.len() != count {
+            let found = format!("found {} numbers for {count} pieces", numbers.len());
+            return Err(Error::new("scratches", found, "must be one for each"));
+        }
+        let goes_on = |i: usize| i > 0 && numbers[i] == numbers[i - 1];
+        let is_off = |i: usize| {
+            let is_elsewhere = self.ends_m[i][0] != self.ends_m[i - 1][1];
+            is_elsewhere || self.profiles[i] != self.profiles[i - 1]
+        };
+        if let Some(i) = (0..count).find(|i| goes_on(*i) && is_off(*i)) {
+            let found = format!(
+                "found a piece off the one before it, of the same scratch {}",
+                numbers[i]
+            );
+            let right = "must begin at its end, and be as wide and as deep";
+            return Err(Error::new(format!("ends_m[{i}]"), found, right));
+        }
+        let first = (0..count).filter(|i| !goes_on(*i)).chain([count]);
+        self.first = first.map(|i| i as u32).collect();
+        Ok(self)
+    }
+
+    /// The first piece of each scratch, and the number of pieces.
+    pub(crate) fn first(&self) -> &[u32] {
+        &self.first
     }
 
     /// Values of one size for each scratch; `place` is its index in [`Self::SIZES`].

@@ -55,7 +55,16 @@ impl UnlaidLayers {
             row.remove("laid");
             let mut named = |key| Some(row.remove(key)?.as_str()?.to_owned());
             let part = [named("material"), named("node")];
-            if let Some(list) = row.get_mut("file") {
+            let is_drawing = row.get("pattern") == Some(&json!("svg"));
+            if let Some(drawing) = row.get_mut("file").filter(|_| is_drawing) {
+                let file = &extension["files"][drawing.as_u64().unwrap_or(u64::MAX) as usize];
+                let svg = view_of(gltf, &file["bufferView"]).ok_or_else(|| {
+                    let way = format!("scratches[{i}].file");
+                    format!("{way}: found {drawing}; must be the number of one of `files`")
+                })?;
+                lists.insert_drawing(format!("drawing {i}.svg"), svg);
+                *drawing = json!(format!("drawing {i}.svg"));
+            } else if let Some(list) = row.get_mut("file") {
                 if is_own {
                     let read = read_list(gltf, list, &format!("scratches[{i}].file"))?;
                     lists.insert_scratches(format!("list {i}"), Arc::new(read));
@@ -121,7 +130,7 @@ impl UnlaidLayers {
     }
 }
 
-/// A list of straight scratches.
+/// A list of straight scratches, or of the straight pieces of bent ones.
 fn read_list(gltf: &gltf::Gltf, list: &Value, way: &str) -> Result<ScratchArrays, String> {
     let ends = |key| accessor::<[f32; 3]>(gltf, list, way, key, Dimensions::Vec3, DataType::F32);
     let sizes = |key| -> Result<Vec<f64>, String> {
@@ -132,8 +141,32 @@ fn read_list(gltf: &gltf::Gltf, list: &Value, way: &str) -> Result<ScratchArrays
     let both = starts.into_iter().zip(ends);
     let ends = both.map(|(start, end)| [start, end].map(|at| at.map(f64::from)));
     let [widths_um, depths_nm] = [sizes("width_um")?, sizes("depth_nm")?];
-    ScratchArrays::new(ends.collect(), [&widths_um, &depths_nm])
-        .map_err(|error| format!("{way}: {error}"))
+    let told = |error: Error| format!("{way}: {error}");
+    let pieces = ScratchArrays::new(ends.collect(), [&widths_um, &depths_nm]).map_err(told)?;
+    let Some(view) = list.get("scratches_u32") else {
+        return Ok(pieces);
+    };
+    let bytes = view_of(gltf, view).ok_or_else(|| {
+        format!("{way}.scratches_u32: found {view}; must be the number of a buffer view")
+    })?;
+    let numbers = bytes
+        .as_chunks::<4>()
+        .0
+        .iter()
+        .map(|it| u32::from_le_bytes(*it));
+    let numbers: Vec<u32> = numbers.collect();
+    pieces.with_scratches(&numbers).map_err(told)
+}
+
+/// The bytes of a buffer view, by its number.
+fn view_of<'a>(gltf: &'a gltf::Gltf, number: &Value) -> Option<&'a [u8]> {
+    let view = gltf.document.views().nth(number.as_u64()? as usize)?;
+    // Its own buffer is the first.
+    let blob = gltf
+        .blob
+        .as_deref()
+        .filter(|_| view.buffer().index() == 0)?;
+    blob.get(view.offset()..)?.get(..view.length())
 }
 
 impl Triangles {

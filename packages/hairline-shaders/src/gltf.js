@@ -247,8 +247,9 @@ class HairlineScratches {
   async described(given, number, extension, files) {
     const { laid, material, node, ...layer } = given;
     if (layer.pattern === 'svg') {
-      this.warn(`not drawn: a layer of pattern svg on "${layer.object}"`);
-      return { ...layer, file: 'drawing.svg', hidden: true };
+      const { bufferView } = fileOf(layer, 'file', wayOf(given, extension), extension);
+      layer.file = `drawing ${number}.svg`;
+      files[layer.file] = { svg: new Uint8Array(await this.parser.getDependency('bufferView', bufferView)) };
     }
     if (layer.pattern === 'file') {
       const list = layer.file;
@@ -259,7 +260,8 @@ class HairlineScratches {
         const [scratch, k] = [Math.floor(i / 6), i % 6];
         return k < 3 ? starts[3 * scratch + k] : ends[3 * scratch + k - 3];
       });
-      files[layer.file] = { endsM, widthsUm, depthsNm };
+      const scratches = list.scratches_u32 === undefined ? undefined : new Uint32Array(await this.parser.getDependency('bufferView', list.scratches_u32));
+      files[layer.file] = { endsM, widthsUm, depthsNm, scratches };
     }
     for (const key of ['mask', 'density'].filter((it) => layer.where?.[it] !== undefined)) {
       const file = fileOf(layer.where, key, `${wayOf(given, extension)}.where`, extension);

@@ -87,8 +87,8 @@ export interface MeshArrays {
   /** Two numbers a vertex, for pictures. */
   uvs?: ArrayLike<number> | null;
 }
-/** What layers name: pictures, and lists of straight scratches with six numbers for the two ends of each, in metres. */
-export type LayerFile = { width: number; rgba: Uint8Array | Uint8ClampedArray } | { endsM: ArrayLike<number>; widthsUm: ArrayLike<number>; depthsNm: ArrayLike<number> };
+/** What layers name: pictures, drawings as bytes of SVG files, and lists of straight scratches with six numbers for the two ends of each, in metres; pieces side by side with one number in `scratches` are one. */
+export type LayerFile = { width: number; rgba: Uint8Array | Uint8ClampedArray } | { svg: Uint8Array } | { endsM: ArrayLike<number>; widthsUm: ArrayLike<number>; depthsNm: ArrayLike<number>; scratches?: ArrayLike<number> };
 export interface LayingOptions {
   /** How long a unit of the mesh's own frame is in the world. */
   metresPerUnit?: number;

@@ -119,7 +119,8 @@ export function using(held, call) {
 /**
  * Lays one layer or several on a mesh, as Hairline does: a seed means the same scratches. A layer has the keys of `[[scratches]]` in docs/scene.md, but
  * `object`. A mesh is `{ positions, index, normals, uvs }`, arrays of numbers in the object's own frame; without `index` it is a soup of triangles, without
- * `normals` each is flat, `uvs` are for pictures. `files`: what the layers name, pictures `{ width, rgba }` and lists of straight scratches in metres `{ endsM, widthsUm, depthsNm }`.
+ * `normals` each is flat, `uvs` are for pictures. `files`: what the layers name, pictures `{ width, rgba }`, drawings `{ svg }` as bytes, and lists of straight scratches in metres `{ endsM, widthsUm, depthsNm }`;
+ * with `scratches` of their pieces, of which those side by side with one number are one scratch.
  */
 export function layScratches({ positions, index = null, normals = null, uvs = null }, layers, { metresPerUnit = 1, files = {} } = {}) {
   const rows = [layers].flat().map((layer) => ({ object: 'mesh', ...layer }));
@@ -127,9 +128,10 @@ export function layScratches({ positions, index = null, normals = null, uvs = nu
   const corners = index === null ? Uint32Array.from({ length: positions.length / 3 }, (_, i) => i) : Uint32Array.from(index);
   needsTables('scratches');
   return using(new Files(), (held) => {
-    for (const [name, { width, rgba, endsM, widthsUm, depthsNm }] of Object.entries(files)) {
+    for (const [name, { width, rgba, svg, endsM, widthsUm, depthsNm, scratches }] of Object.entries(files)) {
       if (rgba) held.picture(name, width, rgba);
-      else held.list(name, ...[endsM, widthsUm, depthsNm].map(numbers));
+      else if (svg) held.drawing(name, svg);
+      else held.list(name, ...[endsM, widthsUm, depthsNm].map(numbers), scratches && Uint32Array.from(scratches));
     }
     return using(new Laid(numbers(positions), numbers(normals), numbers(uvs), corners, JSON.stringify(rows), held, metresPerUnit), (laid) => {
       const profiles = Array.from(laid.layers(), (i) => rows[i].profile ?? RECTANGLE);

@@ -76,6 +76,17 @@ for (let from = 0, to; from < few.count; from = to) {
 const files = { list: { endsM: [-0.01, 0, 0, 0.01, 0, 0], widthsUm: [4], depthsNm: [150] }, half: { width: 2, rgba: Uint8Array.from([255, 255, 255, 255, 0, 0, 0, 255]) } };
 const listed = hairline.layScratches(square, { pattern: 'file', file: 'list' }, { files });
 assert.ok(Math.abs(listed.starts[0] + 0.01) < 1e-6 && Math.abs(listed.ends[3 * listed.count - 3] - 0.01) < 1e-6);
+// Pieces with one number are one scratch, else each is one.
+const bent = { ...files.list, endsM: [-0.01, 0, 0, 0, 0.01, 0, 0, 0.01, 0, 0.01, 0, 0] };
+for (const [scratches, count] of [[[7, 7], 1], [undefined, 2]]) {
+  const { scratch } = hairline.layScratches(square, { pattern: 'file', file: 'bent' }, { files: { bent: { ...bent, scratches } } });
+  assert.equal(new Set(scratch).size, count);
+}
+// The outline of a circle is one.
+const svg = new TextEncoder().encode('<svg xmlns="http://www.w3.org/2000/svg"><circle cx="3" cy="3" r="2"/></svg>');
+const drawn = hairline.layScratches(square, { pattern: 'svg', file: 'ring.svg', fit_m: 0.02 }, { files: { 'ring.svg': { svg } } });
+assert.ok(drawn.count > 10);
+for (let i = 0; i < drawn.count; i += 1) assert.ok(Math.abs(Math.hypot(drawn.starts[3 * i], drawn.starts[3 * i + 1]) - 0.01) < 1e-4);
 // A mask leaves the left half.
 const masked = hairline.layScratches(square, { pattern: 'random', count: 200, where: { mask: 'half' } }, { files });
 assert.ok(masked.count > 50);

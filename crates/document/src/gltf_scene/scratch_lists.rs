@@ -25,7 +25,9 @@ pub(super) fn write_file(file: &mut GltfFile, path: &FilePath, key: &str) -> Res
 /// As [`write_file`], of a list in memory.
 pub(super) fn write_arrays(file: &mut GltfFile, arrays: &ScratchArrays) -> Value {
     let rows = arrays.ends_m().iter().zip(arrays.profiles());
-    let rows = (0u32..).zip(rows);
+    let scratches = (0u32..).zip(arrays.first().array_windows());
+    let numbers = scratches.flat_map(|(number, [first, end])| (*first..*end).map(move |_| number));
+    let rows = numbers.zip(rows);
     write(
         file,
         rows.map(|(number, (ends_m, profile))| (*ends_m, profile.clone(), number)),

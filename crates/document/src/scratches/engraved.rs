@@ -113,7 +113,9 @@ impl<'a> Engraving<'a> {
                 direction,
             } => {
                 let plate = Plate::new(ground, *center_m, *direction, table)?;
-                plate.stamped(&outlines::drawing(&base_dir.join(file), &key, *fit_m)?)
+                let held = loader.arrays.drawing(file);
+                let path = base_dir.join(file);
+                plate.stamped(&outlines::drawing(held, &path, &key, *fit_m)?)
             }
         };
         let mut runs: Vec<Run> = Vec::new();

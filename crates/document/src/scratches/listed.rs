@@ -230,7 +230,7 @@ impl<'a> Listed<'a> {
     ) -> Result<Self, Error> {
         let (ends_m, profiles) = (arrays.ends_m(), arrays.profiles());
         let row = |i: usize| (ends_m[i], profiles[i].clone());
-        let first = (0..=ends_m.len() as u32).collect();
+        let first = arrays.first().to_vec();
         Self::placed(loader, first, row, ground, |i, end, found, right| {
             Error::new(format!("{key}.ends_m[{i}][{end}]"), found, right)
         })

@@ -38,15 +38,23 @@ pub(super) fn letters(line: &str, height_m: f64) -> Vec<Stamp> {
     stamps.collect()
 }
 
-/// The outlines of an SVG file, as large as `fit_m`. `key` is the way to its name in the scene file.
-pub(super) fn drawing(path: &FilePath, key: &str, fit_m: f64) -> Result<Stamp, Error> {
+/// The outlines of an SVG file, as large as `fit_m`: of what is `held` in its place, if anything is. `key` is the way to its name in the scene file.
+pub(super) fn drawing(
+    held: Option<&[u8]>,
+    path: &FilePath,
+    key: &str,
+    fit_m: f64,
+) -> Result<Stamp, Error> {
     const RIGHT: &str =
         "must be an SVG file with shapes, relative to the scene file; letters as paths";
     let wrong = |found: String| {
         let found = format!("\"{}\" {found}", path.display());
         Error::new(key, found, RIGHT)
     };
-    let bytes = reading::read(path, FileKind::File, FILE_SHARE);
+    let bytes = match held {
+        Some(held) => Ok(held.to_owned()),
+        None => reading::read(path, FileKind::File, FILE_SHARE),
+    };
     let bytes = bytes.map_err(|why| wrong(format!("cannot be read ({why})")))?;
     let options = Options {
         // No further file is read.

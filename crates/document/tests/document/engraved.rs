@@ -3,6 +3,7 @@
 use crate::common::{object, scene_with, temporary_dir};
 use glam::{DVec3, Vec3};
 use hairline_document::description::Description;
+use hairline_document::{Arrays, Loader};
 use hairline_scene::{Object, Scene, Scratch, Segment};
 
 const PLANE: &str = "{ plane = { size_m = [0.2, 0.2] } }";
@@ -279,4 +280,21 @@ fn what_is_not_laid_is_told() {
         let notes = loaded(PLANE, keys).notes;
         assert_eq!(notes.first().map(String::as_str), note, "{keys}");
     }
+}
+
+/// What a program holds in the place of a file is engraved as the file is.
+#[test]
+fn drawings_in_memory_are_engraved() {
+    let keys = "pattern = \"svg\"\nfile = \"mark.svg\"\nfit_m = 0.04";
+    let layer = format!("[[scratches]]\nobject = \"it\"\n{keys}\n");
+    let text = scene_with(&(object(PLANE) + &layer));
+    let mut arrays = Arrays::default();
+    arrays.insert_drawing("mark.svg", MARK.as_bytes());
+    let loader = Loader {
+        arrays: &arrays,
+        ..Loader::default()
+    };
+    let dir = temporary_dir();
+    let held = loader.from_toml(&text, "scene.toml", dir.path()).unwrap();
+    assert_eq!(held.objects[0].segments, engraved(PLANE, keys).segments);
 }

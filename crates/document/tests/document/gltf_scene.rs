@@ -301,8 +301,26 @@ light = [{ kind = "sphere", center_m = [0.0, 0.0, 1.0], radius_m = 0.1 }]
         [0.0, 0.25, 0.125],
     ];
     let mesh = MeshArrays::new(corners, vec![[0, 1, 2], [0, 2, 3]], None, None).unwrap();
-    let ends = vec![[[0.1, 0.01, 0.005], [0.4, 0.2, 0.1]]];
-    let scratches = ScratchArrays::new(ends, [&[2.3], &[150.0]]).unwrap();
+    // A bent one of two pieces, and a straight one.
+    let [a, b, c] = [[0.1, 0.01, 0.005], [0.4, 0.2, 0.1], [0.41, 0.1, 0.05]];
+    let pieces = || ScratchArrays::new(vec![[a, b], [b, c], [c, a]], [&[2.3], &[150.0]]).unwrap();
+    let scratches = pieces().with_scratches(&[4, 4, 7]).unwrap();
+    for (wrong, told) in [
+        (
+            &[4, 4][..],
+            "scratches: found 2 numbers for 3 pieces; must be one for each",
+        ),
+        (&[4, 7, 7, 7][..], "scratches: found 4 numbers"),
+    ] {
+        let error = pieces().with_scratches(wrong).unwrap_err().to_string();
+        assert!(error.contains(told), "{error}");
+    }
+    let torn = ScratchArrays::new(vec![[a, b], [c, a]], [&[2.3], &[150.0]]).unwrap();
+    let error = torn.with_scratches(&[1, 1]).unwrap_err().to_string();
+    assert!(
+        error.contains("ends_m[1]: found a piece off the one before it"),
+        "{error}"
+    );
     let mut arrays = Arrays::default();
     arrays.insert_mesh("array 0", Arc::new(mesh));
     arrays.insert_scratches("array 1", Arc::new(scratches));
@@ -311,6 +329,7 @@ light = [{ kind = "sphere", center_m = [0.0, 0.0, 1.0], radius_m = 0.1 }]
         ..Loader::default()
     };
     let before = loader.build(&description, dir.path()).unwrap();
+    assert_eq!(before.objects[0].scratches.len(), 2);
     let exported = loader
         .export(&description, dir.path(), Export::default())
         .unwrap();
@@ -326,6 +345,7 @@ light = [{ kind = "sphere", center_m = [0.0, 0.0, 1.0], radius_m = 0.1 }]
         after.objects[0].mesh.triangles
     );
     assert_eq!(before.objects[0].segments, after.objects[0].segments);
+    assert_eq!(before.objects[0].scratches, after.objects[0].scratches);
 }
 
 /// What lies in a file is read there, wherever the file is, by whoever asks for it.
