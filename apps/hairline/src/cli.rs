@@ -166,14 +166,14 @@ pub struct Render {
     pub size: Option<[u32; 2]>,
     /// Samples for each pixel that has an edge or a crease in it; elsewhere one is enough. With shadows also the rays to each light from every
     /// pixel: they add up, and Ctrl-C ends with the picture of those that are done. More than 4 are rounded up to multiples of 4.
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_SAMPLES, allow_negative_numbers = true, value_parser = whole(1..=1024))]
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_SAMPLES, allow_negative_numbers = true, value_parser = whole::<u32>(1..=1024))]
     pub samples: u32,
     /// Whether objects hide lights and the environment from one another: as many rays to each light as there are samples.
     /// [default: on; the published method has none]
     #[arg(long, value_enum)]
     pub shadows: Option<Switch>,
     /// Objects that light may go by on its way besides the one that is seen, with shadows. [default: 1]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(0..=64))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<u32>(0..=64))]
     pub bounces: Option<u32>,
     /// Whether the light that rays found, shadows and other objects' light, is filtered over each surface: less grain. Scratches, textures and
     /// highlights stay as sharp as they are, and more samples leave less to filter.
@@ -259,7 +259,7 @@ impl From<Turns> for navigate::Turns {
 pub struct SequenceFlags {
     /// Number of pictures, NAME-0001.png and on for -o NAME.png (or .exr), on the path that --turntable and --zoom give, or through the times of
     /// --time A:B. For -o NAME.apng or NAME.mp4 one animation.
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(1..=100_000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<u32>(1..=100_000))]
     pub frames: Option<u32>,
     /// Turn the camera about its target, around its `up`, by so many degrees in all, counter-clockwise seen from above.
     /// The step after the last frame completes them: a full turn of 360 shows no view twice.
@@ -282,7 +282,7 @@ pub struct SequenceFlags {
     #[arg(long, value_name = "FILE")]
     pub animation: Option<PathBuf>,
     /// Frames of the animation in a second. [default: 30]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(1..=FPS_MAX))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<u16>(1..=FPS_MAX))]
     pub fps: Option<u16>,
     /// Render the frames with 64 samples in every pixel as well, and print how steady both sequences are: mean FLIP between
     /// each frame and the one before it, moved to where its surfaces are now. Takes 64 times as long.
@@ -340,7 +340,7 @@ pub struct Reference {
     #[arg(long, value_enum, default_value_t = Model::Separable)]
     pub model: Model,
     /// Samples for each pixel, rounded up to whole batches. Without it 1024, or with --time as many as fit.
-    #[arg(long, visible_alias = "samples", value_name = "N", allow_negative_numbers = true, value_parser = whole(1..=16_777_216))]
+    #[arg(long, visible_alias = "samples", value_name = "N", allow_negative_numbers = true, value_parser = whole::<u32>(1..=16_777_216))]
     pub spp: Option<u32>,
     /// Stop sampling after this time: seconds, or with units as in 5m or 1h30m.
     #[arg(long, value_name = "DURATION", value_parser = parse_duration)]
@@ -349,7 +349,7 @@ pub struct Reference {
     #[arg(long)]
     pub resume: bool,
     /// Surfaces that light may meet on its way besides the one that is seen. 0: direct light, as the closed forms.
-    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole(0..=64))]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole::<u32>(0..=64))]
     pub bounces: u32,
     /// Whether objects hide lights from one another.
     #[arg(long, value_enum, default_value_t = Switch::Off)]
@@ -402,7 +402,7 @@ pub struct Bench {
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
     /// Scratches of the bench's own scene. [default: 10000, the talk's]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(1..=1_000_000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<u32>(1..=1_000_000))]
     pub scratches: Option<u32>,
     /// A quarter of the pixels, few repetitions, short references, fewer places along each curve: a first impression in a minute or so.
     #[arg(long)]
@@ -411,7 +411,7 @@ pub struct Bench {
     #[arg(long, value_enum, value_name = "PART")]
     pub part: Vec<BenchPart>,
     /// Repetitions of each cell, in place of as many as fit the time.
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(1..=1000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<u32>(1..=1000))]
     pub repetitions: Option<u32>,
     /// Write the bench's scene to a file and measure nothing.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "json", "output", "part"])]
@@ -455,7 +455,7 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
         })
 }
 
-/// Parser for a whole number within a range.
+/// Parser for a whole number within a range. The type is that of the flag: clap compares them where the program runs, and a literal alone would be an `i32`.
 fn whole<T>(range: RangeInclusive<T>) -> impl Fn(&str) -> Result<T, String> + Clone
 where
     T: FromStr + PartialOrd + Display + Clone + Send + Sync + 'static,
