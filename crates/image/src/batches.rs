@@ -13,9 +13,12 @@ pub const BATCH_ROUNDS: u32 = 16;
 /// Rounds of the first batch while somebody looks: of fewer, filtered, a picture is worse than one without.
 const FIRST_ROUNDS: u32 = 8;
 
-/// Rounds of the batch after so many.
+/// Rounds of the batch after so many. Batches begin at multiples of their size, where samples are spread best.
 fn rounds_after(first: u32) -> u32 {
-    (3 * first).clamp(FIRST_ROUNDS, BATCH_ROUNDS)
+    match first < BATCH_ROUNDS {
+        true => FIRST_ROUNDS,
+        false => BATCH_ROUNDS,
+    }
 }
 
 /// Some of the samples of each pixel.
@@ -313,7 +316,7 @@ mod tests {
     #[test]
     fn batches_grow_to_all_samples() {
         let counts = |samples| -> Vec<u32> { Batch::growing(samples).map(|b| b.count).collect() };
-        assert_eq!(counts(64), [8, 16, 16, 16, 8]);
+        assert_eq!(counts(64), [8, 8, 16, 16, 16]);
         assert_eq!(counts(3), [3]);
         assert_eq!(Batch::growing(64).last().unwrap().range().end, 64);
     }

@@ -48,7 +48,7 @@ fn wrong_command_lines_are_2() {
         ("render --size 12", "1280x720"),
         ("render --size 0x5", "1280x720"),
         ("render --size 99999x5", "16384"),
-        ("render --samples 0", "1..=1024"),
+        ("render --samples 0", "from 1 to 1024"),
         ("render --exposure much", "stops"),
         ("render --exposure NaN", "stops"),
         ("render --backend tpu", "auto, gpu, cpu"),
@@ -321,8 +321,7 @@ fn an_interrupted_render_leaves_no_file() {
         .unwrap();
     assert!(killed.success());
     let status = child.wait().unwrap();
-    let signal = std::os::unix::process::ExitStatusExt::signal(&status);
-    assert_eq!(signal, Some(15), "{status}");
+    assert_eq!(status.code(), Some(1), "{status}");
     assert_eq!(names_in(folder.path()), before);
 }
 

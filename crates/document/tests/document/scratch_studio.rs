@@ -94,8 +94,10 @@ fn what_hides_a_lamp_is_avoided() {
 
 #[test]
 fn white_bodies_have_dimmer_lamps() {
-    let (steel, _) = lit(PLATE);
-    let (white, _) = lit(&PLATE.replace("\"m\"", "\"white\""));
+    // Flat metal has dimmer ones too, as it mirrors them as a whole.
+    let ball = PLATE.replace("disk", "sphere");
+    let (steel, _) = lit(&ball);
+    let (white, _) = lit(&ball.replace("\"m\"", "\"white\""));
     let [steel, white] = [&steel, &white].map(|it| lamps(it)[0].1);
     assert!(steel > 5.0 * white && white > 100.0, "{steel} {white}");
 }
