@@ -10,7 +10,7 @@ use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{
     Align, Context, Event, FocusDirection, Id, Key as KeyboardKey, Layout, Response, Slider,
-    SliderClamping, TextEdit, Ui, vec2,
+    SliderClamping, TextEdit, Ui,
 };
 use hairline_document::Description;
 use hairline_document::description::Distribution;
@@ -186,12 +186,11 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// A slider from 0 to 1, with words for its ends. Without a value it is grey, and the words say why.
+    /// A slider from 0 to 1. Without a value it is grey, above the reason.
     pub fn between(
         &mut self,
         [label, tooltip]: [&'static str; 2],
-        words: [&str; 2],
-        value: Option<&mut f64>,
+        value: Result<&mut f64, &'static str>,
     ) {
         let range = Range {
             label,
@@ -203,20 +202,18 @@ impl<'a> Form<'a> {
             tooltip,
         };
         match value {
-            Some(value) => self.ranged(&range, value),
-            None => self.row(label, tooltip, |ui, text| {
-                ui.disable();
-                slider_and_box(ui, text, &range, &mut 0.0)
-            }),
+            Ok(value) => self.ranged(&range, value),
+            Err(why) => {
+                self.row(label, tooltip, |ui, text| {
+                    ui.disable();
+                    slider_and_box(ui, text, &range, &mut 0.0)
+                });
+                self.row("", "", |ui, _| {
+                    ui.weak(why);
+                    false
+                });
+            }
         }
-        self.row("", "", |ui, _| {
-            let size = vec2(ui.available_width() - VALUE_WIDTH - 8.0, 0.0);
-            ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
-                ui.weak(words[0]);
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.weak(words[1]));
-            });
-            false
-        });
     }
 
     /// A linear colour, each channel in [0, 1].

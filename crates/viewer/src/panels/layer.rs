@@ -87,7 +87,7 @@ fn strength_row(form: &mut Form, layer: &mut Scratches, index: usize) {
     let before = kept.filter(is_of_it).map(|kept| kept.slider);
     let texts = [
         "Strength",
-        "From barely there to heavy: count, width and depth together, as the grades of wear have them. \
+        "From barely there (0) to heavy (1): count, width and depth together, as the grades of wear have them. \
          Ten times as many scratches are 1.25 times as wide and 1.15 times as deep",
     ];
     let Some(mut slider) = StrengthSlider::new(layer, form.diagonal_m, before) else {
@@ -95,11 +95,11 @@ fn strength_row(form: &mut Form, layer: &mut Scratches, index: usize) {
             Layer::Brushed(_) => "nothing is drawn yet",
             _ => "there are no scratches: their number is 0",
         };
-        form.between(texts, [why, ""], None);
+        form.between(texts, Err(why));
         return;
     };
     let mut wanted = slider.at();
-    form.between(texts, ["barely there", "heavy"], Some(&mut wanted));
+    form.between(texts, Ok(&mut wanted));
     if wanted != slider.at() {
         slider.go(wanted, layer);
     }

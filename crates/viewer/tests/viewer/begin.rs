@@ -280,9 +280,6 @@ fn strength_is_typed_and_says_why_there_is_none() {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);
     select(&mut harness, Selection::Layer(0));
-    for words in ["barely there", "heavy"] {
-        harness.get_by_label(words);
-    }
     let mut all = Vec::new();
     for typed in ["1", "0", "1"] {
         harness

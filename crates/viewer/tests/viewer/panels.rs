@@ -17,12 +17,12 @@ use hairline_image::{Display, Output, Picture};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 
-/// Names of the controls of a kind in the panel on the right.
+/// Names of the controls of a kind in the panel on the right, but for those that are grey.
 pub fn controls(harness: &Harness<'static, Viewer>, role: Role) -> Vec<String> {
     let picture = common::picture(harness);
     let mut names: Vec<String> = harness
         .query_all_by_role(role)
-        .filter(|node| node.rect().min.x >= picture.max.x)
+        .filter(|node| node.rect().min.x >= picture.max.x && !node.accesskit_node().is_disabled())
         .map(|node| {
             let name = node.accesskit_node().label();
             name.unwrap_or_else(|| panic!("a control without a name at {}", node.rect()))

@@ -8,6 +8,7 @@ use crate::files::drop_file;
 use egui::{Key, Modifiers, Pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use hairline_document::description::Layer;
 use hairline_editor::{Selection, pen};
 use hairline_viewer::Viewer;
 
@@ -171,6 +172,12 @@ fn a_point_is_dragged_to_where_the_button_went_up() {
 fn a_click_on_a_finished_line_inserts_a_point() {
     let (mut harness, layer) = with_line();
     common::key(&mut harness, Key::Enter);
+    // One scratch, whose pieces are places on the line.
+    harness.state_mut().document_mut().edit("Thin", |d| {
+        if let Layer::Engraved(engraved) = &mut d.scratches[layer].layer {
+            engraved.line_m = 0.0;
+        }
+    });
     wait_built(&mut harness);
     let before = points(&harness, layer);
     // On the line, between its second and its third point.

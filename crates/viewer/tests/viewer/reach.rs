@@ -225,7 +225,9 @@ fn a_very_small_window_cuts_nothing_off() {
     assert!(harness.query_by_label("Compare").is_none());
     click_on(&mut harness, "More");
     click_on(&mut harness, "Compare");
-    let look = harness.get_by_role_and_label(Role::Button, "Look 1").rect();
+    let look = harness
+        .get_by_role_and_label(Role::Button, "Snapshot 1")
+        .rect();
     let above = picture(&harness).bottom() - look.top();
     assert!(above < 50.0, "{above} points");
     // Between parts of the line.

@@ -141,7 +141,7 @@ fn snapshots_belong_to_the_file() {
     click(&mut harness, "Restore");
     assert_eq!(*harness.state().document().description(), taken);
     click(&mut harness, "Snapshot");
-    assert!(looks.join("Look 2.toml").exists());
+    assert!(looks.join("Snapshot 2.toml").exists());
     for _ in 0..2 {
         click(&mut harness, "Delete the snapshot");
         if let Some(look) = harness.query_by_label("Snapshot 1") {
@@ -169,5 +169,5 @@ fn looks_are_compared_side_by_side_and_under_a_slider_and_deleted() {
     assert!(harness.query_by_label(divider).is_none());
     click(&mut harness, "Delete the snapshot");
     assert!(harness.query_by_label("Snapshot 1").is_none());
-    assert!(harness.query_by_label("Look 2").is_some());
+    assert!(harness.query_by_label("Snapshot 2").is_some());
 }
