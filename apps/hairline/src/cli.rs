@@ -180,7 +180,7 @@ pub struct Render {
     #[arg(long, value_enum, default_value_t = Switch::On)]
     pub filter: Switch,
     /// Render before a transparent background: the picture's alpha is the share of each pixel that surfaces cover. The environment lights them and
-    /// is not seen.
+    /// is not seen. Of the ground that a model by itself gets, the shadows are left.
     #[arg(long)]
     pub transparent: bool,
     /// Leave the ground out but for the shadows on it, as a black whose alpha is the share of its light that objects hide. A scene without a ground

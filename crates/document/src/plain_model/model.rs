@@ -68,6 +68,9 @@ impl PlainModel {
         if self.objects().any(|it| !it.gratings.is_empty()) {
             note("gratings");
         }
+        if self.is_baked && self.objects().all(|it| it.scratches.is_empty()) {
+            notes.push("there are no scratches to be drawn into maps; --wear lays some".to_owned());
+        }
         notes
     }
 }

@@ -130,6 +130,6 @@ mod tests {
     fn a_lens_has_as_many_points_as_in_a_finished_picture() {
         let counts = |has_lens| -> Vec<u32> { batches(has_lens).iter().map(|b| b.count).collect() };
         assert_eq!(counts(true), [4; 16]);
-        assert_eq!(counts(false), [8, 16, 16, 16, 8]);
+        assert_eq!(counts(false), [8, 8, 16, 16, 16]);
     }
 }

@@ -187,8 +187,10 @@ fn there_is_no_way_between_two_objects() {
     let from = seen(&harness, DVec3::new(0.0, -0.02, 0.0));
     let to = picture(&harness).right_bottom() - vec2(40.0, 40.0);
     drag(&mut harness, from, to, 4);
+    // On the way there it is measured on the disk.
     wait_until(&mut harness, "the distance", |viewer| {
-        viewer.measured_m().is_some()
+        let measured_m = viewer.measured_m();
+        measured_m.is_some_and(|[along_m, _]| along_m.is_none())
     });
     harness.run_steps(2);
     harness.get_by_label("no way: two objects");
