@@ -91,7 +91,7 @@ impl WearShown {
             std::fs::create_dir_all(folder).context("make the folder for pictures")?;
             let light = if is_studio { "studio" } else { "model" };
             let name = format!("{object} {} {} {light}.png", material.name, wear.name());
-            Output::check(&folder.join(name))?.write_image(&worn, &display)?;
+            Output::check(folder.join(name))?.write_image(&worn, &display)?;
         }
         Ok(noticed(&worn, &without, &display))
     }

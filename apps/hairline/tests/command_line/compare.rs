@@ -47,7 +47,7 @@ fn scene(size_px: [u32; 2]) -> Image {
 }
 
 fn write(folder: &Path, name: &str, image: &Image) {
-    let output = Output::check(&folder.join(name)).unwrap();
+    let output = Output::check(folder.join(name)).unwrap();
     output.write_image(image, &Display::default()).unwrap();
 }
 
@@ -303,7 +303,7 @@ fn missing_layers_and_tone_mapped_pictures_are_told() {
         rgb: scene(SIZE).beauty().rgb,
     };
     for name in ["plain.exr", "plain.png"] {
-        let output = Output::check(&folder.path().join(name)).unwrap();
+        let output = Output::check(folder.path().join(name)).unwrap();
         output.write_picture(&plain, &Display::default()).unwrap();
     }
     let assert = compare(folder.path(), "a.exr plain.exr").success();
@@ -518,7 +518,7 @@ fn large_pictures_are_reported_without_their_values() {
     let folder = tempfile::tempdir().unwrap();
     let picture = Picture::new([1000, 601]);
     for name in ["a.exr", "b.exr"] {
-        let output = Output::check(&folder.path().join(name)).unwrap();
+        let output = Output::check(folder.path().join(name)).unwrap();
         output.write_picture(&picture, &Display::default()).unwrap();
     }
     compare(folder.path(), "a.exr b.exr -o report.html").success();

@@ -55,7 +55,7 @@ fn folder_in_white(scene: &str) -> TempDir {
         size_px: [4, 2],
         rgb: vec![[1.0; 3]; 8],
     };
-    let map = Output::check(&folder.path().join("white.exr")).unwrap();
+    let map = Output::check(folder.path().join("white.exr")).unwrap();
     map.write_picture(&white, &Display::default()).unwrap();
     folder
 }

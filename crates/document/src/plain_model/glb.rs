@@ -159,9 +159,11 @@ fn sampler(texture: &Texture) -> Value {
 type Way = &'static [&'static str];
 /// A texture, and whether it is a normal map.
 type Map = Option<(usize, bool)>;
+/// What its values are multiplied with, by its name.
+type Factor = Option<(&'static str, f64)>;
 
 /// The textures of a material: where each goes, its number, and what its values are multiplied with.
-fn maps(material: &Material) -> Vec<(Way, Map, Option<(&'static str, f64)>)> {
+fn maps(material: &Material) -> Vec<(Way, Map, Factor)> {
     const COAT: &str = "KHR_materials_clearcoat";
     const SPECULAR: &str = "KHR_materials_specular";
     let plain = |way: Way, texture: Option<usize>| (way, texture.map(|it| (it, false)), None);

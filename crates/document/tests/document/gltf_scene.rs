@@ -194,7 +194,7 @@ fn taken_apart(bytes: &[u8]) -> (Value, Vec<u8>) {
 #[test]
 fn a_worn_model_that_was_opened_is_written_as_it_was() {
     let dir = temporary_dir();
-    let description = Description::for_model(&cube_file(dir.path())).unwrap();
+    let description = Description::for_model(cube_file(dir.path())).unwrap();
     let (path, again) = reopened(&description, dir.path());
     let bytes = std::fs::read(&path).unwrap();
     assert!(exported(&again, dir.path()).bytes == bytes);
@@ -334,7 +334,7 @@ light = [{ kind = "sphere", center_m = [0.0, 0.0, 1.0], radius_m = 0.1 }]
         .export(&description, dir.path(), Export::default())
         .unwrap();
     std::fs::write(dir.path().join("worn.glb"), exported.bytes).unwrap();
-    let again = Description::for_model(&dir.path().join("worn.glb")).unwrap();
+    let again = Description::for_model(dir.path().join("worn.glb")).unwrap();
     let after = hairline_document::build(&again, dir.path()).unwrap();
     assert_eq!(
         before.objects[0].mesh.positions_m,

@@ -233,7 +233,7 @@ fn what_is_cut_off_or_broken_is_told() {
     let path = |ending: &str| dir.path().join(format!("a.{ending}"));
     let error_of = |ending: &str, bytes: &[u8]| {
         std::fs::write(path(ending), bytes).unwrap();
-        probe::mesh(&path(ending)).map_err(|error| error.to_string())
+        probe::mesh(path(ending)).map_err(|error| error.to_string())
     };
     let triangles = box_triangles();
     let (binary, text) = (binary_stl(&triangles), text_stl(&triangles));

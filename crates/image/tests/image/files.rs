@@ -171,7 +171,7 @@ fn damaged_exr_files_are_refused() {
         exr_file::read_picture(&damaged),
         Err(Error::Unusable { .. })
     ));
-    let error = exr_file::read_picture(&folder.path().join("none.exr")).unwrap_err();
+    let error = exr_file::read_picture(folder.path().join("none.exr")).unwrap_err();
     assert!(
         error.to_string().contains("there is no such file"),
         "{error}"
@@ -241,7 +241,7 @@ fn unwritable_outputs_are_named_and_leave_nothing() {
         ("folder.png", "it is a folder"),
         ("file/a.png", "a file where a folder is needed"),
     ] {
-        let error = Output::check(&folder.path().join(name))
+        let error = Output::check(folder.path().join(name))
             .unwrap_err()
             .to_string();
         assert!(error.contains(name) && error.contains(reason), "{error}");

@@ -86,7 +86,7 @@ pub(super) fn write(
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let text = rebased(description, base_dir, folder).to_toml();
     let text = text.map_err(|error| error.to_string())?;
-    write_atomically(&scene_path(folder, name), text.as_bytes()).map_err(|error| error.to_string())
+    write_atomically(scene_path(folder, name), text.as_bytes()).map_err(|error| error.to_string())
 }
 
 /// Writes the picture of a look, in the background.
@@ -100,7 +100,7 @@ pub(super) fn write_picture(folder: &Path, name: &str, pixels: Arc<ColorImage>) 
             encoder.write_image(pixels.as_raw(), size[0], size[1], ExtendedColorType::Rgba8);
         // A look without a picture is a look.
         if encoded.is_ok() {
-            let _ = write_atomically(&picture_path(&folder, &name), &png);
+            let _ = write_atomically(picture_path(&folder, &name), &png);
         }
         // The look may have been deleted meanwhile.
         if !scene_path(&folder, &name).exists() {
