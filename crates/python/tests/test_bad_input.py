@@ -101,7 +101,7 @@ def test_scratches_off_the_surface_are_told_by_their_index(scene):
     ends = ENDS.copy()
     ends[2, 1, 2] = 0.5
     scene.scratches = [hairline.Scratches.from_arrays(object="plate", ends_m=ends, width_um=3, depth_nm=100)]
-    with pytest.raises(hairline.SceneError, match=r"scratches\[0\].ends_m\[2\]\[1\]: found a point 5.000e-1 m off"):
+    with pytest.raises(hairline.SceneError, match=r"scratches\[0\].ends_m\[2\]\[1\]: found a point 50.0 cm off"):
         scene.render()
 
 
