@@ -108,7 +108,7 @@ pub struct Export {
     pub laid: Switch,
     /// Write the model alone, with its scratches drawn into normal maps and roughness maps of so many texels a side, for programs that know no
     /// scratches. Its texture coordinates must not overlap.
-    #[arg(long, value_name = "SIZE_PX", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(i64::from(*BAKE_PX.start())..=i64::from(*BAKE_PX.end())))]
+    #[arg(long, value_name = "SIZE_PX", allow_negative_numbers = true, value_parser = whole::<u32>(BAKE_PX))]
     pub bake: Option<u32>,
     /// The time of the models' animations, seconds, at which the scratches lie, in place of the scene's.
     #[arg(long, value_name = "SECONDS", value_parser = parse_time)]

@@ -30,10 +30,11 @@ impl Format {
     /// The kind of a file by its ending.
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?;
-        let formats = [Self::Glb, Self::Usdz];
-        let mut known = Self::ENDINGS.into_iter().zip(formats);
-        let found = known.find(|(it, _)| ending.eq_ignore_ascii_case(it));
-        found.map(|(_, format)| format)
+        let [glb, usdz] = Self::ENDINGS.map(|it| ending.eq_ignore_ascii_case(it));
+        if usdz {
+            return Some(Self::Usdz);
+        }
+        glb.then_some(Self::Glb)
     }
 }
 

@@ -198,6 +198,16 @@ pub enum Base {
     },
 }
 
+impl Material {
+    /// Roughness of the base without its texture: a mirror has none.
+    pub fn base_roughness(&self) -> f64 {
+        match self.base {
+            Base::Mirror => 0.0,
+            _ => self.roughness,
+        }
+    }
+}
+
 impl Base {
     /// Base colour and metallic of glTF that come closest to it.
     pub fn color_and_metallic(&self) -> ([f64; 3], f64) {

@@ -4,6 +4,7 @@
 //! Lines are few, so all of them are laid when the layer is made ready.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use glam::DVec3;
 use hairline_image::FilePath;
@@ -63,16 +64,8 @@ struct Run {
     segments: Vec<Segment>,
     /// Length up to the end of each segment; of filled lines alone.
     ends_m: Vec<f64>,
-    /// Scratches of all runs up to this one.
-    scratches: u64,
-}
-
-/// A short scratch in a filled line.
-struct Stroke {
-    middle: MeshPoint,
-    /// Unit, along the surface.
-    direction: DVec3,
-    stream: Stream,
+    /// Numbers of its scratches.
+    scratches: Range<u64>,
 }
 
 impl<'a> Engraving<'a> {
@@ -133,16 +126,13 @@ impl<'a> Engraving<'a> {
                         length_m
                     });
                     let ends_m: Vec<_> = lengths_m.collect();
-                    let scratches = match layer.line_m > 0.0 {
-                        true => scratches_in(layer, length_m),
-                        false => 1,
-                    };
+                    let first = runs.last().map_or(0, |run| run.scratches.end);
                     runs.push(Run {
                         line,
                         course,
                         segments,
                         ends_m,
-                        scratches: scratches + runs.last().map_or(0, |run| run.scratches),
+                        scratches: first..first + scratches_in(layer, length_m),
                     });
                 }
             }
@@ -158,22 +148,46 @@ impl<'a> Engraving<'a> {
     }
 
     pub(super) fn count(&self) -> u64 {
-        self.runs.last().map_or(0, |run| run.scratches)
+        self.runs.last().map_or(0, |run| run.scratches.end)
+    }
+
+    fn is_filled(&self) -> bool {
+        self.layer.line_m > 0.0
     }
 
     /// The run that a scratch belongs to.
     fn run(&self, index: u64) -> &Run {
-        let run = self.runs.partition_point(|run| run.scratches <= index);
+        let run = (self.runs).partition_point(|run| run.scratches.end <= index);
         &self.runs[run]
     }
 
-    /// A scratch of a filled line, at a random place of it; none where the surface ends before.
-    fn stroke(&self, walker: &Walker, index: u64) -> Option<Stroke> {
+    /// Random numbers of a scratch. The parts of a line that is one scratch are alike.
+    fn stream(&self, index: u64) -> Stream {
+        let of = if self.is_filled() {
+            index
+        } else {
+            self.run(index).line
+        };
+        Stream::new(self.layer.seed, self.number, of)
+    }
+
+    /// The middle and the way of a scratch of a filled line; none where the surface ends before. They follow one another along the line, each at a random
+    /// place of its share of it.
+    fn short(
+        &self,
+        walker: &Walker,
+        index: u64,
+        stream: &mut Stream,
+    ) -> Option<(MeshPoint, Guide)> {
         let Run {
-            segments, ends_m, ..
+            segments,
+            ends_m,
+            scratches,
+            ..
         } = self.run(index);
-        let mut stream = Stream::new(self.layer.seed, self.number, index);
-        let along_m = stream.uniform() * ends_m.last()?;
+        let share = ((index - scratches.start) as f64 + stream.uniform())
+            / (scratches.end - scratches.start) as f64;
+        let along_m = share * ends_m.last()?;
         let across_m = (stream.uniform() - 0.5) * (self.layer.line_m - self.length_m());
         let angle_rad = PI * stream.uniform();
         let at = ends_m.partition_point(|end_m| *end_m < along_m);
@@ -192,11 +206,11 @@ impl<'a> Engraving<'a> {
         let facet = Facet::new(&self.ground.mesh, middle.triangle);
         let to_side = facet.in_plane(to_side).try_normalize()?;
         let other = facet.normal.cross(to_side);
-        Some(Stroke {
-            middle,
-            direction: to_side * angle_rad.cos() + other * angle_rad.sin(),
-            stream,
-        })
+        let guide = Guide::Free {
+            seed_direction: to_side * angle_rad.cos() + other * angle_rad.sin(),
+            curvature_per_m: 0.0,
+        };
+        Some((middle, guide))
     }
 
     /// Length of the scratches of a filled line.
@@ -205,38 +219,28 @@ impl<'a> Engraving<'a> {
     }
 }
 
-/// Number of scratches in a filled line.
+/// Number of scratches in a line.
 fn scratches_in(layer: &Engraved, length_m: f64) -> u64 {
+    if layer.line_m == 0.0 {
+        return 1;
+    }
     // Each covers its width times half the line's width.
     (2.0 * FILLED * length_m / (1e-6 * layer.width_um.mean)).ceil() as u64
 }
 
 impl Laying for Engraving<'_> {
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
-        let run = self.run(index);
-        let (mut stream, course) = match self.layer.line_m > 0.0 {
-            true => match self.stroke(walker, index) {
-                Some(stroke) => {
-                    let guide = Guide::Free {
-                        seed_direction: stroke.direction,
-                        curvature_per_m: 0.0,
-                    };
-                    walker.lay(stroke.middle, &guide, self.length_m(), segments);
-                    (stroke.stream, Course::Open)
-                }
-                None => (
-                    Stream::new(self.layer.seed, self.number, index),
-                    Course::Open,
-                ),
-            },
-            false => {
-                segments.extend_from_slice(&run.segments);
-                (
-                    Stream::new(self.layer.seed, self.number, run.line),
-                    run.course,
-                )
+        let mut stream = self.stream(index);
+        let mut course = Course::Open;
+        if self.is_filled() {
+            if let Some((middle, guide)) = self.short(walker, index, &mut stream) {
+                walker.lay(middle, &guide, self.length_m(), segments);
             }
-        };
+        } else {
+            let run = self.run(index);
+            segments.extend_from_slice(&run.segments);
+            course = run.course;
+        }
         let normals = std::array::from_fn(|_| stream.normal());
         Groove {
             profile: scratch_profile(
@@ -260,9 +264,9 @@ impl Laying for Engraving<'_> {
     }
 
     fn middle(&self, index: u64) -> Option<MeshPoint> {
-        if self.layer.line_m > 0.0 {
-            let stroke = self.stroke(&self.ground.walker(), index);
-            return stroke.map(|stroke| stroke.middle);
+        if self.is_filled() {
+            let short = self.short(&self.ground.walker(), index, &mut self.stream(index));
+            return short.map(|(middle, _)| middle);
         }
         let segments = &self.run(index).segments;
         let middle = segments.get(segments.len() / 2)?;

@@ -12,6 +12,8 @@ use crate::engine::Built;
 use crate::tools::{BEGIN_LINE, Tool};
 use crate::workspace::Workspace;
 
+/// No more scratches of a layer are drawn over the picture.
+const MOST_WAYS: usize = 2000;
 /// Distance from a point at which the pointer is on it, points of the screen.
 const REACH: f32 = 9.0;
 const LINE: Color32 = Color32::from_rgb(255, 230, 150);
@@ -70,13 +72,14 @@ impl Points {
         let ends_m = |piece: &Segment| [piece.start_m, piece.end_m].map(|end| end.as_dvec3());
         let distance = |piece: &Segment| {
             let [from_m, to_m] = ends_m(piece);
-            let is_seen = pick::is_seen(built, lens, from_m, piece.normal.as_dvec3());
-            let [from, to] = lens.segment(from_m, to_m).filter(|_| is_seen)?;
-            Some(from.lerp(to, share_of_nearest(from, to, pos)).distance(pos))
+            let [from, to] = lens.segment(from_m, to_m)?;
+            let distance = from.lerp(to, share_of_nearest(from, to, pos)).distance(pos);
+            let is_seen = || pick::is_seen(built, lens, from_m, piece.normal.as_dvec3());
+            (distance <= REACH && is_seen()).then_some(distance)
         };
         let distances = pieces.iter().copied().map(distance).enumerate();
         let (at, _) = distances
-            .filter_map(|(i, distance)| Some((i, distance.filter(|it| *it <= REACH)?)))
+            .filter_map(|(i, distance)| Some((i, distance?)))
             .min_by(|a, b| a.1.total_cmp(&b.1))?;
         // The pieces go through the points in their order, on closed curves from any of them.
         let piece_of = |point_m: &DVec3| {
@@ -344,10 +347,11 @@ impl PenTool {
     }
 }
 
-/// The scratches of a layer on the screen, where they face the eye.
+/// The scratches of a layer on the screen, where they face the eye: of very many, some that lie evenly along its lines.
 fn ways(built: &Built, points: &Points, lens: &Lens) -> Vec<Vec<Pos2>> {
     let mut ways: Vec<Vec<Pos2>> = Vec::new();
-    for pieces in points.pieces(built) {
+    let step = points.pieces(built).count().div_ceil(MOST_WAYS).max(1);
+    for pieces in points.pieces(built).step_by(step) {
         let mut way: Vec<Pos2> = Vec::new();
         for segment in pieces {
             let end_m = segment.end_m.as_dvec3();

@@ -20,6 +20,14 @@ fn export_to(harness: &mut Harness<'static, Viewer>, path: &Path) {
     harness.run_steps(4);
 }
 
+/// Exports a scene to a file that is not there.
+fn export_new(path: &Path) {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    export_to(&mut harness, path);
+    wait_until(&mut harness, "the file", |_| path.exists());
+}
+
 #[test]
 fn a_model_is_exported_and_opens_as_the_same_scene() {
     let folder = tempfile::tempdir().unwrap();
@@ -48,10 +56,7 @@ fn a_model_is_exported_and_opens_as_the_same_scene() {
 fn a_file_that_the_scene_is_made_of_is_not_written_over() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("worn.glb");
-    let mut harness = viewer(SMALL);
-    wait_built(&mut harness);
-    export_to(&mut harness, &path);
-    wait_until(&mut harness, "the file", |_| path.exists());
+    export_new(&path);
     let text = "[camera]\nposition_m = [0, 0, 0.4]\ntarget_m = [0, 0, 0]\n\
         [[object]]\nname = \"it\"\nmesh = \"worn.glb\"\n";
     let scene = folder.path().join("a.toml");
@@ -69,9 +74,6 @@ fn a_file_that_the_scene_is_made_of_is_not_written_over() {
 fn the_ending_makes_a_model_for_phones() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("model.usdz");
-    let mut harness = viewer(SMALL);
-    wait_built(&mut harness);
-    export_to(&mut harness, &path);
-    wait_until(&mut harness, "the file", |_| path.exists());
+    export_new(&path);
     assert!(std::fs::read(&path).unwrap().starts_with(b"PK"));
 }

@@ -8,7 +8,6 @@ use crate::files::drop_file;
 use egui::{Key, Modifiers, Pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use hairline_document::description::Layer;
 use hairline_editor::{Selection, pen};
 use hairline_viewer::Viewer;
 
@@ -172,12 +171,6 @@ fn a_point_is_dragged_to_where_the_button_went_up() {
 fn a_click_on_a_finished_line_inserts_a_point() {
     let (mut harness, layer) = with_line();
     common::key(&mut harness, Key::Enter);
-    // One scratch, whose pieces are places on the line.
-    harness.state_mut().document_mut().edit("Thin", |d| {
-        if let Layer::Engraved(engraved) = &mut d.scratches[layer].layer {
-            engraved.line_m = 0.0;
-        }
-    });
     wait_built(&mut harness);
     let before = points(&harness, layer);
     // On the line, between its second and its third point.
@@ -185,8 +178,9 @@ fn a_click_on_a_finished_line_inserts_a_point() {
         let built = harness.state().engine().built().unwrap();
         let object = &built.scene.objects[0];
         let own = object.of_layer(layer as u32);
-        let pieces = object.pieces(&object.scratches[own.start]);
-        pieces[3 * pieces.len() / 4].start_m.as_dvec3()
+        // The line is filled with scratches that follow one another.
+        let scratch = &object.scratches[own.start + 3 * own.len() / 4];
+        object.pieces(scratch)[0].start_m.as_dvec3()
     };
     let at = crate::measure::seen(&harness, middle_m);
     common::click_at(&mut harness, at);

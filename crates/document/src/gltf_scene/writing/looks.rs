@@ -10,13 +10,12 @@ pub(crate) fn write(material: &Material, file: &mut GltfFile, notes: &mut Vec<St
     let (color, metallic) = material.base.color_and_metallic();
     let [r, g, b] = color.map(|c| c.clamp(0.0, 1.0));
     let alpha = material.cutout.map_or(1.0, |it| it.alpha);
-    let is_mirror = material.base == Base::Mirror;
     let mut written = json!({
         "name": material.name,
         "pbrMetallicRoughness": {
             "baseColorFactor": [r, g, b, alpha],
             "metallicFactor": metallic,
-            "roughnessFactor": if is_mirror { 0.0 } else { material.roughness },
+            "roughnessFactor": material.base_roughness(),
         },
     });
     match material.cutout.map(|it| it.rule) {

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec2, DVec3};
 use hairline_model::texture::{Channels, Texels, of};
-use hairline_scene::{Base, Material, Sampling, Texture};
+use hairline_scene::{Material, Sampling, Texture};
 use rayon::prelude::*;
 
 use super::atlas::Atlas;
@@ -64,10 +64,7 @@ impl Layer {
             },
             None => Self {
                 normal: material.normal_texture,
-                roughness: match material.base {
-                    Base::Mirror => 0.0,
-                    _ => material.roughness,
-                },
+                roughness: material.base_roughness(),
                 roughness_texture: material.metallic_roughness_texture,
             },
         }

@@ -124,8 +124,7 @@ mod tests {
         assert_eq!(shares([-0.5, 0.5], [1.5, 0.5]), right);
         let up = [(3, 2, 0.4), (3, 1, 0.4), (3, 0, 0.2)];
         assert_eq!(shares([3.25, 3.0], [3.25, 0.5]), up);
-        let down_left = [(1, 1, 0.125), (1, 0, 0.25), (0, 0, 0.625)];
-        assert_eq!(shares([1.75, 1.25], [-0.25 + 0.25, -0.75 + 0.75]).len(), 3);
-        assert_eq!(down_left.iter().map(|it| it.2).sum::<f64>(), 1.0);
+        let down_left = [(1, 1, 0.2), (1, 0, 0.228571), (0, 0, 0.571429)];
+        assert_eq!(shares([1.75, 1.25], [0.0, 0.0]), down_left);
     }
 }

@@ -99,10 +99,7 @@ impl Look<'_> {
             }
             None => self.input("color3f", "diffuseColor", triple([r, g, b])),
         }
-        let roughness = match material.base {
-            Base::Mirror => 0.0,
-            _ => material.roughness,
-        };
+        let roughness = material.base_roughness();
         match material.metallic_roughness_texture {
             Some(texture) => {
                 self.texture(

@@ -146,10 +146,23 @@ fn a_scene_that_is_forgotten_in_the_middle_of_its_picture_is_followed_by_the_nex
     assert_eq!(next.built.revision, 2);
 }
 
+/// A view so large that a slice is not enough for all of it after a region.
+fn wide_view() -> View {
+    View {
+        size_px: [640, 360],
+        ..view()
+    }
+}
+
 /// A part of the picture with an edge of the plate.
 const PART: Region = Region {
     first_px: [60, 24],
     size_px: [50, 30],
+};
+/// The same of the wide picture.
+const WIDE_PART: Region = Region {
+    first_px: [240, 96],
+    size_px: [200, 120],
 };
 
 /// Works until something is there.
@@ -201,20 +214,16 @@ fn a_region_shows_what_the_whole_picture_has_there() {
     let mut engine = Engine::start_in_turn(Arc::new(|| {}));
     engine.set_scene(1, description(), PathBuf::new());
     engine.set_view(View {
-        region: Some(PART),
-        ..view()
+        region: Some(WIDE_PART),
+        ..wide_view()
     });
     let part = wait_for(&mut engine, |engine| {
-        let part = engine.region().filter(|part| part.painted.samples > 1);
-        let whole = || engine.latest().filter(|frame| frame.painted.is_final);
-        part.map(Some).or_else(|| whole().map(|_| None))
+        engine.region().filter(|part| part.painted.samples > 1)
     });
-    // A fast machine has the whole picture in the same slice.
-    let Some(part) = part else { return };
     let whole = pixels(&last_picture(&mut engine));
-    let [x, y] = PART.first_px.map(|px| px as usize);
-    let [width, height] = PART.size_px.map(|px| px as usize);
-    let there = (y..y + height).flat_map(|y| whole[y * 160 + x..][..width].to_vec());
+    let [x, y] = WIDE_PART.first_px.map(|px| px as usize);
+    let [width, height] = WIDE_PART.size_px.map(|px| px as usize);
+    let there = (y..y + height).flat_map(|y| whole[y * 640 + x..][..width].to_vec());
     let off = std::iter::zip(there, pixels(&part)).map(|(a, b)| u32::from(a.g().abs_diff(b.g())));
     let mean = f64::from(off.sum::<u32>()) / (width * height) as f64;
     // Samples on edges are others.
@@ -224,10 +233,11 @@ fn a_region_shows_what_the_whole_picture_has_there() {
 #[test]
 fn a_region_that_is_drawn_or_given_up_between_two_pictures_ends_in_the_same_picture() {
     let mut engine = Engine::start_in_turn(Arc::new(|| {}));
-    wanted(&engine);
+    engine.set_scene(1, description(), PathBuf::new());
+    engine.set_view(wide_view());
     let alone = pixels(&last_picture(&mut engine));
-    for region in [Some(PART), None] {
-        let mut moved = view();
+    for region in [Some(WIDE_PART), None] {
+        let mut moved = wide_view();
         moved.camera.position_m.x += 0.05;
         engine.set_view(moved);
         wait_for(&mut engine, |engine| {
@@ -236,16 +246,14 @@ fn a_region_that_is_drawn_or_given_up_between_two_pictures_ends_in_the_same_pict
                 .filter(|frame| frame.view.camera == moved.camera)
         });
         engine.set_view(View {
-            region: Some(PART),
-            ..view()
+            region: Some(WIDE_PART),
+            ..wide_view()
         });
-        // A fast machine has the whole picture in the same slice.
-        wait_for(&mut engine, |engine| {
-            let whole = || engine.latest().filter(|frame| frame.painted.is_final);
-            let of_now = |frame: &Arc<Frame>| frame.view.camera == view().camera;
-            engine.region().or_else(|| whole().filter(of_now))
+        wait_for(&mut engine, Engine::region);
+        engine.set_view(View {
+            region,
+            ..wide_view()
         });
-        engine.set_view(View { region, ..view() });
         assert!(pixels(&last_picture(&mut engine)) == alone, "{region:?}");
     }
 }
@@ -255,10 +263,7 @@ fn a_pause_leaves_the_first_picture_until_it_ends() {
     let mut engine = Engine::start_in_turn(Arc::new(|| {}));
     engine.set_paused(true);
     engine.set_scene(1, description(), PathBuf::new());
-    engine.set_view(View {
-        size_px: [640, 360],
-        ..view()
-    });
+    engine.set_view(wide_view());
     let first = wait_for(&mut engine, Engine::latest);
     assert!(!first.painted.is_final);
     for _ in 0..50 {
