@@ -19,7 +19,7 @@ use bevy::window::ExitCondition;
 use bevy::winit::WinitPlugin;
 use hairline_bevy::{ScratchedMaterial, ScratchedPlugin, ScratchedTextures, Scratches};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
-use hairline_document::gltf_scene::Export;
+use hairline_document::export::Export;
 use hairline_document::{Description, Loader};
 use hairline_image::{Image as Film, Layer};
 use hairline_optics::metal::MetalIndex;
@@ -173,7 +173,7 @@ fn glb(described: &Description) -> Vec<u8> {
 }
 
 fn exported(described: &Description, laid: bool) -> Vec<u8> {
-    let exported = Loader::default().export(described, &scenes(), Export { laid });
+    let exported = Loader::default().export(described, &scenes(), Export { laid, ..Export::default() });
     exported.expect("a file").bytes
 }
 
