@@ -173,7 +173,14 @@ fn glb(described: &Description) -> Vec<u8> {
 }
 
 fn exported(described: &Description, laid: bool) -> Vec<u8> {
-    let exported = Loader::default().export(described, &scenes(), Export { laid, ..Export::default() });
+    let exported = Loader::default().export(
+        described,
+        &scenes(),
+        Export {
+            laid,
+            ..Export::default()
+        },
+    );
     exported.expect("a file").bytes
 }
 
