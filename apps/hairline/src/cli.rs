@@ -10,9 +10,8 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairline_console::{Backend, EXIT_CODES, Switch, View};
 use hairline_document::DEFAULT_SAMPLES;
+use hairline_document::description::{Camera, Object};
 use hairline_document::export::BAKE_PX;
-use hairline_document::schema::camera::EXPOSURE_EV;
-use hairline_document::schema::object::TIME_S;
 use hairline_editor::navigate;
 use hairline_editor::wear::Wear;
 use hairline_image::{FPS_MAX, Layer, ToneMap};
@@ -520,16 +519,16 @@ fn parse_turn(text: &str) -> Result<f64, String> {
 fn parse_exposure(text: &str) -> Result<f64, String> {
     text.parse::<f64>()
         .ok()
-        .filter(|ev| EXPOSURE_EV.bounds.ends().contains(ev))
+        .filter(|ev| Camera::EXPOSURE_EV.bounds.ends().contains(ev))
         .ok_or_else(|| {
-            let (least, most) = EXPOSURE_EV.bounds.ends().into_inner();
+            let (least, most) = Camera::EXPOSURE_EV.bounds.ends().into_inner();
             format!("write a number of stops from {least} to {most}, as in -1.5")
         })
 }
 
 fn parse_time(text: &str) -> Result<f64, String> {
     let time = text.parse::<f64>().ok();
-    time.filter(|time| TIME_S.bounds.ends().contains(time))
+    time.filter(|time| Object::TIME_S.bounds.ends().contains(time))
         .ok_or_else(|| "write seconds from 0 to 1e6, as in 1.5".to_owned())
 }
 

@@ -5,9 +5,9 @@
 
 use glam::{DMat4, DVec3};
 use hairline_document::Description;
-use hairline_document::description::STROKE_POINTS;
 use hairline_document::description::{Brush, Layer, Stroke};
-use hairline_document::schema::{LARGEST_M, SMALLEST_M, stroke};
+use hairline_document::description::{Paint, STROKE_POINTS};
+use hairline_document::schema::{LARGEST_M, SMALLEST_M};
 
 use crate::actions::{layers, objects};
 use crate::{ActionError, Selection, presets};
@@ -147,7 +147,7 @@ impl Recorder {
         if points_m.is_empty() {
             return None;
         }
-        let factor = |x: f64| stroke::WIDTH.bounds.clamp(x);
+        let factor = |x: f64| Paint::WIDTH.bounds.clamp(x);
         Some(Stroke {
             points_m,
             radius_m,

@@ -5,11 +5,11 @@
 //! colours to straw, and a smooth base, roughness 0.05 to 0.15, leaves the scratches their room.
 
 use glam::DVec3;
+use hairline_document::description::SUN_DEG;
 use hairline_document::description::{
     Amount, Around, Brushed, Distribution, Laid, Layer, Light, LightKind, Material, MaterialKind,
     MetalColor, Pattern, Scratches, Shape,
 };
-use hairline_document::schema::light::SUN_DEG;
 use hairline_document::wear::{count, fitting};
 use hairline_optics::metal::Metal;
 use hairline_scene::{Coat, Specular};

@@ -2,7 +2,7 @@
 
 use glam::{DMat2, DVec2, DVec3};
 use hairline_document::description;
-use hairline_document::schema::scratches::PROFILE;
+use hairline_document::description::Scratches;
 use hairline_optics::bsdf::{
     CoatLobe, Conductor, FineGrating, GratingLobe, Groove, LayerLobe, Overlay, PointScratch,
     Profile, Reflected, ScratchedBsdf, SpectralMode,
@@ -63,7 +63,7 @@ impl ProfileKey {
         };
         let is_within = depths
             .iter()
-            .all(|depth| PROFILE.bounds.ends().contains(depth));
+            .all(|depth| Scratches::PROFILE.bounds.ends().contains(depth));
         let is_flat = depths.iter().all(|depth| *depth == 0.0);
         if !(2..=64).contains(&depths.len()) || !is_within || is_flat {
             let right = "must be a name, or 2 to 64 numbers from -1 to 1, not all 0";

@@ -4,7 +4,8 @@ use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::LayerPreset;
 use hairline_editor::quantity::Unit;
 
-use hairline_document::schema::{Form, Key, SECTIONS};
+use hairline_document::description::SECTIONS;
+use hairline_document::schema::{Form, Key};
 use hairline_document::wear::Wear;
 use hairline_editor::ranges::{Range, range, second_range};
 use pyo3::prelude::*;
@@ -29,10 +30,10 @@ type Control = (
 #[pyfunction]
 pub(crate) fn controls(py: Python<'_>, diagonal_m: f64) -> PyResult<Bound<'_, PyDict>> {
     let controls = PyDict::new(py);
-    for section in SECTIONS {
+    for section in &SECTIONS {
         for key in section.all_keys() {
             let name = format!("{}.{}", section.name, key.name);
-            if key.control.is_some() {
+            if key.has_sliders() {
                 controls.set_item(&name, control(range(key, diagonal_m)))?;
             }
             if key.second.is_some() {

@@ -17,7 +17,7 @@ mod strips;
 mod values;
 mod watched;
 
-use hairline_document::schema::scratches::WIDTH_UM;
+use hairline_document::description::Laid;
 use hairline_optics::scratch::DEPTH_MAX_NM;
 use hairline_optics::section::NARROW;
 use hairline_optics::spectrum::{WAVELENGTH_MAX_NM, WAVELENGTH_MIN_NM};
@@ -46,7 +46,7 @@ fn threads() -> usize {
 fn _hairline(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("DEFAULT_SAMPLES", hairline_document::DEFAULT_SAMPLES)?;
-    module.add("WIDEST_UM", WIDTH_UM.bounds.ends().end())?;
+    module.add("WIDEST_UM", Laid::WIDTH_UM.bounds.ends().end())?;
     module.add("DEEPEST_NM", DEPTH_MAX_NM)?;
     module.add("NARROW", NARROW)?;
     module.add("WAVELENGTHS_NM", (WAVELENGTH_MIN_NM, WAVELENGTH_MAX_NM))?;

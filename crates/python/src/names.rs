@@ -1,6 +1,6 @@
 //! Values that have names, stops, and notes.
 
-use hairline_document::schema::camera::EXPOSURE_EV;
+use hairline_document::description::Camera;
 use hairline_image::{Notes, ToneMap};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -31,13 +31,13 @@ pub(crate) fn tone_map(name: &str) -> PyResult<ToneMap> {
 /// Stops.
 pub(crate) fn exposure(value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let number = value.extract::<f64>().ok();
-    let within = number.filter(|stops| EXPOSURE_EV.bounds.ends().contains(stops));
+    let within = number.filter(|stops| Camera::EXPOSURE_EV.bounds.ends().contains(stops));
     within.ok_or_else(|| {
         let found = value.repr().map_or_else(
             |_| "found no number".to_owned(),
             |shown| format!("found {shown}"),
         );
-        let (least, most) = EXPOSURE_EV.bounds.ends().into_inner();
+        let (least, most) = Camera::EXPOSURE_EV.bounds.ends().into_inner();
         let right = format!("must be a number of stops from {least} to {most}");
         errors::of_argument("exposure_ev", found, right)
     })

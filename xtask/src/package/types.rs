@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use hairline_document::schema::{Form, Initial, Key, Section, grating, place, scratches, stroke};
+use hairline_document::description::section;
+use hairline_document::schema::{Form, Initial, Key};
 use serde_json::json;
 
 use super::files::{install, node, write};
@@ -16,10 +17,10 @@ pub(super) fn layer() -> String {
          /** Alike for all, or drawn: log-normal, of curvatures normal. */\n\
          export type Size = number | { mean: number; spread?: number };\n",
     );
-    interface(&mut text, "Layer", &scratches::SCRATCHES);
-    interface(&mut text, "LayerPlaces", &place::WHERE);
-    interface(&mut text, "LayerStroke", &stroke::STROKES);
-    interface(&mut text, "GratingRow", &grating::GRATING);
+    interface(&mut text, "Layer", "scratches");
+    interface(&mut text, "LayerPlaces", "where");
+    interface(&mut text, "LayerStroke", "strokes");
+    interface(&mut text, "GratingRow", "grating");
     text
 }
 
@@ -52,7 +53,8 @@ pub(super) fn check(tests: &Path, output: &Path, programs: &[PathBuf]) -> anyhow
     node(tests, &["node_modules/typescript/bin/tsc", "-p"], &file)
 }
 
-fn interface(text: &mut String, name: &str, section: &Section) {
+fn interface(text: &mut String, name: &str, table: &str) {
+    let section = section(table);
     let kinds: Vec<_> = section.choices.iter().map(|choice| choice.name).collect();
     // Writing to a text cannot fail.
     let _ = write!(text, "\nexport interface {name} {{\n");

@@ -1,68 +1,110 @@
 //! The camera as an author writes it.
 
 use glam::{DVec2, DVec3};
+use hairline_keys::Keyed;
 use hairline_scene::{Lens, scene};
-use serde::Serialize;
 
 use super::ranges::Check;
-use super::table::{Read, Table, Value};
+use super::table::Table;
 use super::{Up, lens};
 use crate::error::Error;
-use crate::schema::{SMALLEST_M, camera};
+use crate::schema::key::log;
+use crate::schema::{Form, Key, SMALLEST_M};
 use crate::upright::vertical_axis;
 
 /// `[camera]`
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Keyed)]
+#[keyed(table, check = Camera::check_view)]
 pub struct Camera {
-    /// Camera of a model's file, used in place of this one: its name, that of its node, or its number. The exposure and the lens
-    /// are of this one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub of_file: Option<String>,
-    /// The pinhole. Required without `of_file`.
+    /// Where the camera is.
+    #[key(unit("m").within(-1000.0, 1000.0)
+        .control("Position", linear(-5.0, 5.0).sized(), "Where the camera stands. Scratches flash and change colour as it moves: each shows only to eyes in its own fan."))]
+    #[read(position_m)]
     pub position_m: [f64; 3],
-    /// The point in the centre of the picture. Required without `of_file`.
+    /// The point in the centre of the picture.
+    #[key(unit("m").within(-1000.0, 1000.0).range_words("±1000 each, not the position")
+        .control("Target", linear(-5.0, 5.0).sized(), "The point in the middle of the picture; orbiting turns about it."))]
+    #[read(target_m)]
     pub target_m: [f64; 3],
-    /// The direction that is up in the picture.
+    /// The direction that is up in the picture; any length. Write `[0, 0, 1]` for a z-up scene. If the camera looks straight down along Y or Z, `up`
+    /// only turns the picture, unless it is +Y or +Z, which also say the axis of the world that points up. `up = [0, 1, -0.1]` looks down on a y-up
+    /// scene as well, with -Z up in the picture.
+    #[key(is(Initial::Numbers(&[0.0, 1.0, 0.0])).direction().range_words("not zero, not along the view")
+        .control("Up", linear(-1.0, 1.0), "The direction that is up in the picture. Tilt it to roll the camera."))]
     pub up: [f64; 3],
-    /// Vertical field of view, above 0 and below 180. A file may give `focal_length_mm` and `sensor_width_mm` instead.
+    /// Vertical field of view.
+    #[key(unit("°").number(30.0).within(0.001, 179.0)
+        .control("Field of view", linear(5.0, 90.0), "Small: a long lens, flat, with highlights that spread over much of the surface. Large: a wide lens, with tighter highlights."))]
+    #[then(Camera::FOCAL_LENGTH_MM)]
     pub fov_y_deg: f64,
-    /// Width of the film, that is, of the picture; focal lengths and f-stops refer to it.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// How wide the film is, that is, the picture of `size_px`: what focal lengths and f-stops count by, in this file and in the viewer.
+    #[key(unit("mm").number(36.0).within(0.1, 1000.0)
+        .control("Sensor width", linear(0.005, 0.06), "How wide the film behind the lens is: 36 mm for full frame, 23.5 mm for APS-C, 6 mm for a phone. The focal length stays, so a narrower film sees less."))]
     pub sensor_width_mm: Option<f64>,
-    /// Radiances are multiplied by 2^exposure_ev before the tone map.
+    /// Radiances are multiplied by 2^`exposure_ev` before the tone map.
+    #[key(unit("stops").number(0.0).within(-64.0, 64.0)
+        .control("Exposure", linear(-8.0, 8.0), "Each step doubles or halves the brightness. High enough for the core of a highlight to wash out softly, low enough to keep the colours around it."))]
     pub exposure_ev: f64,
-    /// Diameter of the lens's opening. A file may give `f_stop` beside `focal_length_mm` instead.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Diameter of the lens's opening; none, or 0: a pinhole.
+    #[key(unit("mm").none().within(0.0, 1000.0)
+        .control("Opening", linear(1e-3, 0.1).sized(), "Diameter of the lens's opening: the larger, the sooner things blur before and behind what is in focus. The focal length over the f-stop."))]
+    #[read(lens::aperture_mm)]
+    #[then(Camera::F_STOP)]
     pub aperture_mm: Option<f64>,
-    /// With `aperture_mm`: the distance along the view at which the picture is sharp.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// With an opening: how far away things are sharp, along the view.
+    #[key(unit("m").words("the distance of the target").within(SMALLEST_M, LARGEST_M)
+        .control("Focus", linear(0.1, 5.0).sized(), "How far away things are sharp, along the view."))]
+    #[read(lens::focus_distance_m)]
     pub focus_distance_m: Option<f64>,
-    /// How far the picture is moved across what the lens shows, to the right and up, in heights of the picture; the target is off
-    /// its centre by as much the other way.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Moves the picture across what the lens shows, to the right and up, as a view camera does: `[0, 0.1]` shows a tenth of the picture's height
+    /// more above and less below, and upright lines stay parallel. The target is off the centre by as much the other way.
+    #[key(unit("heights of the picture").none().within(-10.0, 10.0).range_words("two numbers, ±10 each"))]
     pub shift: Option<[f64; 2]>,
-    /// The axis of the world that points up, for cameras that are rolled or look down.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// The axis of the world that points up, for a camera that is rolled or looks steeply down: models stand and environments have their top by it,
+    /// whatever is up in the picture.
+    #[key(words("the axis nearest to `up`"))]
     pub world_up: Option<Up>,
+    /// A camera of a model's file in the place of `position_m`, `target_m` and `fov_y_deg`: its name, its node's, or its number from 0. `up` says
+    /// which axis the models stand by.
+    #[key(none().range_words("name or number"))]
+    pub of_file: Option<String>,
 }
 
 impl Default for Camera {
     /// At the origin, looking nowhere yet; all other keys as a file that leaves them out.
     fn default() -> Self {
         Self {
-            of_file: None,
             position_m: [0.0; 3],
             target_m: [0.0; 3],
-            up: camera::UP.initial(),
-            fov_y_deg: camera::FOV_Y_DEG.initial(),
+            up: Self::UP.initial(),
+            fov_y_deg: Self::FOV_Y_DEG.initial(),
             sensor_width_mm: None,
-            exposure_ev: camera::EXPOSURE_EV.initial(),
+            exposure_ev: Self::EXPOSURE_EV.initial(),
             aperture_mm: None,
             focus_distance_m: None,
             shift: None,
             world_up: None,
+            of_file: None,
         }
     }
+}
+
+/// Keys that other ones are made of.
+impl Camera {
+    /// The field of view in the words of photographers.
+    pub const FOCAL_LENGTH_MM: &'static Key = &Key::new("focal_length_mm", Form::Number)
+        .unit("mm")
+        .none()
+        .within(0.1, 10_000.0)
+        .means("The field of view in the words of photographers; in place of `fov_y_deg`. Where both are given they must agree within 0.05 degrees.")
+        .control("Focal length", log(0.014, 0.3), "The field of view as lenses tell it: 24 mm is wide, 50 mm what the eye is used to, 100 mm and more for details. The f-stop stays.");
+
+    /// The opening in the words of photographers.
+    pub const F_STOP: &'static Key = &Key::new("f_stop", Form::Number)
+        .none()
+        .within(0.1, 1000.0)
+        .means("The opening in the words of photographers, in place of `aperture_mm`: `focal_length_mm` over this, both needed. Where both are given they must agree within 0.1 %.")
+        .control("F-stop", log(1.4, 22.0), "The focal length over the diameter of the opening: 1.4 to 2.8 blurs all but what is in focus, 11 to 22 keeps most of it sharp.");
 }
 
 impl Camera {
@@ -123,12 +165,12 @@ impl Camera {
     /// Opens or closes the lens, as far as openings go.
     pub fn set_f_stop(&mut self, f_stop: f64, size_px: [u32; 2]) {
         let aperture_mm = self.focal_length_mm(size_px) / f_stop;
-        self.aperture_mm = Some(camera::APERTURE_MM.bounds.clamp(aperture_mm));
+        self.aperture_mm = Some(Self::APERTURE_MM.bounds.clamp(aperture_mm));
     }
 
     fn see_by(&mut self, focal_length_mm: f64, size_px: [u32; 2]) {
         let fov_y_deg = lens::seen_deg(focal_length_mm, self.sensor_mm(), size_px);
-        self.fov_y_deg = camera::FOV_Y_DEG.bounds.clamp(fov_y_deg);
+        self.fov_y_deg = Self::FOV_Y_DEG.bounds.clamp(fov_y_deg);
     }
 
     /// Shift of the picture at unit depth.
@@ -161,16 +203,8 @@ impl Camera {
         }
     }
 
-    pub(super) fn check_at(&self, key: &str) -> Check {
-        camera::POSITION_M.check(key, &self.position_m)?;
-        camera::TARGET_M.check(key, &self.target_m)?;
-        camera::UP.check(key, &self.up)?;
-        camera::EXPOSURE_EV.check(key, &self.exposure_ev)?;
-        camera::FOV_Y_DEG.check(key, &self.fov_y_deg)?;
-        camera::SENSOR_WIDTH_MM.check(key, &self.sensor_width_mm)?;
-        camera::APERTURE_MM.check(key, &self.aperture_mm)?;
-        camera::FOCUS_DISTANCE_M.check(key, &self.focus_distance_m)?;
-        camera::SHIFT.check(key, &self.shift)?;
+    /// Refuses a camera that looks nowhere.
+    fn check_view(&self, key: &str) -> Check {
         let [position, target, up] = [self.position_m, self.target_m, self.up].map(DVec3::from);
         let view = target - position;
         if view.length() < SMALLEST_M {
@@ -193,33 +227,18 @@ impl Camera {
     }
 }
 
-impl Read for Camera {
-    fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::of(&camera::CAMERA, value, key)?;
-        let of_file: Option<String> = table.value(&camera::OF_FILE)?;
-        // Until the file is read, anywhere.
-        let [position_m, target_m] = match of_file {
-            Some(_) => [
-                table.or(camera::POSITION_M.name, [0.0; 3])?,
-                table.or(camera::TARGET_M.name, [1.0; 3])?,
-            ],
-            None => [
-                table.value(&camera::POSITION_M)?,
-                table.value(&camera::TARGET_M)?,
-            ],
-        };
-        Ok(Self {
-            of_file,
-            position_m,
-            target_m,
-            up: table.value(&camera::UP)?,
-            fov_y_deg: table.value(&camera::FOV_Y_DEG)?,
-            exposure_ev: table.value(&camera::EXPOSURE_EV)?,
-            sensor_width_mm: table.value(&camera::SENSOR_WIDTH_MM)?,
-            aperture_mm: lens::aperture_mm(&table)?,
-            focus_distance_m: lens::focus_distance_m(&table)?,
-            shift: table.value(&camera::SHIFT)?,
-            world_up: table.value(&camera::WORLD_UP)?,
-        })
+fn position_m(table: &Table) -> Result<[f64; 3], Error> {
+    place(table, Camera::POSITION_M, [0.0; 3])
+}
+
+fn target_m(table: &Table) -> Result<[f64; 3], Error> {
+    place(table, Camera::TARGET_M, [1.0; 3])
+}
+
+/// A place of the camera; until the file of another camera is read, anywhere.
+fn place(table: &Table, key: &Key, anywhere: [f64; 3]) -> Result<[f64; 3], Error> {
+    match table.has(Camera::OF_FILE.name) {
+        true => table.or(key.name, anywhere),
+        false => table.value(key),
     }
 }

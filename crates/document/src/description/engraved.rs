@@ -2,79 +2,92 @@
 
 use std::path::PathBuf;
 
-use serde::Serialize;
+use hairline_keys::Keyed;
 
 use super::distribution::Distribution;
-use super::keyed::kinds;
-use super::ranges::{Check, check_seed};
+use super::ranges::Check;
+use super::scratches::Laid;
 use super::shapes::check_letters;
-use super::table::Table;
-use super::values::is_zero;
 use crate::error::Error;
-use crate::schema::{Key, scratches};
+use crate::schema::Key;
 
 /// Points of a curve.
 const CURVE_POINTS: std::ops::RangeInclusive<usize> = 2..=4096;
 
 /// Scratches along lines that are given.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Keyed)]
 pub struct Engraved {
     /// `pattern` and the keys that belong to it.
-    #[serde(flatten)]
+    #[flat]
     pub line: Line,
-    /// Width of a line that is filled with scratches; 0 for lines that are one scratch each.
-    #[serde(skip_serializing_if = "is_zero")]
+    /// How wide a line is. 0: one scratch, which shows where it runs across the light. Wider: filled with short scratches in all directions, as a
+    /// marking laser leaves them, which shine from all sides.
+    #[key(unit("m").number(0.0).within(0.0, 1.0).omitted()
+        .control("Line", linear(0.0, 0.02).sized(), "How wide a line is: filled with short scratches in all directions, so that it is seen from everywhere. 0: one scratch of the width below, which shows where it runs across the light."))]
     pub line_m: f64,
-    /// See [`Laid::seed`](super::Laid::seed).
+    /// See [`Laid::seed`].
+    #[key(= Laid::SEED)]
     pub seed: u64,
-    /// See [`Laid::width_um`](super::Laid::width_um).
+    /// See [`Laid::width_um`].
+    #[key(= Laid::WIDTH_UM)]
     pub width_um: Distribution,
-    /// See [`Laid::depth_nm`](super::Laid::depth_nm).
+    /// See [`Laid::depth_nm`].
+    #[key(= Laid::DEPTH_NM)]
     pub depth_nm: Distribution,
 }
 
 /// Lines that are engraved.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(tag = "pattern", rename_all = "lowercase")]
+#[derive(Clone, Debug, PartialEq, Keyed)]
+#[keyed(tag = "pattern", check = Line::check_outlines)]
 pub enum Line {
-    /// `"curve"`: a smooth curve through points.
+    /// A smooth curve through points: an engraved line.
+    #[kind("curve", after = Engraved::KEYS)]
     Curve {
-        /// Points on or near the surface, in the object's own frame. Required.
+        /// What the curve goes through, on or near the surface, in the object's own frame. A point farther from the object than the object is large
+        /// is refused.
+        #[key(CURVE_POINTS_M: unit("m").within(-1000.0, 1000.0).range_words("2 to 4096 points, ±1000 each; 3 or more with `closed`")
+            .control("Point", linear(-1.0, 1.0).sized(), "A point that the curve goes through, in the object's own frame. It is moved onto the surface."))]
         points_m: Vec<[f64; 3]>,
-        /// Whether it comes back to its first point.
+        /// The curve comes back to its first point.
+        #[key(flag(false).labelled("Closed", "The curve comes back to its first point."))]
         closed: bool,
     },
-    /// `"text"`: the outlines of letters.
+    /// The outlines of letters: a number, a name.
+    #[kind("text", after = Engraved::KEYS)]
     Text {
-        /// Up to 200 characters of the built-in font, Ubuntu Light: Latin, Greek, Cyrillic. Required.
+        /// What is engraved. The font is built in, Ubuntu Light: Latin, Greek, Cyrillic.
+        #[key(range_words("1 to 200 characters").labelled("Text", "What is engraved. The font is built in: Latin, Greek, Cyrillic."))]
         text: String,
-        /// Height of capitals. Required.
+        /// The height of capitals.
+        #[key(CAPITALS_M: unit("m").size()
+            .control("Height", log(2e-3, 0.5).sized(), "The height of capitals. In small letters the lines bend quickly, so that they glitter instead of drawing streaks."))]
         height_m: f64,
-        /// The middle, on or near the surface, in the object's own frame.
+        /// Where its middle is, on or near the surface.
+        #[key(MIDDLE_M: unit("m").is(Initial::Numbers(&[0.0, 0.0, 0.0])).within(-1000.0, 1000.0)
+            .control("Middle", linear(-1.0, 1.0).sized(), "Where its middle is, in the object's own frame. It is moved onto the surface."))]
         center_m: [f64; 3],
-        /// The way that it is read, in the object's own frame.
+        /// The way from its left to its right, laid flat on the surface.
+        #[key(READING: is(Initial::Numbers(&[1.0, 0.0, 0.0])).direction()
+            .control("Direction", linear(-1.0, 1.0), "The way from its left to its right, in the object's own frame."))]
         direction: [f64; 3],
     },
-    /// `"svg"`: the outlines of a drawing.
+    /// The outlines of a drawing: a mark, an ornament.
+    #[kind("svg", after = Engraved::KEYS)]
     Svg {
-        /// An SVG file, relative to the scene file. Required.
+        /// The drawing. All of its shapes are outlined, however they are filled; letters must be paths, and pictures are left out.
+        #[key(DRAWING: range_words("`.svg`"))]
         file: PathBuf,
-        /// The largest extent of its outlines. Required.
+        /// The largest extent of its outlines.
+        #[key(EXTENT_M: unit("m").size()
+            .control("Size", log(2e-3, 1.0).sized(), "The width of the drawing, or its height if that is larger."))]
         fit_m: f64,
-        /// The middle, on or near the surface, in the object's own frame.
+        /// As of a text.
+        #[key(= Self::MIDDLE_M)]
         center_m: [f64; 3],
-        /// The way from left to right, in the object's own frame.
+        /// As of a text.
+        #[key(= Self::READING)]
         direction: [f64; 3],
     },
-}
-
-kinds! { Line,
-    /// Value of `pattern` for it.
-    name {
-        "curve" => Curve { points_m: scratches::CURVE_POINTS_M, closed: scratches::CLOSED },
-        "text" => Text { text: scratches::TEXT, height_m: scratches::CAPITALS_M, center_m: scratches::MIDDLE_M, direction: scratches::READING },
-        "svg" => Svg { file: scratches::DRAWING, fit_m: scratches::EXTENT_M, center_m: scratches::MIDDLE_M, direction: scratches::READING },
-    }
 }
 
 impl Engraved {
@@ -82,35 +95,10 @@ impl Engraved {
     pub fn new(line: Line, width_um: Distribution, depth_nm: Distribution) -> Self {
         Self {
             line,
-            line_m: scratches::LINE_M.initial(),
-            seed: scratches::SEED.initial(),
+            line_m: Self::LINE_M.initial(),
+            seed: Laid::SEED.initial(),
             width_um,
             depth_nm,
-        }
-    }
-
-    pub(super) fn read(pattern: &str, table: &Table) -> Result<Self, Error> {
-        Ok(Self {
-            line: Line::read_kind(pattern, table)?,
-            line_m: table.value(&scratches::LINE_M)?,
-            seed: table.value(&scratches::SEED)?,
-            width_um: table.value(&scratches::WIDTH_UM)?,
-            depth_nm: table.value(&scratches::DEPTH_NM)?,
-        })
-    }
-
-    /// Refuses values out of range; `key` is the way to the layer.
-    pub(super) fn check_at(&self, key: &str) -> Check {
-        check_seed(self.seed, key)?;
-        scratches::LINE_M.check(key, &self.line_m)?;
-        scratches::WIDTH_UM.check(key, &self.width_um)?;
-        scratches::DEPTH_NM.check(key, &self.depth_nm)?;
-        self.line.check_keys(key)?;
-        let way = format!("{key}.{}", self.line.key().name);
-        match &self.line {
-            Line::Curve { points_m, closed } => check_points(&way, points_m.len(), *closed),
-            Line::Text { text, .. } => check_letters(&way, text),
-            Line::Svg { .. } => Ok(()),
         }
     }
 }
@@ -119,9 +107,9 @@ impl Line {
     /// The key that says what is engraved.
     pub(crate) fn key(&self) -> &'static Key {
         match self {
-            Self::Curve { .. } => &scratches::CURVE_POINTS_M,
-            Self::Text { .. } => &scratches::TEXT,
-            Self::Svg { .. } => &scratches::DRAWING,
+            Self::Curve { .. } => Self::CURVE_POINTS_M,
+            Self::Text { .. } => Self::TEXT,
+            Self::Svg { .. } => Self::DRAWING,
         }
     }
 
@@ -130,6 +118,15 @@ impl Line {
         match self {
             Self::Svg { file, .. } => Some(file),
             _ => None,
+        }
+    }
+
+    fn check_outlines(&self, key: &str) -> Check {
+        let way = format!("{key}.{}", self.key().name);
+        match self {
+            Self::Curve { points_m, closed } => check_points(&way, points_m.len(), *closed),
+            Self::Text { text, .. } => check_letters(&way, text),
+            Self::Svg { .. } => Ok(()),
         }
     }
 }

@@ -2,107 +2,156 @@
 
 use std::path::PathBuf;
 
-use serde::Serialize;
+use hairline_keys::Keyed;
+use hairline_optics::scratch::DEPTH_MAX_NM;
 use toml::de::DeValue;
 
 use super::distribution::Distribution;
-use super::keyed::kinds;
-use super::ranges::{Check, Numbers, check_radii, check_seed, within};
-use super::scratches::Around;
+use super::keyed::Keyed;
+use super::place::{MIDDLE, RADII, TILE};
+use super::ranges::{Check, check_radii, within};
+use super::scratches::{Around, Pattern};
 use super::table::{Read, Table, Value};
-use super::values::{Named, is_default, is_false, serialize_named};
+use super::values::named;
 use crate::error::Error;
-use crate::schema::{grating, scratches};
+use crate::schema::Entry;
 
 /// `[[grating]]`: grooves side by side, nearer to one another than a pixel can show. They interfere, as those of a compact disc do.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Keyed)]
+#[keyed(held, check = Grating::check_companions)]
 pub struct Grating {
-    /// The name of the object that they cover. Required.
+    /// What they cover.
+    #[key(range_words("name of an object"))]
     pub object: String,
-    /// Free text, for lists that people read.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// For you to know it by.
+    #[key(none().range_words("any text"))]
     pub name: Option<String>,
-    /// Laid nowhere.
-    #[serde(skip_serializing_if = "is_false")]
+    /// As if it were not there.
+    #[key(flag(false).omitted().labelled("Hidden", "As if the grating were not there at all."))]
     pub hidden: bool,
     /// `pattern` and the keys that belong to it.
-    #[serde(flatten)]
+    #[flat]
     pub pattern: GroovePattern,
-    /// Distance from one groove to the next. From 0.3 to 50. Required.
+    /// From one groove to the next: how far apart the orders are. 1.6 is a compact disc, 0.74 a DVD, 30 turned steel.
+    #[key(unit("µm").within(0.3, 50.0)
+        .control("Pitch", log(0.4, 50.0), "From one groove to the next. Fine rows throw wide rainbows far out, coarse ones narrow rainbows close to the highlight. Disc 1.6, DVD 0.74, turned steel 30."))]
     pub pitch_um: f64,
-    /// Width of a groove, at most the pitch.
+    /// Width of each groove: how bright the further orders are.
+    #[key(unit("µm").words("0.4 of the pitch").above_0(50.0).range_words("above 0, up to the pitch")
+        .control("Groove width", log(0.1, 20.0), "How much of the pitch is groove. Half of it gives the brightest first order and no second one; narrow grooves send more light to far orders."))]
+    #[read(width_um)]
     pub width_um: f64,
-    /// Normal; the spread is a share of the mean.
+    /// Depth: how much light goes into orders, and which colours. Normal; the spread is a share of the mean.
+    #[key(unit("nm").number(120.0).within(0.0, DEPTH_MAX_NM).range_words("mean 0 to 2000, spread 0 to 1")
+        .control("Depth", linear(20.0, 600.0), "Picks the overall tint, also close to the highlight: each depth favours some wavelengths and cancels others. Very shallow scratches are faint and bluish. Seen or lit aslant they act shallower, so tints shift as things turn.")
+        .second("Depth spread", linear(0.0, 0.5), Bounds::Within(0.0, 1.0), "", "How much the depths of grooves differ, as a share of the mean. It weakens the rainbows and adds a white sheen that single grooves send."))]
     pub depth_nm: Distribution,
-    /// Standard deviation of how far a groove is off its place. At most the pitch.
+    /// Standard deviation of how far a groove is off its place. A tenth of the pitch leaves the first order two thirds of its light; a quarter turns
+    /// rows into so many single scratches.
+    #[key(unit("µm").number(0.0).within(0.0, 50.0).range_words("0 to the pitch")
+        .control("Displacement", linear(0.0, 5.0), "How far grooves are off their places. A tenth of the pitch keeps two thirds of the first rainbow; at a quarter all grooves shine for themselves."))]
     pub jitter_um: f64,
-    /// How bright the orders of a pitch below 4 um are.
-    #[serde(serialize_with = "serialize_named", skip_serializing_if = "is_default")]
+    /// How bright the orders of a pitch below 4 µm are. `"rigorous"` solves Maxwell's equations in the grooves for both polarisations, by the
+    /// refractive index of the metal (of aluminium where a colour stands for one) or of the plastic. That takes about ten seconds for a grating,
+    /// once: the result is kept in the user's folder for caches. `"scalar"` is the simpler theory that wider grooves have, to compare with. Mirrors
+    /// and what lies in a clear coat are scalar always.
+    #[key(text("rigorous").omitted())]
     pub theory: GratingTheory,
-    /// Seed of the displacements of single grooves from their places.
+    /// Which groove is off its place by how much, where grooves are seen one by one.
+    #[key(number(1.0).at_least_0().range_words("whole, below 2^63")
+        .control("Seed", linear(0.0, 1000.0), "Another number lays other scratches of the same kind, or puts the grooves of a grating in other places, as seen from nearby. Layers with different numbers do not repeat one another."))]
     pub seed: u64,
-    /// The share of the surface that the grooves cover. In [0, 1].
+    /// The share of the surface that the grooves cover.
+    #[key(number(1.0).within(0.0, 1.0)
+        .control("Coverage", linear(0.0, 1.0), "The share of the surface that the grooves cover. The rest mirrors as the material does."))]
     pub coverage: f64,
-    /// A picture whose values, from 0 (black) to 1 (white), are factors on the coverage. `.png`, `.jpg` or `.webp`, relative to the
-    /// scene file.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// A picture whose values, from 0 (black) to 1 (white), are factors on the coverage: a motif in foil. From afar it is its mean over a pixel.
+    #[key(none().range_words("as `directions`"))]
     pub mask: Option<PathBuf>,
-    /// The mask is laid on the object from its three sides, so wide, in its own frame.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// The mask is laid on the object along its own three axes, repeated, so wide; as in [`where`](#where) of scratches.
+    #[key(like(&TILE).range_words("1e-5 to 1000; with `mask`"))]
     pub tile_m: Option<f64>,
-    /// The least and the greatest distance from the pattern's axis; for patterns without one, from `center_m`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// The least and the greatest distance from the axis: grooves inside of a circle, outside of one, or in a ring. For `"parallel"` and `"uv"`, from
+    /// `center_m`.
+    #[key(like(&RADII)
+        .control("Inner radius", linear(0.0, 1.0).sized(), "There are no grooves nearer to the middle than this.")
+        .second("Outer radius", linear(0.0, 1.0).sized(), Bounds::Within(0.0, LARGEST_M), "m", "There are no grooves farther from the middle than this."))]
     pub radius_m: Option<[f64; 2]>,
-    /// For patterns without an axis the point from which `radius_m` is measured, in the object's frame.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// For `"parallel"` and `"uv"`, with `radius_m`: the middle of the ball that holds them. The other patterns have theirs.
+    #[key(like(&MIDDLE).words("origin"))]
+    #[of_kinds]
+    #[read(center_m)]
     pub center_m: Option<[f64; 3]>,
 }
 
-/// `pattern` of a `[[grating]]`: those of scratches whose rows do not cross one another. `jitter_deg` is the standard deviation of a groove's
-/// angle to the pattern.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(tag = "pattern", rename_all = "lowercase")]
+/// `pattern` of a `[[grating]]`: those of scratches whose rows do not cross one another.
+#[derive(Clone, Debug, PartialEq, Keyed)]
+#[keyed(tag = "pattern")]
 pub enum GroovePattern {
-    /// `"parallel"`: all along one direction.
+    /// All along one direction.
+    #[kind("parallel", after = MIDDLE_OF_RADII)]
     Parallel {
-        /// Direction of the grooves, in the frame of the object.
+        /// As of scratches.
+        #[key(= Pattern::DIRECTION)]
         direction: [f64; 3],
-        /// Standard deviation of a groove's angle to the pattern.
+        /// Standard deviation of a groove's angle to the pattern: streaks become fans.
+        #[key(unit("°").number(0.0).within(0.0, 90.0)
+            .control("Angles", linear(0.0, 10.0), "How far grooves stray from the pattern's direction. 0 gives lines of light with hard edges; a degree or more makes soft fans of them."))]
         jitter_deg: f64,
     },
-    /// `"circular"`: around an axis.
-    Circular(Around),
-    /// `"radial"`: away from an axis.
-    Radial(Around),
-    /// `"spun"`: arcs of one curvature that leave the axis in all directions.
+    /// Around an axis.
+    #[kind("circular")]
+    Circular(#[flat(AROUND)] Around),
+    /// Away from an axis.
+    #[kind("radial")]
+    Radial(#[flat(AROUND)] Around),
+    /// Arcs of one curvature that leave the axis in all directions.
+    #[kind("spun")]
     Spun {
         /// The axis.
-        #[serde(flatten)]
+        #[flat(AROUND)]
         around: Around,
-        /// One over their radius.
+        /// One over the radius of the arcs; its sign is the sense of the spiral.
+        #[key(unit("1/m").number(20.0).within(-1e4, 1e4)
+            .control("Curvature", linear(-50.0, 50.0).sized_by(-1), "One over the radius of the arcs. 0 is straight. Bent scratches turn through many directions, so each lights up over a shorter piece, and more of them light up at once."))]
         curvature_per_m: f64,
     },
-    /// `"swirl"`: around the middles of spots in rows, each over those before it, as a spinning peg leaves them: engine turning, perlage.
+    /// Around the middles of spots in rows, each over those before it: engine turning. The axis is that along which they are pressed into the surface.
+    #[kind("swirl")]
     Swirl {
-        /// Axis along which the spots are pressed into the surface. It passes through the middle of one of them.
-        #[serde(flatten)]
+        /// The axis. It passes through the middle of one of the spots.
+        #[flat(AROUND)]
         around: Around,
-        /// Distance of neighbouring spots in a row, and of neighbouring rows.
+        /// From spot to spot, and from row to row. Metres of the world, whatever the object's `scale`. The radius of a spot is 0.75 of it. Where
+        /// spots are smaller than a pixel, it shows the mean of all their directions.
+        #[key(unit("m").number(0.004).size()
+            .control("Spacing", log(0.01, 0.5).sized(), "From one spot of grooves to the next. Each spot lies over those before it, so rows look like scales; lamps draw a line through each."))]
         spacing_m: f64,
     },
-    /// `"uv"`: along the texture coordinates of the surface.
+    /// Along the texture coordinates of the surface.
+    #[kind("uv", after = MIDDLE_OF_RADII)]
     Uv {
-        /// Texture coordinate along which the grooves run.
-        #[serde(serialize_with = "serialize_named", skip_serializing_if = "is_default")]
+        /// Along which texture coordinate they run.
+        #[key(text("u").omitted())]
         along: UvAxis,
-        /// A picture that turns them, as anisotropy textures of glTF do: red and green are the parts along u and up across it, from
-        /// -1 (black) to 1. `.png`, `.jpg` or `.webp`, relative to the scene file.
-        #[serde(skip_serializing_if = "Option::is_none")]
+        /// A picture, relative to the scene file, that turns them, as anisotropy textures of glTF do: red is the part along the coordinate, green
+        /// that up across it, from -1 (code 0) to 1 (code 255). Middle grey of both is no direction: no grooves.
+        #[key(none().range_words("`.png`, `.jpg`, `.webp`"))]
         directions: Option<PathBuf>,
-        /// Standard deviation of a groove's angle to the pattern.
+        /// As along one direction.
         jitter_deg: f64,
     },
 }
+
+/// The key of patterns without an axis.
+const MIDDLE_OF_RADII: &[Entry] = &[Entry::Key(Grating::CENTER_M)];
+
+/// The keys of an axis, of which a grating's angle says its own.
+const AROUND: &[Entry] = &[
+    Entry::Key(Around::AXIS),
+    Entry::Key(Around::CENTER_M),
+    Entry::Key(GroovePattern::JITTER_DEG),
+];
 
 /// Theory of the brightness of orders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -114,10 +163,10 @@ pub enum GratingTheory {
     Scalar,
 }
 
-impl Named for GratingTheory {
-    const NAMES: &'static [(&'static str, Self)] =
-        &[("rigorous", Self::Rigorous), ("scalar", Self::Scalar)];
-}
+named! { GratingTheory {
+    "rigorous" => Rigorous,
+    "scalar" => Scalar,
+} }
 
 /// A texture coordinate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -129,23 +178,10 @@ pub enum UvAxis {
     V,
 }
 
-impl Numbers for UvAxis {}
-
-impl Named for UvAxis {
-    const NAMES: &'static [(&'static str, Self)] = &[("u", Self::U), ("v", Self::V)];
-}
-
-kinds! { GroovePattern,
-    /// Value of `pattern` for it.
-    name {
-        "parallel" => Parallel { direction: scratches::DIRECTION, jitter_deg: grating::JITTER_DEG },
-        "circular" => Circular(around),
-        "radial" => Radial(around),
-        "spun" => Spun { around: Flat, curvature_per_m: grating::CURVATURE_PER_M },
-        "swirl" => Swirl { around: Flat, spacing_m: grating::SPACING_M },
-        "uv" => Uv { along: grating::ALONG, directions: grating::DIRECTIONS, jitter_deg: grating::JITTER_DEG },
-    }
-}
+named! { UvAxis {
+    "u" => U,
+    "v" => V,
+} }
 
 impl GroovePattern {
     /// The axis, if it has one.
@@ -173,11 +209,11 @@ impl Grating {
             pattern,
             pitch_um,
             width_um: DEFAULT_FILL * pitch_um,
-            depth_nm: grating::DEPTH_NM.initial(),
-            jitter_um: grating::JITTER_UM.initial(),
+            depth_nm: Self::DEPTH_NM.initial(),
+            jitter_um: Self::JITTER_UM.initial(),
             theory: GratingTheory::default(),
-            seed: grating::SEED.initial(),
-            coverage: grating::COVERAGE.initial(),
+            seed: Self::SEED.initial(),
+            coverage: Self::COVERAGE.initial(),
             mask: None,
             tile_m: None,
             radius_m: None,
@@ -185,19 +221,12 @@ impl Grating {
         }
     }
 
-    /// Refuses values out of range.
-    pub(super) fn check_at(&self, key: &str) -> Check {
-        self.pattern.check_keys(key)?;
-        grating::PITCH_UM.check(key, &self.pitch_um)?;
-        grating::WIDTH_UM.check(key, &self.width_um)?;
-        let width = format!("{key}.{}", grating::WIDTH_UM.name);
-        within(&width, self.width_um, 0.0..=self.pitch_um)?;
-        grating::DEPTH_NM.check(key, &self.depth_nm)?;
-        let jitter = format!("{key}.{}", grating::JITTER_UM.name);
-        within(&jitter, self.jitter_um, 0.0..=self.pitch_um)?;
-        check_seed(self.seed, key)?;
-        grating::COVERAGE.check(key, &self.coverage)?;
-        grating::TILE_M.check(key, &self.tile_m)?;
+    /// Refuses grooves wider than their pitch, and keys without what they belong to.
+    fn check_companions(&self, key: &str) -> Check {
+        let up_to_the_pitch =
+            |name: &str, value: f64| within(&format!("{key}.{name}"), value, 0.0..=self.pitch_um);
+        up_to_the_pitch(Self::WIDTH_UM.name, self.width_um)?;
+        up_to_the_pitch(Self::JITTER_UM.name, self.jitter_um)?;
         if self.tile_m.is_some() && self.mask.is_none() {
             return Err(Error::new(
                 format!("{key}.tile_m"),
@@ -212,8 +241,21 @@ impl Grating {
                 "belongs to `radius_m`",
             ));
         }
-        grating::CENTER_M.check(key, &self.center_m)?;
-        check_radii(&grating::RADIUS_M, key, self.radius_m)
+        check_radii(Self::RADIUS_M, key, self.radius_m)
+    }
+}
+
+/// The width of grooves that do not say it depends on their pitch.
+fn width_um(table: &Table) -> Result<f64, Error> {
+    let pitch_um: f64 = table.value(Grating::PITCH_UM)?;
+    table.or(Grating::WIDTH_UM.name, DEFAULT_FILL * pitch_um)
+}
+
+/// The middle of a pattern without an axis; the others have one in `pattern`.
+fn center_m(table: &Table) -> Result<Option<[f64; 3]>, Error> {
+    match table.kind() {
+        "parallel" | "uv" => table.value(Grating::CENTER_M),
+        _ => Ok(None),
     }
 }
 
@@ -236,32 +278,7 @@ fn refuse_crossings(value: &Value, key: &str) -> Result<(), Error> {
 impl Read for Grating {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         refuse_crossings(value, key)?;
-        let (pattern, table) = Table::of_kind(&grating::GRATING, value, key)?;
-        let pattern = GroovePattern::read_kind(pattern, &table)?;
-        let has_axis = pattern.around().is_some();
-        let default = Self::new(
-            table.value::<String>(&grating::OBJECT)?,
-            pattern,
-            table.value(&grating::PITCH_UM)?,
-        );
-        Ok(Self {
-            name: table.value(&grating::NAME)?,
-            hidden: table.value(&grating::HIDDEN)?,
-            width_um: table.or(grating::WIDTH_UM.name, default.width_um)?,
-            depth_nm: table.value(&grating::DEPTH_NM)?,
-            jitter_um: table.value(&grating::JITTER_UM)?,
-            theory: table.value(&grating::THEORY)?,
-            seed: table.value(&grating::SEED)?,
-            coverage: table.value(&grating::COVERAGE)?,
-            mask: table.value(&grating::MASK)?,
-            tile_m: table.value(&grating::TILE_M)?,
-            radius_m: table.value(&grating::RADIUS_M)?,
-            center_m: match has_axis {
-                true => None,
-                false => table.value(&grating::CENTER_M)?,
-            },
-            ..default
-        })
+        Self::read_keys(&Table::of_kind::<GroovePattern>(Self::KEYS, value, key)?)
     }
 }
 

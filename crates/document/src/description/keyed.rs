@@ -1,135 +1,114 @@
-//! Tables whose fields are the values of keys: each field stands once beside its key, and is read and checked by it.
+//! Tables whose fields are the entries of their keys: `#[derive(Keyed)]` of the crate `hairline-keys` implements what stands here.
 
-use super::ranges::{Check, Numbers};
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+use super::panel::{Panel, Rows};
+use super::ranges::Check;
 use super::table::{Held, Table};
 use crate::error::Error;
-use crate::schema::Key;
-
-/// Source of a field: a [`Key`], or [`Flat`].
-pub(super) trait Source<T> {
-    /// Reads the field.
-    fn take(&self, table: &Table) -> Result<T, Error>;
-    /// Refuses numbers out of range; `table` is the way to the table.
-    fn verify(&self, table: &str, value: &T) -> Check;
-}
-
-impl<T: Held + Numbers> Source<T> for Key {
-    fn take(&self, table: &Table) -> Result<T, Error> {
-        table.value(self)
-    }
-
-    fn verify(&self, table: &str, value: &T) -> Check {
-        self.check(table, value)
-    }
-}
+use crate::schema::section::keys;
+use crate::schema::{Choice, Entry, Initial, Key};
 
 /// Fields whose keys belong to a table.
-pub(super) trait Keyed: Sized {
+pub(crate) trait Keyed: Sized {
+    /// Its keys, in the order in which they are documented.
+    const KEYS: &'static [Entry];
+
+    /// Reads the fields.
     fn read_keys(table: &Table) -> Result<Self, Error>;
-    /// Refuses numbers out of range; `table` is the way to the table.
-    fn check_keys(&self, table: &str) -> Check;
+
+    /// Refuses what is out of range; `way` is the way to the table.
+    fn check_keys(&self, way: &str) -> Check;
+
+    /// Writes the fields that say more than their keys left out.
+    fn write_keys<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error>;
 }
 
-/// A field whose own fields are keys of the table.
-pub(super) struct Flat;
+/// Fields that depend on the value of a tag.
+pub(crate) trait Kinds: Keyed {
+    /// The key of the tag; empty where each kind is a table of its own.
+    const TAG: &'static str;
+    /// The kinds.
+    const CHOICES: &'static [Choice];
+}
 
-impl<T: Keyed> Source<T> for Flat {
-    fn take(&self, table: &Table) -> Result<T, Error> {
-        T::read_keys(table)
+/// Writes a table.
+pub(crate) fn serialize<S: Serializer>(
+    table: &impl Keyed,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    let mut map = serializer.serialize_map(None)?;
+    table.write_keys(&mut map)?;
+    map.end()
+}
+
+/// The keys of a kind whose table is one by itself.
+pub(super) struct Inner<'t, T>(pub(super) &'t T);
+
+impl<T: Keyed> Serialize for Inner<'_, T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serialize(self.0, serializer)
+    }
+}
+
+impl Key {
+    /// Refuses a value out of range; `way` is the way to the table.
+    pub(crate) fn check<T: Held>(&self, way: &str, value: &T) -> Check {
+        value.check_at(self, &format!("{way}.{}", self.name))
     }
 
-    fn verify(&self, table: &str, value: &T) -> Check {
-        value.check_keys(table)
+    /// Writes a value, if it says more than the key left out.
+    pub(crate) fn write<T: Held, M: SerializeMap>(
+        &self,
+        value: &T,
+        map: &mut M,
+    ) -> Result<(), M::Error> {
+        let says_nothing = match self.initial {
+            Initial::Required => false,
+            initial => value.is_left_out() || self.is_omitted && value.is_initial(initial),
+        };
+        match says_nothing {
+            true => Ok(()),
+            false => map.serialize_entry(self.name, &value.written()),
+        }
+    }
+
+    /// Shows a value that has a control.
+    pub(crate) fn row<T: Held>(&'static self, value: &mut T, panel: &mut dyn Panel) {
+        if self.control.is_some()
+            && let Some(value) = value.row()
+        {
+            panel.row(self, value);
+        }
     }
 }
 
-/// A key whose initial value depends on other keys of its table.
-pub(super) struct Or(
-    pub(super) &'static Key,
-    pub(super) fn(&Table) -> Result<f64, Error>,
-);
+/// A part that is there where its first key is.
+impl<T: Keyed> Keyed for Option<T> {
+    const KEYS: &'static [Entry] = T::KEYS;
 
-impl Source<f64> for Or {
-    fn take(&self, table: &Table) -> Result<f64, Error> {
-        table.or(self.0.name, (self.1)(table)?)
+    fn read_keys(table: &Table) -> Result<Self, Error> {
+        let first = keys(T::KEYS).into_iter().next();
+        match first.is_some_and(|key| table.has(key.name)) {
+            true => T::read_keys(table).map(Some),
+            false => Ok(None),
+        }
     }
 
-    fn verify(&self, table: &str, value: &f64) -> Check {
-        self.0.check(table, value)
+    fn check_keys(&self, way: &str) -> Check {
+        self.as_ref().map_or(Ok(()), |part| part.check_keys(way))
+    }
+
+    fn write_keys<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
+        self.as_ref().map_or(Ok(()), |part| part.write_keys(map))
     }
 }
 
-/// Implements [`Keyed`] for a struct, and [`Read`](super::table::Read) for that of a section of the schema.
-macro_rules! keyed {
-    ($Type:ident { $($field:ident: $key:expr),* $(,)? }) => {
-        impl $crate::description::keyed::Keyed for $Type {
-            fn read_keys(table: &Table) -> Result<Self, Error> {
-                use $crate::description::keyed::Source;
-                Ok(Self { $($field: $key.take(table)?),* })
-            }
-
-            fn check_keys(&self, table: &str) -> Check {
-                use $crate::description::keyed::Source;
-                $($key.verify(table, &self.$field)?;)*
-                Ok(())
-            }
+impl<T: Rows> Rows for Option<T> {
+    fn rows(&mut self, panel: &mut dyn Panel) {
+        if let Some(part) = self {
+            part.rows(panel);
         }
-    };
-    ($Type:ident: Default $(of $section:path)? { $($field:ident: $key:expr),* $(,)? }) => {
-        keyed!($Type $(of $section)? { $($field: $key),* });
-        impl Default for $Type {
-            fn default() -> Self {
-                Self { $($field: $key.initial()),* }
-            }
-        }
-    };
-    ($Type:ident of $section:path { $($fields:tt)* }) => {
-        keyed!($Type { $($fields)* });
-        impl Read for $Type {
-            fn read(value: &Value, key: &str) -> Result<Self, Error> {
-                $crate::description::keyed::Keyed::read_keys(&Table::of(&$section, value, key)?)
-            }
-        }
-    };
+    }
 }
-
-/// Names the kinds of an enum and implements reading and checks of their keys.
-macro_rules! kinds {
-    ($Type:ident, $(#[$doc:meta])* $name:ident {
-        $($text:literal => $Kind:ident $(($whole:ident))? $({ $($field:ident: $key:expr),* })?,)*
-    }) => {
-        impl $Type {
-            $(#[$doc])*
-            pub fn $name(&self) -> &'static str {
-                match self {
-                    $(Self::$Kind { .. } => $text,)*
-                }
-            }
-
-            /// Reads the keys of a kind.
-            pub(super) fn read_kind(kind: &str, table: &Table) -> Result<Self, Error> {
-                use $crate::description::keyed::*;
-                Ok(match kind {
-                    $($text => Self::$Kind
-                        $(({ let $whole = Flat.take(table)?; $whole }))?
-                        $({ $($field: $key.take(table)?),* })?,)*
-                    _ => unreachable!("{kind} is a kind of the schema alone"),
-                })
-            }
-
-            /// Refuses numbers out of range; `table` is the way to the table.
-            pub(super) fn check_keys(&self, table: &str) -> Check {
-                use $crate::description::keyed::*;
-                match self {
-                    $(Self::$Kind $(($whole))? $({ $($field),* })? => {
-                        $(Flat.verify(table, $whole)?;)?
-                        $($($key.verify(table, $field)?;)*)?
-                    })*
-                }
-                Ok(())
-            }
-        }
-    };
-}
-
-pub(super) use {keyed, kinds};

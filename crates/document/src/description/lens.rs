@@ -1,9 +1,9 @@
 //! The field of view of a `[camera]` and its opening by its lens, as cameras have it.
 
+use super::Camera;
 use super::ranges::found;
 use super::table::Table;
 use crate::error::Error;
-use crate::schema::camera as keys;
 
 /// The table that has the keys of a lens.
 const SECTION: &str = "camera";
@@ -15,12 +15,12 @@ const ROUNDING: f64 = 1e-3;
 
 /// Reads the vertical field of view of a `[camera]` that states it by its lens. The sensor is as wide as the picture.
 pub(super) fn fov_y_deg(camera: &Table, [width, height]: [u32; 2]) -> Result<Option<f64>, Error> {
-    let Some(focal_length_mm) = camera.value::<Option<f64>>(&keys::FOCAL_LENGTH_MM)? else {
+    let Some(focal_length_mm) = camera.value::<Option<f64>>(Camera::FOCAL_LENGTH_MM)? else {
         return Ok(None);
     };
-    let sensor_mm = camera.value(&keys::SENSOR_WIDTH_MM)?;
-    keys::FOCAL_LENGTH_MM.check(SECTION, &focal_length_mm)?;
-    keys::SENSOR_WIDTH_MM.check(SECTION, &sensor_mm)?;
+    let sensor_mm = camera.value(Camera::SENSOR_WIDTH_MM)?;
+    Camera::FOCAL_LENGTH_MM.check(SECTION, &focal_length_mm)?;
+    Camera::SENSOR_WIDTH_MM.check(SECTION, &sensor_mm)?;
     let fov_y_deg = seen_deg(focal_length_mm, sensor_mm, [width, height]);
     match camera.optional::<f64>("fov_y_deg")? {
         Some(given) if (given - fov_y_deg).abs() > ROUNDING_DEG => Err(Error::new(
@@ -41,7 +41,7 @@ pub(super) fn aperture_mm(camera: &Table) -> Result<Option<f64>, Error> {
     let Some(f_stop) = camera.optional::<f64>("f_stop")? else {
         return Ok(given);
     };
-    keys::F_STOP.check(SECTION, &f_stop)?;
+    Camera::F_STOP.check(SECTION, &f_stop)?;
     let Some(focal_length_mm) = camera.optional::<f64>("focal_length_mm")? else {
         return Err(Error::new(
             camera.way("f_stop"),
@@ -77,7 +77,7 @@ pub(super) fn focus_distance_m(camera: &Table) -> Result<Option<f64>, Error> {
 
 /// Width of the film of a 35 mm camera.
 pub(super) fn full_frame_mm() -> f64 {
-    keys::SENSOR_WIDTH_MM.initial()
+    Camera::SENSOR_WIDTH_MM.initial()
 }
 
 /// Height of a film that is `sensor_mm` wide and has the shape of the picture.

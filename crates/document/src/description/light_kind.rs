@@ -3,93 +3,119 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
+use hairline_keys::Keyed;
 use hairline_scene::scene;
-use serde::Serialize;
 
-use super::keyed::kinds;
+use super::Cone;
+use super::lights::{Light, TARGET};
 use super::ranges::Check;
-use super::table::Table;
-use super::values::{is_false, is_zero};
 use crate::error::Error;
 use crate::polygon;
-use crate::schema::light;
+use crate::schema::Entry;
+
+/// The angle that the sun spans as the earth sees it, degrees.
+pub const SUN_DEG: f64 = 0.53;
 
 /// `kind` of a `[[light]]`
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
+#[derive(Clone, Debug, PartialEq, Keyed)]
+#[keyed(tag = "kind", check = LightKind::check_shape)]
 pub enum LightKind {
-    /// `"sphere"`
+    /// A sphere.
+    #[kind("sphere", after = ROUND)]
     Sphere {
-        /// Required.
+        /// Its middle.
+        #[key(unit("m").within(-1000.0, 1000.0)
+            .control("Position", linear(-5.0, 5.0).sized(), "Where the light hangs. Around its highlight those scratches light up that run crosswise to the way there."))]
         center_m: [f64; 3],
-        /// Required.
+        /// Its radius.
+        #[key(unit("m").size()
+            .control("Radius", log(2e-3, 1.0).sized(), "Small lights give pure rainbows and hard-edged glints; large ones overlap the colours to white around the highlight. At the same radiance a larger one also lights more."))]
         radius_m: f64,
     },
-    /// `"disk"`: flat and round; shines to the side of its target.
+    /// Flat and round; it faces the target and shines to its side.
+    #[kind("disk", after = FLAT)]
     Disk {
-        /// Required.
+        /// As of a sphere.
         center_m: [f64; 3],
-        /// A point on the axis, before the disk. Required.
+        /// A point before it on its axis: it shines to that side.
+        #[key(like(&TARGET))]
         target_m: [f64; 3],
-        /// Required.
+        /// As of a sphere.
         radius_m: f64,
         /// Whether the other side shines too.
-        #[serde(skip_serializing_if = "is_false")]
+        #[key(flag(false).omitted().labelled("Two-sided", "Whether the other side of it shines too."))]
         two_sided: bool,
     },
-    /// `"rectangle"`: shines to the side of its target.
+    /// It faces the target and shines to its side.
+    #[kind("rectangle", after = FLAT)]
     Rectangle {
-        /// Required.
+        /// As of a sphere.
         center_m: [f64; 3],
-        /// A point on the axis, before the rectangle. Required.
+        /// As of a disk.
         target_m: [f64; 3],
-        /// Width from side to side, across the height. Required.
+        /// From side to side, across the height.
+        #[key(unit("m").size()
+            .control("Width", log(2e-3, 1.0).sized(), "From side to side. Narrow lights keep colours pure across their width."))]
         width_m: f64,
-        /// Height along the direction in its plane that is nearest to y, or to z where it faces along y. Required.
+        /// Along the direction in its plane that is nearest to y; to z, where it faces along y.
+        #[key(unit("m").size()
+            .control("Height", log(2e-3, 1.0).sized(), "From lower to upper edge. Long lights fill more scratches with colour."))]
         height_m: f64,
         /// Turns it about its axis, counter-clockwise as seen from the target.
-        #[serde(skip_serializing_if = "is_zero")]
+        #[key(unit("°").number(0.0).within(-360.0, 360.0).omitted()
+            .control("Rotation", linear(-180.0, 180.0), "Turns the light about its axis, counter-clockwise as seen from its target."))]
         rotation_deg: f64,
-        /// Whether the other side shines too.
-        #[serde(skip_serializing_if = "is_false")]
+        /// As of a disk.
         two_sided: bool,
     },
-    /// `"polygon"`: planar, simple, convex or not; shines to the side that sees its vertices counter-clockwise.
+    /// Flat; it shines to the side that sees its vertices counter-clockwise.
+    #[kind("polygon", after = FLAT)]
     Polygon {
-        /// Corners, at least three. Required.
+        /// Its corners, in one plane and without crossing edges, convex or not. It shines to the side that sees them counter-clockwise.
+        #[key(unit("m").within(-1000.0, 1000.0).range_words("3 to 4096 points, ±1000 each")
+            .control("Corner", linear(-5.0, 5.0).sized(), "A corner of the light. Its outline is mirrored in the surface, and scratches draw it out; long, thin shapes keep colours pure across their short side."))]
         vertices_m: Vec<[f64; 3]>,
-        /// Whether the other side shines too.
+        /// As of a disk.
         two_sided: bool,
     },
-    /// `"tube"`: all within a radius of a line; its ends are half spheres.
+    /// A straight lamp with round ends, all around: what is within the radius of the line. It lights nothing that is within it.
+    #[kind("tube", after = ROUND)]
     Tube {
-        /// The ends of the line. Required.
+        /// The ends of the line.
+        #[key(unit("m").within(-1000.0, 1000.0).range_words("two points, ±1000 each")
+            .control("End", linear(-5.0, 5.0).sized(), "An end of the line within the tube. Scratches that run along the tube show colours across it."))]
         ends_m: [[f64; 3]; 2],
-        /// Required.
+        /// As of a sphere.
         radius_m: f64,
     },
-    /// `"sun"`: round, and so far off that it stands in one direction for all of the scene.
+    /// A sun stands in one direction for all of the scene: a round lamp 100 km off.
+    #[kind("sun")]
     Sun {
-        /// The way that its light goes, of any length. Required.
+        /// The way that its light goes, of any length.
+        #[key(direction()
+            .control("Direction", linear(-1.0, 1.0), "The way that the light goes, from the sun to the scene. Its length does not matter."))]
         direction: [f64; 3],
-        /// The angle that it spans as seen from the scene, across.
+        /// The angle that it spans, across; the default is that of the sun. A wider one sends as much.
+        #[key(unit("°").number(SUN_DEG).within(0.01, 90.0)
+            .control("Angle", log(0.1, 10.0), "How wide it is as seen from the scene: the sun 0.53 degrees. A wider one blurs rainbows and the edges of shadows; the scene stays as bright."))]
         angle_deg: f64,
-        /// Irradiance of a surface that faces it, W m^-2 in effect; not negative. It takes the place of a radiance.
+        /// What falls on a surface that faces it. 683 lux are 1 W m⁻². White paper under 3.14 has radiance 1.
+        #[key(unit("W m⁻²").number(1.0).at_least_0()
+            .control("Irradiance", log(1e-3, 10.0), "What falls on a surface that faces the sun, W per square metre; 683 lux are 1. White paper under 3.14 is as bright as white gets."))]
         irradiance: f64,
     },
 }
 
-kinds! { LightKind,
-    /// Value of `kind` for it.
-    name {
-        "sphere" => Sphere { center_m: light::CENTER_M, radius_m: light::RADIUS_M },
-        "disk" => Disk { center_m: light::CENTER_M, target_m: light::TARGET_M, radius_m: light::RADIUS_M, two_sided: light::TWO_SIDED },
-        "rectangle" => Rectangle { center_m: light::CENTER_M, target_m: light::TARGET_M, width_m: light::WIDTH_M, height_m: light::HEIGHT_M, rotation_deg: light::ROTATION_DEG, two_sided: light::TWO_SIDED },
-        "polygon" => Polygon { vertices_m: light::VERTICES_M, two_sided: light::TWO_SIDED },
-        "tube" => Tube { ends_m: light::ENDS_M, radius_m: light::RADIUS_M },
-        "sun" => Sun { direction: light::DIRECTION, angle_deg: light::ANGLE_DEG, irradiance: light::IRRADIANCE },
-    }
-}
+/// Keys of all lights but suns, which have no surface.
+const FLAT: &[Entry] = &[
+    Entry::Key(Light::RADIANCE),
+    Entry::Key(Light::VISIBLE),
+    Entry::Key(Cone::CONE_DEG),
+    Entry::Key(Cone::CONE_SOFTNESS),
+];
+
+/// Those of lights that have no axis, whose cone needs a target.
+const ROUND: &[Entry] = &[Entry::Key(Cone::TARGET_M), Entry::All(FLAT)];
 
 impl LightKind {
     /// A sphere.
@@ -109,8 +135,8 @@ impl LightKind {
     pub fn sun(direction: [f64; 3]) -> Self {
         Self::Sun {
             direction,
-            angle_deg: light::ANGLE_DEG.initial(),
-            irradiance: light::IRRADIANCE.initial(),
+            angle_deg: Self::ANGLE_DEG.initial(),
+            irradiance: Self::IRRADIANCE.initial(),
         }
     }
 
@@ -194,11 +220,6 @@ impl LightKind {
         Some(across)
     }
 
-    /// Whether `target_m` sets the light's direction, with or without a cone.
-    pub(super) fn has_target(&self) -> bool {
-        matches!(self, Self::Disk { .. } | Self::Rectangle { .. })
-    }
-
     /// Whether both sides of a flat one shine.
     pub fn is_two_sided(&self) -> bool {
         match self {
@@ -231,8 +252,8 @@ impl LightKind {
         }
     }
 
-    pub(super) fn check_at(&self, key: &str) -> Check {
-        self.check_keys(key)?;
+    /// Refuses shapes that are none.
+    fn check_shape(&self, key: &str) -> Check {
         match self {
             Self::Disk {
                 center_m, target_m, ..

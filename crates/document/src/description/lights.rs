@@ -3,86 +3,107 @@
 use std::path::PathBuf;
 
 use glam::DVec3;
+use hairline_keys::Keyed;
 use hairline_optics::spectrum::black_body_rgb;
 use hairline_scene::scene;
-use serde::Serialize;
 
+use super::keyed::Keyed;
 use super::light_kind::{LightKind, aimed};
 use super::ranges::Check;
-use super::table::{Read, Table, Value};
-use super::values::{is_false, is_zero};
+use super::table::Table;
 use crate::error::Error;
-use crate::schema::light;
+use crate::schema::Key;
+use crate::schema::key::{Form, linear};
 
 /// `[[light]]`
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Keyed)]
+#[keyed(table, kinds = LightKind, check = Light::check_companions)]
 pub struct Light {
-    /// Free text, for lists that people read.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// For you to know the light by.
+    #[key(none().range_words("any text"))]
     pub name: Option<String>,
     /// Lights nothing, as if it were not there.
-    #[serde(skip_serializing_if = "is_false")]
+    #[key(flag(false).omitted())]
     pub hidden: bool,
-    /// Whether the camera sees its shape.
-    #[serde(skip_serializing_if = "is_false")]
+    /// Whether the camera sees its shape, as bright as its `radiance`; of flat ones the side that shines. It hides no other light, and is in
+    /// reflections either way. Not of a sun.
+    #[key(flag(false).omitted().labelled("Visible", "The camera sees its shape, as bright as it is."))]
+    #[of_kinds]
     pub visible: bool,
     /// `kind` and the keys that belong to it.
-    #[serde(flatten)]
+    #[flat]
     pub kind: LightKind,
-    /// W sr^-1 m^-2 in effect; not negative. Of a sun 1: its irradiance tells.
-    #[serde(skip_serializing_if = "is_one")]
+    /// Brightness of its surface. A smaller light of the same radiance lights less. Not of a sun, which has `irradiance`.
+    #[key(unit("W sr⁻¹ m⁻²").number(1.0).at_least_0().omitted()
+        .control("Radiance", log(0.01, 1000.0), "Brightness of the light as it is seen. 40 to 200 for small lamps in dim surroundings lets the highlight clip and its scratches glow."))]
+    #[of_kinds]
     pub radiance: f64,
-    /// Stops: the radiance is multiplied by 2^`exposure_ev`.
-    #[serde(skip_serializing_if = "is_zero")]
+    /// The radiance, or the irradiance of a sun, is multiplied by 2^`exposure_ev`.
+    #[key(unit("stops").number(0.0).within(-64.0, 64.0).omitted()
+        .control("Stops", linear(-8.0, 8.0), "Each stop doubles the radiance: for balancing lights against one another."))]
     pub exposure_ev: f64,
-    /// Temperature, K, of a black body that the light is, with the luminance that the light has without this key. `color` is a
-    /// filter before it.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// The colour of a black body: 2700 a warm bulb, 5600 a flash, 6500 daylight. The luminance stays; `color` is a filter before it.
+    #[key(unit("K").none().within(1000.0, 40_000.0)
+        .control("Temperature", linear(1800.0, 10_000.0), "Colour of a glowing body: 2700 K for a warm bulb, 5600 K for a flash, 6500 K for daylight. Brightness stays."))]
     pub temperature_k: Option<f64>,
-    /// Factor on the radiance, linear Rec.709, not negative; `[1, 1, 1]` has the spectrum of D65.
+    /// Factor on the radiance; white has the spectrum of daylight (D65).
+    #[key(color().is(Initial::Numbers(&[1.0, 1.0, 1.0])).at_least_0()
+        .control("Colour", linear(0.0, 1.0), "Tint of the light. Scratches split what is in it: white light shows every colour, a warm one fewer blues."))]
     pub color: [f64; 3],
     /// Directions into which the light shines.
-    #[serde(flatten)]
+    #[flat]
+    #[of_kinds]
+    #[read(cone)]
     pub cone: Option<Cone>,
-    /// For a disk or a rectangle: the angles between its axis and flaps that end its light, to the left, to the right, above and
-    /// below as seen from its target. 90 is open.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Of a disk or a rectangle: barn doors: the angles between the axis and flaps that end the light, to the left, to the right, above and below as
+    /// seen from the target. 90 is open. Light falls off in the last tenth of each angle. Not with `two_sided`.
+    #[key(unit("°").none().within(0.0, 90.0).range_words("four, 0 to 90 each")
+        .control("Barn door", linear(0.0, 90.0), "The angle between the light's axis and a flap that ends its light: left, right, above and below as seen from its target. 90 is open."))]
     pub barn_doors_deg: Option<[f64; 4]>,
-    /// For a rectangle: a picture on it, upright as seen from its target, relative to the scene file. Its linear values are factors
-    /// on the radiance.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Of a rectangle: a picture on the light, upright as seen from the target, relative to the scene file: what a soft box looks like. Its linear
+    /// values are factors on the radiance; those of `.hdr` and `.exr` are kept in 8 bits relative to the brightest. What is transparent sends no
+    /// light. Scratches, base, shadows and the camera see it.
+    #[key(none().range_words("`.png`, `.jpg`, `.webp`, `.hdr` or `.exr`"))]
     pub picture: Option<PathBuf>,
 }
 
 /// `cone_deg` of a `[[light]]` and the keys that belong to it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Keyed)]
 pub struct Cone {
-    /// Full angle of the cone from rim to rim. Required.
+    /// A spot: the angle of its cone from rim to rim; no light outside. Flat lights point along their own axis. Not with `two_sided`, not of a sun.
+    #[key(unit("°").none().within(0.1, 360.0)
+        .control("Cone", linear(5.0, 180.0), "The angle of the cone from rim to rim. Outside of it there is no light."))]
     pub cone_deg: f64,
-    /// The part of the way from rim to axis in which light falls off.
+    /// With `cone_deg`: the part of the way from rim to axis in which the light falls off, as KHR_lights_punctual has it.
+    #[key(number(0.1).within(0.0, 1.0)
+        .control("Softness", linear(0.0, 1.0), "The part of the way from rim to axis in which the light falls off."))]
     pub cone_softness: f64,
-    /// Target of the cone of a sphere or a tube; required there. Others have their own axis.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// What the cone points to.
+    #[key(like(&TARGET).none().range_words("with `cone_deg`, which needs it"))]
     pub target_m: Option<[f64; 3]>,
 }
 
-fn is_one(factor: &f64) -> bool {
-    *factor == light::RADIANCE.initial::<f64>()
-}
+/// A point that a light faces.
+pub(super) const TARGET: Key = Key::new("target_m", Form::Numbers(3))
+    .unit("m")
+    .within(-1000.0, 1000.0)
+    .control(
+        "Target",
+        linear(-5.0, 5.0).sized(),
+        "A point that the light faces. Its distance does not matter.",
+    );
 
 impl Cone {
     /// A cone with a soft rim of the default width.
     pub fn new(cone_deg: f64, target_m: Option<[f64; 3]>) -> Self {
         Self {
             cone_deg,
-            cone_softness: light::CONE_SOFTNESS.initial(),
+            cone_softness: Self::CONE_SOFTNESS.initial(),
             target_m,
         }
     }
 
     fn check_at(&self, key: &str, kind: &LightKind) -> Check {
-        light::CONE_DEG.check(key, &self.cone_deg)?;
-        light::CONE_SOFTNESS.check(key, &self.cone_softness)?;
         if kind.is_two_sided() {
             return Err(Error::new(
                 format!("{key}.cone_deg"),
@@ -94,10 +115,7 @@ impl Cone {
             return Ok(());
         }
         match self.target_m {
-            Some(target_m) => {
-                light::CONE_TARGET_M.check(key, &target_m)?;
-                aimed(key, kind.middle_m().into(), target_m)
-            }
+            Some(target_m) => aimed(key, kind.middle_m().into(), target_m),
             None => Err(Error::new(
                 key,
                 "`target_m` is missing",
@@ -126,10 +144,10 @@ impl Light {
             hidden: false,
             visible: false,
             kind,
-            radiance: light::RADIANCE.initial(),
-            exposure_ev: light::EXPOSURE_EV.initial(),
+            radiance: Self::RADIANCE.initial(),
+            exposure_ev: Self::EXPOSURE_EV.initial(),
             temperature_k: None,
-            color: light::COLOR.initial(),
+            color: Self::COLOR.initial(),
             cone: None,
             barn_doors_deg: None,
             picture: None,
@@ -143,15 +161,10 @@ impl Light {
     /// # Errors
     /// What is wrong.
     pub fn check(&self) -> Result<(), Error> {
-        self.check_at("light")
+        self.check_keys("light")
     }
 
-    pub(super) fn check_at(&self, key: &str) -> Check {
-        light::RADIANCE.check(key, &self.radiance)?;
-        light::COLOR.check(key, &self.color)?;
-        light::EXPOSURE_EV.check(key, &self.exposure_ev)?;
-        light::TEMPERATURE_K.check(key, &self.temperature_k)?;
-        self.kind.check_at(key)?;
+    fn check_companions(&self, key: &str) -> Check {
         self.check_sun(key)?;
         self.check_doors(key)?;
         if self.picture.is_some() && !matches!(self.kind, LightKind::Rectangle { .. }) {
@@ -174,7 +187,7 @@ impl Light {
         }
         let odd = [
             ("visible", self.visible),
-            ("radiance", !is_one(&self.radiance)),
+            ("radiance", self.radiance != Self::RADIANCE.initial::<f64>()),
             ("cone_deg", self.cone.is_some()),
         ];
         match odd.into_iter().find(|(_, is_there)| *is_there) {
@@ -198,7 +211,7 @@ impl Light {
                 "must be those of a disk or a rectangle that shines to one side",
             ));
         }
-        light::BARN_DOORS_DEG.check(key, &self.barn_doors_deg)
+        Ok(())
     }
 
     fn doors(&self) -> Option<scene::Doors> {
@@ -235,38 +248,17 @@ impl Light {
     }
 }
 
-impl Read for Light {
-    fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let (kind, table) = Table::of_kind(&light::LIGHT, value, key)?;
-        let kind = LightKind::read_kind(kind, &table)?;
-        let mut read = Self::new(kind);
-        if read.kind.sunbeam().is_none() {
-            read.radiance = table.value(&light::RADIANCE)?;
-            read.visible = table.value(&light::VISIBLE)?;
-            read.cone = cone(&table, &read.kind)?;
-        }
-        Ok(Self {
-            name: table.value(&light::NAME)?,
-            hidden: table.value(&light::HIDDEN)?,
-            exposure_ev: table.value(&light::EXPOSURE_EV)?,
-            temperature_k: table.value(&light::TEMPERATURE_K)?,
-            color: table.value(&light::COLOR)?,
-            barn_doors_deg: table.value(&light::BARN_DOORS_DEG)?,
-            picture: table.value(&light::PICTURE)?,
-            ..read
-        })
-    }
-}
-
-fn cone(table: &Table, kind: &LightKind) -> Result<Option<Cone>, Error> {
-    let own = match kind.has_target() {
-        true => &["cone_softness"][..],
-        false => &["cone_softness", "target_m"],
+/// The cone of a light that has one.
+fn cone(table: &Table) -> Result<Option<Cone>, Error> {
+    let is_round = matches!(table.kind(), "sphere" | "tube");
+    let own = match is_round {
+        true => &[Cone::CONE_SOFTNESS, Cone::TARGET_M][..],
+        false => &[Cone::CONE_SOFTNESS],
     };
-    let Some(cone_deg) = table.value(&light::CONE_DEG)? else {
-        return match own.iter().find(|name| table.has(name)) {
-            Some(name) => Err(Error::new(
-                table.way(name),
+    let Some(cone_deg) = table.value(Cone::CONE_DEG)? else {
+        return match own.iter().find(|key| table.has(key.name)) {
+            Some(key) => Err(Error::new(
+                table.way(key.name),
                 "found no cone that it belongs to",
                 "give the light a `cone_deg`, or leave it out",
             )),
@@ -275,10 +267,10 @@ fn cone(table: &Table, kind: &LightKind) -> Result<Option<Cone>, Error> {
     };
     Ok(Some(Cone {
         cone_deg,
-        cone_softness: table.value(&light::CONE_SOFTNESS)?,
-        target_m: match kind.has_target() || kind.axis().is_some() {
-            true => None,
-            false => table.value(&light::CONE_TARGET_M)?,
+        cone_softness: table.value(Cone::CONE_SOFTNESS)?,
+        target_m: match is_round {
+            true => table.value(Cone::TARGET_M)?,
+            false => None,
         },
     }))
 }

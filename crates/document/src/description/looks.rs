@@ -1,35 +1,37 @@
 //! `[[look]]`: another camera, exposure or light of the same objects, by a name.
 
-use serde::Serialize;
+use hairline_keys::Keyed;
 
-use super::keyed::keyed;
-use super::ranges::{Check, Numbers};
-use super::table::{Read, Table, Value};
 use super::{Camera, Description, Environment, Light, Studio};
 use crate::error::Error;
-use crate::schema::look;
 
 /// `[[look]]`: tables in the place of those of the scene. What it leaves out is as in the scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Keyed)]
+#[keyed(table)]
 pub struct Look {
-    /// Name of the look; no two are equal. Required.
+    /// What the viewer's strip and the file of its picture call it by.
+    #[key(range_words("not empty, no two equal"))]
     pub name: String,
-    /// In the place of `[camera]`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// In the place of `[camera]`, all of it.
+    #[key(words("the scene's").range_words("the keys of [`[camera]`](#camera)"))]
     pub camera: Option<Camera>,
     /// In the place of the camera's exposure.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[key(unit("stops").words("the camera's").within(-64.0, 64.0)
+        .control("Exposure", linear(-8.0, 8.0), "Each step doubles or halves the brightness of this look."))]
     pub exposure_ev: Option<f64>,
     /// In the place of `[environment]`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[key(words(LIGHT_WORDS).range_words("the keys of [`[environment]`](#environment)"))]
     pub environment: Option<Environment>,
     /// In the place of `[studio]`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[key(words(LIGHT_WORDS).range_words("the keys of [`[studio]`](#studio)"))]
     pub studio: Option<Studio>,
-    /// In the place of the `[[light]]`s.
-    #[serde(rename = "light", skip_serializing_if = "Vec::is_empty")]
+    /// In the place of all `[[light]]`s.
+    #[key("light": words(LIGHT_WORDS).range_words("the keys of [`[[light]]`](#light)"))]
     pub lights: Vec<Light>,
 }
+
+/// Where light comes from that a look leaves out.
+const LIGHT_WORDS: &str = "none; the scene's, where the look has no light at all";
 
 impl Look {
     /// The camera and the light of a scene.
@@ -98,18 +100,3 @@ impl Look {
         }
     }
 }
-
-// Their own numbers are checked by their own keys.
-impl Numbers for Camera {}
-impl Numbers for Environment {}
-impl Numbers for Studio {}
-impl Numbers for Light {}
-
-keyed! { Look of look::LOOK {
-    name: look::NAME,
-    camera: look::CAMERA,
-    exposure_ev: look::EXPOSURE_EV,
-    environment: look::ENVIRONMENT,
-    studio: look::STUDIO,
-    lights: look::LIGHT,
-} }

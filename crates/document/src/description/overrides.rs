@@ -1,40 +1,34 @@
 //! `overrides` of an `[[object]]`: other factors for materials of its file, whose maps stay.
 
+use hairline_keys::Keyed;
 use hairline_optics::metal::Metal;
 use hairline_scene::{Base, Material};
-use serde::{Serialize, Serializer};
 
-use super::keyed::{Keyed, keyed};
 use super::ranges::Check;
-use super::table::{Read, Table, Value};
-use super::values::serialize_named;
 use crate::error::Error;
-use crate::schema::overrides;
 
 /// One of `overrides`: other factors for a material of a model's file. Its maps stay, and multiply these factors.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Keyed)]
+#[keyed(table, check = Override::check_metal)]
 pub struct Override {
-    /// The material's name in the file. Required.
+    /// Whose factors they are.
+    #[key(range_words("name of a material of the file"))]
     pub material: String,
-    /// Factor on its roughness map, or its roughness. In [0, 1].
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Factor on the roughness map; without a map the roughness.
+    #[key(words("as in the file").within(0.0, 1.0)
+        .control("Roughness", linear(0.0, 0.6), "How far the polished highlight spreads. 0.05 to 0.15 leaves dark room around it where scratches shine; rougher surfaces drown them. The scratches themselves stay as sharp."))]
     pub roughness: Option<f64>,
-    /// Factor on its metallic map, or how metallic it is. In [0, 1].
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Factor on the metallic map.
+    #[key(words("as in the file; 1 with `metal`").within(0.0, 1.0)
+        .control("Metallic", linear(0.0, 1.0), "0: a painted surface with weak, white reflections. 1: bare metal, whose reflections and scratches are bright and take its colour."))]
     pub metallic: Option<f64>,
-    /// Factor on its base colour map, or its base colour, linear Rec.709. In [0, 1] each.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Factor on the base colour map.
+    #[key(color().words("as in the file").within(0.0, 1.0)
+        .control("Colour", linear(0.0, 1.0), "On metals it tints the mirror image and the scratches in it; on coated surfaces it is the body under the coat, which scratches leave as it is. Dark bodies let scratches show."))]
     pub base_color: Option<[f64; 3]>,
-    /// A measured metal: its colour in the place of `base_color`, and metallic unless `metallic` says otherwise.
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "name_of")]
+    /// In the place of `base_color` and of the file's factors: the colour that the metal's measured refractive index gives, metallic.
+    #[key(none().range_words("a metal's name").form(Form::Text))]
     pub metal: Option<Metal>,
-}
-
-fn name_of<S: Serializer>(metal: &Option<Metal>, serializer: S) -> Result<S::Ok, S::Error> {
-    match metal {
-        Some(metal) => serialize_named(metal, serializer),
-        None => serializer.serialize_none(),
-    }
 }
 
 impl Override {
@@ -67,9 +61,7 @@ impl Override {
         }
     }
 
-    /// Refuses values out of range.
-    pub(super) fn check_at(&self, key: &str) -> Check {
-        self.check_keys(key)?;
+    fn check_metal(&self, key: &str) -> Check {
         match (self.base_color, self.metal) {
             (Some(_), Some(_)) => Err(Error::new(
                 format!("{key}.metal"),
@@ -80,11 +72,3 @@ impl Override {
         }
     }
 }
-
-keyed! { Override of overrides::OVERRIDES {
-    material: overrides::MATERIAL,
-    roughness: overrides::ROUGHNESS,
-    metallic: overrides::METALLIC,
-    base_color: overrides::BASE_COLOR,
-    metal: overrides::METAL,
-} }

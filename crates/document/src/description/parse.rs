@@ -10,7 +10,7 @@ use super::table::{Read, Table};
 use super::{
     Camera, Description, Grating, Ground, Material, MaterialKind, Render, Scratches, Studio,
 };
-use super::{check, read};
+use super::{check, read, render};
 use crate::error::Error;
 use crate::key_line::{line_of, line_of_key};
 use crate::reading::check_text;
@@ -25,7 +25,7 @@ impl Description {
         let root = parse(text, name)?;
         let description = read::description(&root);
         let mut description = description.map_err(|error| error.in_scene_file(text, name))?;
-        let without_effect = read::keys_without_effect(&root);
+        let without_effect = render::keys_without_effect(&root);
         let notes = without_effect.map(|(key, why)| note(text, name, key, why));
         description.notes = notes
             .chain(description.smoother_than_can_be(text, name))

@@ -3,14 +3,13 @@
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-use hairline_image::ToneMap;
-use hairline_optics::metal::Metal;
+use hairline_optics::section::Section;
 
 use crate::error::Error;
 use crate::schema::{Bounds, Key, LARGEST_M, SMALLEST_M};
 
 /// Whether a value is right.
-pub(super) type Check = Result<(), Error>;
+pub(crate) type Check = Result<(), Error>;
 
 pub(super) fn found(value: f64) -> String {
     format!("found {}", written(value))
@@ -32,27 +31,36 @@ pub(super) fn finite(key: &str, value: f64) -> Check {
 }
 
 /// Takes a number of a key with what its way ends with, and whether it is the second of two that differ.
-pub(super) type Take<'t> = dyn FnMut(&str, f64, bool) -> Check + 't;
+pub(crate) type Take<'t> = dyn FnMut(&str, f64, bool) -> Check + 't;
 
 /// Numbers of a value; other values have none.
-pub(super) trait Numbers {
+pub(crate) trait Numbers {
     /// Calls `take` for each.
     fn each(&self, _take: &mut Take) -> Check {
         Ok(())
     }
 }
 
-impl Numbers for Metal {}
 impl Numbers for PathBuf {}
 impl Numbers for String {}
-impl Numbers for ToneMap {}
 impl Numbers for bool {}
+
+impl Numbers for Section {
+    fn each(&self, take: &mut Take) -> Check {
+        match self {
+            Self::Listed(depths) => depths.each(take),
+            _ => Ok(()),
+        }
+    }
+}
 
 impl Numbers for f64 {
     fn each(&self, take: &mut Take) -> Check {
         take("", *self, false)
     }
 }
+
+impl Numbers for u64 {}
 
 impl Numbers for u32 {
     fn each(&self, take: &mut Take) -> Check {
@@ -88,9 +96,8 @@ impl<T: Numbers> Numbers for Option<T> {
 }
 
 impl Key {
-    /// Refuses numbers beyond the key's bounds. `table` is the way to the table that has the key.
-    pub(super) fn check(&self, table: &str, numbers: &(impl Numbers + ?Sized)) -> Check {
-        let way = format!("{table}.{}", self.name);
+    /// Refuses numbers beyond the key's bounds; `way` is the way to the value.
+    pub(super) fn check_numbers(&self, way: &str, numbers: &(impl Numbers + ?Sized)) -> Check {
         let mut is_zero = self.bounds == Bounds::Direction;
         numbers.each(&mut |end, number, is_second| {
             is_zero &= number.abs() <= 1e-6;
@@ -155,17 +162,16 @@ pub(super) fn within(key: &str, value: f64, range: RangeInclusive<f64>) -> Check
 /// Largest seed: TOML's integers end there.
 pub const LARGEST_SEED: u64 = i64::MAX as u64;
 
-/// Checks a seed of random numbers.
-pub(super) fn check_seed(seed: u64, key: &str) -> Check {
-    if seed > LARGEST_SEED {
-        let found = format!("found {seed}");
-        return Err(Error::new(
-            format!("{key}.seed"),
-            found,
+/// Checks a whole number; `way` is the way to it.
+pub(super) fn check_whole(number: u64, way: &str) -> Check {
+    match number > LARGEST_SEED {
+        true => Err(Error::new(
+            way,
+            format!("found {number}"),
             "must be below 2^63",
-        ));
+        )),
+        false => Ok(()),
     }
-    Ok(())
 }
 
 /// The least and the greatest distance from a middle.

@@ -1,115 +1,153 @@
 //! `shape` of an `[[object]]`.
 
-use serde::Serialize;
+use hairline_keys::Keyed;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
 
-use super::keyed::kinds;
-use super::ranges::{Check, found, written};
-use super::table::{Read, Table, Value};
+use super::keyed::{Inner, Keyed, Kinds};
+use super::ranges::{Check, Numbers, found, written};
+use super::table::{Held, Read, Table, Value};
 use crate::error::Error;
-use crate::schema::{Key, shape};
+use crate::schema::key::{Form, Initial, Key, LARGEST_M, linear, log};
 use crate::shape::text;
 
-/// A built-in shape about the origin, z up.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
+/// A built-in shape about the origin, z up. Each is a table of its own: `shape = { disk = { radius_m = 0.1 } }`.
+#[derive(Clone, Debug, PartialEq, Keyed)]
+#[keyed(tag = "", check = Shape::check_proportions)]
 pub enum Shape {
     /// A rectangle in the xy plane that faces +z.
+    #[kind("plane")]
     Plane {
-        /// Edge lengths along x and y. Required.
+        /// Its edges along x and y.
+        #[key(PLANE_SIZE_M: like(&EDGE))]
         size_m: [f64; 2],
     },
     /// A disk in the xy plane that faces +z.
+    #[kind("disk")]
     Disk {
-        /// Required.
+        /// Its radius.
+        #[key(like(&RADIUS))]
         radius_m: f64,
     },
     /// A sphere.
+    #[kind("sphere")]
     Sphere {
-        /// Required.
+        /// As of a disk.
         radius_m: f64,
     },
-    /// A box with its middle in the origin.
+    /// A box about the origin.
+    #[kind("box")]
     Box {
-        /// Edge lengths along x, y and z. Required.
+        /// Its edges along x, y and z.
+        #[key(BOX_SIZE_M: like(&EDGE))]
         size_m: [f64; 3],
-        /// Radius of the rounded edges and corners, at most half of the shortest edge.
+        /// Radius of its edges and corners. Each side has the whole texture.
+        #[key(BOX_ROUNDING_M: like(&ROUNDING).number(0.0).range_words("0 to half of the shortest edge"))]
         rounding_m: f64,
     },
-    /// A cylinder about the z axis with its middle in the origin, closed at both ends.
+    /// Closed, about the origin and the z axis.
+    #[kind("cylinder")]
     Cylinder {
-        /// Required.
+        /// As of a disk.
         radius_m: f64,
-        /// Height from end to end. Required.
+        /// From its lower to its upper end.
+        #[key(like(&HEIGHT))]
         height_m: f64,
-        /// Radius of the rounded rims, at most the cylinder's radius and half of its height.
+        /// Radius of its rims.
+        #[key(CYLINDER_ROUNDING_M: like(&ROUNDING).number(0.0).range_words("0 to the radius and half of the height"))]
         rounding_m: f64,
     },
-    /// A ring of round section about the z axis.
+    /// A ring about z.
+    #[kind("torus")]
     Torus {
-        /// Radius from the axis to the middle of the tube. Required.
+        /// From the axis to the middle of the tube.
+        #[key(RING_RADIUS_M: like(&RADIUS))]
         radius_m: f64,
-        /// Radius of the tube, below `radius_m`. Required.
+        /// The radius of the tube.
+        #[key(unit("m").size().range_words("1e-5 to below `radius_m`")
+            .control("Tube radius", log(0.01, 1.0).sized(), "Half the thickness of the ring, below its radius. A thin tube draws highlights out to fine lines."))]
         tube_radius_m: f64,
     },
-    /// The part of a sphere above a plane: a watch glass. It faces outwards, its rim lies in the xy plane, and it is open below.
+    /// A watch glass: the part of a sphere over its rim, which lies in the xy plane. Open below.
+    #[kind("dome")]
     Dome {
-        /// Radius of the rim. Required.
+        /// As of a disk: that of the rim.
         radius_m: f64,
-        /// Height of the top over the rim, at most `radius_m`: then it is a half sphere. Required.
+        /// The height of the top over the rim.
+        #[key(DOME_HEIGHT_M: like(&HEIGHT).range_words("1e-5 to `radius_m`"))]
         height_m: f64,
     },
-    /// A floor that turns up into a wall at its +y end, as in a studio. It faces +z and -y.
+    /// A studio's floor, about the origin, which turns up into a wall at its +y end.
+    #[kind("sweep")]
     Sweep {
-        /// Extent of the floor along x and y, about the origin. Required.
+        /// As of a plane.
+        #[key(= Self::PLANE_SIZE_M)]
         size_m: [f64; 2],
-        /// Height of the wall over the floor. Required.
+        /// As of a cylinder.
         height_m: f64,
-        /// Radius of the turn between them, at most `height_m` and the floor's extent along y.
+        /// Radius of the turn.
+        #[key(SWEEP_ROUNDING_M: like(&ROUNDING).words("half of the most").range_words("0 to the height and the floor's extent along y"))]
+        #[read(half_of_the_most)]
         rounding_m: f64,
     },
-    /// A line of letters that stand on the xy plane, read from +z, with its middle over the origin: a logo.
+    /// Letters that stand on the xy plane, read from +z: a logo. Its middle is over the origin.
+    #[kind("text")]
     Text {
-        /// Text of up to 200 characters of the built-in font, Ubuntu Light: Latin, Greek, Cyrillic. Required.
+        /// The letters. The font is built in, Ubuntu Light: Latin, Greek, Cyrillic.
+        #[key(range_words("1 to 200 characters").labelled("Text", "What it says: Latin, Greek or Cyrillic letters."))]
         line: String,
-        /// Height of capitals, along y. Required.
+        /// The height of capitals, along y.
+        #[key(CAPITALS_M: like(&HEIGHT))]
         height_m: f64,
-        /// Depth along z. Required.
+        /// The depth of all letters, along z.
+        #[key(unit("m").size()
+            .control("Depth", log(0.01, 1.0).sized(), "How far the letters stand out of what they stand on."))]
         depth_m: f64,
     },
-    /// A profile turned about the z axis.
+    /// A profile turned about the z axis: a plate, a pan, a ring.
+    // The surface faces to the left of the way along the profile, r to the right and z up: a plate's upper side runs from the axis outwards, a cup's
+    // outside runs downwards. A profile that ends where it starts is closed, as for a ring.
+    #[kind("lathe")]
     Lathe {
-        /// Points `[r, z]`, at least two, r not negative. The surface faces to the left of the way along the profile, r
-        /// to the right and z up: a plate's upper side runs from the axis outwards, a cup's outside runs downwards.
-        /// A profile that ends where it starts is closed, as for a ring. Required.
+        /// The profile that is turned.
+        #[key(unit("m").within(0.0, LARGEST_M).range_words("two or more points `[r, z]`, r from 0 to 1000")
+            .control("Radius", linear(0.0, 1.0).sized(), "Distance of this point of the outline from the axis. Steps and bends of the outline show as rings of highlight.")
+            .second("Height", linear(-1.0, 1.0).sized(), Bounds::Within(-LARGEST_M, LARGEST_M), "m", "Height of this point of the outline along the axis."))]
         profile_m: Vec<[f64; 2]>,
-        /// Facets around, from 3 to 4096.
+        /// Facets around.
+        #[key(number(256.0).within(3.0, 4096.0)
+            .control("Segments", linear(16.0, 512.0), "Facets around the axis. More: a rounder outline and smoother highlights, and a little more work."))]
         segments: u32,
-        /// Whether the profile is rounded where it bends by less than 40 degrees; sharper corners stay.
+        /// Rounds the profile where it bends by less than 40 degrees; sharper corners stay.
+        #[key(flag(true).labelled("Smooth", "Whether the profile is rounded where it bends gently."))]
         smooth: bool,
     },
 }
 
-kinds! { Shape,
-    /// Value of `shape` for it.
-    kind {
-        "plane" => Plane { size_m: shape::PLANE_SIZE_M },
-        "disk" => Disk { radius_m: shape::RADIUS_M },
-        "sphere" => Sphere { radius_m: shape::RADIUS_M },
-        "box" => Box { size_m: shape::BOX_SIZE_M, rounding_m: shape::BOX_ROUNDING_M },
-        "cylinder" => Cylinder { radius_m: shape::RADIUS_M, height_m: shape::HEIGHT_M, rounding_m: shape::CYLINDER_ROUNDING_M },
-        "torus" => Torus { radius_m: shape::RING_RADIUS_M, tube_radius_m: shape::TUBE_RADIUS_M },
-        "dome" => Dome { radius_m: shape::RADIUS_M, height_m: shape::DOME_HEIGHT_M },
-        "sweep" => Sweep { size_m: shape::PLANE_SIZE_M, height_m: shape::HEIGHT_M, rounding_m: Or(&shape::SWEEP_ROUNDING_M, half_of_the_most) },
-        "text" => Text { line: shape::LINE, height_m: shape::CAPITALS_M, depth_m: shape::DEPTH_M },
-        "lathe" => Lathe { profile_m: shape::PROFILE_M, segments: shape::SEGMENTS, smooth: shape::SMOOTH },
-    }
-}
+const EDGE: Key = Key::new("size_m", Form::Numbers(3))
+    .unit("m")
+    .size()
+    .control("Edge", log(0.05, 5.0).sized(), "Length of an edge. With a count, the same scratches spread over more surface; with a density, there are more of them.");
+
+const RADIUS: Key = Key::new("radius_m", Form::Number)
+    .unit("m")
+    .size()
+    .control("Radius", log(0.05, 5.0).sized(), "Half its width. With a count, the same scratches spread over more surface; with a density, there are more of them.");
+
+const HEIGHT: Key = Key::new("height_m", Form::Number).unit("m").size().control(
+    "Height",
+    log(0.05, 5.0).sized(),
+    "From its lower to its upper end.",
+);
+
+const ROUNDING: Key = Key::new("rounding_m", Form::Number)
+    .unit("m")
+    .within(0.0, LARGEST_M)
+    .control("Rounding", linear(0.0, 0.5).sized(), "Radius of its edges. Rounded edges catch a line of light from almost everywhere; 0 leaves them sharp and dark.");
 
 impl Shape {
-    /// Refuses values out of range; `key` is the way to `shape`.
-    pub(super) fn check_at(&self, key: &str) -> Check {
-        let table = format!("{key}.{}", self.kind());
-        self.check_keys(&table)?;
+    /// Refuses shapes that cannot be; `table` is the way to their keys.
+    fn check_proportions(&self, table: &str) -> Check {
         let way = |key: &Key| format!("{table}.{}", key.name);
         match self {
             Self::Plane { .. } | Self::Disk { .. } | Self::Sphere { .. } => Ok(()),
@@ -117,7 +155,7 @@ impl Shape {
                 let shortest = size_m.iter().copied().fold(f64::INFINITY, f64::min);
                 let what = "half of the shortest edge";
                 at_most(
-                    &way(&shape::BOX_ROUNDING_M),
+                    &way(Self::BOX_ROUNDING_M),
                     *rounding_m,
                     0.5 * shortest,
                     what,
@@ -130,7 +168,7 @@ impl Shape {
             } => {
                 let most = radius_m.min(0.5 * height_m);
                 let what = "the radius and half of the height";
-                at_most(&way(&shape::CYLINDER_ROUNDING_M), *rounding_m, most, what)
+                at_most(&way(Self::CYLINDER_ROUNDING_M), *rounding_m, most, what)
             }
             Self::Torus {
                 radius_m,
@@ -138,13 +176,13 @@ impl Shape {
             } => match tube_radius_m < radius_m {
                 true => Ok(()),
                 false => Err(Error::new(
-                    way(&shape::TUBE_RADIUS_M),
+                    way(Self::TUBE_RADIUS_M),
                     found(*tube_radius_m),
                     format!("must be below `radius_m`, {}", written(*radius_m)),
                 )),
             },
             Self::Dome { radius_m, height_m } => at_most(
-                &way(&shape::DOME_HEIGHT_M),
+                &way(Self::DOME_HEIGHT_M),
                 *height_m,
                 *radius_m,
                 "`radius_m`",
@@ -156,13 +194,13 @@ impl Shape {
             } => {
                 let most = height_m.min(size_m[1]);
                 let what = "`height_m` and the extent along y";
-                at_most(&way(&shape::SWEEP_ROUNDING_M), *rounding_m, most, what)
+                at_most(&way(Self::SWEEP_ROUNDING_M), *rounding_m, most, what)
             }
-            Self::Text { line, .. } => check_letters(&way(&shape::LINE), line),
+            Self::Text { line, .. } => check_letters(&way(Self::LINE), line),
             Self::Lathe { profile_m, .. } if profile_m.len() < 2 => {
                 let found = format!("found {} points", profile_m.len());
                 let right = "must be at least two";
-                Err(Error::new(way(&shape::PROFILE_M), found, right))
+                Err(Error::new(way(Self::PROFILE_M), found, right))
             }
             Self::Lathe { .. } => Ok(()),
         }
@@ -171,9 +209,9 @@ impl Shape {
 
 /// Radius of a sweep that leaves it out.
 fn half_of_the_most(sweep: &Table) -> Result<f64, Error> {
-    let height_m: f64 = sweep.value(&shape::HEIGHT_M)?;
-    let [_, along_y_m]: [f64; 2] = sweep.value(&shape::PLANE_SIZE_M)?;
-    Ok(0.5 * height_m.min(along_y_m))
+    let height_m: f64 = sweep.value(Shape::HEIGHT_M)?;
+    let [_, along_y_m]: [f64; 2] = sweep.value(Shape::PLANE_SIZE_M)?;
+    sweep.or(Shape::SWEEP_ROUNDING_M.name, 0.5 * height_m.min(along_y_m))
 }
 
 /// Characters of a text.
@@ -212,16 +250,42 @@ fn at_most(key: &str, value: f64, most: f64, what: &str) -> Check {
 
 impl Read for Shape {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let kinds: Vec<&str> = shape::SHAPE.choices.iter().map(|it| it.name).collect();
+        let kinds: Vec<&str> = Self::CHOICES.iter().map(|choice| choice.name).collect();
         let outer = Table::read(value, key, &kinds)?;
-        let mut present = shape::SHAPE.choices.iter().filter(|it| outer.has(it.name));
+        let mut present = Self::CHOICES.iter().filter(|choice| outer.has(choice.name));
         let (Some(choice), None) = (present.next(), present.next()) else {
             let found = format!("found {} shapes", outer.entries.len());
             let right = "must be one, such as `{ disk = { radius_m = 0.1 } }`";
             return Err(Error::new(key, found, right));
         };
         let value = outer.get(choice.name).expect("the kind was found just now");
-        let table = Table::of_choice(choice, value, &outer.way(choice.name))?;
-        Self::read_kind(choice.name, &table)
+        let table = Table::of(choice.entries, value, &outer.way(choice.name))?;
+        Self::read_keys(&table.with_kind(choice.name))
+    }
+}
+
+impl Numbers for Shape {}
+
+impl Held for Shape {
+    const FORM: Form = Form::Table;
+
+    fn initial(_: Initial) -> Option<Self> {
+        None
+    }
+
+    fn check_at(&self, _: &Key, way: &str) -> Check {
+        self.check_keys(&format!("{way}.{}", self.name()))
+    }
+
+    fn written(&self) -> impl Serialize {
+        self
+    }
+}
+
+impl Serialize for Shape {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(1))?;
+        map.serialize_entry(self.name(), &Inner(self))?;
+        map.end()
     }
 }

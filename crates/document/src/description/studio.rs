@@ -1,27 +1,24 @@
 //! The studio around a scene's objects and the ground under them, which a scene file selects by name.
 
-use serde::Serialize;
+use hairline_keys::Keyed;
 
 use super::Description;
-use super::keyed::keyed;
-use super::ranges::Check;
-use super::table::{Read, Table, Value};
-use super::values::{is_false, is_zero};
-use crate::error::Error;
-use crate::schema::{ground, studio};
 
 /// `[studio]`: soft boxes, a lamp and a dim room about the camera's subject. Scene files without `[[light]]` and `[environment]` have one
 /// that they do not name, with a ground.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Keyed)]
+#[keyed(table, default)]
 pub struct Studio {
-    /// Lights nothing, as if it were not there.
-    #[serde(skip_serializing_if = "is_false")]
+    /// As if it were not there.
+    #[key(flag(false).omitted().labelled("Hidden", "A hidden studio gives no light at all."))]
     pub hidden: bool,
-    /// Factor on its radiances.
-    #[serde(skip_serializing_if = "is_one")]
+    /// Factor on all of its radiances.
+    #[key(number(1.0).at_least_0().omitted()
+        .control("Intensity", log(0.01, 10.0), "Brightness of all of the studio, its lamp and its room among them: reflections and the colours of scratches alike."))]
     pub intensity: f64,
-    /// Turns it about the world's up axis.
-    #[serde(skip_serializing_if = "is_zero")]
+    /// Turns it about the up axis, counter-clockwise seen from above.
+    #[key(unit("°").number(0.0).omitted()
+        .control("Rotation", linear(-180.0, 180.0), "Turns the soft boxes and the lamp about the vertical, and with them their reflections on metal."))]
     pub rotation_deg: f64,
 }
 
@@ -39,22 +36,28 @@ impl Studio {
 }
 
 /// `[ground]`: a wide floor under all objects.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Keyed)]
+#[keyed(table, default)]
 pub struct Ground {
-    /// Whether the ground is left out.
-    #[serde(skip_serializing_if = "is_false")]
+    /// As if it were not there.
+    #[key(flag(false).omitted())]
     pub hidden: bool,
-    /// Albedo, linear Rec.709, in [0, 1].
-    #[serde(skip_serializing_if = "is_dark_grey")]
+    /// Albedo below its gloss.
+    #[key(color().is(Initial::Numbers(&[0.1, 0.1, 0.105])).within(0.0, 1.0).omitted()
+        .control("Colour", linear(0.0, 1.0), "On metals it tints the mirror image and the scratches in it; on coated surfaces it is the body under the coat, which scratches leave as it is. Dark bodies let scratches show."))]
     pub color: [f64; 3],
-    /// Roughness of the ground's gloss, as that of a material.
-    #[serde(skip_serializing_if = "is_satin")]
+    /// As that of a material.
+    #[key(number(0.55).within(0.0, 1.0).omitted()
+        .control("Roughness", linear(0.0, 0.6), "How far the polished highlight spreads. 0.05 to 0.15 leaves dark room around it where scratches shine; rougher surfaces drown them. The scratches themselves stay as sharp."))]
     pub roughness: f64,
-    /// Height along the world's up axis.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Where it lies along the up axis.
+    #[key(unit("m").words("under the lowest point of all objects").within(-1000.0, 1000.0)
+        .control("Height", linear(-1.0, 1.0).sized(), "Where the floor lies along the vertical. Just under an object, its shadow touches it; deeper, it floats."))]
     pub height_m: Option<f64>,
-    /// Whether it is seen by the shadows on it alone.
-    #[serde(skip_serializing_if = "is_false")]
+    /// Whether the ground is seen by the shadows on it alone. Pictures are transparent then: where it is lit fully alpha is 0, where nothing lights
+    /// it black with alpha 1. No object mirrors it.
+    #[key(flag(false).omitted()
+        .labelled("Shadows only", "Saved pictures have the shadows on the floor alone, as a black with alpha. The window shows no floor then."))]
     pub shadows_only: bool,
 }
 
@@ -64,29 +67,3 @@ impl Description {
         self.environment.is_some() || !self.lights.is_empty()
     }
 }
-
-fn is_one(intensity: &f64) -> bool {
-    *intensity == studio::INTENSITY.initial::<f64>()
-}
-
-fn is_dark_grey(color: &[f64; 3]) -> bool {
-    *color == ground::COLOR.initial::<[f64; 3]>()
-}
-
-fn is_satin(roughness: &f64) -> bool {
-    *roughness == ground::ROUGHNESS.initial::<f64>()
-}
-
-keyed! { Studio: Default of studio::STUDIO {
-    hidden: studio::HIDDEN,
-    intensity: studio::INTENSITY,
-    rotation_deg: studio::ROTATION_DEG,
-} }
-
-keyed! { Ground: Default of ground::GROUND {
-    hidden: ground::HIDDEN,
-    color: ground::COLOR,
-    roughness: ground::ROUGHNESS,
-    height_m: ground::HEIGHT_M,
-    shadows_only: ground::SHADOWS_ONLY,
-} }

@@ -4,44 +4,76 @@ use std::path::PathBuf;
 
 use hairline_model::text::shown;
 use hairline_optics::section::Section;
+use serde::Serialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::check::{check_profile, each};
 use super::hint;
-use super::values::{Named, SECTIONS};
+use super::keyed::Kinds;
+use super::panel::RowValue;
+use super::ranges::{Check, Numbers, check_whole};
+use super::values::{Name, Named, PROFILES, Profile, SECTIONS};
 use crate::error::Error;
-use crate::schema::scratches::PROFILES;
-use crate::schema::{self, Choice, Initial, Key};
+use crate::schema::section::keys;
+use crate::schema::{Entry, Form, Initial, Key};
 
-pub(super) type Value<'a> = Spanned<DeValue<'a>>;
+pub(crate) type Value<'a> = Spanned<DeValue<'a>>;
 
 /// Something that a scene file can hold as a value.
-pub(super) trait Read: Sized {
+pub(crate) trait Read: Sized {
     /// `key` is the way to the value, for errors.
     fn read(value: &Value, key: &str) -> Result<Self, Error>;
 }
 
-/// A value of a key that a file may leave out.
-pub(super) trait Held: Read {
+/// A value of a key.
+pub(crate) trait Held: Read + Numbers + PartialEq {
+    /// Its form in a file.
+    const FORM: Form;
+
     /// The value where a file leaves the key out; none where it needs the key.
     fn initial(initial: Initial) -> Option<Self>;
+
+    /// Whether it is [`Self::initial`].
+    fn is_initial(&self, initial: Initial) -> bool {
+        Self::initial(initial).is_some_and(|value| value == *self)
+    }
+
+    /// Refuses what is out of range; `way` is the way to the value.
+    fn check_at(&self, key: &Key, way: &str) -> Check {
+        key.check_numbers(way, self)
+    }
+
+    /// Whether it is nothing that a file could say.
+    fn is_left_out(&self) -> bool {
+        false
+    }
+
+    /// What a file says.
+    fn written(&self) -> impl Serialize;
+
+    /// The value for a control, if there is one for its type.
+    fn row(&mut self) -> Option<RowValue<'_>> {
+        None
+    }
 }
 
 impl Key {
     /// The value where a file leaves the key out.
     ///
     /// # Panics
-    /// Where the schema has none of this type: that is seen in the first test that asks.
-    pub(super) fn initial<T: Held>(&self) -> T {
+    /// Where the key has none of this type: that is seen in the first test that asks.
+    pub(crate) fn initial<T: Held>(&self) -> T {
         T::initial(self.initial).unwrap_or_else(|| panic!("{} has no initial value", self.name))
     }
 }
 
 /// A table all of whose keys are known.
-pub(super) struct Table<'a> {
+pub(crate) struct Table<'a> {
     pub(super) entries: &'a DeTable<'a>,
     key: String,
     known: Vec<&'a str>,
+    kind: &'static str,
 }
 
 impl<'a> Table<'a> {
@@ -54,6 +86,7 @@ impl<'a> Table<'a> {
             entries,
             key: key.to_owned(),
             known: known.to_vec(),
+            kind: "",
         };
         for (name, value) in entries {
             let name = name.get_ref().as_ref();
@@ -72,51 +105,37 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Opens a table whose keys are those of a section without kinds.
+    /// Opens a table of these keys.
     pub(super) fn of(
-        section: &schema::Section,
+        entries: &'static [Entry],
         value: &'a Value<'a>,
         key: &str,
     ) -> Result<Self, Error> {
-        Self::read(value, key, &names(section.keys))
+        Self::read(value, key, &names(entries))
     }
 
-    /// Opens the table of a kind that has one of its own.
-    pub(super) fn of_choice(
-        choice: &Choice,
+    /// Opens a table whose keys are these and those of its kind.
+    pub(super) fn of_kind<K: Kinds>(
+        entries: &'static [Entry],
         value: &'a Value<'a>,
         key: &str,
     ) -> Result<Self, Error> {
-        Self::read(value, key, &names(choice.keys))
-    }
-
-    /// Opens a table whose keys are those of a section and of its kind, and returns the kind.
-    pub(super) fn of_kind(
-        section: &'static schema::Section,
-        value: &'a Value<'a>,
-        key: &str,
-    ) -> Result<(&'static str, Self), Error> {
-        let kinds: Vec<_> = section
-            .choices
-            .iter()
-            .map(|it| (it.name, names(it.keys)))
-            .collect();
+        let kinds = K::CHOICES.iter();
         let kinds: Vec<_> = kinds
-            .iter()
-            .map(|(name, keys)| (*name, &keys[..]))
+            .map(|choice| (choice.name, names(choice.entries)))
             .collect();
-        let shared = [&[section.tag], &names(section.keys)[..]].concat();
-        Self::read_kind(value, key, section.tag, &shared, &kinds)
+        let shared = [&[K::TAG], &names(entries)[..]].concat();
+        Self::read_kind(value, key, K::TAG, &shared, &kinds)
     }
 
     /// Reads a table in which the value of `tag` decides which keys are allowed besides the `shared` ones.
-    pub(super) fn read_kind(
+    fn read_kind(
         value: &'a Value<'a>,
         key: &str,
         tag: &'static str,
         shared: &[&'a str],
-        kinds: &[(&'static str, &[&'a str])],
-    ) -> Result<(&'static str, Self), Error> {
+        kinds: &[(&'static str, Vec<&'static str>)],
+    ) -> Result<Self, Error> {
         let DeValue::Table(entries) = value.get_ref() else {
             return Err(wrong_type(value, key, "a table"));
         };
@@ -124,6 +143,7 @@ impl<'a> Table<'a> {
             entries,
             key: key.to_owned(),
             known: vec![tag],
+            kind: "",
         };
         let Some(tag_value) = unchecked.get(tag) else {
             // As `type = "metal"`.
@@ -147,7 +167,7 @@ impl<'a> Table<'a> {
         let names: Vec<_> = kinds.iter().map(|(name, _)| (*name, *name)).collect();
         let kind = one_of(tag_value, &unchecked.way(tag), &names)?;
         let own = kinds.iter().find(|(name, _)| *name == kind);
-        let known = [shared, own.map_or(&[], |(_, own)| *own)].concat();
+        let known = [shared, own.map_or(&[][..], |(_, own)| own)].concat();
         for name in entries.keys().map(|name| name.get_ref().as_ref()) {
             let owners = kinds.iter().filter(|(_, keys)| keys.contains(&name));
             let owners: Vec<_> = owners.map(|(owner, _)| *owner).collect();
@@ -159,7 +179,20 @@ impl<'a> Table<'a> {
                 ));
             }
         }
-        Ok((kind, Self::open(entries, key, &known)?))
+        Ok(Self {
+            kind,
+            ..Self::open(entries, key, &known)?
+        })
+    }
+
+    /// The same table as that of a kind.
+    pub(super) fn with_kind(self, kind: &'static str) -> Self {
+        Self { kind, ..self }
+    }
+
+    /// Its kind; empty where its keys have no kinds.
+    pub(super) fn kind(&self) -> &'static str {
+        self.kind
     }
 
     pub(super) fn get(&self, name: &str) -> Option<&'a Value<'a>> {
@@ -170,6 +203,11 @@ impl<'a> Table<'a> {
     /// Whether a key is there; one that may not be is not.
     pub(super) fn has(&self, name: &str) -> bool {
         self.entries.contains_key(name)
+    }
+
+    /// The way to it.
+    pub(super) fn key(&self) -> &str {
+        &self.key
     }
 
     pub(super) fn way(&self, name: &str) -> String {
@@ -203,9 +241,13 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// The value of a key, or its initial one.
+    /// The value of a key, or its initial one. A key of other kinds than this one has its initial value.
     pub(super) fn value<T: Held>(&self, key: &Key) -> Result<T, Error> {
-        match (self.optional(key.name)?, T::initial(key.initial)) {
+        let found = match self.known.contains(&key.name) {
+            true => self.optional(key.name)?,
+            false => None,
+        };
+        match (found, T::initial(key.initial)) {
             (Some(value), _) | (None, Some(value)) => Ok(value),
             (None, None) => self.required(key.name),
         }
@@ -232,65 +274,121 @@ impl<'a> Table<'a> {
             "must have exactly one of them",
         ))
     }
-
-    pub(super) fn either(&self, a: &'static str, b: &'static str) -> Result<&'static str, Error> {
-        self.one_of(&[a, b])
-    }
 }
 
-fn names(keys: &[&'static Key]) -> Vec<&'static str> {
-    keys.iter().map(|key| key.name).collect()
+fn names(entries: &'static [Entry]) -> Vec<&'static str> {
+    keys(entries).iter().map(|key| key.name).collect()
 }
 
+/// Values that a file writes as they are.
 macro_rules! held {
-    ($($Type:ty: $initial:pat => $value:expr;)*) => {
+    ($($Type:ty: $form:expr, $initial:pat => $value:expr, $row:ident;)*) => {
         $(impl Held for $Type {
+            const FORM: Form = $form;
+
             fn initial(initial: Initial) -> Option<Self> {
                 match initial {
                     $initial => Some($value),
                     _ => None,
                 }
             }
+
+            fn written(&self) -> impl Serialize {
+                self
+            }
+
+            fn row(&mut self) -> Option<RowValue<'_>> {
+                Some(RowValue::$row(self))
+            }
         })*
     };
 }
 
 held! {
-    f64: Initial::Number(number) => number;
-    u64: Initial::Number(number) => number as Self;
-    u32: Initial::Number(number) => number as Self;
-    bool: Initial::Flag(flag) => flag;
-    String: Initial::Text(text) => text.to_owned();
+    f64: Form::Number, Initial::Number(number) => number, Number;
+    u32: Form::Whole, Initial::Number(number) => number as Self, Count;
+    bool: Form::Flag, Initial::Flag(flag) => flag, Flag;
+    String: Form::Text, Initial::Text(text) => text.to_owned(), Text;
+}
+
+impl Held for u64 {
+    const FORM: Form = Form::Whole;
+
+    fn initial(initial: Initial) -> Option<Self> {
+        f64::initial(initial).map(|number| number as Self)
+    }
+
+    fn check_at(&self, _: &Key, way: &str) -> Check {
+        check_whole(*self, way)
+    }
+
+    fn written(&self) -> impl Serialize {
+        self
+    }
+
+    fn row(&mut self) -> Option<RowValue<'_>> {
+        Some(RowValue::Whole(self))
+    }
 }
 
 impl Held for PathBuf {
+    const FORM: Form = Form::File;
+
     fn initial(_: Initial) -> Option<Self> {
         None
+    }
+
+    fn written(&self) -> impl Serialize {
+        self
     }
 }
 
 impl<const N: usize> Held for [f64; N] {
+    const FORM: Form = Form::Numbers(N);
+
     fn initial(initial: Initial) -> Option<Self> {
         match initial {
             Initial::Numbers(numbers) => numbers.try_into().ok(),
             _ => None,
         }
     }
+
+    fn written(&self) -> impl Serialize {
+        self.to_vec()
+    }
+
+    fn row(&mut self) -> Option<RowValue<'_>> {
+        Some(RowValue::Numbers(self))
+    }
 }
 
 impl Held for [[f64; 3]; 2] {
+    const FORM: Form = Form::Points(3);
+
     fn initial(_: Initial) -> Option<Self> {
         None
+    }
+
+    fn written(&self) -> impl Serialize {
+        self
     }
 }
 
 impl<const N: usize> Held for [u32; N] {
+    const FORM: Form = Form::Wholes(N);
+
     fn initial(initial: Initial) -> Option<Self> {
         <[f64; N]>::initial(initial).map(|numbers| numbers.map(|number| number as u32))
+    }
+
+    fn written(&self) -> impl Serialize {
+        self.to_vec()
     }
 }
 
 impl<T: Named> Held for T {
+    const FORM: Form = Form::Name(T::TEXTS);
+
     fn initial(initial: Initial) -> Option<Self> {
         let name = String::initial(initial)?;
         T::NAMES
@@ -298,17 +396,50 @@ impl<T: Named> Held for T {
             .find(|(known, _)| *known == name)
             .map(|(_, value)| *value)
     }
+
+    fn written(&self) -> impl Serialize {
+        Name(*self)
+    }
 }
 
-impl<T: Read> Held for Option<T> {
+impl<T: Held> Held for Option<T> {
+    const FORM: Form = T::FORM;
+
     fn initial(_: Initial) -> Option<Self> {
         Some(None)
+    }
+
+    fn check_at(&self, key: &Key, way: &str) -> Check {
+        self.as_ref()
+            .map_or(Ok(()), |value| value.check_at(key, way))
+    }
+
+    fn is_left_out(&self) -> bool {
+        self.is_none()
+    }
+
+    fn written(&self) -> impl Serialize {
+        self.as_ref().map(T::written)
+    }
+
+    fn row(&mut self) -> Option<RowValue<'_>> {
+        self.as_mut().and_then(T::row)
     }
 }
 
 impl Held for Section {
+    const FORM: Form = Form::NameOrNumbers(&PROFILES);
+
     fn initial(_: Initial) -> Option<Self> {
         Some(Self::default())
+    }
+
+    fn check_at(&self, key: &Key, way: &str) -> Check {
+        check_profile(self, key, way)
+    }
+
+    fn written(&self) -> impl Serialize {
+        Profile(self)
     }
 }
 
@@ -334,9 +465,27 @@ impl Read for Section {
     }
 }
 
-impl<T: Read> Held for Vec<T> {
+impl<T: Held> Held for Vec<T> {
+    const FORM: Form = match T::FORM {
+        Form::Numbers(count) => Form::Points(count),
+        Form::Table => Form::Tables,
+        form => form,
+    };
+
     fn initial(initial: Initial) -> Option<Self> {
         matches!(initial, Initial::Words(_)).then(Vec::new)
+    }
+
+    fn check_at(&self, key: &Key, way: &str) -> Check {
+        each(way, self, |value, way| value.check_at(key, way))
+    }
+
+    fn is_left_out(&self) -> bool {
+        self.is_empty()
+    }
+
+    fn written(&self) -> impl Serialize {
+        self.iter().map(T::written).collect::<Vec<_>>()
     }
 }
 

@@ -1,4 +1,4 @@
-//! Serialization of values: by name, or left out.
+//! Values that files call by name.
 
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
@@ -6,74 +6,76 @@ use hairline_optics::section::Section;
 use hairline_sky::BuiltInMap;
 use serde::{Serialize, Serializer};
 
-use crate::schema::scratches::PROFILES;
+use super::ranges::Numbers;
 
 /// Values that a scene file calls by name.
-pub(crate) trait Named: Copy + PartialEq + 'static {
+pub(crate) trait Named: Copy + PartialEq + Numbers + 'static {
     /// Each with its name.
     const NAMES: &'static [(&'static str, Self)];
+    /// The names.
+    const TEXTS: &'static [&'static str];
 }
 
-impl Named for ToneMap {
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("neutral", ToneMap::Neutral),
-        ("agx", ToneMap::Agx),
-        ("aces", ToneMap::Aces),
-        ("none", ToneMap::None),
-    ];
+/// Names values.
+macro_rules! named {
+    ($Type:ty { $($name:literal => $Value:ident,)* }) => {
+        impl $crate::description::ranges::Numbers for $Type {}
+
+        impl $crate::description::values::Named for $Type {
+            const NAMES: &'static [(&'static str, Self)] = &[$(($name, Self::$Value)),*];
+            const TEXTS: &'static [&'static str] = &[$($name),*];
+        }
+    };
 }
 
-impl Named for Metal {
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("iron", Metal::Iron),
-        ("steel", Metal::StainlessSteel),
-        ("aluminium", Metal::Aluminium),
-        ("copper", Metal::Copper),
-        ("gold", Metal::Gold),
-        ("silver", Metal::Silver),
-        ("brass", Metal::Brass),
-        ("chromium", Metal::Chromium),
-        ("titanium", Metal::Titanium),
-        ("nickel", Metal::Nickel),
-    ];
-}
+pub(super) use named;
 
-/// The names of a [`Named`], for the schema.
-pub(crate) const fn names<T, const N: usize>(named: &[(&'static str, T)]) -> [&'static str; N] {
-    assert!(named.len() == N, "as many as there are");
-    let mut names = [""; N];
-    let mut i = 0;
-    while i < N {
-        names[i] = named[i].0;
-        i += 1;
-    }
-    names
-}
+named! { ToneMap {
+    "neutral" => Neutral,
+    "agx" => Agx,
+    "aces" => Aces,
+    "none" => None,
+} }
+
+named! { Metal {
+    "iron" => Iron,
+    "steel" => StainlessSteel,
+    "aluminium" => Aluminium,
+    "copper" => Copper,
+    "gold" => Gold,
+    "silver" => Silver,
+    "brass" => Brass,
+    "chromium" => Chromium,
+    "titanium" => Titanium,
+    "nickel" => Nickel,
+} }
+
+named! { BuiltInMap {
+    "studio" => Studio,
+    "window" => Window,
+    "overcast" => Overcast,
+} }
 
 /// Names of the metals in scene files.
 pub fn metal_names() -> &'static [(&'static str, Metal)] {
     Metal::NAMES
 }
 
-impl Named for BuiltInMap {
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("studio", BuiltInMap::Studio),
-        ("window", BuiltInMap::Window),
-        ("overcast", BuiltInMap::Overcast),
-    ];
+/// A value that is written by its name.
+pub(super) struct Name<T>(pub(super) T);
+
+impl<T: Named> Serialize for Name<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut names = T::NAMES.iter();
+        let (name, _) = names.find(|(_, named)| *named == self.0).ok_or_else(|| {
+            serde::ser::Error::custom("a value that scene files have no name for")
+        })?;
+        serializer.serialize_str(name)
+    }
 }
 
-/// Writes the name.
-pub(super) fn serialize_named<T: Named, S: Serializer>(
-    value: &T,
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    let (name, _) = T::NAMES
-        .iter()
-        .find(|(_, named)| named == value)
-        .ok_or_else(|| serde::ser::Error::custom("a value that scene files have no name for"))?;
-    serializer.serialize_str(name)
-}
+/// Names of cross sections.
+pub(super) const PROFILES: [&str; 4] = ["rectangle", "v", "round", "shoulders"];
 
 /// Cross sections that have a name.
 pub(crate) const SECTIONS: [(&str, Section); 4] = [
@@ -88,37 +90,15 @@ pub fn profile_names() -> [(&'static str, Section); 4] {
     SECTIONS
 }
 
-/// Writes the name, or the depths.
-pub(super) fn serialize_section<S: Serializer>(
-    section: &Section,
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    if let Section::Listed(depths) = section {
-        return depths.serialize(serializer);
-    }
-    let name = SECTIONS.iter().find(|(_, named)| named == section);
-    serializer.serialize_str(name.map_or("", |(name, _)| name))
-}
+/// A cross section that is written by its name, or by its depths.
+pub(super) struct Profile<'s>(pub(super) &'s Section);
 
-pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
-}
-
-pub(super) fn is_zero(value: &f64) -> bool {
-    *value == 0.0
-}
-
-pub(super) fn is_false(value: &bool) -> bool {
-    !value
-}
-
-pub(super) fn serialize_scale<S: Serializer>(
-    scale: &[f64; 3],
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    if scale[0] == scale[1] && scale[1] == scale[2] {
-        scale[0].serialize(serializer)
-    } else {
-        scale.serialize(serializer)
+impl Serialize for Profile<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if let Section::Listed(depths) = self.0 {
+            return depths.serialize(serializer);
+        }
+        let name = SECTIONS.iter().find(|(_, named)| named == self.0);
+        serializer.serialize_str(name.map_or("", |(name, _)| name))
     }
 }

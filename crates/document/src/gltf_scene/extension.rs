@@ -84,13 +84,14 @@ fn of_table<'v>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::schema::{Form, SECTIONS};
+    use crate::description::SECTIONS;
+    use crate::schema::Form;
     use serde_json::json;
 
     #[test]
     fn all_keys_of_files_are_known() {
         let mut count = 0;
-        for section in SECTIONS {
+        for section in &SECTIONS {
             for key in section.all_keys() {
                 let mut row = json!({ key.name: "a" });
                 if section.name == "where" {

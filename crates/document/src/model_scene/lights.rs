@@ -5,8 +5,7 @@ use std::f64::consts::PI;
 
 use hairline_model::mesh_file::{Punctual, PunctualKind};
 
-use crate::description::{Cone, Light, LightKind};
-use crate::schema::light::{CONE_DEG, SUN_DEG};
+use crate::description::{Cone, Light, LightKind, SUN_DEG};
 use crate::schema::{LARGEST_M, SMALLEST_M};
 
 /// Radius of a lamp over the extent of its model, small enough for scratches to show clear colours.
@@ -60,7 +59,7 @@ pub(super) fn lamp(
             outer_rad,
         } => {
             let cone_deg =
-                (2.0 * outer_rad.to_degrees()).clamp(*CONE_DEG.bounds.ends().start(), 180.0);
+                (2.0 * outer_rad.to_degrees()).clamp(*Cone::CONE_DEG.bounds.ends().start(), 180.0);
             Some(Cone {
                 cone_softness: (1.0 - inner_rad / outer_rad.max(1e-9)).clamp(0.0, 1.0),
                 ..Cone::new(

@@ -1,5 +1,5 @@
-//! A key of the scene file: all that is known of it, said once. Reader, range checks, an editor's controls, Python's classes and the tables of
-//! docs/scene.md take it from here.
+//! A key of the scene file: all that is known of it. A field of a description is its one entry; reader, range checks, writer, an editor's controls,
+//! Python's classes and the tables of docs/scene.md are made of it.
 
 use std::ops::RangeInclusive;
 
@@ -9,7 +9,7 @@ pub use hairline_model::mesh::LARGEST_M;
 pub const SMALLEST_M: f64 = 1e-5;
 
 /// A key of the scene file.
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Key {
     /// Name in the file.
     pub name: &'static str,
@@ -19,6 +19,8 @@ pub struct Key {
     pub unit: &'static str,
     /// Value where a file leaves it out.
     pub initial: Initial,
+    /// Whether a file that is written leaves out the value of a file that leaves it out.
+    pub is_omitted: bool,
     /// Values that the scene takes, each number by itself.
     pub bounds: Bounds,
     /// Words for the bounds where they say less than is true.
@@ -127,7 +129,7 @@ impl Bounds {
 }
 
 /// Control of a panel.
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
     /// Label.
     pub label: &'static str,
@@ -155,7 +157,7 @@ pub struct Slider {
 }
 
 /// A slider of equal steps.
-pub(super) const fn linear(from: f64, to: f64) -> Slider {
+pub(crate) const fn linear(from: f64, to: f64) -> Slider {
     Slider {
         from,
         to,
@@ -165,7 +167,7 @@ pub(super) const fn linear(from: f64, to: f64) -> Slider {
 }
 
 /// A slider of equal factors.
-pub(super) const fn log(from: f64, to: f64) -> Slider {
+pub(crate) const fn log(from: f64, to: f64) -> Slider {
     Slider {
         is_logarithmic: true,
         ..linear(from, to)
@@ -174,11 +176,11 @@ pub(super) const fn log(from: f64, to: f64) -> Slider {
 
 impl Slider {
     /// Ends in diagonals of the object.
-    pub(super) const fn sized(self) -> Self {
+    pub(crate) const fn sized(self) -> Self {
         self.sized_by(1)
     }
 
-    pub(super) const fn sized_by(self, power_of_size: i32) -> Self {
+    pub(crate) const fn sized_by(self, power_of_size: i32) -> Self {
         Self {
             power_of_size,
             ..self
@@ -188,12 +190,13 @@ impl Slider {
 
 /// Each part of a key, in the order in which keys are written.
 impl Key {
-    pub(super) const fn new(name: &'static str, form: Form) -> Self {
+    pub(crate) const fn new(name: &'static str, form: Form) -> Self {
         Self {
             name,
             form,
             unit: "",
             initial: Initial::Required,
+            is_omitted: false,
             bounds: Bounds::Any,
             range_words: None,
             meaning: "",
@@ -202,78 +205,104 @@ impl Key {
         }
     }
 
-    pub(super) const fn unit(self, unit: &'static str) -> Self {
+    /// All but the name, the form and the meaning of another key.
+    pub(crate) const fn like(self, other: &Self) -> Self {
+        Self {
+            name: self.name,
+            form: self.form,
+            meaning: self.meaning,
+            ..*other
+        }
+    }
+
+    pub(crate) const fn form(self, form: Form) -> Self {
+        Self { form, ..self }
+    }
+
+    /// Three numbers as a colour.
+    pub(crate) const fn color(self) -> Self {
+        self.form(Form::Color).unit("linear RGB")
+    }
+
+    pub(crate) const fn omitted(self) -> Self {
+        Self {
+            is_omitted: true,
+            ..self
+        }
+    }
+
+    pub(crate) const fn unit(self, unit: &'static str) -> Self {
         Self { unit, ..self }
     }
 
-    pub(super) const fn is(self, initial: Initial) -> Self {
+    pub(crate) const fn is(self, initial: Initial) -> Self {
         Self { initial, ..self }
     }
 
-    pub(super) const fn number(self, number: f64) -> Self {
+    pub(crate) const fn number(self, number: f64) -> Self {
         self.is(Initial::Number(number))
     }
 
-    pub(super) const fn sizes(self, mean: f64, spread: f64) -> Self {
+    pub(crate) const fn sizes(self, mean: f64, spread: f64) -> Self {
         self.is(Initial::Sizes(mean, spread))
     }
 
-    pub(super) const fn flag(self, flag: bool) -> Self {
+    pub(crate) const fn flag(self, flag: bool) -> Self {
         self.is(Initial::Flag(flag))
     }
 
-    pub(super) const fn text(self, text: &'static str) -> Self {
+    pub(crate) const fn text(self, text: &'static str) -> Self {
         self.is(Initial::Text(text))
     }
 
-    pub(super) const fn none(self) -> Self {
+    pub(crate) const fn none(self) -> Self {
         self.is(Initial::Words("none"))
     }
 
-    pub(super) const fn words(self, words: &'static str) -> Self {
+    pub(crate) const fn words(self, words: &'static str) -> Self {
         self.is(Initial::Words(words))
     }
 
-    pub(super) const fn bounds(self, bounds: Bounds) -> Self {
+    pub(crate) const fn bounds(self, bounds: Bounds) -> Self {
         Self { bounds, ..self }
     }
 
-    pub(super) const fn within(self, least: f64, most: f64) -> Self {
+    pub(crate) const fn within(self, least: f64, most: f64) -> Self {
         self.bounds(Bounds::Within(least, most))
     }
 
-    pub(super) const fn at_least_0(self) -> Self {
+    pub(crate) const fn at_least_0(self) -> Self {
         self.bounds(Bounds::AtLeast0)
     }
 
-    pub(super) const fn above_0(self, most: f64) -> Self {
+    pub(crate) const fn above_0(self, most: f64) -> Self {
         self.bounds(Bounds::Above0(most))
     }
 
-    pub(super) const fn size(self) -> Self {
+    pub(crate) const fn size(self) -> Self {
         self.bounds(Bounds::Size)
     }
 
-    pub(super) const fn factor(self, least: f64, most: f64) -> Self {
+    pub(crate) const fn factor(self, least: f64, most: f64) -> Self {
         self.bounds(Bounds::Factor(least, most))
     }
 
-    pub(super) const fn direction(self) -> Self {
+    pub(crate) const fn direction(self) -> Self {
         self.bounds(Bounds::Direction)
     }
 
-    pub(super) const fn range_words(self, words: &'static str) -> Self {
+    pub(crate) const fn range_words(self, words: &'static str) -> Self {
         Self {
             range_words: Some(words),
             ..self
         }
     }
 
-    pub(super) const fn means(self, meaning: &'static str) -> Self {
+    pub(crate) const fn means(self, meaning: &'static str) -> Self {
         Self { meaning, ..self }
     }
 
-    pub(super) const fn control(
+    pub(crate) const fn control(
         self,
         label: &'static str,
         slider: Slider,
@@ -291,7 +320,12 @@ impl Key {
         }
     }
 
-    pub(super) const fn second(
+    /// A control without a slider.
+    pub(crate) const fn labelled(self, label: &'static str, tooltip: &'static str) -> Self {
+        self.control(label, linear(0.0, 1.0), tooltip)
+    }
+
+    pub(crate) const fn second(
         self,
         label: &'static str,
         slider: Slider,
@@ -309,6 +343,11 @@ impl Key {
             }),
             ..self
         }
+    }
+
+    /// Whether its controls have sliders: those of numbers.
+    pub fn has_sliders(&self) -> bool {
+        self.control.is_some() && !matches!(self.form, Form::Flag | Form::Text)
     }
 
     /// The value of a file that leaves it out, in words with Markdown.

@@ -2,6 +2,26 @@
 
 use super::key::Key;
 
+/// What a table lists: a key, or the keys of a part of it.
+pub enum Entry {
+    /// A key.
+    Key(&'static Key),
+    /// Those of a part.
+    All(&'static [Entry]),
+}
+
+/// All keys of a list.
+pub(crate) fn keys(entries: &'static [Entry]) -> Vec<&'static Key> {
+    let mut all = Vec::new();
+    for entry in entries {
+        match entry {
+            Entry::Key(key) => all.push(*key),
+            Entry::All(part) => all.extend(keys(part)),
+        }
+    }
+    all
+}
+
 /// A table of the scene file.
 pub struct Section {
     /// Name in the file.
@@ -12,8 +32,7 @@ pub struct Section {
     pub class: &'static str,
     /// Description that follows its name.
     pub meaning: &'static str,
-    /// The keys that it has whatever its kind.
-    pub keys: &'static [&'static Key],
+    entries: &'static [Entry],
     /// The key that tells the kind; empty where there are no kinds, or where each kind is a table of its own.
     pub tag: &'static str,
     /// Its kinds.
@@ -21,62 +40,67 @@ pub struct Section {
 }
 
 /// A kind of a table, with the keys of its own.
+#[derive(Clone, Copy)]
 pub struct Choice {
     /// Value of the section's tag.
     pub name: &'static str,
     /// Description, in whole sentences.
     pub meaning: &'static str,
-    /// The keys of its own.
-    pub keys: &'static [&'static Key],
+    pub(crate) entries: &'static [Entry],
 }
 
 impl Choice {
-    pub(super) const fn new(
+    pub(crate) const fn new(
         name: &'static str,
         meaning: &'static str,
-        keys: &'static [&'static Key],
+        entries: &'static [Entry],
     ) -> Self {
         Self {
             name,
             meaning,
-            keys,
+            entries,
         }
+    }
+
+    /// The keys of its own.
+    pub fn keys(&self) -> Vec<&'static Key> {
+        keys(self.entries)
     }
 }
 
 impl Section {
     /// A table that a file has at most once.
-    pub(super) const fn one(
+    pub(crate) const fn one(
         name: &'static str,
         class: &'static str,
         meaning: &'static str,
-        keys: &'static [&'static Key],
+        entries: &'static [Entry],
     ) -> Self {
         Self {
             name,
             is_single: true,
             class,
             meaning,
-            keys,
+            entries,
             tag: "",
             choices: &[],
         }
     }
 
     /// A table that there may be several of.
-    pub(super) const fn many(
+    pub(crate) const fn many(
         name: &'static str,
         class: &'static str,
         meaning: &'static str,
-        keys: &'static [&'static Key],
+        entries: &'static [Entry],
     ) -> Self {
         Self {
             is_single: false,
-            ..Self::one(name, class, meaning, keys)
+            ..Self::one(name, class, meaning, entries)
         }
     }
 
-    pub(super) const fn kinds(self, tag: &'static str, choices: &'static [Choice]) -> Self {
+    pub(crate) const fn kinds(self, tag: &'static str, choices: &'static [Choice]) -> Self {
         Self {
             tag,
             choices,
@@ -84,15 +108,20 @@ impl Section {
         }
     }
 
+    /// The keys that it has whatever its kind.
+    pub fn keys(&self) -> Vec<&'static Key> {
+        keys(self.entries)
+    }
+
     /// All of its keys, each once: those of the table, then those of its kinds.
     pub fn all_keys(&self) -> Vec<&'static Key> {
-        let of_kinds = self.choices.iter().flat_map(|choice| choice.keys);
-        let mut keys: Vec<&'static Key> = Vec::new();
-        for key in self.keys.iter().chain(of_kinds) {
-            if !keys.iter().any(|known| std::ptr::eq(*known, *key)) {
-                keys.push(key);
+        let of_kinds = self.choices.iter().flat_map(Choice::keys);
+        let mut all: Vec<&'static Key> = Vec::new();
+        for key in self.keys().into_iter().chain(of_kinds) {
+            if !all.contains(&key) {
+                all.push(key);
             }
         }
-        keys
+        all
     }
 }

@@ -23,7 +23,6 @@ use super::walk::{Course, MeshPoint, StraightPiece, Walker, join};
 use crate::description::{Engraved, Line};
 use crate::error::Error;
 use crate::loader::Loader;
-use crate::schema::scratches;
 
 /// Distance of a curve from the surface, as a share of the object's diagonal, up to which it is moved onto it as it is.
 const OFF_SURFACE: f64 = 1e-4;
@@ -298,7 +297,7 @@ impl<'a> Plate<'a> {
         direction: [f64; 3],
         key: &str,
     ) -> Result<Self, Error> {
-        let way = || format!("{key}.{}", scratches::MIDDLE_M.name);
+        let way = || format!("{key}.{}", Line::MIDDLE_M.name);
         ground.refuse_far(center_m, ground.diagonal_m, way)?;
         let (middle, _) = ground.closest().find(ground.point_in_world_m(center_m));
         let facet = Facet::new(&ground.mesh, middle.triangle);
@@ -310,7 +309,7 @@ impl<'a> Plate<'a> {
                 right: along.normalize(),
             }),
             false => Err(Error::new(
-                format!("{key}.{}", scratches::READING.name),
+                format!("{key}.{}", Line::READING.name),
                 format!("found {direction:?}, which stands upright on the surface"),
                 "must lead along it",
             )),

@@ -644,13 +644,13 @@ fn a_lens_is_one_state_with_the_field_of_view() {
         camera.set_focal_length_mm(focal_length_mm, SIZE_PX);
         camera.set_f_stop(0.1, SIZE_PX);
         assert!(
-            hairline_document::schema::camera::FOV_Y_DEG
+            hairline_document::description::Camera::FOV_Y_DEG
                 .bounds
                 .ends()
                 .contains(&camera.fov_y_deg)
         );
         assert!(
-            hairline_document::schema::camera::APERTURE_MM
+            hairline_document::description::Camera::APERTURE_MM
                 .bounds
                 .ends()
                 .contains(&camera.aperture_mm.unwrap())

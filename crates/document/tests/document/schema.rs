@@ -4,9 +4,10 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use hairline_document::description::{Listed, SECTIONS};
 use hairline_document::gltf_scene::VERSION;
 use hairline_document::schema::{
-    Bounds, Choice, Form, Initial, Key, LARGEST_M, SECTIONS, SMALLEST_M, Section, scratches,
+    Bounds, Choice, Form, Initial, Key, LARGEST_M, SMALLEST_M, Section,
 };
 use serde_json::{Map, Value, json};
 
@@ -28,17 +29,17 @@ fn holds(file: &str, text: &str) {
 }
 
 /// Whether a table has a key whatever its kind, or with more than half of its kinds.
-fn is_shared(section: &Section, key: &Key) -> bool {
-    let has = |keys: &[&'static Key]| keys.iter().any(|it| std::ptr::eq(*it, key));
-    let kinds = section.choices.iter().filter(|it| has(it.keys)).count();
-    has(section.keys) || 2 * kinds > section.choices.len()
+fn is_shared(section: &Section, key: &'static Key) -> bool {
+    let has = |keys: Vec<&'static Key>| keys.contains(&key);
+    let kinds = section.choices.iter().filter(|it| has(it.keys())).count();
+    has(section.keys()) || 2 * kinds > section.choices.len()
 }
 
 fn own_keys<'s>(
     section: &'s Section,
     choice: &'s Choice,
 ) -> impl Iterator<Item = &'static Key> + 's {
-    let keys = choice.keys.iter().copied();
+    let keys = choice.keys().into_iter();
     keys.filter(|key| !is_shared(section, key))
 }
 
@@ -126,7 +127,7 @@ fn table_of_kinds(section: &Section) -> String {
         let mut name = format!("`{}`", key.name);
         if keys.iter().filter(|it| it.name == key.name).count() > 1 {
             let with = section.choices.iter();
-            let with = with.filter(|it| it.keys.iter().any(|own| std::ptr::eq(*own, key)));
+            let with = with.filter(|it| it.keys().contains(&key));
             let with: Vec<_> = with.map(|it| quoted(it, section.tag)).collect();
             write!(name, " of {}", with.join(", ")).unwrap();
         }
@@ -164,10 +165,12 @@ fn the_tables_of_the_documentation_are_those_of_the_schema() {
         places += 1;
     }
     text += rest;
-    let wanted = SECTIONS.iter().map(|it| match (it.keys, it.choices) {
-        ([], _) | (_, []) => 1,
-        _ => 2,
-    });
+    let wanted = SECTIONS
+        .iter()
+        .map(|it| match (&it.keys()[..], it.choices) {
+            ([], _) | (_, []) => 1,
+            _ => 2,
+        });
     assert_eq!(
         places,
         wanted.sum::<usize>(),
@@ -306,7 +309,7 @@ from ._table import Path, Sizes, Table, Vector, _default
         if section.is_single {
             lines += "    _is_one_of_many = False\n";
         }
-        writeln!(lines, "    _absent = {}\n", absent(section.keys.iter())).unwrap();
+        writeln!(lines, "    _absent = {}\n", absent(section.keys().iter())).unwrap();
         if !section.tag.is_empty() && !has_classes {
             let names: Vec<_> = section
                 .choices
@@ -323,7 +326,7 @@ from ._table import Path, Sizes, Table, Vector, _default
         }
         let mut known: Vec<&str> = Vec::new();
         for key in section.all_keys() {
-            let is_own = !section.keys.iter().any(|it| std::ptr::eq(*it, key));
+            let is_own = !section.keys().contains(&key);
             if known.contains(&key.name) || has_classes && !is_shared(section, key) {
                 continue;
             }
@@ -360,8 +363,8 @@ from ._table import Path, Sizes, Table, Vector, _default
                 "    _fixed = {{\"{}\": \"{}\"}}\n",
                 section.tag, choice.name
             );
-            let keys = section.keys.iter().chain(choice.keys);
-            writeln!(lines, "    _absent = {}\n", absent(keys)).unwrap();
+            let keys = [section.keys(), choice.keys()].concat();
+            writeln!(lines, "    _absent = {}\n", absent(keys.iter())).unwrap();
             for key in own_keys(section, choice) {
                 lines += &python_key(section, key, false);
             }
@@ -411,7 +414,7 @@ fn json_value(section: &Section, key: &Key) -> Value {
     let many = |items: Value, count: usize| json!({ "type": "array", "items": items, "minItems": count, "maxItems": count });
     let mut value = match (section.name, key.name) {
         ("object", "mesh") => json!({ "type": "string" }),
-        ("scratches", "file") if std::ptr::eq(key, &scratches::FILE) => {
+        ("scratches", "file") if key == Listed::FILE => {
             json!({ "$ref": "#/$defs/list" })
         }
         ("material", "cover") => json!({ "$ref": "#/$defs/cover" }),
@@ -482,7 +485,7 @@ type Defs = Map<String, Value>;
 fn json_key(defs: &mut Defs, section: &Section, key: &'static Key) -> Value {
     let of_name = |it: &&'static Key| it.name == key.name;
     let alike: Vec<_> = section.all_keys().into_iter().filter(of_name).collect();
-    let place = alike.iter().position(|it| std::ptr::eq(*it, key)).unwrap();
+    let place = alike.iter().position(|it| *it == key).unwrap();
     let name = match place {
         0 => format!("{}.{}", section.name, key.name),
         place => format!("{}.{}.{place}", section.name, key.name),
@@ -532,10 +535,10 @@ fn json_table(
 
 fn json_section(defs: &mut Defs, section: &Section) -> Value {
     let mut schema = match section.choices {
-        [] => json_table(defs, section, section.keys, None),
+        [] => json_table(defs, section, &section.keys(), None),
         choices if section.tag.is_empty() => {
             let kinds = choices.iter().map(|choice| {
-                let table = json_table(defs, section, choice.keys, None);
+                let table = json_table(defs, section, &choice.keys(), None);
                 (choice.name.to_owned(), table)
             });
             let kinds = Map::from_iter(kinds);
@@ -546,7 +549,7 @@ fn json_section(defs: &mut Defs, section: &Section) -> Value {
         }
         choices => {
             let kinds = choices.iter().map(|choice| {
-                let keys = [choice.keys, section.keys].concat();
+                let keys = [choice.keys(), section.keys()].concat();
                 let mut table = json_table(defs, section, &keys, Some(choice.name));
                 table["description"] = json!(choice.meaning);
                 table
@@ -570,7 +573,7 @@ fn the_schema_of_the_gltf_extension_is_that_of_scene_files() {
         ),
     ]);
     let is_inner = |name: &str| ["cover", "shape", "overrides", "where", "strokes"].contains(&name);
-    for section in SECTIONS {
+    for section in &SECTIONS {
         let schema = json_section(&mut defs, section);
         defs.insert(section.name.to_owned(), schema);
         if is_inner(section.name) {

@@ -33,7 +33,7 @@ pub fn add_shape(
     }
     let material: &Material = list::get(description, material.unwrap_or(0))?;
     let material = Some(material.name.clone());
-    let name = shape.kind();
+    let name = shape.name();
     Ok(add(description, name, Surface::Shape(shape), material))
 }
 

@@ -4,8 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use egui::{Button, Id, Ui};
-use hairline_document::description::{Camera, Description};
-use hairline_document::schema;
+use hairline_document::description::{Camera, Description, Render};
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::navigate::{self, Viewpoint};
 use hairline_image::ToneMap;
@@ -20,14 +19,14 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     let description = work.document.description();
     let mut camera = description.camera.clone();
     let mut form = Form::new(ui, "camera", work.diagonal_m(None));
-    form.number(&schema::camera::EXPOSURE_EV, &mut camera.exposure_ev);
-    form.number(&schema::camera::FOV_Y_DEG, &mut camera.fov_y_deg);
+    form.number(Camera::EXPOSURE_EV, &mut camera.exposure_ev);
+    form.number(Camera::FOV_Y_DEG, &mut camera.fov_y_deg);
     let size_px = description.render.size_px;
     focal_length(&mut form, &mut camera, size_px);
     lens(&mut form, &mut camera, size_px, &mut work.closed_lens);
-    form.vector(&schema::camera::POSITION_M, &mut camera.position_m);
-    form.vector(&schema::camera::TARGET_M, &mut camera.target_m);
-    form.vector(&schema::camera::UP, &mut camera.up);
+    form.vector(Camera::POSITION_M, &mut camera.position_m);
+    form.vector(Camera::TARGET_M, &mut camera.target_m);
+    form.vector(Camera::UP, &mut camera.up);
     if let Some(change) = form.change() {
         // Changes here should be visible, so the free view ends; the exposure is the same in all views.
         if camera.exposure_ev == work.document.description().camera.exposure_ev {
@@ -87,13 +86,13 @@ fn show_file_cameras(ui: &mut Ui, work: &mut Workspace) {
 /// The field of view in the words of photographers.
 fn focal_length(form: &mut Form, camera: &mut Camera, size_px: [u32; 2]) {
     form.in_metres(
-        &schema::camera::FOCAL_LENGTH_MM,
+        Camera::FOCAL_LENGTH_MM,
         camera.focal_length_mm(size_px),
         |mm| {
             camera.set_focal_length_mm(mm, size_px);
         },
     );
-    form.in_metres(&schema::camera::SENSOR_WIDTH_MM, camera.sensor_mm(), |mm| {
+    form.in_metres(Camera::SENSOR_WIDTH_MM, camera.sensor_mm(), |mm| {
         camera.set_sensor_width_mm(mm, size_px);
     });
 }
@@ -127,16 +126,16 @@ fn lens(
     // A closed one has no f-stop.
     if let Some(before) = camera.f_stop(size_px) {
         let mut f_stop = before;
-        form.number(&schema::camera::F_STOP, &mut f_stop);
+        form.number(Camera::F_STOP, &mut f_stop);
         if f_stop != before {
             camera.set_f_stop(f_stop, size_px);
         }
     }
-    form.in_metres(&schema::camera::APERTURE_MM, aperture_mm, |mm| {
+    form.in_metres(Camera::APERTURE_MM, aperture_mm, |mm| {
         camera.aperture_mm = Some(mm);
     });
     let focus_before_m = focus_m;
-    form.number(&schema::camera::FOCUS_DISTANCE_M, &mut focus_m);
+    form.number(Camera::FOCUS_DISTANCE_M, &mut focus_m);
     if focus_m != focus_before_m {
         camera.focus_distance_m = Some(focus_m);
     }
@@ -215,14 +214,10 @@ pub(super) fn show_render(ui: &mut Ui, work: &mut Workspace) {
         curves,
         &mut render.tone_map,
     );
-    form.number(&schema::render::FILTER_STD_PX, &mut render.filter_std_px);
+    form.number(Render::FILTER_STD_PX, &mut render.filter_std_px);
     let mut size = render.size_px.map(f64::from);
-    form.boxes(&schema::render::SIZE_PX, &["w", "h"], &mut size);
-    form.toggle(
-        "Transparent",
-        "Saved pictures have an alpha: the share of each pixel that objects cover. The window shows what is behind",
-        &mut render.transparent,
-    );
+    form.boxes(Render::SIZE_PX, &["w", "h"], &mut size);
+    form.flag(Render::TRANSPARENT, &mut render.transparent);
     form.picture(
         "Picture behind",
         "Behind the objects in saved PNGs, in the place of the environment: .png, .jpg or .webp",

@@ -1,8 +1,7 @@
 //! Light from all around.
 
 use egui::Ui;
-use hairline_document::description::Map;
-use hairline_document::schema;
+use hairline_document::description::{Map, Rows};
 use hairline_editor::maps;
 use hairline_scene::Light;
 use hairline_sky::BuiltInMap;
@@ -33,16 +32,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
         );
     }
     let mut form = Form::new(ui, "environment", work.diagonal_m(None));
-    form.number(
-        &schema::environment::ROTATION_DEG,
-        &mut environment.rotation_deg,
-    );
-    form.number(&schema::environment::INTENSITY, &mut environment.intensity);
-    form.toggle(
-        "Visible",
-        "Whether the camera sees it behind the objects; it lights them either way",
-        &mut environment.visible,
-    );
+    environment.rows(&mut form);
     if let Some(change) = form.change() {
         work.drag(&change.label, change.key, |d| {
             d.environment = Some(environment);

@@ -13,8 +13,8 @@ use egui::{
     SliderClamping, TextEdit, Ui,
 };
 use hairline_document::Description;
-use hairline_document::description::Distribution;
-use hairline_document::schema::{self, Key};
+use hairline_document::description::{Distribution, Laid, Panel, RowValue, Shape};
+use hairline_document::schema::{Form as Spelling, Key};
 use hairline_editor::DragKey;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::quantity::{ShownUnit, Unit};
@@ -236,6 +236,12 @@ impl<'a> Form<'a> {
         });
     }
 
+    /// Yes or no, by the texts of a key.
+    pub fn flag(&mut self, key: &Key, value: &mut bool) {
+        let range = range(key, self.diagonal_m);
+        self.toggle(range.label, range.tooltip, value);
+    }
+
     /// Row for the choice of one of several values, by name.
     pub fn choice<T: PartialEq + Clone>(
         &mut self,
@@ -336,8 +342,8 @@ impl<'a> Form<'a> {
 
     /// A point of a lathe's profile.
     pub fn point(&mut self, i: usize, radius_m: &mut f64, height_m: &mut f64) {
-        let range = range(&schema::shape::PROFILE_M, self.diagonal_m);
-        let heights = second_range(&schema::shape::PROFILE_M, self.diagonal_m);
+        let range = range(Shape::PROFILE_M, self.diagonal_m);
+        let heights = second_range(Shape::PROFILE_M, self.diagonal_m);
         let label = format!("Point {}", i + 1);
         let fine_m = FINE * self.diagonal_m;
         self.row(&label, range.tooltip, |ui, _| {
@@ -354,7 +360,7 @@ impl<'a> Form<'a> {
 
     /// A number that stands for a draw of lots, with a die that throws another.
     pub fn seed(&mut self, value: &mut u64) {
-        let range = range(&schema::scratches::SEED, self.diagonal_m);
+        let range = range(Laid::SEED, self.diagonal_m);
         self.row(range.label, range.tooltip, |ui, label| {
             let mut number = *value as f64;
             let typed = NumberBox {
@@ -389,6 +395,44 @@ impl<'a> Form<'a> {
         control: impl FnOnce(&mut Ui, &Response) -> bool,
     ) {
         self.row(label, tooltip, control);
+    }
+}
+
+/// Rows as the entries of the keys have them.
+impl Panel for Form<'_> {
+    fn row(&mut self, key: &'static Key, value: RowValue) {
+        match value {
+            RowValue::Number(millimetres) if key.unit == "mm" => {
+                self.in_metres(key, *millimetres, |after| *millimetres = after);
+            }
+            RowValue::Number(number) => self.number(key, number),
+            RowValue::Whole(seed) if key == Laid::SEED => self.seed(seed),
+            RowValue::Whole(number) => self.whole(key, number),
+            RowValue::Count(count) => {
+                let mut number = u64::from(*count);
+                self.whole(key, &mut number);
+                *count = u32::try_from(number).unwrap_or(u32::MAX);
+            }
+            RowValue::Numbers([first, second]) if key.second.is_some() => {
+                self.number(key, first);
+                self.second(key, second);
+            }
+            RowValue::Numbers([r, g, b]) if key.form == Spelling::Color => {
+                let mut color = [*r, *g, *b];
+                self.color(key, &mut color);
+                [*r, *g, *b] = color;
+            }
+            RowValue::Numbers(numbers) => {
+                let names = &["x", "y", "z"][..numbers.len().min(3)];
+                self.boxes(key, names, numbers);
+            }
+            RowValue::Sizes(sizes) => self.distribution(key, sizes),
+            RowValue::Flag(flag) => self.flag(key, flag),
+            RowValue::Text(text) => {
+                let range = range(key, self.diagonal_m);
+                self.text(range.label, range.tooltip, text);
+            }
+        }
     }
 }
 

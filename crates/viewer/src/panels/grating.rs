@@ -1,8 +1,7 @@
 //! A grating.
 
 use egui::Ui;
-use hairline_document::description::GratingTheory;
-use hairline_document::schema;
+use hairline_document::description::{Grating, GratingTheory};
 use hairline_editor::Selection;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_scene::FINE_PITCH_UM;
@@ -27,13 +26,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let mut form = Form::new(ui, ("grating", index), everywhere_m);
     form.optional_name(&mut grating.name);
     form.object("What its grooves are in", &description, &mut grating.object);
-    form.toggle(
-        "Hidden",
-        "As if the grating were not there",
-        &mut grating.hidden,
-    );
+    form.flag(Grating::HIDDEN, &mut grating.hidden);
     let mut pitch_um = grating.pitch_um;
-    form.number(&schema::grating::PITCH_UM, &mut pitch_um);
+    form.number(Grating::PITCH_UM, &mut pitch_um);
     if pitch_um != grating.pitch_um {
         // Grooves keep their share of the surface, and order its measure.
         let factor = pitch_um / grating.pitch_um;
@@ -41,11 +36,11 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         grating.jitter_um *= factor;
         grating.pitch_um = pitch_um;
     }
-    form.number(&schema::grating::WIDTH_UM, &mut grating.width_um);
+    form.number(Grating::WIDTH_UM, &mut grating.width_um);
     grating.width_um = grating.width_um.min(grating.pitch_um);
-    form.number(&schema::grating::DEPTH_NM, &mut grating.depth_nm.mean);
-    form.second(&schema::grating::DEPTH_NM, &mut grating.depth_nm.spread);
-    form.number(&schema::grating::JITTER_UM, &mut grating.jitter_um);
+    form.number(Grating::DEPTH_NM, &mut grating.depth_nm.mean);
+    form.second(Grating::DEPTH_NM, &mut grating.depth_nm.spread);
+    form.number(Grating::JITTER_UM, &mut grating.jitter_um);
     if grating.pitch_um < FINE_PITCH_UM {
         form.choice(
             "Theory",
@@ -63,7 +58,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     if grating.pattern.around().is_some() {
         grating.center_m = None;
     }
-    form.number(&schema::grating::COVERAGE, &mut grating.coverage);
+    form.number(Grating::COVERAGE, &mut grating.coverage);
     form.picture(
         "Mask",
         "A picture, relative to the scene file: the darker it is, the less of the surface the grooves cover. None: alike everywhere",
@@ -84,13 +79,13 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         (false, _) => (grating.radius_m, grating.center_m) = (None, None),
         (true, None) => grating.radius_m = Some([0.0, everywhere_m]),
         (true, Some([least, most])) => {
-            form.number(&schema::grating::RADIUS_M, least);
-            form.second(&schema::grating::RADIUS_M, most);
+            form.number(Grating::RADIUS_M, least);
+            form.second(Grating::RADIUS_M, most);
             // The outer one stays the greater.
             *most = most.max(*least + LEAST_RING * everywhere_m);
             if grating.pattern.around().is_none() {
                 let center_m = grating.center_m.get_or_insert_default();
-                form.vector(&schema::grating::CENTER_M, center_m);
+                form.vector(Grating::CENTER_M, center_m);
             }
         }
     }

@@ -1,7 +1,6 @@
 //! Controls for the directions of a grating's grooves.
 
-use hairline_document::description::{Around, GroovePattern, UvAxis};
-use hairline_document::schema;
+use hairline_document::description::{Around, GroovePattern, Rows, UvAxis};
 use hairline_editor::actions::pictures::PictureOf;
 
 use super::form::Form;
@@ -18,52 +17,24 @@ pub(super) fn rows(form: &mut Form, pattern: &mut GroovePattern, index: usize) {
     if name != pattern.name() {
         *pattern = begin(name, pattern, form.diagonal_m);
     }
-    match pattern {
-        GroovePattern::Parallel {
-            direction,
-            jitter_deg,
-        } => {
-            form.number(&schema::grating::JITTER_DEG, jitter_deg);
-            form.vector(&schema::scratches::DIRECTION, direction);
-        }
-        GroovePattern::Circular(around) | GroovePattern::Radial(around) => axis(form, around),
-        GroovePattern::Spun {
-            around,
-            curvature_per_m,
-        } => {
-            axis(form, around);
-            form.number(&schema::grating::CURVATURE_PER_M, curvature_per_m);
-        }
-        GroovePattern::Swirl { around, spacing_m } => {
-            axis(form, around);
-            form.number(&schema::grating::SPACING_M, spacing_m);
-        }
-        GroovePattern::Uv {
+    pattern.rows(form);
+    if let GroovePattern::Uv {
+        along, directions, ..
+    } = pattern
+    {
+        form.choice(
+            "Along",
+            "Which texture coordinate the grooves run along",
+            [(UvAxis::U, "u".to_owned()), (UvAxis::V, "v".to_owned())],
             along,
+        );
+        form.picture(
+            "Direction map",
+            "A picture, relative to the scene file, that turns the grooves: red and green are the parts along the coordinate and across it, as in anisotropy textures of glTF. None: as they are",
             directions,
-            jitter_deg,
-        } => {
-            form.number(&schema::grating::JITTER_DEG, jitter_deg);
-            form.choice(
-                "Along",
-                "Which texture coordinate the grooves run along",
-                [(UvAxis::U, "u".to_owned()), (UvAxis::V, "v".to_owned())],
-                along,
-            );
-            form.picture(
-                "Direction map",
-                "A picture, relative to the scene file, that turns the grooves: red and green are the parts along the coordinate and across it, as in anisotropy textures of glTF. None: as they are",
-                directions,
-                PictureOf::GratingDirections(index),
-            );
-        }
+            PictureOf::GratingDirections(index),
+        );
     }
-}
-
-fn axis(form: &mut Form, around: &mut Around) {
-    form.number(&schema::grating::JITTER_DEG, &mut around.jitter_deg);
-    form.vector(&schema::scratches::AXIS, &mut around.axis);
-    form.vector(&schema::scratches::CENTER_M, &mut around.center_m);
 }
 
 /// Patterns with their labels.

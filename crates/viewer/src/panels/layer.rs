@@ -4,9 +4,8 @@ use std::path::Path;
 
 use egui::{Id, Ui};
 use hairline_document::description::{
-    Amount, Around, Distribution, Engraved, Laid, Layer, Line, Pattern, Scratches,
+    Amount, Around, Distribution, Engraved, Laid, Layer, Line, Pattern, Rows, Scratches,
 };
-use hairline_document::schema;
 use hairline_editor::Selection;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::presets::LayerPreset;
@@ -33,16 +32,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let mut form = Form::new(ui, ("layer", index), diagonal_m);
     form.optional_name(&mut layer.name);
     form.object("What they lie on", &description, &mut layer.object);
-    form.toggle(
-        "Hidden",
-        "A hidden layer is laid nowhere",
-        &mut layer.hidden,
-    );
-    form.toggle(
-        "Solo",
-        "If a layer is solo, only solo layers are seen",
-        &mut layer.solo,
-    );
+    form.flag(Scratches::HIDDEN, &mut layer.hidden);
+    form.flag(Scratches::SOLO, &mut layer.solo);
     strength_row(&mut form, &mut layer, index);
     let picks = layer_place::show(&mut form, &mut layer, index, names);
     profile(&mut form, &mut layer.profile);
@@ -50,10 +41,10 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         Layer::Laid(laid) => laid_rows(&mut form, laid),
         Layer::Brushed(brushed) => {
             form.section("Look");
-            form.distribution(&schema::scratches::WIDTH_UM, &mut brushed.width_um);
-            form.distribution(&schema::scratches::DEPTH_NM, &mut brushed.depth_nm);
-            form.distribution(&schema::scratches::LENGTH_M, &mut brushed.length_m);
-            form.number(&schema::scratches::JITTER_DEG, &mut brushed.jitter_deg);
+            form.distribution(Laid::WIDTH_UM, &mut brushed.width_um);
+            form.distribution(Laid::DEPTH_NM, &mut brushed.depth_nm);
+            form.distribution(Laid::LENGTH_M, &mut brushed.length_m);
+            form.number(Around::JITTER_DEG, &mut brushed.jitter_deg);
             form.seed(&mut brushed.seed);
         }
         Layer::Engraved(engraved) => engraved_rows(&mut form, engraved, index),
@@ -150,30 +141,11 @@ fn laid_rows(form: &mut Form, laid: &mut Laid) {
     }
     amount(form, &mut laid.amount);
     form.section("Look");
-    form.distribution(&schema::scratches::WIDTH_UM, &mut laid.width_um);
-    form.distribution(&schema::scratches::DEPTH_NM, &mut laid.depth_nm);
-    form.distribution(&schema::scratches::LENGTH_M, &mut laid.length_m);
+    form.distribution(Laid::WIDTH_UM, &mut laid.width_um);
+    form.distribution(Laid::DEPTH_NM, &mut laid.depth_nm);
+    form.distribution(Laid::LENGTH_M, &mut laid.length_m);
     form.section("Direction and bend");
-    match &mut laid.pattern {
-        Pattern::Random { curvature_per_m } | Pattern::Swirl { curvature_per_m } => {
-            curvature(form, curvature_per_m);
-        }
-        Pattern::Parallel {
-            direction,
-            jitter_deg,
-        } => {
-            form.number(&schema::scratches::JITTER_DEG, jitter_deg);
-            form.vector(&schema::scratches::DIRECTION, direction);
-        }
-        Pattern::Circular(around) | Pattern::Radial(around) => axis(form, around),
-        Pattern::Spun {
-            around,
-            curvature_per_m,
-        } => {
-            axis(form, around);
-            curvature(form, curvature_per_m);
-        }
-    }
+    laid.pattern.rows(form);
     form.seed(&mut laid.seed);
 }
 
@@ -186,53 +158,25 @@ fn file_row(form: &mut Form, file: &Path) {
 
 fn engraved_rows(form: &mut Form, engraved: &mut Engraved, index: usize) {
     match &mut engraved.line {
-        Line::Curve { points_m, closed } => {
-            form.toggle("Closed", schema::scratches::CLOSED.meaning, closed);
+        Line::Curve { points_m, .. } => {
             for (i, point_m) in points_m.iter_mut().enumerate() {
-                form.numbered(&schema::scratches::CURVE_POINTS_M, i, point_m);
+                form.numbered(Line::CURVE_POINTS_M, i, point_m);
             }
         }
-        Line::Text {
-            text,
-            height_m,
-            center_m,
-            direction,
-        } => {
-            form.text("Text", schema::scratches::TEXT.meaning, text);
-            form.number(&schema::scratches::CAPITALS_M, height_m);
-            form.vector(&schema::scratches::MIDDLE_M, center_m);
-            form.vector(&schema::scratches::READING, direction);
-        }
-        Line::Svg {
-            file,
-            fit_m,
-            center_m,
-            direction,
-        } => {
+        Line::Svg { file, .. } => {
             let mut named = Some(file.clone());
-            let meaning = schema::scratches::DRAWING.meaning;
+            let meaning = Line::DRAWING.meaning;
             form.picture("File", meaning, &mut named, PictureOf::Drawing(index));
             *file = named.unwrap_or_default();
-            form.number(&schema::scratches::EXTENT_M, fit_m);
-            form.vector(&schema::scratches::MIDDLE_M, center_m);
-            form.vector(&schema::scratches::READING, direction);
         }
+        Line::Text { .. } => {}
     }
+    engraved.line.rows(form);
     form.section("Look");
-    form.number(&schema::scratches::LINE_M, &mut engraved.line_m);
-    form.distribution(&schema::scratches::WIDTH_UM, &mut engraved.width_um);
-    form.distribution(&schema::scratches::DEPTH_NM, &mut engraved.depth_nm);
+    form.number(Engraved::LINE_M, &mut engraved.line_m);
+    form.distribution(Laid::WIDTH_UM, &mut engraved.width_um);
+    form.distribution(Laid::DEPTH_NM, &mut engraved.depth_nm);
     form.seed(&mut engraved.seed);
-}
-
-fn curvature(form: &mut Form, value: &mut Distribution) {
-    form.distribution(&schema::scratches::BEND_PER_M, value);
-}
-
-fn axis(form: &mut Form, around: &mut Around) {
-    form.number(&schema::scratches::JITTER_DEG, &mut around.jitter_deg);
-    form.vector(&schema::scratches::AXIS, &mut around.axis);
-    form.vector(&schema::scratches::CENTER_M, &mut around.center_m);
 }
 
 /// A number of scratches, or a number on each square metre.
@@ -253,8 +197,8 @@ fn amount(form: &mut Form, amount: &mut Amount) {
         _ => {}
     }
     match amount {
-        Amount::Count(count) => form.whole(&schema::scratches::COUNT, count),
-        Amount::DensityPerM2(density) => form.number(&schema::scratches::DENSITY_PER_M2, density),
+        Amount::Count(count) => form.whole(Amount::COUNT, count),
+        Amount::DensityPerM2(density) => form.number(Amount::DENSITY_PER_M2, density),
     }
 }
 

@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 
 use hairline_document::description::{LayerPlaces, Scratches};
-use hairline_document::schema;
 use hairline_editor::actions::pictures::PictureOf;
 
 use super::form::Form;
@@ -60,13 +59,13 @@ fn one_of(
 }
 
 fn places(form: &mut Form, place: &mut LayerPlaces, index: usize) {
-    form.number(&schema::place::EDGES, &mut place.edges);
+    form.number(LayerPlaces::EDGES, &mut place.edges);
     match place.edges > 0.0 {
         true => {
             // The scene's default.
             let mut width_m = place.edge_width_m.unwrap_or(0.02 * form.diagonal_m);
             let before_m = width_m;
-            form.number(&schema::place::EDGE_WIDTH_M, &mut width_m);
+            form.number(LayerPlaces::EDGE_WIDTH_M, &mut width_m);
             if width_m != before_m {
                 place.edge_width_m = Some(width_m);
             }
@@ -109,7 +108,7 @@ pub(super) fn tile(form: &mut Form, tile_m: &mut Option<f64>) {
     match (is_tiled, tile_m) {
         (false, tile_m) => *tile_m = None,
         (true, tile_m @ None) => *tile_m = Some(0.25 * form.diagonal_m),
-        (true, Some(tile_m)) => form.number(&schema::place::TILE_M, tile_m),
+        (true, Some(tile_m)) => form.number(LayerPlaces::TILE_M, tile_m),
     }
 }
 
@@ -128,12 +127,12 @@ fn radii(form: &mut Form, place: &mut LayerPlaces) {
         (false, _) => (place.radius_m, place.center_m) = (None, None),
         (true, None) => place.radius_m = Some([0.0, 0.25 * everywhere_m]),
         (true, Some([least, most])) => {
-            form.number(&schema::place::RADIUS_M, least);
-            form.second(&schema::place::RADIUS_M, most);
+            form.number(LayerPlaces::RADIUS_M, least);
+            form.second(LayerPlaces::RADIUS_M, most);
             // The outer one stays the greater.
             *most = most.max(*least + LEAST_SHELL * everywhere_m);
             let mut center_m = place.center_m.unwrap_or_default();
-            form.vector(&schema::place::CENTER_M, &mut center_m);
+            form.vector(LayerPlaces::CENTER_M, &mut center_m);
             if place.center_m.is_some() || center_m != [0.0; 3] {
                 place.center_m = Some(center_m);
             }

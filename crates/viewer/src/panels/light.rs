@@ -2,8 +2,7 @@
 
 use egui::Ui;
 use glam::DVec3;
-use hairline_document::description::{Cone, Light, LightKind};
-use hairline_document::schema;
+use hairline_document::description::{Cone, Light, LightKind, Rows};
 use hairline_editor::actions::parts;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::{Selection, place_light};
@@ -15,7 +14,6 @@ use crate::workspace::Workspace;
 
 /// Changes the colour of a white light little.
 const DAYLIGHT_K: f64 = 6500.0;
-const TWO_SIDED: &str = "Whether the other side shines too";
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let Some(mut light) = work.document.description().lights.get(index).cloned() else {
@@ -28,10 +26,10 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     form.toggle("Shines", "Whether it gives light", &mut shines);
     light.hidden = !shines;
     if light.kind.sunbeam().is_none() {
-        form.toggle("Visible", "The camera sees its shape", &mut light.visible);
-        form.number(&schema::light::RADIANCE, &mut light.radiance);
+        form.flag(Light::VISIBLE, &mut light.visible);
+        form.number(Light::RADIANCE, &mut light.radiance);
     }
-    form.number(&schema::light::EXPOSURE_EV, &mut light.exposure_ev);
+    form.number(Light::EXPOSURE_EV, &mut light.exposure_ev);
     let mut glows = light.temperature_k.is_some();
     form.toggle(
         "Black body",
@@ -40,61 +38,17 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     );
     if glows {
         form.number(
-            &schema::light::TEMPERATURE_K,
+            Light::TEMPERATURE_K,
             light.temperature_k.get_or_insert(DAYLIGHT_K),
         );
     } else {
         light.temperature_k = None;
     }
-    form.color(&schema::light::COLOR, &mut light.color);
-    match &mut light.kind {
-        LightKind::Sphere { center_m, radius_m } => {
-            form.vector(&schema::light::CENTER_M, center_m);
-            form.number(&schema::light::RADIUS_M, radius_m);
-        }
-        LightKind::Disk {
-            center_m,
-            target_m,
-            radius_m,
-            two_sided,
-        } => {
-            form.vector(&schema::light::CENTER_M, center_m);
-            form.vector(&schema::light::TARGET_M, target_m);
-            form.number(&schema::light::RADIUS_M, radius_m);
-            form.toggle("Two-sided", TWO_SIDED, two_sided);
-        }
-        LightKind::Rectangle {
-            center_m,
-            target_m,
-            width_m,
-            height_m,
-            rotation_deg,
-            two_sided,
-        } => {
-            form.vector(&schema::light::CENTER_M, center_m);
-            form.vector(&schema::light::TARGET_M, target_m);
-            form.number(&schema::light::WIDTH_M, width_m);
-            form.number(&schema::light::HEIGHT_M, height_m);
-            form.number(&schema::light::ROTATION_DEG, rotation_deg);
-            form.toggle("Two-sided", TWO_SIDED, two_sided);
-        }
-        LightKind::Tube { ends_m, radius_m } => {
-            for (i, end_m) in ends_m.iter_mut().enumerate() {
-                form.numbered(&schema::light::ENDS_M, i, end_m);
-            }
-            form.number(&schema::light::RADIUS_M, radius_m);
-        }
-        LightKind::Polygon { two_sided, .. } => {
-            form.toggle("Two-sided", TWO_SIDED, two_sided);
-        }
-        LightKind::Sun {
-            direction,
-            angle_deg,
-            irradiance,
-        } => {
-            form.number(&schema::light::IRRADIANCE, irradiance);
-            form.vector(&schema::light::DIRECTION, direction);
-            form.number(&schema::light::ANGLE_DEG, angle_deg);
+    form.color(Light::COLOR, &mut light.color);
+    light.kind.rows(&mut form);
+    if let LightKind::Tube { ends_m, .. } = &mut light.kind {
+        for (i, end_m) in ends_m.iter_mut().enumerate() {
+            form.numbered(LightKind::ENDS_M, i, end_m);
         }
     }
     cone(&mut form, &mut light);
@@ -146,11 +100,7 @@ fn cone(form: &mut Form, light: &mut Light) {
     let below = place_light::center(light) + DVec3::NEG_Z;
     let target_m = light.kind.axis().is_none().then(|| below.into());
     let cone = light.cone.get_or_insert_with(|| Cone::new(40.0, target_m));
-    form.number(&schema::light::CONE_DEG, &mut cone.cone_deg);
-    form.number(&schema::light::CONE_SOFTNESS, &mut cone.cone_softness);
-    if let Some(target_m) = &mut cone.target_m {
-        form.vector(&schema::light::TARGET_M, target_m);
-    }
+    cone.rows(form);
 }
 
 /// The picture on a rectangle.
@@ -185,12 +135,8 @@ fn doors(form: &mut Form, light: &mut Light) {
     }
     let doors_deg = light.barn_doors_deg.get_or_insert([45.0; 4]);
     let (beside, above_and_below) = doors_deg.split_at_mut(2);
-    form.boxes(&schema::light::BARN_DOORS_DEG, &["left", "right"], beside);
-    form.boxes(
-        &schema::light::BARN_DOORS_DEG,
-        &["above", "below"],
-        above_and_below,
-    );
+    form.boxes(Light::BARN_DOORS_DEG, &["left", "right"], beside);
+    form.boxes(Light::BARN_DOORS_DEG, &["above", "below"], above_and_below);
 }
 
 /// The corners of a polygon: they stay in its plane.
@@ -204,7 +150,7 @@ fn vertices(ui: &mut Ui, work: &mut Workspace, index: usize, vertices_m: &[[f64;
         ui.horizontal(|ui| {
             let mut position_m = *vertex_m;
             let mut form = Form::new(ui, ("corner", index, i), work.diagonal_m(None));
-            form.numbered(&schema::light::VERTICES_M, i, &mut position_m);
+            form.numbered(LightKind::VERTICES_M, i, &mut position_m);
             if let Some(change) = form.change() {
                 moved = Some((i, position_m, change));
             }

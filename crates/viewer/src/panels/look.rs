@@ -2,7 +2,6 @@
 
 use egui::Ui;
 use hairline_document::description::Look;
-use hairline_document::schema;
 use hairline_editor::actions::looks;
 
 use super::form::Form;
@@ -40,7 +39,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         true => {
             let camera = look.camera.as_ref().unwrap_or(&description.camera);
             let exposure_ev = look.exposure_ev.get_or_insert(camera.exposure_ev);
-            form.number(&schema::look::EXPOSURE_EV, exposure_ev);
+            form.number(Look::EXPOSURE_EV, exposure_ev);
         }
         false => look.exposure_ev = None,
     }

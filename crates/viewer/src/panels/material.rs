@@ -1,8 +1,7 @@
 //! A material.
 
 use egui::Ui;
-use hairline_document::description::{Cover, Material, MaterialKind, MetalColor};
-use hairline_document::schema;
+use hairline_document::description::{Cover, Material, MaterialKind, MetalColor, Rows};
 use hairline_editor::actions::materials;
 use hairline_editor::presets::MaterialPreset;
 use hairline_optics::metal::Metal;
@@ -83,8 +82,7 @@ fn coat_rows(form: &mut Form, coat: &mut Option<Coat>) {
     match coat {
         Some(_) if !is_coated => *coat = None,
         Some(coat) => {
-            form.number(&schema::material::CLEARCOAT, &mut coat.weight);
-            form.number(&schema::material::CLEARCOAT_ROUGHNESS, &mut coat.roughness);
+            coat.rows(form);
         }
         None if is_coated => {
             *coat = Some(Coat {
@@ -104,11 +102,7 @@ fn cover_rows(form: &mut Form, cover: &mut Option<Cover>) {
     match cover {
         Some(_) if !is_covered => *cover = None,
         Some(cover) => {
-            form.number(&schema::cover::IOR, &mut cover.ior);
-            form.in_metres(&schema::cover::THICKNESS_MM, cover.thickness_mm, |mm| {
-                cover.thickness_mm = mm;
-            });
-            form.color(&schema::cover::COLOR, &mut cover.color);
+            cover.rows(form);
         }
         None if is_covered => *cover = Some(Cover::default()),
         None => {}
@@ -123,11 +117,7 @@ fn anisotropy_rows(form: &mut Form, anisotropy: &mut Option<Anisotropy>) {
     match anisotropy {
         Some(_) if !is_brushed => *anisotropy = None,
         Some(anisotropy) => {
-            form.number(&schema::material::ANISOTROPY, &mut anisotropy.strength);
-            form.number(
-                &schema::material::ANISOTROPY_DIRECTION_DEG,
-                &mut anisotropy.direction_deg,
-            );
+            anisotropy.rows(form);
         }
         None if is_brushed => {
             *anisotropy = Some(Anisotropy {
@@ -172,29 +162,21 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
                 false
             });
         }
-        MaterialKind::Metal(MetalColor::Color(base_color)) => {
-            form.color(&schema::material::METAL_COLOR, base_color);
-        }
-        MaterialKind::Dielectric { ior, base_color } => {
-            form.color(&schema::material::BODY_COLOR, base_color);
-            form.number(&schema::material::IOR, ior);
-        }
         MaterialKind::MetallicRoughness {
             base_color,
             metallic,
             specular,
         } => {
-            form.color(&schema::material::BASE_COLOR, base_color);
-            form.number(&schema::material::METALLIC, metallic);
+            form.color(MaterialKind::BASE_COLOR, base_color);
+            form.number(MaterialKind::METALLIC, metallic);
             // A metal takes no part in it.
             if *metallic < 1.0 {
-                form.number(&schema::material::SPECULAR, &mut specular.weight);
-                form.color(&schema::material::SPECULAR_COLOR, &mut specular.color);
+                specular.rows(&mut form);
             }
         }
-        MaterialKind::Mirror => {}
+        kind => kind.rows(&mut form),
     }
-    form.number(&schema::material::ROUGHNESS, &mut material.roughness);
+    form.number(Material::ROUGHNESS, &mut material.roughness);
     anisotropy_rows(&mut form, &mut material.anisotropy);
     coat_rows(&mut form, &mut material.coat);
     match material.kind {
@@ -205,7 +187,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         }
         _ => material.cover = None,
     }
-    form.number(&schema::material::COHERENCE_UM, &mut material.coherence_um);
+    form.number(Material::COHERENCE_UM, &mut material.coherence_um);
     if let Some(change) = form.change() {
         if name != material.name {
             // Objects call it by its name.

@@ -1,9 +1,9 @@
 //! The menus, the tools and how the brush is set.
 
+use hairline_document::description::{Paint, Stroke};
 use std::path::PathBuf;
 
 use egui::{Button, Color32, MenuBar, Modifiers, Panel, Popup, RichText, Ui};
-use hairline_document::schema;
 
 use super::form::Form;
 use crate::command::{self, Command, Group};
@@ -256,11 +256,11 @@ pub(super) fn brush_settings(ui: &mut Ui, work: &mut Workspace) {
     let mut brush = work.brush();
     ui.heading(Command::Pick(work.toolbox.tool).label());
     let mut form = Form::new(ui, "brush", diagonal_m);
-    form.number(&schema::stroke::RADIUS_M, &mut brush.radius_m);
+    form.number(Stroke::RADIUS_M, &mut brush.radius_m);
     if work.toolbox.tool == Tool::Brush {
-        form.number(&schema::stroke::DENSITY_PER_M, &mut brush.density_per_m);
-        form.number(&schema::stroke::WIDTH, &mut brush.width);
-        form.number(&schema::stroke::DEPTH, &mut brush.depth);
+        form.number(Paint::DENSITY_PER_M, &mut brush.density_per_m);
+        form.number(Paint::WIDTH, &mut brush.width);
+        form.number(Paint::DEPTH, &mut brush.depth);
     }
     // Settings of a tool are no part of the scene.
     if form.change().is_some() {

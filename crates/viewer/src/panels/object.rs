@@ -1,8 +1,8 @@
 //! An object: its place, its material, and the layers on it.
 
 use egui::Ui;
-use hairline_document::description::{Shape, Surface, Up};
-use hairline_document::schema::{self, Key};
+use hairline_document::description::{Object, Shape, Surface, Up};
+use hairline_document::schema::Key;
 use hairline_editor::Selection;
 use hairline_editor::actions::{gratings, layers, objects};
 use hairline_editor::grating_presets::GratingPreset;
@@ -29,11 +29,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let mut form = Form::new(ui, ("object", index), diagonal_m);
     let mut name = object.name.clone();
     form.text(NAME, "What layers of scratches call it", &mut name);
-    form.toggle(
-        "Hidden",
-        "As if the object were not there, nor what lies on it",
-        &mut object.hidden,
-    );
+    form.flag(Object::HIDDEN, &mut object.hidden);
     // A mesh may keep the materials of its file.
     let keeps_own =
         matches!(object.surface, Surface::Mesh(_)).then(|| (None, "of its file".to_owned()));
@@ -47,8 +43,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         keeps_own.into_iter().chain(named),
         &mut object.material,
     );
-    form.vector(&schema::object::TRANSLATION_M, &mut object.translation_m);
-    form.vector(&schema::object::ROTATION_DEG, &mut object.rotation_deg);
+    form.vector(Object::TRANSLATION_M, &mut object.translation_m);
+    form.vector(Object::ROTATION_DEG, &mut object.rotation_deg);
     scale(&mut form, &mut object.scale);
     match &mut object.surface {
         Surface::Mesh(file) => {
@@ -204,13 +200,13 @@ fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
 fn scale(form: &mut Form, scale: &mut [f64; 3]) {
     if scale[0] == scale[1] && scale[1] == scale[2] {
         let mut factor = scale[0];
-        form.number(&schema::object::SCALE, &mut factor);
+        form.number(Object::SCALE, &mut factor);
         // Zero would have no surface; the slider passes it by.
         if factor != scale[0] && factor != 0.0 {
             *scale = [factor; 3];
         }
     } else {
-        form.vector(&schema::object::SCALE, scale);
+        form.vector(Object::SCALE, scale);
     }
 }
 
@@ -224,7 +220,7 @@ fn fit_rows(form: &mut Form, fit_m: &mut Option<f64>) {
     );
     match fit_m {
         Some(_) if !is_fitted => *fit_m = None,
-        Some(size_m) => form.number(&schema::object::FIT_M, size_m),
+        Some(size_m) => form.number(Object::FIT_M, size_m),
         None if is_fitted => *fit_m = Some(form.diagonal_m),
         None => {}
     }
@@ -241,7 +237,7 @@ fn time_rows(form: &mut Form, time_s: &mut Option<f64>, animation: &mut Option<S
     match time_s {
         Some(_) if !is_animated => (*time_s, *animation) = (None, None),
         Some(time_s) => {
-            form.number(&schema::object::TIME_S, time_s);
+            form.number(Object::TIME_S, time_s);
             let mut name = animation.clone().unwrap_or_default();
             let tooltip = "Which animation, by its name or its number from 0; empty for the first";
             form.text("Animation", tooltip, &mut name);
@@ -260,55 +256,45 @@ fn up_to(form: &mut Form, key: &Key, value: &mut f64, most: f64) {
 
 fn shape_rows(form: &mut Form, shape: &mut Shape) {
     match shape {
-        Shape::Plane { size_m } => form.boxes(&schema::shape::PLANE_SIZE_M, &["x", "y"], size_m),
+        Shape::Plane { size_m } => form.boxes(Shape::PLANE_SIZE_M, &["x", "y"], size_m),
         Shape::Disk { radius_m } | Shape::Sphere { radius_m } => {
-            form.number(&schema::shape::RADIUS_M, radius_m);
+            form.number(Shape::RADIUS_M, radius_m);
         }
         Shape::Box { size_m, rounding_m } => {
-            form.boxes(&schema::shape::BOX_SIZE_M, &["x", "y", "z"], size_m);
+            form.boxes(Shape::BOX_SIZE_M, &["x", "y", "z"], size_m);
             let shortest = size_m.iter().copied().fold(f64::INFINITY, f64::min);
-            up_to(
-                form,
-                &schema::shape::BOX_ROUNDING_M,
-                rounding_m,
-                0.5 * shortest,
-            );
+            up_to(form, Shape::BOX_ROUNDING_M, rounding_m, 0.5 * shortest);
         }
         Shape::Cylinder {
             radius_m,
             height_m,
             rounding_m,
         } => {
-            form.number(&schema::shape::RADIUS_M, radius_m);
-            form.number(&schema::shape::HEIGHT_M, height_m);
+            form.number(Shape::RADIUS_M, radius_m);
+            form.number(Shape::HEIGHT_M, height_m);
             let most = radius_m.min(0.5 * *height_m);
-            up_to(form, &schema::shape::CYLINDER_ROUNDING_M, rounding_m, most);
+            up_to(form, Shape::CYLINDER_ROUNDING_M, rounding_m, most);
         }
         Shape::Torus {
             radius_m,
             tube_radius_m,
         } => {
-            form.number(&schema::shape::RING_RADIUS_M, radius_m);
-            up_to(
-                form,
-                &schema::shape::TUBE_RADIUS_M,
-                tube_radius_m,
-                0.999 * *radius_m,
-            );
+            form.number(Shape::RING_RADIUS_M, radius_m);
+            up_to(form, Shape::TUBE_RADIUS_M, tube_radius_m, 0.999 * *radius_m);
         }
         Shape::Dome { radius_m, height_m } => {
-            form.number(&schema::shape::RADIUS_M, radius_m);
-            up_to(form, &schema::shape::DOME_HEIGHT_M, height_m, *radius_m);
+            form.number(Shape::RADIUS_M, radius_m);
+            up_to(form, Shape::DOME_HEIGHT_M, height_m, *radius_m);
         }
         Shape::Sweep {
             size_m,
             height_m,
             rounding_m,
         } => {
-            form.boxes(&schema::shape::PLANE_SIZE_M, &["x", "y"], size_m);
-            form.number(&schema::shape::HEIGHT_M, height_m);
+            form.boxes(Shape::PLANE_SIZE_M, &["x", "y"], size_m);
+            form.number(Shape::HEIGHT_M, height_m);
             let most = height_m.min(size_m[1]);
-            up_to(form, &schema::shape::SWEEP_ROUNDING_M, rounding_m, most);
+            up_to(form, Shape::SWEEP_ROUNDING_M, rounding_m, most);
         }
         Shape::Text {
             line,
@@ -317,8 +303,8 @@ fn shape_rows(form: &mut Form, shape: &mut Shape) {
         } => {
             let tooltip = "What it says: Latin, Greek or Cyrillic letters";
             form.text("Text", tooltip, line);
-            form.number(&schema::shape::CAPITALS_M, height_m);
-            form.number(&schema::shape::DEPTH_M, depth_m);
+            form.number(Shape::CAPITALS_M, height_m);
+            form.number(Shape::DEPTH_M, depth_m);
         }
         Shape::Lathe {
             profile_m,
@@ -326,7 +312,7 @@ fn shape_rows(form: &mut Form, shape: &mut Shape) {
             smooth,
         } => {
             let mut facets = u64::from(*segments);
-            form.whole(&schema::shape::SEGMENTS, &mut facets);
+            form.whole(Shape::SEGMENTS, &mut facets);
             *segments = u32::try_from(facets).unwrap_or(u32::MAX);
             form.toggle(
                 "Smooth",

@@ -2,7 +2,6 @@
 
 use egui::{CollapsingHeader, Ui};
 use hairline_document::description::{Object, Override};
-use hairline_document::schema;
 use hairline_scene::{Base, Material};
 
 use super::form::Form;
@@ -72,9 +71,9 @@ fn rows(ui: &mut Ui, work: &mut Workspace, index: usize, name: &str, made: &Mate
     let mut metallic = own.metallic.unwrap_or(made_metallic);
     let mut color = own.base_color.unwrap_or(made_color);
     let before = (roughness, metallic, color);
-    form.number(&schema::overrides::ROUGHNESS, &mut roughness);
-    form.number(&schema::overrides::METALLIC, &mut metallic);
-    form.color(&schema::overrides::BASE_COLOR, &mut color);
+    form.number(Override::ROUGHNESS, &mut roughness);
+    form.number(Override::METALLIC, &mut metallic);
+    form.color(Override::BASE_COLOR, &mut color);
     if roughness != before.0 {
         own.roughness = Some(roughness);
     }

@@ -1,7 +1,7 @@
 //! The studio that lights a scene, and the ground under it.
 
 use egui::{Button, Ui};
-use hairline_document::schema;
+use hairline_document::description::Rows;
 use hairline_editor::actions::studio;
 
 use super::form::Form;
@@ -13,13 +13,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     ui.label("Soft boxes, a lamp and a dim room about what the camera sees.");
     let is_lit = !studio.hidden;
     let mut form = Form::new(ui, "studio", work.diagonal_m(None));
-    form.toggle(
-        "Hidden",
-        "A hidden studio gives no light",
-        &mut studio.hidden,
-    );
-    form.number(&schema::studio::INTENSITY, &mut studio.intensity);
-    form.number(&schema::studio::ROTATION_DEG, &mut studio.rotation_deg);
+    studio.rows(&mut form);
     if let Some(change) = form.change() {
         work.drag(&change.label, change.key, |d| {
             d.studio = studio;
@@ -54,13 +48,6 @@ pub(super) fn show_ground(ui: &mut Ui, work: &mut Workspace) {
     if !is_hidden || ground.is_some() {
         let ground = ground.get_or_insert_default();
         ground.hidden = is_hidden;
-        form.color(&schema::ground::COLOR, &mut ground.color);
-        form.number(&schema::ground::ROUGHNESS, &mut ground.roughness);
-        form.toggle(
-            "Shadows only",
-            "Saved pictures have the shadows on the floor alone, as a black with alpha. The window shows no floor then",
-            &mut ground.shadows_only,
-        );
         let mut is_under_all = ground.height_m.is_none();
         form.toggle(
             "Under all",
@@ -69,13 +56,12 @@ pub(super) fn show_ground(ui: &mut Ui, work: &mut Workspace) {
         );
         match is_under_all {
             true => ground.height_m = None,
-            false => form.number(
-                &schema::ground::HEIGHT_M,
-                ground
-                    .height_m
-                    .get_or_insert_with(|| work.lowest_m().unwrap_or(0.0)),
-            ),
+            false => {
+                let lowest_m = || work.lowest_m().unwrap_or(0.0);
+                ground.height_m.get_or_insert_with(lowest_m);
+            }
         }
+        ground.rows(&mut form);
     }
     if let Some(change) = form.change() {
         work.drag(&change.label, change.key, |d| {

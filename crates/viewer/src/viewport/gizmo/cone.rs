@@ -5,8 +5,7 @@
 
 use egui::{Pos2, Vec2};
 use glam::DVec3;
-use hairline_document::description::Light;
-use hairline_document::schema::light::CONE_DEG;
+use hairline_document::description::{Cone, Light};
 use hairline_editor::place_light;
 
 use crate::viewport::lens::Lens;
@@ -146,7 +145,7 @@ impl LightCone {
         let at = |angle_rad| lens.project(self.point_m(lens, rim, angle_rad, around_rad));
         let wanted = at(before_rad)? + (to - from);
         let most_rad = match rim {
-            Rim::Outer => 0.5 * CONE_DEG.bounds.ends().end().to_radians(),
+            Rim::Outer => 0.5 * Cone::CONE_DEG.bounds.ends().end().to_radians(),
             Rim::Inner => self.half_rad,
         };
         let angles = (0..=TRIED).map(|i| most_rad * i as f64 / TRIED as f64);
@@ -160,7 +159,7 @@ impl LightCone {
     /// Whole angle of the cone after a drag of its outer rim, degrees.
     pub fn opened_deg(&self, lens: &Lens, from: Pos2, to: Pos2) -> Option<f64> {
         let half_rad = self.dragged_rad(lens, Rim::Outer, from, to)?;
-        let (least, most) = CONE_DEG.bounds.ends().into_inner();
+        let (least, most) = Cone::CONE_DEG.bounds.ends().into_inner();
         let deg = 2.0 * half_rad.to_degrees();
         Some(((deg * 10.0).round() / 10.0).clamp(least, most))
     }
