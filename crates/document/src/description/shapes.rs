@@ -146,63 +146,77 @@ const ROUNDING: Key = Key::new("rounding_m", Form::Number)
     .control("Rounding", linear(0.0, 0.5).sized(), "Radius of its edges. Rounded edges catch a line of light from almost everywhere; 0 leaves them sharp and dark.");
 
 impl Shape {
-    /// Refuses shapes that cannot be; `table` is the way to their keys.
-    fn check_proportions(&self, table: &str) -> Check {
-        let way = |key: &Key| format!("{table}.{}", key.name);
-        match self {
-            Self::Plane { .. } | Self::Disk { .. } | Self::Sphere { .. } => Ok(()),
+    /// A number that others of the shape bound: its key, its value, its most, and that in words.
+    fn bounded(&mut self) -> Option<(&'static Key, &mut f64, f64, &'static str)> {
+        Some(match self {
             Self::Box { size_m, rounding_m } => {
                 let shortest = size_m.iter().copied().fold(f64::INFINITY, f64::min);
-                let what = "half of the shortest edge";
-                at_most(
-                    &way(Self::BOX_ROUNDING_M),
-                    *rounding_m,
-                    0.5 * shortest,
-                    what,
-                )
+                let words = "half of the shortest edge";
+                (Self::BOX_ROUNDING_M, rounding_m, 0.5 * shortest, words)
             }
             Self::Cylinder {
                 radius_m,
                 height_m,
                 rounding_m,
             } => {
-                let most = radius_m.min(0.5 * height_m);
-                let what = "the radius and half of the height";
-                at_most(&way(Self::CYLINDER_ROUNDING_M), *rounding_m, most, what)
+                let most = radius_m.min(0.5 * *height_m);
+                let words = "the radius and half of the height";
+                (Self::CYLINDER_ROUNDING_M, rounding_m, most, words)
             }
             Self::Torus {
                 radius_m,
                 tube_radius_m,
-            } => match tube_radius_m < radius_m {
-                true => Ok(()),
-                false => Err(Error::new(
-                    way(Self::TUBE_RADIUS_M),
-                    found(*tube_radius_m),
-                    format!("must be below `radius_m`, {}", written(*radius_m)),
-                )),
-            },
-            Self::Dome { radius_m, height_m } => at_most(
-                &way(Self::DOME_HEIGHT_M),
-                *height_m,
-                *radius_m,
-                "`radius_m`",
-            ),
+            } => {
+                let most = radius_m.next_down();
+                (Self::TUBE_RADIUS_M, tube_radius_m, most, "`radius_m`")
+            }
+            Self::Dome { radius_m, height_m } => {
+                (Self::DOME_HEIGHT_M, height_m, *radius_m, "`radius_m`")
+            }
             Self::Sweep {
                 size_m,
                 height_m,
                 rounding_m,
             } => {
                 let most = height_m.min(size_m[1]);
-                let what = "`height_m` and the extent along y";
-                at_most(&way(Self::SWEEP_ROUNDING_M), *rounding_m, most, what)
+                let words = "`height_m` and the extent along y";
+                (Self::SWEEP_ROUNDING_M, rounding_m, most, words)
             }
+            _ => return None,
+        })
+    }
+
+    /// Makes the number smaller that others of the shape bound, by a thousandth less than they do.
+    pub fn keep_proportions(&mut self) {
+        if let Some((_, value, most, _)) = self.bounded()
+            && *value > most
+        {
+            *value = 0.999 * most;
+        }
+    }
+
+    /// Refuses shapes that cannot be; `table` is the way to their keys.
+    fn check_proportions(&self, table: &str) -> Check {
+        let way = |key: &Key| format!("{table}.{}", key.name);
+        if let Some((key, value, most, words)) = self.clone().bounded()
+            && *value > most
+        {
+            let right = match self {
+                Self::Torus { radius_m, .. } => {
+                    format!("must be below {words}, {}", written(*radius_m))
+                }
+                _ => format!("must be at most {words}: {}", written(most)),
+            };
+            return Err(Error::new(way(key), found(*value), right));
+        }
+        match self {
             Self::Text { line, .. } => check_letters(&way(Self::LINE), line),
             Self::Lathe { profile_m, .. } if profile_m.len() < 2 => {
                 let found = format!("found {} points", profile_m.len());
                 let right = "must be at least two";
                 Err(Error::new(way(Self::PROFILE_M), found, right))
             }
-            Self::Lathe { .. } => Ok(()),
+            _ => Ok(()),
         }
     }
 }
@@ -235,17 +249,6 @@ pub(super) fn check_letters(key: &str, line: &str) -> Check {
         return Err(Error::new(key, found, right));
     }
     Ok(())
-}
-
-fn at_most(key: &str, value: f64, most: f64, what: &str) -> Check {
-    match value <= most {
-        true => Ok(()),
-        false => Err(Error::new(
-            key,
-            found(value),
-            format!("must be at most {what}: {}", written(most)),
-        )),
-    }
 }
 
 impl Read for Shape {

@@ -242,6 +242,24 @@ impl<'a> Form<'a> {
         self.toggle(range.label, range.tooltip, value);
     }
 
+    /// Whether there is a value, which begins as `begin` where it is turned on.
+    pub fn optional<'v, T>(
+        &mut self,
+        [label, tooltip]: [&str; 2],
+        value: &'v mut Option<T>,
+        begin: impl FnOnce() -> T,
+    ) -> Option<&'v mut T> {
+        let mut is_there = value.is_some();
+        self.toggle(label, tooltip, &mut is_there);
+        match is_there {
+            true => Some(value.get_or_insert_with(begin)),
+            false => {
+                *value = None;
+                None
+            }
+        }
+    }
+
     /// Row for the choice of one of several values, by name.
     pub fn choice<T: PartialEq + Clone>(
         &mut self,

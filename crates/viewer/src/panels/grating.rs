@@ -8,12 +8,9 @@ use hairline_scene::FINE_PITCH_UM;
 
 use super::form::Form;
 use super::groove_pattern;
-use super::layer_place::tile;
+use super::layer_place::{radii, tile};
 use crate::command::Command;
 use crate::workspace::Workspace;
-
-/// Width of the narrowest ring, in the object's size.
-const LEAST_RING: f64 = 1e-4;
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let description = work.document.description().clone();
@@ -69,25 +66,24 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         Some(_) => tile(&mut form, &mut grating.tile_m),
         None => grating.tile_m = None,
     }
-    let mut is_bounded = grating.radius_m.is_some();
-    form.toggle(
+    let texts = [
         "Within radii",
         "Grooves inside of a circle, outside of one, or in a ring",
-        &mut is_bounded,
-    );
-    match (is_bounded, &mut grating.radius_m) {
-        (false, _) => (grating.radius_m, grating.center_m) = (None, None),
-        (true, None) => grating.radius_m = Some([0.0, everywhere_m]),
-        (true, Some([least, most])) => {
-            form.number(Grating::RADIUS_M, least);
-            form.second(Grating::RADIUS_M, most);
-            // The outer one stays the greater.
-            *most = most.max(*least + LEAST_RING * everywhere_m);
-            if grating.pattern.around().is_none() {
-                let center_m = grating.center_m.get_or_insert_default();
-                form.vector(Grating::CENTER_M, center_m);
-            }
+    ];
+    let begin = [0.0, everywhere_m];
+    match radii(
+        &mut form,
+        texts,
+        Grating::RADIUS_M,
+        &mut grating.radius_m,
+        begin,
+    ) {
+        false => grating.center_m = None,
+        true if grating.pattern.around().is_none() => {
+            let center_m = grating.center_m.get_or_insert_default();
+            form.vector(Grating::CENTER_M, center_m);
         }
+        true => {}
     }
     work.choose_picture(form.wanted());
     if let Some(change) = form.change() {

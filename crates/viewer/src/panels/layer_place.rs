@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use hairline_document::description::{LayerPlaces, Scratches};
+use hairline_document::schema::Key;
 use hairline_editor::actions::pictures::PictureOf;
 
 use super::form::Form;
@@ -85,7 +86,7 @@ fn places(form: &mut Form, place: &mut LayerPlaces, index: usize) {
         PictureOf::LayerDensity(index),
     );
     tiles(form, place);
-    radii(form, place);
+    shells(form, place);
 }
 
 /// Control for the mapping of the pictures.
@@ -99,43 +100,56 @@ fn tiles(form: &mut Form, place: &mut LayerPlaces) {
 
 /// Control for the width of pictures that do not follow texture coordinates.
 pub(super) fn tile(form: &mut Form, tile_m: &mut Option<f64>) {
-    let mut is_tiled = tile_m.is_some();
-    form.toggle(
+    let texts = [
         "From three sides",
         "Lays the pictures on along the object's own axes, where it has no texture coordinates",
-        &mut is_tiled,
-    );
-    match (is_tiled, tile_m) {
-        (false, tile_m) => *tile_m = None,
-        (true, tile_m @ None) => *tile_m = Some(0.25 * form.diagonal_m),
-        (true, Some(tile_m)) => form.number(LayerPlaces::TILE_M, tile_m),
+    ];
+    let begin_m = 0.25 * form.diagonal_m;
+    if let Some(tile_m) = form.optional(texts, tile_m, || begin_m) {
+        form.number(LayerPlaces::TILE_M, tile_m);
     }
 }
 
-/// Width of the narrowest shell, in the object's size.
-const LEAST_SHELL: f64 = 1e-4;
+/// Width of the narrowest ring or shell, in the object's size.
+const LEAST_RING: f64 = 1e-4;
 
-fn radii(form: &mut Form, place: &mut LayerPlaces) {
-    let everywhere_m = form.diagonal_m;
-    let mut is_bounded = place.radius_m.is_some();
-    form.toggle(
+/// Controls for a least and a greatest distance; returns whether there are any.
+pub(super) fn radii(
+    form: &mut Form,
+    texts: [&str; 2],
+    key: &Key,
+    radius_m: &mut Option<[f64; 2]>,
+    begin_m: [f64; 2],
+) -> bool {
+    let Some([least, most]) = form.optional(texts, radius_m, || begin_m) else {
+        return false;
+    };
+    form.number(key, least);
+    form.second(key, most);
+    // The outer one stays the greater.
+    *most = most.max(*least + LEAST_RING * form.diagonal_m);
+    true
+}
+
+fn shells(form: &mut Form, place: &mut LayerPlaces) {
+    let texts = [
         "Within radii",
         "Scratches inside of a ball, outside of one, or between two",
-        &mut is_bounded,
-    );
-    match (is_bounded, &mut place.radius_m) {
-        (false, _) => (place.radius_m, place.center_m) = (None, None),
-        (true, None) => place.radius_m = Some([0.0, 0.25 * everywhere_m]),
-        (true, Some([least, most])) => {
-            form.number(LayerPlaces::RADIUS_M, least);
-            form.second(LayerPlaces::RADIUS_M, most);
-            // The outer one stays the greater.
-            *most = most.max(*least + LEAST_SHELL * everywhere_m);
-            let mut center_m = place.center_m.unwrap_or_default();
-            form.vector(LayerPlaces::CENTER_M, &mut center_m);
-            if place.center_m.is_some() || center_m != [0.0; 3] {
-                place.center_m = Some(center_m);
-            }
-        }
+    ];
+    let begin_m = [0.0, 0.25 * form.diagonal_m];
+    if !radii(
+        form,
+        texts,
+        LayerPlaces::RADIUS_M,
+        &mut place.radius_m,
+        begin_m,
+    ) {
+        place.center_m = None;
+        return;
+    }
+    let mut center_m = place.center_m.unwrap_or_default();
+    form.vector(LayerPlaces::CENTER_M, &mut center_m);
+    if place.center_m.is_some() || center_m != [0.0; 3] {
+        place.center_m = Some(center_m);
     }
 }

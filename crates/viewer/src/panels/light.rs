@@ -30,19 +30,12 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         form.number(Light::RADIANCE, &mut light.radiance);
     }
     form.number(Light::EXPOSURE_EV, &mut light.exposure_ev);
-    let mut glows = light.temperature_k.is_some();
-    form.toggle(
+    let texts = [
         "Black body",
         "The colour of a glowing body; the colour below is a filter before it",
-        &mut glows,
-    );
-    if glows {
-        form.number(
-            Light::TEMPERATURE_K,
-            light.temperature_k.get_or_insert(DAYLIGHT_K),
-        );
-    } else {
-        light.temperature_k = None;
+    ];
+    if let Some(kelvin) = form.optional(texts, &mut light.temperature_k, || DAYLIGHT_K) {
+        form.number(Light::TEMPERATURE_K, kelvin);
     }
     form.color(Light::COLOR, &mut light.color);
     light.kind.rows(&mut form);
@@ -87,20 +80,13 @@ fn cone(form: &mut Form, light: &mut Light) {
         light.cone = None;
         return;
     }
-    let mut is_spot = light.cone.is_some();
-    form.toggle(
-        "Spot",
-        "Whether the light leaves in a cone alone",
-        &mut is_spot,
-    );
-    if !is_spot {
-        light.cone = None;
-        return;
-    }
     let below = place_light::center(light) + DVec3::NEG_Z;
     let target_m = light.kind.axis().is_none().then(|| below.into());
-    let cone = light.cone.get_or_insert_with(|| Cone::new(40.0, target_m));
-    cone.rows(form);
+    let texts = ["Spot", "Whether the light leaves in a cone alone"];
+    let begin = || Cone::new(40.0, target_m);
+    if let Some(cone) = form.optional(texts, &mut light.cone, begin) {
+        cone.rows(form);
+    }
 }
 
 /// The picture on a rectangle.
@@ -127,13 +113,11 @@ fn doors(form: &mut Form, light: &mut Light) {
         light.barn_doors_deg = None;
         return;
     }
-    let mut has_doors = light.barn_doors_deg.is_some();
-    form.toggle("Barn doors", "Whether flaps end its light", &mut has_doors);
-    if !has_doors {
-        light.barn_doors_deg = None;
+    let texts = ["Barn doors", "Whether flaps end its light"];
+    let doors = form.optional(texts, &mut light.barn_doors_deg, || [45.0; 4]);
+    let Some(doors_deg) = doors else {
         return;
-    }
-    let doors_deg = light.barn_doors_deg.get_or_insert([45.0; 4]);
+    };
     let (beside, above_and_below) = doors_deg.split_at_mut(2);
     form.boxes(Light::BARN_DOORS_DEG, &["left", "right"], beside);
     form.boxes(Light::BARN_DOORS_DEG, &["above", "below"], above_and_below);

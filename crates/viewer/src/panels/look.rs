@@ -20,28 +20,16 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let mut form = Form::new(ui, ("look", index), work.diagonal_m(None));
     let mut name = look.name.clone();
     form.text("Name", "Name in the strip and of its picture", &mut name);
-    let mut has_camera = look.camera.is_some();
-    form.toggle(
-        "Camera of the look",
-        "Whether it has a camera of its own",
-        &mut has_camera,
-    );
-    if has_camera != look.camera.is_some() {
-        look.camera = has_camera.then(|| work.camera());
-    }
-    let mut has_exposure = look.exposure_ev.is_some();
-    form.toggle(
+    let texts = ["Camera of the look", "Whether it has a camera of its own"];
+    form.optional(texts, &mut look.camera, || work.camera());
+    let texts = [
         "Exposure of the look",
         "Whether it has an exposure of its own",
-        &mut has_exposure,
-    );
-    match has_exposure {
-        true => {
-            let camera = look.camera.as_ref().unwrap_or(&description.camera);
-            let exposure_ev = look.exposure_ev.get_or_insert(camera.exposure_ev);
-            form.number(Look::EXPOSURE_EV, exposure_ev);
-        }
-        false => look.exposure_ev = None,
+    ];
+    let camera = look.camera.as_ref().unwrap_or(&description.camera);
+    let begin_ev = camera.exposure_ev;
+    if let Some(exposure_ev) = form.optional(texts, &mut look.exposure_ev, || begin_ev) {
+        form.number(Look::EXPOSURE_EV, exposure_ev);
     }
     let mut has_light = look.has_light();
     form.toggle(

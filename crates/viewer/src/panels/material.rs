@@ -74,59 +74,46 @@ fn n_k_of(metal: Metal) -> Vec<[f64; 3]> {
     (0..=40).map(row).collect()
 }
 
-/// Rows for a material without a coat, or with one.
-fn coat_rows(form: &mut Form, coat: &mut Option<Coat>) {
-    let mut is_coated = coat.is_some();
-    let tooltip = "Whether a clear layer lies over it, in which its scratches are";
-    form.toggle("Coated", tooltip, &mut is_coated);
-    match coat {
-        Some(_) if !is_coated => *coat = None,
-        Some(coat) => {
-            coat.rows(form);
-        }
-        None if is_coated => {
-            *coat = Some(Coat {
-                weight: 1.0,
-                roughness: 0.03,
-            });
-        }
-        None => {}
-    }
-}
-
-/// Rows for a measured metal under a clear plate, or bare.
-fn cover_rows(form: &mut Form, cover: &mut Option<Cover>) {
-    let mut is_covered = cover.is_some();
-    let tooltip = "Whether a clear plate lies over the metal and its gratings, as the polycarbonate of a disc";
-    form.toggle("Covered", tooltip, &mut is_covered);
-    match cover {
-        Some(_) if !is_covered => *cover = None,
-        Some(cover) => {
-            cover.rows(form);
-        }
-        None if is_covered => *cover = Some(Cover::default()),
-        None => {}
+/// Rows for a part that a material may have.
+fn part<T: Rows>(form: &mut Form, texts: [&str; 2], part: &mut Option<T>, begin: T) {
+    if let Some(part) = form.optional(texts, part, || begin) {
+        part.rows(form);
     }
 }
 
 /// Alike in all directions, or brushed.
 fn anisotropy_rows(form: &mut Form, anisotropy: &mut Option<Anisotropy>) {
-    let mut is_brushed = anisotropy.is_some();
-    let tooltip = "Whether highlights are drawn out one way, as on brushed metal";
-    form.toggle("Brushed", tooltip, &mut is_brushed);
-    match anisotropy {
-        Some(_) if !is_brushed => *anisotropy = None,
-        Some(anisotropy) => {
-            anisotropy.rows(form);
-        }
-        None if is_brushed => {
-            *anisotropy = Some(Anisotropy {
-                strength: 0.6,
-                direction_deg: 0.0,
-            });
-        }
-        None => {}
-    }
+    let texts = [
+        "Brushed",
+        "Whether highlights are drawn out one way, as on brushed metal",
+    ];
+    let begin = Anisotropy {
+        strength: 0.6,
+        direction_deg: 0.0,
+    };
+    part(form, texts, anisotropy, begin);
+}
+
+/// Rows for a material without a coat, or with one.
+fn coat_rows(form: &mut Form, coat: &mut Option<Coat>) {
+    let texts = [
+        "Coated",
+        "Whether a clear layer lies over it, in which its scratches are",
+    ];
+    let begin = Coat {
+        weight: 1.0,
+        roughness: 0.03,
+    };
+    part(form, texts, coat, begin);
+}
+
+/// Rows for a measured metal under a clear plate, or bare.
+fn cover_rows(form: &mut Form, cover: &mut Option<Cover>) {
+    let texts = [
+        "Covered",
+        "Whether a clear plate lies over the metal and its gratings, as the polycarbonate of a disc",
+    ];
+    part(form, texts, cover, Cover::default());
 }
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {

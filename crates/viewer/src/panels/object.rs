@@ -1,8 +1,7 @@
 //! An object: its place, its material, and the layers on it.
 
 use egui::Ui;
-use hairline_document::description::{Object, Shape, Surface, Up};
-use hairline_document::schema::Key;
+use hairline_document::description::{Object, Rows, Shape, Surface, Up};
 use hairline_editor::Selection;
 use hairline_editor::actions::{gratings, layers, objects};
 use hairline_editor::grating_presets::GratingPreset;
@@ -212,117 +211,40 @@ fn scale(form: &mut Form, scale: &mut [f64; 3]) {
 
 /// Rows for the size: that of the file, or fitted, at first to about the present one.
 fn fit_rows(form: &mut Form, fit_m: &mut Option<f64>) {
-    let mut is_fitted = fit_m.is_some();
-    form.toggle(
+    let texts = [
         "Fit",
         "Whether the model is made as large as is said here; else it is as large as in its file",
-        &mut is_fitted,
-    );
-    match fit_m {
-        Some(_) if !is_fitted => *fit_m = None,
-        Some(size_m) => form.number(Object::FIT_M, size_m),
-        None if is_fitted => *fit_m = Some(form.diagonal_m),
-        None => {}
+    ];
+    let diagonal_m = form.diagonal_m;
+    if let Some(size_m) = form.optional(texts, fit_m, || diagonal_m) {
+        form.number(Object::FIT_M, size_m);
     }
 }
 
 /// Rows for a model at rest, or at a time of its animation.
 fn time_rows(form: &mut Form, time_s: &mut Option<f64>, animation: &mut Option<String>) {
-    let mut is_animated = time_s.is_some();
-    form.toggle(
+    let texts = [
         "Animate",
         "Whether the model stands as an animation has it at a time; else it is at rest",
-        &mut is_animated,
-    );
-    match time_s {
-        Some(_) if !is_animated => (*time_s, *animation) = (None, None),
-        Some(time_s) => {
-            form.number(Object::TIME_S, time_s);
-            let mut name = animation.clone().unwrap_or_default();
-            let tooltip = "Which animation, by its name or its number from 0; empty for the first";
-            form.text("Animation", tooltip, &mut name);
-            *animation = Some(name).filter(|name| !name.is_empty());
-        }
-        None if is_animated => *time_s = Some(0.0),
-        None => {}
-    }
-}
-
-/// A number that another one of the shape bounds; it follows where that falls below it.
-fn up_to(form: &mut Form, key: &Key, value: &mut f64, most: f64) {
-    form.number(key, value);
-    *value = value.min(most);
+    ];
+    let Some(time_s) = form.optional(texts, time_s, || 0.0) else {
+        *animation = None;
+        return;
+    };
+    form.number(Object::TIME_S, time_s);
+    let mut name = animation.clone().unwrap_or_default();
+    let tooltip = "Which animation, by its name or its number from 0; empty for the first";
+    form.text("Animation", tooltip, &mut name);
+    *animation = Some(name).filter(|name| !name.is_empty());
 }
 
 fn shape_rows(form: &mut Form, shape: &mut Shape) {
-    match shape {
-        Shape::Plane { size_m } => form.boxes(Shape::PLANE_SIZE_M, &["x", "y"], size_m),
-        Shape::Disk { radius_m } | Shape::Sphere { radius_m } => {
-            form.number(Shape::RADIUS_M, radius_m);
-        }
-        Shape::Box { size_m, rounding_m } => {
-            form.boxes(Shape::BOX_SIZE_M, &["x", "y", "z"], size_m);
-            let shortest = size_m.iter().copied().fold(f64::INFINITY, f64::min);
-            up_to(form, Shape::BOX_ROUNDING_M, rounding_m, 0.5 * shortest);
-        }
-        Shape::Cylinder {
-            radius_m,
-            height_m,
-            rounding_m,
-        } => {
-            form.number(Shape::RADIUS_M, radius_m);
-            form.number(Shape::HEIGHT_M, height_m);
-            let most = radius_m.min(0.5 * *height_m);
-            up_to(form, Shape::CYLINDER_ROUNDING_M, rounding_m, most);
-        }
-        Shape::Torus {
-            radius_m,
-            tube_radius_m,
-        } => {
-            form.number(Shape::RING_RADIUS_M, radius_m);
-            up_to(form, Shape::TUBE_RADIUS_M, tube_radius_m, 0.999 * *radius_m);
-        }
-        Shape::Dome { radius_m, height_m } => {
-            form.number(Shape::RADIUS_M, radius_m);
-            up_to(form, Shape::DOME_HEIGHT_M, height_m, *radius_m);
-        }
-        Shape::Sweep {
-            size_m,
-            height_m,
-            rounding_m,
-        } => {
-            form.boxes(Shape::PLANE_SIZE_M, &["x", "y"], size_m);
-            form.number(Shape::HEIGHT_M, height_m);
-            let most = height_m.min(size_m[1]);
-            up_to(form, Shape::SWEEP_ROUNDING_M, rounding_m, most);
-        }
-        Shape::Text {
-            line,
-            height_m,
-            depth_m,
-        } => {
-            let tooltip = "What it says: Latin, Greek or Cyrillic letters";
-            form.text("Text", tooltip, line);
-            form.number(Shape::CAPITALS_M, height_m);
-            form.number(Shape::DEPTH_M, depth_m);
-        }
-        Shape::Lathe {
-            profile_m,
-            segments,
-            smooth,
-        } => {
-            let mut facets = u64::from(*segments);
-            form.whole(Shape::SEGMENTS, &mut facets);
-            *segments = u32::try_from(facets).unwrap_or(u32::MAX);
-            form.toggle(
-                "Smooth",
-                "Whether the profile is rounded where it bends gently",
-                smooth,
-            );
-            form.section("Profile");
-            for (i, [radius_m, height_m]) in profile_m.iter_mut().enumerate() {
-                form.point(i, radius_m, height_m);
-            }
+    shape.rows(form);
+    shape.keep_proportions();
+    if let Shape::Lathe { profile_m, .. } = shape {
+        form.section("Profile");
+        for (i, [radius_m, height_m]) in profile_m.iter_mut().enumerate() {
+            form.point(i, radius_m, height_m);
         }
     }
 }
