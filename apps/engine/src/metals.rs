@@ -1,6 +1,6 @@
 //! Metals, and the spectra of their scratches.
 
-use hairline_document::description::{Scratches, metal_names};
+use hairline_document::description::Scratches;
 use hairline_engine::{base_tables, scratch_table as table};
 use hairline_optics::metal::Metal;
 use hairline_optics::section::GrooveShape;
@@ -10,10 +10,10 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use crate::{parsed, thrown};
 
 pub(crate) fn metal_of(name: &str) -> Result<Metal, JsError> {
-    let named = metal_names().iter().find(|(known, _)| *known == name);
+    let named = Metal::NAMED.iter().find(|(known, _)| *known == name);
     named.map(|(_, metal)| *metal).ok_or_else(|| {
-        let all: Vec<_> = metal_names().iter().map(|(name, _)| *name).collect();
-        let right = format!("must be one of {}, or null for a colour", all.join(", "));
+        let all = Metal::NAMES.join(", ");
+        let right = format!("must be one of {all}, or null for a colour");
         JsError::new(&format!("metal: found \"{name}\"; {right}"))
     })
 }

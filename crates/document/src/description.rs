@@ -66,7 +66,7 @@ pub use sections::{SECTIONS, section};
 pub use shapes::Shape;
 pub use strokes::{Brush, Paint, STROKE_POINTS, Stroke};
 pub use studio::{Ground, Studio};
-pub use values::{metal_names, profile_names};
+pub use values::profile_names;
 
 /// A whole scene file.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -166,7 +166,7 @@ impl MaterialPreset {
     /// Name in a menu.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Metal(metal) => metal_name(metal),
+            Self::Metal(metal) => metal.title(),
             Self::CarPaint => "Car paint",
             Self::FlakePaint => "Metallic paint",
             Self::DarkTable => "Dark table",
@@ -244,21 +244,6 @@ impl MaterialPreset {
 /// The material of shapes in a scene that has none.
 pub(crate) fn plain_steel() -> Material {
     MaterialPreset::Metal(Metal::StainlessSteel).material()
-}
-
-fn metal_name(metal: Metal) -> &'static str {
-    match metal {
-        Metal::Iron => "Iron",
-        Metal::StainlessSteel => "Steel",
-        Metal::Aluminium => "Aluminium",
-        Metal::Copper => "Copper",
-        Metal::Gold => "Gold",
-        Metal::Silver => "Silver",
-        Metal::Brass => "Brass",
-        Metal::Chromium => "Chromium",
-        Metal::Titanium => "Titanium",
-        Metal::Nickel => "Nickel",
-    }
 }
 
 hairline_image::listed! {

@@ -254,7 +254,7 @@ mod tests {
                 (0..3).fold(worst, |worst, ch| worst.max(error(ch).abs()))
             })
         };
-        for metal in Metal::ALL {
+        for &metal in Metal::ALL {
             let exact = |c| metal.reflectance_rgb(c);
             let error = worst(&FresnelCurve::new(exact), &exact);
             println!("{metal:?}: {:.3} %", 100.0 * error);

@@ -5,29 +5,54 @@ use crate::spectrum;
 use std::fmt;
 use std::sync::{Arc, LazyLock};
 
-/// A metal of measured n and k.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Metal {
+/// Declares the measured metals, each with its name in files and its title in menus, in the order of the columns of data/metals.csv.
+macro_rules! metals {
+    ($($(#[$doc:meta])* $Metal:ident = $name:literal, $title:literal;)*) => {
+        /// A metal of measured n and k.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Metal {
+            $($(#[$doc])* $Metal,)*
+        }
+
+        impl Metal {
+            /// Every measured metal.
+            pub const ALL: &'static [Self] = &[$(Self::$Metal),*];
+            /// Their names in files.
+            pub const NAMES: &'static [&'static str] = &[$($name),*];
+            /// Each with its name.
+            pub const NAMED: &'static [(&'static str, Self)] = &[$(($name, Self::$Metal)),*];
+
+            /// Title in a menu.
+            pub fn title(self) -> &'static str {
+                match self {
+                    $(Self::$Metal => $title,)*
+                }
+            }
+        }
+    };
+}
+
+metals! {
     /// Iron; also stands for carbon steel.
-    Iron,
+    Iron = "iron", "Iron";
     /// Austenitic stainless steel.
-    StainlessSteel,
+    StainlessSteel = "steel", "Steel";
     /// Aluminium.
-    Aluminium,
+    Aluminium = "aluminium", "Aluminium";
     /// Copper.
-    Copper,
+    Copper = "copper", "Copper";
     /// Gold.
-    Gold,
+    Gold = "gold", "Gold";
     /// Silver.
-    Silver,
+    Silver = "silver", "Silver";
     /// Brass, 70 % copper and 30 % zinc.
-    Brass,
+    Brass = "brass", "Brass";
     /// Chromium.
-    Chromium,
+    Chromium = "chromium", "Chromium";
     /// Titanium.
-    Titanium,
+    Titanium = "titanium", "Titanium";
     /// Nickel.
-    Nickel,
+    Nickel = "nickel", "Nickel";
 }
 
 /// The complex refractive index of a metal over the wavelength.
@@ -96,20 +121,6 @@ impl MetalIndex {
 }
 
 impl Metal {
-    /// Every measured metal, in the order of the columns of data/metals.csv.
-    pub const ALL: [Metal; 10] = [
-        Metal::Iron,
-        Metal::StainlessSteel,
-        Metal::Aluminium,
-        Metal::Copper,
-        Metal::Gold,
-        Metal::Silver,
-        Metal::Brass,
-        Metal::Chromium,
-        Metal::Titanium,
-        Metal::Nickel,
-    ];
-
     /// n and k at a wavelength, linear between the tabulated ones (every 10 nm from 380 to 780 nm, constant beyond).
     pub fn n_k(self, wavelength_nm: f64) -> (f64, f64) {
         let column = 2 * Self::ALL.iter().position(|it| *it == self).unwrap_or(0);
@@ -179,7 +190,7 @@ mod tests {
     #[test]
     fn metals_have_their_colours() {
         let rgb = |m: Metal| m.reflectance_rgb(1.0);
-        for metal in Metal::ALL {
+        for &metal in Metal::ALL {
             for c in rgb(metal) {
                 // Saturated metals leave the gamut: gold reflects more red than Rec.709 white holds.
                 assert!((0.2..1.06).contains(&c), "{metal:?} {c}");

@@ -11,7 +11,7 @@ use hairline_optics::cover::Cover;
 use hairline_optics::footprint::{Footprint, ScratchShare, ends, scratch_share};
 use hairline_optics::grating::Grating;
 use hairline_optics::mask::depth_coherence;
-use hairline_optics::metal::MetalIndex;
+use hairline_optics::metal::{Metal, MetalIndex};
 use hairline_optics::rigorous::Medium;
 use hairline_optics::section::Section;
 use hairline_scene::{efficiencies, fine_row};
@@ -157,7 +157,7 @@ impl Bsdf {
         let metal = match n_k {
             Some(rows) if rows.is_empty() => return Err(errors::internal()),
             Some(rows) => MetalIndex::own(&rows),
-            None => names::named("metal", metal, description::metal_names())?.into(),
+            None => names::named("metal", metal, Metal::NAMED)?.into(),
         };
         let cover = cover.map(|(ior, thickness_mm, color)| Cover {
             ior,

@@ -1,6 +1,5 @@
 //! The physics over arrays: one number of each argument at a time. Shapes are matched in Python.
 
-use hairline_document::description;
 use hairline_optics::coherent::{self, GroovePiece};
 use hairline_optics::footprint::ScratchShare;
 use hairline_optics::mask::{self, Mask, ScratchSums};
@@ -42,7 +41,7 @@ fn each<'py, const IN: usize, const OUT: usize>(
 }
 
 fn metal(name: &str) -> PyResult<Metal> {
-    crate::names::named("metal", name, description::metal_names())
+    crate::names::named("metal", name, Metal::NAMED)
 }
 
 macro_rules! functions {
@@ -196,8 +195,7 @@ fn coherent_response<'py>(
 /// Names of the metals in scene files.
 #[pyfunction]
 fn metal_names() -> Vec<&'static str> {
-    let names = description::metal_names().iter();
-    names.map(|(name, _)| *name).collect()
+    Metal::NAMES.to_vec()
 }
 
 /// Adds the functions of this file to the module.

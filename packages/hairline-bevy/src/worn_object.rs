@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bevy::log::warn;
 use gltf::accessor::{DataType, Dimensions, Item, Iter};
-use hairline_document::description::{Grating, Scratches as Layer, metal_names};
+use hairline_document::description::{Grating, Scratches as Layer};
 use hairline_document::{Error, object_of_gratings};
 use hairline_engine::{GratingField, GratingTexels, LaidGrating, Pieces};
 use hairline_optics::metal::Metal;
@@ -80,7 +80,7 @@ impl WornObject {
         let material = materials.find(|row| row["name"] == object["material"]);
         let material = material.unwrap_or(&Value::Null);
         let named = |(name, _): &&(&str, Metal)| material["metal"] == **name;
-        let metal = metal_names().iter().find(named).map(|(_, metal)| *metal);
+        let metal = Metal::NAMED.iter().find(named).map(|(_, metal)| *metal);
         let coherence_um = self::number(material, "coherence_um").unwrap_or(DEFAULT_COHERENCE_UM);
         let mut gratings = Vec::new();
         for (i, row) in of_object("grating") {

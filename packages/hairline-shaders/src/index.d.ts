@@ -1,12 +1,10 @@
-import type { GratingRow, Layer } from './layer.js';
+import type { GratingRow, Layer, Metal } from './layer.js';
 
-export type { GratingRow, Layer } from './layer.js';
+export type { GratingRow, Layer, Metal } from './layer.js';
 
 /** All shader modules in one file. */
 export const hairlineWgsl: string;
 
-/** A metal whose refractive index was measured. */
-export type Metal = 'iron' | 'steel' | 'aluminium' | 'copper' | 'gold' | 'silver' | 'brass' | 'chromium' | 'titanium' | 'nickel';
 export const metals: Metal[];
 /** Reflectance at normal incidence, linear Rec.709; after loadTables(). */
 export function metalColor(metal: Metal): [number, number, number];

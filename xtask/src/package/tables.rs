@@ -4,7 +4,6 @@ use std::path::Path;
 
 use anyhow::Context;
 use hairline_document::LISTED_RANGES;
-use hairline_document::description::metal_names;
 use hairline_engine::scratch_tree;
 use hairline_optics::metal::Metal;
 use hairline_optics::table::{ENGINE_COLUMNS, ENGINE_GRATING_ROWS, ROWS, last_depth_nm};
@@ -15,10 +14,6 @@ use super::files::write;
 
 /// Names of metals in the order of their curves, sizes of textures, the usual coherence window, and ranges of the sizes of grooves.
 pub(super) fn data() -> String {
-    let names = Metal::ALL.iter().map(|metal| {
-        let named = metal_names().iter().find(|(_, known)| known == metal);
-        named.map_or("", |(name, _)| *name)
-    });
     let sizes = LISTED_RANGES.map(|(name, (least, most))| json!([name, least, most]));
     let row_nm = last_depth_nm(ROWS) / (ROWS - 1) as f64;
     format!(
@@ -28,7 +23,7 @@ pub(super) fn data() -> String {
          export const COHERENCE_UM = {DEFAULT_COHERENCE_UM};\n\
          export const METALS = {};\nexport const SIZES = {};\n",
         scratch_tree::WIDTH,
-        json!(names.collect::<Vec<_>>()),
+        json!(Metal::NAMES),
         json!(sizes)
     )
 }

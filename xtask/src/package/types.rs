@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use hairline_document::description::section;
 use hairline_document::schema::{Form, Initial, Key};
+use hairline_optics::metal::Metal;
 use serde_json::json;
 
 use super::files::{install, node, write};
@@ -16,6 +17,12 @@ pub(super) fn layer() -> String {
         "// Made by `cargo xtask package` from the schema of scene files.\n\n\
          /** Alike for all, or drawn: log-normal, of curvatures normal. */\n\
          export type Size = number | { mean: number; spread?: number };\n",
+    );
+    // Writing to a text cannot fail.
+    let _ = write!(
+        text,
+        "\n/** A metal whose refractive index was measured. */\nexport type Metal = {};\n",
+        one_of(Metal::NAMES)
     );
     interface(&mut text, "Layer", "scratches");
     interface(&mut text, "LayerPlaces", "where");

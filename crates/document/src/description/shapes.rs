@@ -186,12 +186,14 @@ impl Shape {
         })
     }
 
-    /// Makes the number smaller that others of the shape bound, by a thousandth less than they do.
+    /// Makes the number smaller that others of the shape bound. A torus keeps a hole.
     pub fn keep_proportions(&mut self) {
-        if let Some((_, value, most, _)) = self.bounded()
-            && *value > most
-        {
-            *value = 0.999 * most;
+        let share = match self {
+            Self::Torus { .. } => 0.999,
+            _ => 1.0,
+        };
+        if let Some((_, value, most, _)) = self.bounded() {
+            *value = value.min(share * most);
         }
     }
 

@@ -37,29 +37,18 @@ named! { ToneMap {
     "none" => None,
 } }
 
-named! { Metal {
-    "iron" => Iron,
-    "steel" => StainlessSteel,
-    "aluminium" => Aluminium,
-    "copper" => Copper,
-    "gold" => Gold,
-    "silver" => Silver,
-    "brass" => Brass,
-    "chromium" => Chromium,
-    "titanium" => Titanium,
-    "nickel" => Nickel,
-} }
+impl Numbers for Metal {}
+
+impl Named for Metal {
+    const NAMES: &'static [(&'static str, Self)] = Self::NAMED;
+    const TEXTS: &'static [&'static str] = Self::NAMES;
+}
 
 named! { BuiltInMap {
     "studio" => Studio,
     "window" => Window,
     "overcast" => Overcast,
 } }
-
-/// Names of the metals in scene files.
-pub fn metal_names() -> &'static [(&'static str, Metal)] {
-    Metal::NAMES
-}
 
 /// A value that is written by its name.
 pub(super) struct Name<T>(pub(super) T);

@@ -288,7 +288,7 @@ fn python_class(text: &mut String, name: &str, base: &str, meaning: &str, lines:
 #[test]
 fn the_keys_of_pythons_classes_are_those_of_the_schema() {
     let mut text = "\
-\"\"\"The keys of a scene's tables. Made of the schema of scene files, in crates/document/src/schema.\"\"\"
+\"\"\"The keys of a scene's tables. Made of the entries of the keys, in crates/document/src/description.\"\"\"
 
 # Notes are one line each.
 # ruff: noqa: E501
