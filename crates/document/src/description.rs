@@ -8,6 +8,7 @@
 
 mod camera;
 mod check;
+mod derived;
 mod distribution;
 mod engraved;
 mod environment;
@@ -16,6 +17,7 @@ mod gratings;
 pub(crate) mod hint;
 mod json;
 mod keyed;
+mod laid;
 mod lens;
 mod light_kind;
 mod lights;
@@ -48,6 +50,7 @@ pub use engraved::{Engraved, Line};
 pub use environment::{Environment, Map};
 pub use files::FileUse;
 pub use gratings::{Grating, GratingTheory, GroovePattern, UvAxis};
+pub use laid::{Amount, Around, Brushed, Laid, Listed, Pattern};
 pub use light_kind::{LightKind, SUN_DEG};
 pub use lights::{Cone, Light};
 pub use looks::Look;
@@ -59,9 +62,7 @@ pub use panel::{Panel, RowValue, Rows};
 pub use place::LayerPlaces;
 pub use ranges::LARGEST_SEED;
 pub use render::Render;
-pub use scratches::{
-    Amount, Around, Brushed, Laid, Layer, Listed, Pattern, Scratches, Standing, standings,
-};
+pub use scratches::{Layer, Scratches, Standing, standings};
 pub use sections::{SECTIONS, section};
 pub use shapes::Shape;
 pub use strokes::{Brush, Paint, STROKE_POINTS, Stroke};

@@ -4,4 +4,4 @@ pub mod key;
 pub(crate) mod section;
 
 pub use key::{Bounds, Control, Form, Initial, Key, LARGEST_M, SMALLEST_M, Slider};
-pub use section::{Choice, Entry, Section};
+pub use section::{Choice, Entry, KindKeys, Section};

@@ -6,7 +6,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Error, Expr, Field, Ident, LitStr, Path, Result, Token, Type};
 
-use crate::options::{docs, meaning, named};
+use crate::options::{docs, meaning, named, names};
 
 /// Where a field comes from.
 enum Source {
@@ -126,16 +126,16 @@ impl Keyed {
 
     /// Its entries in the list of a table's keys.
     pub fn entries(&self) -> TokenStream {
-        let ty = &self.ty;
+        let (names, ty) = (names(), &self.ty);
         let own = match &self.source {
             _ if self.is_of_kinds => quote!(),
-            Source::Key(key) => quote!(crate::schema::Entry::Key(#key),),
-            Source::Flat(Some(list)) => quote!(crate::schema::Entry::All(#list),),
-            Source::Flat(None) => quote!(crate::schema::Entry::All(<#ty as Keyed>::KEYS),),
+            Source::Key(key) => quote!(#names::Entry::Key(#key),),
+            Source::Flat(Some(list)) => quote!(#names::Entry::All(#list),),
+            Source::Flat(None) => quote!(#names::Entry::All(<#ty as Keyed>::KEYS),),
             Source::None => quote!(),
         };
         let then = &self.then;
-        quote!(#own #(crate::schema::Entry::Key(#then),)*)
+        quote!(#own #(#names::Entry::Key(#then),)*)
     }
 
     /// An expression that reads it from `table`.
@@ -209,12 +209,13 @@ fn declare(entry: &Entry, field: &Field, member: &Ident, ty: &Type) -> (Ident, T
         true => quote!(),
         false => quote!(.#chain),
     };
+    let names = names();
     let declared = quote! {
         #(#docs)*
-        pub const #constant: &'static crate::schema::Key = {
+        pub const #constant: &'static #names::Key = {
             #[allow(unused_imports)]
-            use crate::schema::key::*;
-            &Key::new(#name, <#ty as crate::description::table::Held>::FORM).means(#meaning)#chain
+            use #names::*;
+            &Key::new(#name, <#ty as Held>::FORM).means(#meaning)#chain
         };
     };
     (constant, declared)

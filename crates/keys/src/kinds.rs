@@ -5,42 +5,33 @@ use quote::quote;
 use syn::{DataEnum, DeriveInput, Error, Fields, LitStr, Result, Variant};
 
 use crate::field::Keyed;
-use crate::options::{Kind, Options, meaning};
+use crate::options::{Options, kind, meaning, names};
 
 /// A variant with its fields.
 struct Case<'v> {
     variant: &'v Variant,
-    kind: Kind,
+    name: LitStr,
     fields: Vec<Keyed>,
 }
 
 impl<'v> Case<'v> {
     fn new(variant: &'v Variant, owner: &TokenStream) -> Result<Self> {
-        let kind = Kind::of_variant(&variant.attrs)?;
+        let name = kind(&variant.attrs)?;
         let missing = || Error::new_spanned(variant, "needs a `#[kind(\"name\")]`");
         let fields = variant.fields.iter();
         let fields = fields.map(|field| Keyed::new(field, owner, true));
         Ok(Self {
             variant,
-            kind: kind.ok_or_else(missing)?,
+            name: name.ok_or_else(missing)?,
             fields: fields.collect::<Result<_>>()?,
         })
     }
 
-    fn name(&self) -> &LitStr {
-        &self.kind.name
-    }
-
     fn choice(&self) -> TokenStream {
-        let (name, meaning) = (self.name(), meaning(&self.variant.attrs));
+        let (name, meaning) = (&self.name, meaning(&self.variant.attrs));
         let entries = self.fields.iter().map(Keyed::entries);
-        let (before, after) = (self.kind.before.iter(), self.kind.after.iter());
         quote! {
-            crate::schema::Choice::new(#name, #meaning, &[
-                #(crate::schema::Entry::All(#before),)*
-                #(#entries)*
-                #(crate::schema::Entry::All(#after),)*
-            ])
+            Choice::new(#name, #meaning, &[#(#entries)*])
         }
     }
 
@@ -90,13 +81,17 @@ pub fn expand(input: &DeriveInput, options: &Options, data: &DataEnum) -> Result
     let constants = cases.iter().flat_map(|case| &case.fields);
     let constants = constants.filter_map(|field| field.constant.as_ref());
     let choices = cases.iter().map(Case::choice);
+    let names = names();
     let tag = options.tag.iter();
     let tag = quote!(#(#tag)*);
     let write_tag = options.tag.as_ref().filter(|tag| !tag.value().is_empty());
     let write_tag = write_tag.map(|tag| quote!(map.serialize_entry(#tag, self.name())?;));
-    let names: Vec<_> = cases.iter().map(Case::name).collect();
+    let tags: Vec<_> = cases.iter().map(|case| &case.name).collect();
     let idents = cases.iter().map(|case| &case.variant.ident);
-    let (other_names, other_reads) = (others.iter().map(Case::name), others.iter().map(Case::read));
+    let (other_names, other_reads) = (
+        others.iter().map(|case| &case.name),
+        others.iter().map(Case::read),
+    );
     let last_read = last.read();
     let checks = cases.iter().map(|case| case.arm(Keyed::check));
     let writes = cases.iter().map(|case| case.arm(Keyed::write));
@@ -109,25 +104,21 @@ pub fn expand(input: &DeriveInput, options: &Options, data: &DataEnum) -> Result
             /// Its value of the tag in a file.
             pub fn name(&self) -> &'static str {
                 match self {
-                    #(Self::#idents { .. } => #names,)*
+                    #(Self::#idents { .. } => #tags,)*
                 }
             }
         }
 
         const _: () = {
-            use crate::description::keyed::{Keyed, Kinds};
-            use crate::description::panel::{Panel, Rows};
-            use crate::description::ranges::Check;
-            use crate::description::table::Table;
-            use crate::error::Error;
+            use #names::*;
 
             impl Kinds for #owner {
                 const TAG: &'static str = #tag;
-                const CHOICES: &'static [crate::schema::Choice] = &[#(#choices),*];
+                const CHOICES: &'static [Choice] = &[#(#choices),*];
             }
 
             impl Keyed for #owner {
-                const KEYS: &'static [crate::schema::Entry] = &[];
+                const KEYS: &'static [Entry] = &[];
 
                 fn read_keys(table: &Table) -> Result<Self, Error> {
                     Ok(match table.kind() {

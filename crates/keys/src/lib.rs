@@ -15,12 +15,13 @@
 //! | `#[then(KEY, ..)]` | a field | keys that follow it in lists and are no fields |
 //! | `#[keyed(table)]` | a struct | a table of the file: a value by itself |
 //! | `#[keyed(table, kinds = Kind)]` | a struct | a table in which a tag tells the kind |
+//! | `#[keyed(of_kinds = LISTS)]` | a struct | keys of the table that some kinds alone have: of each kind that has any, its name and the keys |
 //! | `#[keyed(held)]` | a struct | as `table`, with a reader of its own |
 //! | `#[keyed(default)]` | a struct | its default has the initial values of its keys |
 //! | `#[keyed(check = function)]` | a struct, an enum | checked by `fn(&Self, way: &str) -> Check` too |
 //! | `#[keyed(remote = Type)]` | a struct | stands for a struct of another crate that has the same fields |
 //! | `#[keyed(tag = "kind")]` | an enum | the value of the tag tells the variant |
-//! | `#[kind("name", before = KEYS, after = KEYS)]` | a variant | the value of the tag, and keys that belong to it, listed before and after its fields |
+//! | `#[kind("name")]` | a variant | the value of the tag |
 //! | `#[keyed(one_of)]` | an enum | a key of several that exclude one another tells the variant |
 //!
 //! Fields of variants that have no `#[key]` share the key of the field of the same name in another variant.

@@ -5,7 +5,7 @@ use quote::quote;
 use syn::{DataEnum, DeriveInput, Error, Field, Fields, Ident, Result, Variant};
 
 use crate::field::Keyed;
-use crate::options::Options;
+use crate::options::{Options, names};
 
 pub fn expand(input: &DeriveInput, options: &Options, data: &DataEnum) -> Result<TokenStream> {
     let owner = &input.ident;
@@ -23,21 +23,17 @@ pub fn expand(input: &DeriveInput, options: &Options, data: &DataEnum) -> Result
     let ([others @ .., last], [other_keys @ .., last_key]) = (&idents[..], &keys[..]) else {
         return Err(Error::new_spanned(input, "needs a variant"));
     };
-    let check_more = options.check_more();
+    let (names, check_more) = (names(), options.check_more());
     Ok(quote! {
         impl #owner {
             #(#constants)*
         }
 
         const _: () = {
-            use crate::description::keyed::Keyed;
-            use crate::description::panel::{Panel, Rows};
-            use crate::description::ranges::Check;
-            use crate::description::table::Table;
-            use crate::error::Error;
+            use #names::*;
 
             impl Keyed for #owner {
-                const KEYS: &'static [crate::schema::Entry] = &[#(#entries)*];
+                const KEYS: &'static [Entry] = &[#(#entries)*];
 
                 fn read_keys(table: &Table) -> Result<Self, Error> {
                     let found = table.one_of(&[#(#keys.name),*])?;

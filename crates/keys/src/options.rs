@@ -1,7 +1,7 @@
 //! Attributes of types and of variants.
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{format_ident, quote};
 use syn::{Attribute, Expr, Ident, LitStr, Path, Result};
 
 /// What `#[keyed(..)]` says of a type.
@@ -12,6 +12,7 @@ pub struct Options {
     pub has_default: bool,
     pub is_one_of: bool,
     pub kinds: Option<Ident>,
+    pub of_kinds: Option<Path>,
     pub check: Option<Path>,
     pub remote: Option<Path>,
     pub tag: Option<LitStr>,
@@ -34,6 +35,8 @@ impl Options {
                     options.is_one_of = true;
                 } else if is("kinds") {
                     options.kinds = Some(meta.value()?.parse()?);
+                } else if is("of_kinds") {
+                    options.of_kinds = Some(meta.value()?.parse()?);
                 } else if is("check") {
                     options.check = Some(meta.value()?.parse()?);
                 } else if is("remote") {
@@ -56,47 +59,17 @@ impl Options {
     }
 }
 
-/// What `#[kind(..)]` says of a variant.
-pub struct Kind {
-    /// Value of the tag.
-    pub name: LitStr,
-    /// Further keys that belong to it, listed before its fields: an expression of type `&'static [Entry]`.
-    pub before: Option<Expr>,
-    /// Those listed after its fields.
-    pub after: Option<Expr>,
+/// The value of the tag that `#[kind("name")]` gives a variant.
+pub fn kind(attributes: &[Attribute]) -> Result<Option<LitStr>> {
+    let kind = named(attributes, "kind").next();
+    kind.map(|attribute| attribute.parse_args()).transpose()
 }
 
-impl Kind {
-    pub fn of_variant(attributes: &[Attribute]) -> Result<Option<Self>> {
-        let Some(attribute) = named(attributes, "kind").next() else {
-            return Ok(None);
-        };
-        attribute
-            .parse_args_with(|input: syn::parse::ParseStream| {
-                let mut kind = Self {
-                    name: input.parse()?,
-                    before: None,
-                    after: None,
-                };
-                while input.parse::<Option<syn::Token![,]>>()?.is_some() {
-                    let word: Ident = input.parse()?;
-                    input.parse::<syn::Token![=]>()?;
-                    let keys = Some(input.parse()?);
-                    match word.to_string().as_str() {
-                        "before" => kind.before = keys,
-                        "after" => kind.after = keys,
-                        _ => {
-                            return Err(syn::Error::new(
-                                word.span(),
-                                "must be `before` or `after`",
-                            ));
-                        }
-                    }
-                }
-                Ok(kind)
-            })
-            .map(Some)
-    }
+/// The module of `hairline-document` that has all names of what is made.
+pub fn names() -> TokenStream {
+    // Not a path of this crate.
+    let root = format_ident!("crate");
+    quote!(#root::description::derived)
 }
 
 /// The attributes of this name.

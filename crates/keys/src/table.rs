@@ -5,7 +5,7 @@ use quote::quote;
 use syn::{DeriveInput, Fields, Result};
 
 use crate::field::Keyed;
-use crate::options::Options;
+use crate::options::{Options, names};
 
 pub fn expand(input: &DeriveInput, options: &Options, fields: &Fields) -> Result<TokenStream> {
     let owner = &input.ident;
@@ -48,8 +48,24 @@ pub fn expand(input: &DeriveInput, options: &Options, fields: &Fields) -> Result
             }
         }
     });
-    let as_value = as_value(&target, options);
+    let (names, as_value) = (names(), as_value(&target, options));
     // The fields of a struct that stands for another one are entries alone.
+    let kinds = options.kinds.as_ref().map(|kinds| {
+        let of_table = match &options.of_kinds {
+            Some(of_kinds) => quote!(#of_kinds),
+            None => quote!(&[]),
+        };
+        quote! {
+            impl #owner {
+                /// Its kinds.
+                pub(crate) const KINDS: KindKeys = KindKeys {
+                    tag: #kinds::TAG,
+                    choices: #kinds::CHOICES,
+                    of_table: #of_table,
+                };
+            }
+        }
+    });
     let stands = options
         .remote
         .is_some()
@@ -60,14 +76,10 @@ pub fn expand(input: &DeriveInput, options: &Options, fields: &Fields) -> Result
         }
 
         const _: () = {
-            use crate::description::keyed::Keyed;
-            use crate::description::panel::{Panel, Rows};
-            use crate::description::ranges::Check;
-            use crate::description::table::{Held, Read, Table, Value};
-            use crate::error::Error;
+            use #names::*;
 
             impl Keyed for #target {
-                const KEYS: &'static [crate::schema::Entry] = &[#(#entries)*];
+                const KEYS: &'static [Entry] = &[#(#entries)*];
 
                 fn read_keys(table: &Table) -> Result<Self, Error> {
                     Ok(Self { #(#members: #reads),* })
@@ -90,6 +102,7 @@ pub fn expand(input: &DeriveInput, options: &Options, fields: &Fields) -> Result
                 }
             }
 
+            #kinds
             #as_value
             #default
             #stands
@@ -100,7 +113,7 @@ pub fn expand(input: &DeriveInput, options: &Options, fields: &Fields) -> Result
 /// What makes a table a value.
 fn as_value(target: &TokenStream, options: &Options) -> Option<TokenStream> {
     let open = match &options.kinds {
-        Some(kinds) => quote!(Table::of_kind::<#kinds>(Self::KEYS, value, key)?),
+        Some(_) => quote!(Table::of_kind(Self::KEYS, &Self::KINDS, value, key)?),
         None => quote!(Table::of(Self::KEYS, value, key)?),
     };
     let read = options.is_table.then(|| {
@@ -120,16 +133,16 @@ fn as_value(target: &TokenStream, options: &Options) -> Option<TokenStream> {
         quote! {
             #read
 
-            impl crate::description::ranges::Numbers for #target {}
+            impl Numbers for #target {}
 
             impl Held for #target {
-                const FORM: crate::schema::Form = crate::schema::Form::Table;
+                const FORM: Form = Form::Table;
 
-                fn initial(_: crate::schema::Initial) -> Option<Self> {
+                fn initial(_: Initial) -> Option<Self> {
                     #initial
                 }
 
-                fn check_at(&self, _: &crate::schema::Key, way: &str) -> Check {
+                fn check_at(&self, _: &Key, way: &str) -> Check {
                     self.check_keys(way)
                 }
 
@@ -140,7 +153,7 @@ fn as_value(target: &TokenStream, options: &Options) -> Option<TokenStream> {
 
             impl serde::Serialize for #target {
                 fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                    crate::description::keyed::serialize(self, serializer)
+                    serialize(self, serializer)
                 }
             }
         }

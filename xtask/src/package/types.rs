@@ -62,11 +62,16 @@ pub(super) fn check(tests: &Path, output: &Path, programs: &[PathBuf]) -> anyhow
 
 fn interface(text: &mut String, name: &str, table: &str) {
     let section = section(table);
-    let kinds: Vec<_> = section.choices.iter().map(|choice| choice.name).collect();
+    let kinds: Vec<_> = section
+        .kinds
+        .choices
+        .iter()
+        .map(|choice| choice.name)
+        .collect();
     // Writing to a text cannot fail.
     let _ = write!(text, "\nexport interface {name} {{\n");
-    if !section.tag.is_empty() {
-        let _ = writeln!(text, "  {}: {};", section.tag, one_of(&kinds));
+    if !section.kinds.tag.is_empty() {
+        let _ = writeln!(text, "  {}: {};", section.kinds.tag, one_of(&kinds));
     }
     let mut keys = section.all_keys();
     // Kinds may have a key of one name each.
@@ -74,7 +79,7 @@ fn interface(text: &mut String, name: &str, table: &str) {
     keys.retain(|key| names.insert(key.name));
     for key in keys {
         // A mesh has no name, and what only some kinds have is checked by the kind.
-        let is_needed = section.choices.is_empty() && key.initial == Initial::Required;
+        let is_needed = section.kinds.choices.is_empty() && key.initial == Initial::Required;
         let mark = if is_needed { "" } else { "?" };
         let unit = match key.unit {
             "" => String::new(),

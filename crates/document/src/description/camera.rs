@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use hairline_keys::Keyed;
 use hairline_scene::{Lens, scene};
 
-use super::ranges::Check;
+use super::ranges::{Check, found};
 use super::table::Table;
 use super::{Up, lens};
 use crate::error::Error;
@@ -48,13 +48,13 @@ pub struct Camera {
     /// Diameter of the lens's opening; none, or 0: a pinhole.
     #[key(unit("mm").none().within(0.0, 1000.0)
         .control("Opening", linear(1e-3, 0.1).sized(), "Diameter of the lens's opening: the larger, the sooner things blur before and behind what is in focus. The focal length over the f-stop."))]
-    #[read(lens::aperture_mm)]
+    #[read(aperture_mm)]
     #[then(Camera::F_STOP)]
     pub aperture_mm: Option<f64>,
     /// With an opening: how far away things are sharp, along the view.
     #[key(unit("m").words("the distance of the target").within(SMALLEST_M, LARGEST_M)
         .control("Focus", linear(0.1, 5.0).sized(), "How far away things are sharp, along the view."))]
-    #[read(lens::focus_distance_m)]
+    #[read(focus_distance_m)]
     pub focus_distance_m: Option<f64>,
     /// Moves the picture across what the lens shows, to the right and up, as a view camera does: `[0, 0.1]` shows a tenth of the picture's height
     /// more above and less below, and upright lines stay parallel. The target is off the centre by as much the other way.
@@ -131,7 +131,8 @@ impl Camera {
 
     /// Width of the film.
     pub fn sensor_mm(&self) -> f64 {
-        self.sensor_width_mm.unwrap_or(lens::full_frame_mm())
+        self.sensor_width_mm
+            .unwrap_or(Self::SENSOR_WIDTH_MM.initial())
     }
 
     /// Focal length with the camera's field of view, for a picture of this size.
@@ -158,7 +159,8 @@ impl Camera {
     /// Puts a wider or narrower film behind the lens, whose focal length and opening stay.
     pub fn set_sensor_width_mm(&mut self, sensor_mm: f64, size_px: [u32; 2]) {
         let focal_length_mm = self.focal_length_mm(size_px);
-        self.sensor_width_mm = (sensor_mm != lens::full_frame_mm()).then_some(sensor_mm);
+        self.sensor_width_mm =
+            (sensor_mm != Self::SENSOR_WIDTH_MM.initial::<f64>()).then_some(sensor_mm);
         self.see_by(focal_length_mm, size_px);
     }
 
@@ -241,4 +243,74 @@ fn place(table: &Table, key: &Key, anywhere: [f64; 3]) -> Result<[f64; 3], Error
         true => table.or(key.name, anywhere),
         false => table.value(key),
     }
+}
+
+/// The table that has the keys of a lens.
+const SECTION: &str = "camera";
+/// `fov_y_deg` beside a lens may be rounded by this.
+const ROUNDING_DEG: f64 = 0.05;
+
+/// `aperture_mm` beside an f-stop may be rounded by this share.
+const ROUNDING: f64 = 1e-3;
+
+/// Reads the vertical field of view of a `[camera]` that states it by its lens. The sensor is as wide as the picture.
+pub(super) fn fov_y_deg(camera: &Table, [width, height]: [u32; 2]) -> Result<Option<f64>, Error> {
+    let Some(focal_length_mm) = camera.value::<Option<f64>>(Camera::FOCAL_LENGTH_MM)? else {
+        return Ok(None);
+    };
+    let sensor_mm = camera.value(Camera::SENSOR_WIDTH_MM)?;
+    Camera::FOCAL_LENGTH_MM.check(SECTION, &focal_length_mm)?;
+    Camera::SENSOR_WIDTH_MM.check(SECTION, &sensor_mm)?;
+    let fov_y_deg = lens::seen_deg(focal_length_mm, sensor_mm, [width, height]);
+    match camera.optional::<f64>("fov_y_deg")? {
+        Some(given) if (given - fov_y_deg).abs() > ROUNDING_DEG => Err(Error::new(
+            camera.way("fov_y_deg"),
+            found(given),
+            format!(
+                "{focal_length_mm} mm before a sensor {sensor_mm} mm wide see {fov_y_deg:.2} degrees of {width} x {height} pixels; \
+                 leave out one of them"
+            ),
+        )),
+        given => Ok(given.or(Some(fov_y_deg))),
+    }
+}
+
+/// The diameter of the opening of a `[camera]`, if it has one: as it is, or by its f-stop.
+pub(super) fn aperture_mm(camera: &Table) -> Result<Option<f64>, Error> {
+    let given = camera.optional::<f64>("aperture_mm")?;
+    let Some(f_stop) = camera.optional::<f64>("f_stop")? else {
+        return Ok(given);
+    };
+    Camera::F_STOP.check(SECTION, &f_stop)?;
+    let Some(focal_length_mm) = camera.optional::<f64>("focal_length_mm")? else {
+        return Err(Error::new(
+            camera.way("f_stop"),
+            "found no `focal_length_mm` that it belongs to",
+            "give the camera one, or `aperture_mm` in place of the f-stop",
+        ));
+    };
+    let aperture_mm = focal_length_mm / f_stop;
+    match given {
+        Some(given) if (given / aperture_mm - 1.0).abs() > ROUNDING => Err(Error::new(
+            camera.way("aperture_mm"),
+            found(given),
+            format!(
+                "{focal_length_mm} mm at f/{f_stop} have an opening of {aperture_mm:.3} mm; leave out one of them"
+            ),
+        )),
+        given => Ok(given.or(Some(aperture_mm))),
+    }
+}
+
+/// Distance of focus of a `[camera]` that has an opening.
+pub(super) fn focus_distance_m(camera: &Table) -> Result<Option<f64>, Error> {
+    let given = camera.optional("focus_distance_m")?;
+    if given.is_some() && !camera.has("aperture_mm") && !camera.has("f_stop") {
+        return Err(Error::new(
+            camera.way("focus_distance_m"),
+            "found no opening that it belongs to",
+            "give the camera an `aperture_mm` or an `f_stop`, or leave it out: all is in focus then",
+        ));
+    }
+    Ok(given)
 }

@@ -3,13 +3,11 @@
 use std::collections::HashSet;
 
 use hairline_model::text::shown;
-use hairline_optics::section::Section;
 
 use super::keyed::Keyed;
-use super::ranges::Check;
+use super::ranges::{Check, each};
 use super::{Description, Grating, Scratches};
 use crate::error::Error;
-use crate::schema::Key;
 
 impl Description {
     /// Refuses values out of range. References between tables are checked where they are resolved.
@@ -42,13 +40,6 @@ impl Description {
     }
 }
 
-pub(super) fn each<T>(key: &str, items: &[T], check: impl Fn(&T, &str) -> Check) -> Check {
-    items
-        .iter()
-        .enumerate()
-        .try_for_each(|(i, item)| check(item, &format!("{key}[{i}]")))
-}
-
 fn unique<'n>(key: &str, names: impl Iterator<Item = &'n str>) -> Check {
     let mut seen = HashSet::new();
     for (i, name) in names.enumerate() {
@@ -72,28 +63,4 @@ pub(super) fn check_layers(layers: &[Scratches]) -> Check {
 /// Checks the tables `[[grating]]`.
 pub(super) fn check_gratings(gratings: &[Grating]) -> Check {
     each("grating", gratings, Keyed::check_keys)
-}
-
-/// Depths of one profile.
-const PROFILE_DEPTHS: std::ops::RangeInclusive<usize> = 2..=64;
-
-/// Checks a cross section; `way` is the way to it.
-pub(super) fn check_profile(section: &Section, key: &Key, way: &str) -> Check {
-    let Section::Listed(depths) = section else {
-        return Ok(());
-    };
-    let wrong = |found: String, right: String| Err(Error::new(way, found, right));
-    if !PROFILE_DEPTHS.contains(&depths.len()) {
-        let (least, most) = PROFILE_DEPTHS.into_inner();
-        let right = format!("must be from {least} to {most}, from the middle to the rim");
-        return wrong(format!("found {} depths", depths.len()), right);
-    }
-    key.check_numbers(way, &depths[..])?;
-    match depths.iter().all(|depth| *depth == 0.0) {
-        true => wrong(
-            "found no depth but 0".to_owned(),
-            "must have one that is not, such as `[1, 0.5, 0]`".to_owned(),
-        ),
-        false => Ok(()),
-    }
 }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use hairline_keys::Keyed;
 
 use super::distribution::Distribution;
+use super::laid::Laid;
 use super::ranges::Check;
-use super::scratches::Laid;
 use super::shapes::check_letters;
 use crate::error::Error;
 use crate::schema::Key;
@@ -41,7 +41,7 @@ pub struct Engraved {
 #[keyed(tag = "pattern", check = Line::check_outlines)]
 pub enum Line {
     /// A smooth curve through points: an engraved line.
-    #[kind("curve", after = Engraved::KEYS)]
+    #[kind("curve")]
     Curve {
         /// What the curve goes through, on or near the surface, in the object's own frame. A point farther from the object than the object is large
         /// is refused.
@@ -53,7 +53,7 @@ pub enum Line {
         closed: bool,
     },
     /// The outlines of letters: a number, a name.
-    #[kind("text", after = Engraved::KEYS)]
+    #[kind("text")]
     Text {
         /// What is engraved. The font is built in, Ubuntu Light: Latin, Greek, Cyrillic.
         #[key(range_words("1 to 200 characters").labelled("Text", "What is engraved. The font is built in: Latin, Greek, Cyrillic."))]
@@ -72,7 +72,7 @@ pub enum Line {
         direction: [f64; 3],
     },
     /// The outlines of a drawing: a mark, an ornament.
-    #[kind("svg", after = Engraved::KEYS)]
+    #[kind("svg")]
     Svg {
         /// The drawing. All of its shapes are outlined, however they are filled; letters must be paths, and pictures are left out.
         #[key(DRAWING: range_words("`.svg`"))]

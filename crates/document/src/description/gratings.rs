@@ -8,9 +8,9 @@ use toml::de::DeValue;
 
 use super::distribution::Distribution;
 use super::keyed::Keyed;
+use super::laid::{Around, Pattern};
 use super::place::{MIDDLE, RADII, TILE};
 use super::ranges::{Check, check_radii, within};
-use super::scratches::{Around, Pattern};
 use super::table::{Read, Table, Value};
 use super::values::named;
 use crate::error::Error;
@@ -18,7 +18,7 @@ use crate::schema::Entry;
 
 /// `[[grating]]`: grooves side by side, nearer to one another than a pixel can show. They interfere, as those of a compact disc do.
 #[derive(Clone, Debug, PartialEq, Keyed)]
-#[keyed(held, check = Grating::check_companions)]
+#[keyed(held, kinds = GroovePattern, of_kinds = OF_KINDS, check = Grating::check_companions)]
 pub struct Grating {
     /// What they cover.
     #[key(range_words("name of an object"))]
@@ -89,7 +89,7 @@ pub struct Grating {
 #[keyed(tag = "pattern")]
 pub enum GroovePattern {
     /// All along one direction.
-    #[kind("parallel", after = MIDDLE_OF_RADII)]
+    #[kind("parallel")]
     Parallel {
         /// As of scratches.
         #[key(= Pattern::DIRECTION)]
@@ -129,7 +129,7 @@ pub enum GroovePattern {
         spacing_m: f64,
     },
     /// Along the texture coordinates of the surface.
-    #[kind("uv", after = MIDDLE_OF_RADII)]
+    #[kind("uv")]
     Uv {
         /// Along which texture coordinate they run.
         #[key(text("u").omitted())]
@@ -144,7 +144,10 @@ pub enum GroovePattern {
 }
 
 /// The key of patterns without an axis.
-const MIDDLE_OF_RADII: &[Entry] = &[Entry::Key(Grating::CENTER_M)];
+const OF_KINDS: &[(&str, &[Entry])] = &[
+    ("parallel", &[Entry::Key(Grating::CENTER_M)]),
+    ("uv", &[Entry::Key(Grating::CENTER_M)]),
+];
 
 /// The keys of an axis, of which a grating's angle says its own.
 const AROUND: &[Entry] = &[
@@ -278,7 +281,7 @@ fn refuse_crossings(value: &Value, key: &str) -> Result<(), Error> {
 impl Read for Grating {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         refuse_crossings(value, key)?;
-        Self::read_keys(&Table::of_kind::<GroovePattern>(Self::KEYS, value, key)?)
+        Self::read_keys(&Table::of_kind(Self::KEYS, &Self::KINDS, value, key)?)
     }
 }
 

@@ -6,12 +6,11 @@ use glam::DVec3;
 use hairline_keys::Keyed;
 use hairline_scene::scene;
 
-use super::Cone;
-use super::lights::{Light, TARGET};
 use super::ranges::Check;
 use crate::error::Error;
 use crate::polygon;
-use crate::schema::Entry;
+use crate::schema::Key;
+use crate::schema::key::{Form, linear};
 
 /// The angle that the sun spans as the earth sees it, degrees.
 pub const SUN_DEG: f64 = 0.53;
@@ -21,7 +20,7 @@ pub const SUN_DEG: f64 = 0.53;
 #[keyed(tag = "kind", check = LightKind::check_shape)]
 pub enum LightKind {
     /// A sphere.
-    #[kind("sphere", after = ROUND)]
+    #[kind("sphere")]
     Sphere {
         /// Its middle.
         #[key(unit("m").within(-1000.0, 1000.0)
@@ -33,7 +32,7 @@ pub enum LightKind {
         radius_m: f64,
     },
     /// Flat and round; it faces the target and shines to its side.
-    #[kind("disk", after = FLAT)]
+    #[kind("disk")]
     Disk {
         /// As of a sphere.
         center_m: [f64; 3],
@@ -47,7 +46,7 @@ pub enum LightKind {
         two_sided: bool,
     },
     /// It faces the target and shines to its side.
-    #[kind("rectangle", after = FLAT)]
+    #[kind("rectangle")]
     Rectangle {
         /// As of a sphere.
         center_m: [f64; 3],
@@ -69,7 +68,7 @@ pub enum LightKind {
         two_sided: bool,
     },
     /// Flat; it shines to the side that sees its vertices counter-clockwise.
-    #[kind("polygon", after = FLAT)]
+    #[kind("polygon")]
     Polygon {
         /// Its corners, in one plane and without crossing edges, convex or not. It shines to the side that sees them counter-clockwise.
         #[key(unit("m").within(-1000.0, 1000.0).range_words("3 to 4096 points, ±1000 each")
@@ -79,7 +78,7 @@ pub enum LightKind {
         two_sided: bool,
     },
     /// A straight lamp with round ends, all around: what is within the radius of the line. It lights nothing that is within it.
-    #[kind("tube", after = ROUND)]
+    #[kind("tube")]
     Tube {
         /// The ends of the line.
         #[key(unit("m").within(-1000.0, 1000.0).range_words("two points, ±1000 each")
@@ -106,16 +105,15 @@ pub enum LightKind {
     },
 }
 
-/// Keys of all lights but suns, which have no surface.
-const FLAT: &[Entry] = &[
-    Entry::Key(Light::RADIANCE),
-    Entry::Key(Light::VISIBLE),
-    Entry::Key(Cone::CONE_DEG),
-    Entry::Key(Cone::CONE_SOFTNESS),
-];
-
-/// Those of lights that have no axis, whose cone needs a target.
-const ROUND: &[Entry] = &[Entry::Key(Cone::TARGET_M), Entry::All(FLAT)];
+/// A point that a light faces.
+pub(super) const TARGET: Key = Key::new("target_m", Form::Numbers(3))
+    .unit("m")
+    .within(-1000.0, 1000.0)
+    .control(
+        "Target",
+        linear(-5.0, 5.0).sized(),
+        "A point that the light faces. Its distance does not matter.",
+    );
 
 impl LightKind {
     /// A sphere.

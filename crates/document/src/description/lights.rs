@@ -8,16 +8,15 @@ use hairline_optics::spectrum::black_body_rgb;
 use hairline_scene::scene;
 
 use super::keyed::Keyed;
-use super::light_kind::{LightKind, aimed};
+use super::light_kind::{LightKind, TARGET, aimed};
 use super::ranges::Check;
 use super::table::Table;
 use crate::error::Error;
-use crate::schema::Key;
-use crate::schema::key::{Form, linear};
+use crate::schema::Entry;
 
 /// `[[light]]`
 #[derive(Clone, Debug, PartialEq, Keyed)]
-#[keyed(table, kinds = LightKind, check = Light::check_companions)]
+#[keyed(table, kinds = LightKind, of_kinds = OF_KINDS, check = Light::check_companions)]
 pub struct Light {
     /// For you to know the light by.
     #[key(none().range_words("any text"))]
@@ -83,15 +82,24 @@ pub struct Cone {
     pub target_m: Option<[f64; 3]>,
 }
 
-/// A point that a light faces.
-pub(super) const TARGET: Key = Key::new("target_m", Form::Numbers(3))
-    .unit("m")
-    .within(-1000.0, 1000.0)
-    .control(
-        "Target",
-        linear(-5.0, 5.0).sized(),
-        "A point that the light faces. Its distance does not matter.",
-    );
+/// Keys of all lights but suns, which have no surface.
+const SHINING: &[Entry] = &[
+    Entry::Key(Light::RADIANCE),
+    Entry::Key(Light::VISIBLE),
+    Entry::Key(Cone::CONE_DEG),
+    Entry::Key(Cone::CONE_SOFTNESS),
+];
+
+/// Those of lights that have no axis, whose cone needs a target.
+const ROUND: &[Entry] = &[Entry::Key(Cone::TARGET_M), Entry::All(SHINING)];
+
+const OF_KINDS: &[(&str, &[Entry])] = &[
+    ("sphere", ROUND),
+    ("disk", SHINING),
+    ("rectangle", SHINING),
+    ("polygon", SHINING),
+    ("tube", ROUND),
+];
 
 impl Cone {
     /// A cone with a soft rim of the default width.

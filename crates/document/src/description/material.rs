@@ -15,7 +15,7 @@ pub(crate) use hairline_model::material::DEFAULT_COHERENCE_UM;
 
 /// `[[material]]`
 #[derive(Clone, Debug, PartialEq, Keyed)]
-#[keyed(table, kinds = MaterialKind, check = Material::check_cover)]
+#[keyed(table, kinds = MaterialKind, of_kinds = OF_KINDS, check = Material::check_cover)]
 pub struct Material {
     /// What objects call it by.
     #[key(range_words("not empty, no two equal"))]
@@ -103,7 +103,7 @@ pub struct Cover {
 #[keyed(tag = "kind")]
 pub enum MaterialKind {
     /// A bare metal.
-    #[kind("metal", after = OF_METALS)]
+    #[kind("metal")]
     Metal(MetalColor),
     /// A clear coat over a diffuse body.
     #[kind("dielectric")]
@@ -135,8 +135,7 @@ pub enum MaterialKind {
     Mirror,
 }
 
-/// Keys of a material that metals alone have.
-const OF_METALS: &[Entry] = &[Entry::Key(Material::COVER)];
+const OF_KINDS: &[(&str, &[Entry])] = &[("metal", &[Entry::Key(Material::COVER)])];
 
 /// The keys of reflections of what is no metal.
 #[derive(Keyed)]

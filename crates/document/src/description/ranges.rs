@@ -186,3 +186,35 @@ pub(super) fn check_radii(radii: &Key, key: &str, radius_m: Option<[f64; 2]>) ->
         _ => Ok(()),
     }
 }
+
+/// Checks all items of a list; `key` is the way to it.
+pub(super) fn each<T>(key: &str, items: &[T], check: impl Fn(&T, &str) -> Check) -> Check {
+    items
+        .iter()
+        .enumerate()
+        .try_for_each(|(i, item)| check(item, &format!("{key}[{i}]")))
+}
+
+/// Depths of one profile.
+const PROFILE_DEPTHS: std::ops::RangeInclusive<usize> = 2..=64;
+
+/// Checks a cross section; `way` is the way to it.
+pub(super) fn check_profile(section: &Section, key: &Key, way: &str) -> Check {
+    let Section::Listed(depths) = section else {
+        return Ok(());
+    };
+    let wrong = |found: String, right: String| Err(Error::new(way, found, right));
+    if !PROFILE_DEPTHS.contains(&depths.len()) {
+        let (least, most) = PROFILE_DEPTHS.into_inner();
+        let right = format!("must be from {least} to {most}, from the middle to the rim");
+        return wrong(format!("found {} depths", depths.len()), right);
+    }
+    key.check_numbers(way, &depths[..])?;
+    match depths.iter().all(|depth| *depth == 0.0) {
+        true => wrong(
+            "found no depth but 0".to_owned(),
+            "must have one that is not, such as `[1, 0.5, 0]`".to_owned(),
+        ),
+        false => Ok(()),
+    }
+}

@@ -2,8 +2,8 @@
 
 use toml::de::{DeTable, DeValue};
 
+use super::camera;
 use super::keyed::Keyed;
-use super::lens;
 use super::table::{Table, Value};
 use super::{Camera, Description, Look, Render, Studio};
 use crate::error::Error;
@@ -72,7 +72,7 @@ fn see_by_lens(
     size_px: [u32; 2],
 ) -> Result<(), Error> {
     let table = Table::of(Camera::KEYS, value, key)?;
-    if let Some(fov_y_deg) = lens::fov_y_deg(&table, size_px)? {
+    if let Some(fov_y_deg) = camera::fov_y_deg(&table, size_px)? {
         camera.fov_y_deg = fov_y_deg;
     }
     Ok(())

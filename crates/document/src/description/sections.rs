@@ -1,10 +1,9 @@
 //! The tables of the scene file, each by its keys.
 
-use super::keyed::{Keyed, Kinds};
+use super::keyed::Keyed;
 use super::{
-    Camera, Cover, Environment, Grating, GroovePattern, Ground, Layer, LayerPlaces, Light,
-    LightKind, Look, Material, MaterialKind, Object, Override, Render, Scratches, Shape, Stroke,
-    Studio,
+    Camera, Cover, Environment, Grating, Ground, LayerPlaces, Light, Look, Material, Object,
+    Override, Render, Scratches, Shape, Stroke, Studio,
 };
 use crate::schema::Section;
 
@@ -55,7 +54,7 @@ pub static SECTIONS: [Section; 16] = [
         "what an object is made of.",
         Material::KEYS,
     )
-    .kinds(MaterialKind::TAG, MaterialKind::CHOICES),
+    .of_kinds(Material::KINDS),
     Section::many(
         "cover",
         "",
@@ -63,7 +62,7 @@ pub static SECTIONS: [Section; 16] = [
         Cover::KEYS,
     ),
     Section::many("object", "Object", "a `shape` or a `mesh`.", Object::KEYS),
-    Section::many("shape", "", "a built-in shape.", &[]).kinds(Shape::TAG, Shape::CHOICES),
+    Section::many("shape", "", "a built-in shape.", &[]).of_kinds(Shape::KINDS),
     Section::many(
         "overrides",
         "",
@@ -76,7 +75,7 @@ pub static SECTIONS: [Section; 16] = [
         "a layer on one object.",
         Scratches::KEYS,
     )
-    .kinds(Layer::TAG, Layer::CHOICES),
+    .of_kinds(Scratches::KINDS),
     Section::many(
         "where",
         "",
@@ -90,9 +89,8 @@ pub static SECTIONS: [Section; 16] = [
         "grooves side by side, finer than a pixel, that cover an object.",
         Grating::KEYS,
     )
-    .kinds(GroovePattern::TAG, GroovePattern::CHOICES),
-    Section::many("light", "Light", "one of the kinds below.", Light::KEYS)
-        .kinds(LightKind::TAG, LightKind::CHOICES),
+    .of_kinds(Grating::KINDS),
+    Section::many("light", "Light", "one of the kinds below.", Light::KEYS).of_kinds(Light::KINDS),
     Section::many(
         "look",
         "Look",

@@ -8,6 +8,7 @@ use super::keyed::{Inner, Keyed, Kinds};
 use super::ranges::{Check, Numbers, found, written};
 use super::table::{Held, Read, Table, Value};
 use crate::error::Error;
+use crate::schema::KindKeys;
 use crate::schema::key::{Form, Initial, Key, LARGEST_M, linear, log};
 use crate::shape::text;
 
@@ -146,6 +147,13 @@ const ROUNDING: Key = Key::new("rounding_m", Form::Number)
     .control("Rounding", linear(0.0, 0.5).sized(), "Radius of its edges. Rounded edges catch a line of light from almost everywhere; 0 leaves them sharp and dark.");
 
 impl Shape {
+    /// Each is a table of its own.
+    pub(crate) const KINDS: KindKeys = KindKeys {
+        tag: Self::TAG,
+        choices: Self::CHOICES,
+        of_table: &[],
+    };
+
     /// A number that others of the shape bound: its key, its value, its most, and that in words.
     fn bounded(&mut self) -> Option<(&'static Key, &mut f64, f64, &'static str)> {
         Some(match self {

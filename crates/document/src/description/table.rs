@@ -8,15 +8,14 @@ use serde::Serialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::check::{check_profile, each};
+use super::distribution::Distribution;
 use super::hint;
-use super::keyed::Kinds;
 use super::panel::RowValue;
-use super::ranges::{Check, Numbers, check_whole};
+use super::ranges::{Check, Numbers, check_profile, check_whole, each};
 use super::values::{Name, Named, PROFILES, Profile, SECTIONS};
 use crate::error::Error;
 use crate::schema::section::keys;
-use crate::schema::{Entry, Form, Initial, Key};
+use crate::schema::{Entry, Form, Initial, Key, KindKeys};
 
 pub(crate) type Value<'a> = Spanned<DeValue<'a>>;
 
@@ -115,17 +114,16 @@ impl<'a> Table<'a> {
     }
 
     /// Opens a table whose keys are these and those of its kind.
-    pub(super) fn of_kind<K: Kinds>(
+    pub(super) fn of_kind(
         entries: &'static [Entry],
+        kinds: &KindKeys,
         value: &'a Value<'a>,
         key: &str,
     ) -> Result<Self, Error> {
-        let kinds = K::CHOICES.iter();
-        let kinds: Vec<_> = kinds
-            .map(|choice| (choice.name, names(choice.entries)))
-            .collect();
-        let shared = [&[K::TAG], &names(entries)[..]].concat();
-        Self::read_kind(value, key, K::TAG, &shared, &kinds)
+        let choices = kinds.choices.iter();
+        let choices = choices.map(|choice| (choice.name, key_names(kinds.keys_of(choice))));
+        let shared = [&[kinds.tag], &names(entries)[..]].concat();
+        Self::read_kind(value, key, kinds.tag, &shared, &choices.collect::<Vec<_>>())
     }
 
     /// Reads a table in which the value of `tag` decides which keys are allowed besides the `shared` ones.
@@ -277,7 +275,11 @@ impl<'a> Table<'a> {
 }
 
 fn names(entries: &'static [Entry]) -> Vec<&'static str> {
-    keys(entries).iter().map(|key| key.name).collect()
+    key_names(keys(entries))
+}
+
+fn key_names(keys: Vec<&'static Key>) -> Vec<&'static str> {
+    keys.iter().map(|key| key.name).collect()
 }
 
 /// Values that a file writes as they are.
@@ -486,6 +488,48 @@ impl<T: Held> Held for Vec<T> {
 
     fn written(&self) -> impl Serialize {
         self.iter().map(T::written).collect::<Vec<_>>()
+    }
+}
+
+impl Read for Distribution {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        match value.get_ref() {
+            DeValue::Table(_) => {
+                let table = Table::read(value, key, &["mean", "spread"])?;
+                Ok(Self {
+                    mean: table.required("mean")?,
+                    spread: table.or("spread", 0.0)?,
+                })
+            }
+            other => match number(other) {
+                Some(mean) => Ok(Self { mean, spread: 0.0 }),
+                None => Err(wrong_type(
+                    value,
+                    key,
+                    "a number, or `{ mean = .., spread = .. }`",
+                )),
+            },
+        }
+    }
+}
+
+impl Held for Distribution {
+    const FORM: Form = Form::Sizes;
+
+    fn initial(initial: Initial) -> Option<Self> {
+        let (mean, spread) = match initial {
+            Initial::Number(mean) => (mean, 0.0),
+            Initial::Sizes(mean, spread) => (mean, spread),
+            _ => return None,
+        };
+        Some(Self { mean, spread })
+    }
+    fn written(&self) -> impl Serialize {
+        self
+    }
+
+    fn row(&mut self) -> Option<RowValue<'_>> {
+        Some(RowValue::Sizes(self))
     }
 }
 

@@ -33,10 +33,38 @@ pub struct Section {
     /// Description that follows its name.
     pub meaning: &'static str,
     entries: &'static [Entry],
+    /// Its kinds.
+    pub kinds: KindKeys,
+}
+
+/// The kinds of a table.
+#[derive(Clone, Copy)]
+pub struct KindKeys {
     /// The key that tells the kind; empty where there are no kinds, or where each kind is a table of its own.
     pub tag: &'static str,
-    /// Its kinds.
+    /// The kinds.
     pub choices: &'static [Choice],
+    /// Keys of the table that some kinds alone have: of a kind its name and the keys.
+    pub(crate) of_table: &'static [(&'static str, &'static [Entry])],
+}
+
+impl KindKeys {
+    /// No kinds.
+    const NONE: Self = Self {
+        tag: "",
+        choices: &[],
+        of_table: &[],
+    };
+
+    /// The keys that a kind has, beside those of all kinds.
+    pub fn keys_of(&self, choice: &Choice) -> Vec<&'static Key> {
+        let of_table = self.of_table.iter();
+        let of_table = of_table.filter(|(kind, _)| *kind == choice.name);
+        let own = std::iter::once(choice.entries);
+        own.chain(of_table.map(|(_, entries)| *entries))
+            .flat_map(keys)
+            .collect()
+    }
 }
 
 /// A kind of a table, with the keys of its own.
@@ -61,11 +89,6 @@ impl Choice {
             entries,
         }
     }
-
-    /// The keys of its own.
-    pub fn keys(&self) -> Vec<&'static Key> {
-        keys(self.entries)
-    }
 }
 
 impl Section {
@@ -82,8 +105,7 @@ impl Section {
             class,
             meaning,
             entries,
-            tag: "",
-            choices: &[],
+            kinds: KindKeys::NONE,
         }
     }
 
@@ -100,12 +122,8 @@ impl Section {
         }
     }
 
-    pub(crate) const fn kinds(self, tag: &'static str, choices: &'static [Choice]) -> Self {
-        Self {
-            tag,
-            choices,
-            ..self
-        }
+    pub(crate) const fn of_kinds(self, kinds: KindKeys) -> Self {
+        Self { kinds, ..self }
     }
 
     /// The keys that it has whatever its kind.
@@ -115,7 +133,8 @@ impl Section {
 
     /// All of its keys, each once: those of the table, then those of its kinds.
     pub fn all_keys(&self) -> Vec<&'static Key> {
-        let of_kinds = self.choices.iter().flat_map(Choice::keys);
+        let choices = self.kinds.choices.iter();
+        let of_kinds = choices.flat_map(|choice| self.kinds.keys_of(choice));
         let mut all: Vec<&'static Key> = Vec::new();
         for key in self.keys().into_iter().chain(of_kinds) {
             if !all.contains(&key) {

@@ -31,15 +31,20 @@ fn holds(file: &str, text: &str) {
 /// Whether a table has a key whatever its kind, or with more than half of its kinds.
 fn is_shared(section: &Section, key: &'static Key) -> bool {
     let has = |keys: Vec<&'static Key>| keys.contains(&key);
-    let kinds = section.choices.iter().filter(|it| has(it.keys())).count();
-    has(section.keys()) || 2 * kinds > section.choices.len()
+    let kinds = section
+        .kinds
+        .choices
+        .iter()
+        .filter(|it| has(section.kinds.keys_of(it)))
+        .count();
+    has(section.keys()) || 2 * kinds > section.kinds.choices.len()
 }
 
 fn own_keys<'s>(
     section: &'s Section,
     choice: &'s Choice,
 ) -> impl Iterator<Item = &'static Key> + 's {
-    let keys = choice.keys().into_iter();
+    let keys = section.kinds.keys_of(choice).into_iter();
     keys.filter(|key| !is_shared(section, key))
 }
 
@@ -64,17 +69,18 @@ fn quoted(choice: &Choice, tag: &str) -> String {
 /// The table of the keys that a section has whatever its kind.
 fn table_of_keys(section: &Section) -> String {
     let mut text = HEADER.to_owned();
-    if !section.tag.is_empty() {
+    if !section.kinds.tag.is_empty() {
         let kinds: Vec<_> = section
+            .kinds
             .choices
             .iter()
-            .map(|it| quoted(it, section.tag))
+            .map(|it| quoted(it, section.kinds.tag))
             .collect();
         let kinds = kinds.join(", ");
         writeln!(
             text,
             "| `{}` | – | – | {kinds} | Decides on some of the keys: see below. |",
-            section.tag
+            section.kinds.tag
         )
         .unwrap();
     }
@@ -90,13 +96,13 @@ fn table_of_keys(section: &Section) -> String {
 
 /// The table of the kinds, and that of their keys.
 fn table_of_kinds(section: &Section) -> String {
-    let tag = if section.tag.is_empty() {
+    let tag = if section.kinds.tag.is_empty() {
         "Kind".to_owned()
     } else {
-        format!("`{}`", section.tag)
+        format!("`{}`", section.kinds.tag)
     };
     let mut text = format!("| {tag} | What it is | Keys of its own |\n|---|---|---|\n");
-    for choice in section.choices {
+    for choice in section.kinds.choices {
         let names: Vec<_> = own_keys(section, choice)
             .map(|key| format!("`{}`", key.name))
             .collect();
@@ -108,7 +114,7 @@ fn table_of_kinds(section: &Section) -> String {
         writeln!(
             text,
             "| {} | {} | {names} |",
-            quoted(choice, section.tag),
+            quoted(choice, section.kinds.tag),
             choice.meaning
         )
         .unwrap();
@@ -126,9 +132,9 @@ fn table_of_kinds(section: &Section) -> String {
     for key in own {
         let mut name = format!("`{}`", key.name);
         if keys.iter().filter(|it| it.name == key.name).count() > 1 {
-            let with = section.choices.iter();
-            let with = with.filter(|it| it.keys().contains(&key));
-            let with: Vec<_> = with.map(|it| quoted(it, section.tag)).collect();
+            let with = section.kinds.choices.iter();
+            let with = with.filter(|it| section.kinds.keys_of(it).contains(&key));
+            let with: Vec<_> = with.map(|it| quoted(it, section.kinds.tag)).collect();
             write!(name, " of {}", with.join(", ")).unwrap();
         }
         text += &row(&name, key);
@@ -167,7 +173,7 @@ fn the_tables_of_the_documentation_are_those_of_the_schema() {
     text += rest;
     let wanted = SECTIONS
         .iter()
-        .map(|it| match (&it.keys()[..], it.choices) {
+        .map(|it| match (&it.keys()[..], it.kinds.choices) {
             ([], _) | (_, []) => 1,
             _ => 2,
         });
@@ -304,14 +310,15 @@ from ._table import Path, Sizes, Table, Vector, _default
     .to_owned();
     for section in SECTIONS.iter().filter(|it| !it.class.is_empty()) {
         // A kind of a light is a class of its own; other kinds are told by a key.
-        let has_classes = section.tag == "kind" && section.name == "light";
+        let has_classes = section.kinds.tag == "kind" && section.name == "light";
         let mut lines = format!("    _section = \"{}\"\n", section.name);
         if section.is_single {
             lines += "    _is_one_of_many = False\n";
         }
         writeln!(lines, "    _absent = {}\n", absent(section.keys().iter())).unwrap();
-        if !section.tag.is_empty() && !has_classes {
+        if !section.kinds.tag.is_empty() && !has_classes {
             let names: Vec<_> = section
+                .kinds
                 .choices
                 .iter()
                 .map(|it| format!("``\"{}\"``", it.name))
@@ -319,7 +326,7 @@ from ._table import Path, Sizes, Table, Vector, _default
             writeln!(
                 lines,
                 "    {}: str\n    \"\"\"{}.\"\"\"",
-                section.tag,
+                section.kinds.tag,
                 names.join(", ")
             )
             .unwrap();
@@ -358,12 +365,12 @@ from ._table import Path, Sizes, Table, Vector, _default
         if !has_classes {
             continue;
         }
-        for choice in section.choices {
+        for choice in section.kinds.choices {
             let mut lines = format!(
                 "    _fixed = {{\"{}\": \"{}\"}}\n",
-                section.tag, choice.name
+                section.kinds.tag, choice.name
             );
-            let keys = [section.keys(), choice.keys()].concat();
+            let keys = [section.keys(), section.kinds.keys_of(choice)].concat();
             writeln!(lines, "    _absent = {}\n", absent(keys.iter())).unwrap();
             for key in own_keys(section, choice) {
                 lines += &python_key(section, key, false);
@@ -505,8 +512,8 @@ fn json_table(
     let mut properties = Map::new();
     let mut required = Vec::new();
     if let Some(kind) = kind {
-        properties.insert(section.tag.to_owned(), json!({ "const": kind }));
-        required.push(section.tag);
+        properties.insert(section.kinds.tag.to_owned(), json!({ "const": kind }));
+        required.push(section.kinds.tag);
     }
     for key in keys {
         properties.insert(key.name.to_owned(), json_key(defs, section, key));
@@ -534,11 +541,11 @@ fn json_table(
 }
 
 fn json_section(defs: &mut Defs, section: &Section) -> Value {
-    let mut schema = match section.choices {
+    let mut schema = match section.kinds.choices {
         [] => json_table(defs, section, &section.keys(), None),
-        choices if section.tag.is_empty() => {
+        choices if section.kinds.tag.is_empty() => {
             let kinds = choices.iter().map(|choice| {
-                let table = json_table(defs, section, &choice.keys(), None);
+                let table = json_table(defs, section, &section.kinds.keys_of(choice), None);
                 (choice.name.to_owned(), table)
             });
             let kinds = Map::from_iter(kinds);
@@ -549,7 +556,7 @@ fn json_section(defs: &mut Defs, section: &Section) -> Value {
         }
         choices => {
             let kinds = choices.iter().map(|choice| {
-                let keys = [choice.keys(), section.keys()].concat();
+                let keys = [section.kinds.keys_of(choice), section.keys()].concat();
                 let mut table = json_table(defs, section, &keys, Some(choice.name));
                 table["description"] = json!(choice.meaning);
                 table

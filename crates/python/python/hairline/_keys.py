@@ -1,4 +1,4 @@
-"""The keys of a scene's tables. Made of the schema of scene files, in crates/document/src/schema."""
+"""The keys of a scene's tables. Made of the entries of the keys, in crates/document/src/description."""
 
 # Notes are one line each.
 # ruff: noqa: E501
@@ -222,6 +222,8 @@ class ScratchesKeys(Table):
     """Cross section of the grooves: ``"rectangle"``, a flat floor, which shows the purest colours; ``"v"``, two straight flanks, of a sharp point; ``"round"``, of a grain or a stylus; ``"shoulders"``, round with ridges beside it, which a blunt point pushes up in soft metal. Or the depths over ``depth_nm`` at equal steps from the middle to the rim, below 0 above the surface: ``[1, 0.7, 0, -0.3, 0]``. Width is that of all of it. Default: ``"rectangle"``. Range: one of these names, or 2 to 64 numbers of ±1, not all 0."""
     strokes: Sequence[Mapping[str, Any]] = _default()
     """What a brush or an eraser did. Default: none. Range: see strokes."""
+    curvature_per_m: Optional[Sizes] = _default()
+    """How much a scratch bends: one over its radius. A mean of 0 with a spread of 4 to 20 bends them both ways. Unit: 1/m. Default: 0. Range: mean ±10000, spread 0 to 10000."""
     count: Optional[int] = _default()
     """How many. Default: this or ``density_per_m2``. Range: whole, 0 or more."""
     density_per_m2: Optional[float] = _default()
@@ -234,8 +236,6 @@ class ScratchesKeys(Table):
     """Width of the groove: how far its colours fan out. Unit: µm. Default: mean 1.5, spread 0.3. Range: mean above 0, up to 100; spread 0 to 3."""
     depth_nm: Optional[Sizes] = _default()
     """Depth of the groove: which colours it favours. Unit: nm. Default: mean 200, spread 0.2. Range: mean above 0, up to 2000; spread 0 to 3."""
-    curvature_per_m: Optional[Sizes] = _default()
-    """How much a scratch bends: one over its radius. A mean of 0 with a spread of 4 to 20 bends them both ways. Unit: 1/m. Default: 0. Range: mean ±10000, spread 0 to 10000."""
     direction: Optional[Vector] = _default()
     """Along what the scratches run, laid flat on the surface. Default: ``[1, 0, 0]``. Range: not zero."""
     jitter_deg: Optional[float] = _default()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Generic, Optional, TypeVar, Union, overlo
 from . import _hairline as core
 from ._arrays import ArrayLike, floats, indices, per_scratch
 from ._errors import argument_error
-from ._keys import CameraKeys, DiskLight, Light, ObjectKeys, PolygonLight, RectangleLight, ScratchesKeys, SphereLight, SunLight, TubeLight
+from ._keys import CameraKeys, Light, ObjectKeys, ScratchesKeys
 from ._table import Table, Vector
 
 if TYPE_CHECKING:
@@ -113,14 +113,8 @@ class Scratches(ScratchesKeys):
         return cls(object=object, pattern="file", file=array, name=name)
 
 
-_LIGHTS: dict[str, type[Light]] = {
-    "sphere": SphereLight,
-    "disk": DiskLight,
-    "rectangle": RectangleLight,
-    "polygon": PolygonLight,
-    "tube": TubeLight,
-    "sun": SunLight,
-}
+#: The class of each kind of light.
+_LIGHTS: dict[str, type[Light]] = {light._fixed["kind"]: light for light in Light.__subclasses__()}
 
 T = TypeVar("T", bound=Table)
 
