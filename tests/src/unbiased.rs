@@ -6,10 +6,10 @@ use hairline_image::{Image, Layer, Layers, Noise};
 use hairline_index::TriangleIndex;
 use hairline_optics::mask::Mask;
 use hairline_reference::{BATCH_SAMPLES, Integrator, SceneIndex, Settings};
+use hairline_render::Quiet;
+use hairline_render::backend::{Backend, Painter, Task};
+use hairline_render::failure::Failure;
 use hairline_scene::{Scene, Transport};
-use hairline_work::Quiet;
-use hairline_work::backend::{Backend, Painter, Task};
-use hairline_work::failure::Failure;
 use std::ops::ControlFlow;
 use std::path::Path;
 

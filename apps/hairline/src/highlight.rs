@@ -9,7 +9,7 @@ use hairline_index::TriangleIndex;
 use hairline_scene::Scene;
 
 use crate::size_limit::SIDE_MAX_PX;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Pixel where a highlight should lie, and the light for it.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,7 +7,7 @@ use anyhow::anyhow;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
 
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// The failure where the system refuses.
 pub fn cannot_listen(error: std::io::Error) -> Failure {

@@ -8,13 +8,13 @@ use hairline_document::Arrays;
 use hairline_image::{Display, Format, Output};
 use hairline_optics::mask::Mask;
 use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
-use hairline_work::reference::{self, Count, End, Limits, identity};
+use hairline_render::reference::{self, Count, End, Limits, identity};
 
 use crate::cli;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::{Progress, Terminal};
 use crate::scene_file::{self, Overrides};
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Largest time whose samples a crash or a power cut may lose.
 const SAVE_EVERY: Duration = Duration::from_secs(60);

@@ -23,10 +23,10 @@ use crate::progress::{Progress, Terminal};
 use crate::scene_file::{self, Overrides};
 use crate::{cli, method_flags};
 use goals::Goals;
-use hairline_work::backend::{self, Painter, Rendered, Task};
-use hairline_work::bands;
-use hairline_work::failure::Failure;
-use hairline_work::labels;
+use hairline_render::backend::{self, Painter, Rendered, Task};
+use hairline_render::bands;
+use hairline_render::failure::Failure;
+use hairline_render::labels;
 use motion::Motion;
 
 /// Loads, renders and writes.

@@ -18,7 +18,7 @@ use hairline_scene::Scene;
 use crate::highlight::{self, Highlight};
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Values of flags that replace those of the scene file.
 #[derive(Clone, Copy, Debug, Default)]

@@ -2,9 +2,9 @@
 
 use anyhow::anyhow;
 use clap::ValueEnum;
+use hairline_render::backend::{self, BouncesWithoutShadows};
+use hairline_render::failure::Failure;
 use hairline_scene::Transport;
-use hairline_work::backend::{self, BouncesWithoutShadows};
-use hairline_work::failure::Failure;
 
 /// The last line of a program's help.
 pub const EXIT_CODES: &str =

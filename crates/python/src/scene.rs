@@ -15,11 +15,11 @@ use hairline_image::output::write_atomically;
 use hairline_memory::{available_bytes, budget_bytes};
 use hairline_optics::mask::Mask;
 use hairline_reference::{Integrator, Model, SceneIndex, Settings};
+use hairline_render::Listener;
+use hairline_render::backend::{self, Backend, BouncesWithoutShadows, Painter, Rendered, Task};
+use hairline_render::failure::Failure;
+use hairline_render::reference::{self, Limits, identity};
 use hairline_scene::{Scene, ScratchTables};
-use hairline_work::Listener;
-use hairline_work::backend::{self, Backend, BouncesWithoutShadows, Painter, Rendered, Task};
-use hairline_work::failure::Failure;
-use hairline_work::reference::{self, Limits, identity};
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -288,7 +288,7 @@ impl Built {
     fn labels(&self, host: &Bound<'_, PyAny>) -> PyResult<Labels> {
         let ended = watched::run(host, |told| {
             told.begin("labelling");
-            hairline_work::labels::labels(&self.scene, &|| told.is_cancelled())
+            hairline_render::labels::labels(&self.scene, &|| told.is_cancelled())
         })?;
         match (ended.made, ended.interrupt) {
             (_, Some(interrupt)) => Err(interrupt),

@@ -13,7 +13,7 @@ use hairline_scene::{Light, LightShape};
 use serde::Serialize;
 
 use crate::scene_file::{self, Loaded, Overrides};
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Summary of a scene, in the units of its file.
 #[derive(Serialize)]

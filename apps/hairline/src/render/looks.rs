@@ -12,9 +12,9 @@ use crate::cli;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::{Progress, Terminal};
 use crate::scene_file::{self, Loaded, refuse_inputs};
-use hairline_work::backend::{Painter, Task};
-use hairline_work::failure::Failure;
-use hairline_work::{Listener, Quiet};
+use hairline_render::backend::{Painter, Task};
+use hairline_render::failure::Failure;
+use hairline_render::{Listener, Quiet};
 
 /// Renders all looks; `write` puts a picture in its place.
 ///

@@ -8,7 +8,7 @@ use hairline_editor::navigate::{self, Turns};
 
 use crate::cli::SequenceFlags;
 use crate::scene_file::set_time;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Positions of the camera and times of the frames.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,9 +12,9 @@ use super::steadiness::Steadiness;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::{Progress, Terminal};
 use crate::scene_file::Loaded;
-use hairline_work::backend::{FINE_SAMPLES, Painter, Rendered, Task};
-use hairline_work::failure::Failure;
-use hairline_work::{Listener, Quiet};
+use hairline_render::backend::{FINE_SAMPLES, Painter, Rendered, Task};
+use hairline_render::failure::Failure;
+use hairline_render::{Listener, Quiet};
 
 /// Renders all frames; `write` puts a picture in its place. With `stability` the same frames are rendered with many samples, and
 /// how steady both are is printed.
