@@ -11,10 +11,10 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairline_console::{Backend, EXIT_CODES, Switch, View};
 use hairline_document::DEFAULT_SAMPLES;
 use hairline_document::export::BAKE_PX;
+use hairline_document::navigate;
 use hairline_document::schema::camera::EXPOSURE_EV;
 use hairline_document::schema::object::TIME_S;
-use hairline_editor::navigate;
-use hairline_editor::wear::Wear;
+use hairline_document::wear::Wear;
 use hairline_image::{FPS_MAX, Layer, ToneMap};
 
 use crate::compare::limits::{self, Limit};

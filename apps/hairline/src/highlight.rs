@@ -3,8 +3,8 @@
 use anyhow::anyhow;
 use glam::{DVec2, DVec3};
 use hairline_document::description::Description;
+use hairline_document::place_light::place_highlight;
 use hairline_document::text::shown;
-use hairline_editor::place_light::place_highlight;
 use hairline_index::TriangleIndex;
 use hairline_scene::Scene;
 

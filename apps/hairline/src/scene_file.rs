@@ -9,8 +9,8 @@ use hairline_console::{BUILT_IN, refuse_other_files, tell};
 use hairline_document::description::{Description, Object, Surface};
 use hairline_document::estimate::Estimate;
 use hairline_document::inputs::{Input, is_same_file};
+use hairline_document::wear::{Wear, set_wear};
 use hairline_document::{Loader, SceneBuilder, Stage, reading, subject};
-use hairline_editor::wear::{Wear, set_wear};
 use hairline_image::{Finish, ToneMap};
 use hairline_memory::budget_bytes;
 use hairline_scene::Scene;
@@ -117,8 +117,8 @@ fn give_wear(description: &mut Description, scene: &Scene, wear: Wear) {
     let boxes_m: Vec<_> = description.objects.iter().map(bounds_m).collect();
     for object in subject::objects(description, &boxes_m) {
         let (low_m, high_m) = boxes_m[object];
-        let set = set_wear(description, object, low_m.distance(high_m), wear);
-        set.unwrap_or_else(|error| unreachable!("the object is there: {error}"));
+        let name = description.objects[object].name.clone();
+        set_wear(description, &name, low_m.distance(high_m), wear);
     }
 }
 

@@ -99,7 +99,7 @@ impl Strength {
                 irradiance: light.color.map(|channel| channel * irradiance),
             },
             _ => Self::Near {
-                center_m: hairline_editor::place_light::center(light).into(),
+                center_m: hairline_document::place_light::center(light).into(),
                 radiance: light.color.map(|channel| channel * light.radiance),
             },
         }

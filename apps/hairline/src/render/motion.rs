@@ -2,9 +2,9 @@
 
 use anyhow::anyhow;
 use glam::DVec3;
+use hairline_document::navigate::{self, Turns};
 use hairline_document::schema::Bounds;
 use hairline_document::{Description, description};
-use hairline_editor::navigate::{self, Turns};
 
 use crate::cli::SequenceFlags;
 use crate::scene_file::set_time;

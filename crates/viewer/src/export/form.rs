@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use egui::{Checkbox, DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
-use hairline_editor::navigate::Turns;
+use hairline_document::navigate::Turns;
 use hairline_image::{Animation, BATCH_SAMPLES, Batches, FPS, FPS_MAX};
 
 use super::work::{Expected, Motion};

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
+use hairline_document::navigate::{self, Turns};
 use hairline_document::{Description, description};
-use hairline_editor::navigate::{self, Turns};
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, Method, RenderOptions, Renderer};
 use hairline_image::{
     Animation, Batches, Display, FilePath, Finish, Image, Output, filter_traced, output,

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use egui::{Button, Id, Ui};
 use hairline_document::description::{Camera, Description};
+use hairline_document::navigate::{self, Viewpoint};
 use hairline_document::schema;
 use hairline_editor::actions::pictures::PictureOf;
-use hairline_editor::navigate::{self, Viewpoint};
 use hairline_image::ToneMap;
 
 use super::form::Form;

@@ -3,12 +3,12 @@
 use egui::Ui;
 use hairline_document::description::{Shape, Surface, Up};
 use hairline_document::schema::{self, Key};
+use hairline_document::wear::{self, Wear};
 use hairline_editor::Selection;
 use hairline_editor::actions::{gratings, layers, objects};
 use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::LayerPreset;
-use hairline_editor::shown::FAINT;
-use hairline_editor::wear::{self, Wear};
+use hairline_image::shown::FAINT;
 
 use super::form::{Form, NAME};
 use super::material::material_cards;

@@ -6,8 +6,8 @@
 use egui::{Pos2, Vec2};
 use glam::DVec3;
 use hairline_document::description::Light;
+use hairline_document::place_light;
 use hairline_document::schema::light::CONE_DEG;
-use hairline_editor::place_light;
 
 use crate::viewport::lens::Lens;
 
