@@ -13,7 +13,7 @@ use conformance::unbiased::{
 };
 use hairline_image::metrics::Verdict;
 use hairline_image::output::write_atomically;
-use hairline_render::backend::Backend;
+use hairline_render::Backend;
 use hairline_scene::{Scene, Transport};
 use serde::{Deserialize, Serialize};
 

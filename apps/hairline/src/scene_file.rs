@@ -6,7 +6,7 @@ use std::sync::Arc;
 use anyhow::anyhow;
 use glam::Vec3;
 use hairline_console::{BUILT_IN, refuse_other_files, tell};
-use hairline_document::description::{Description, Object, Surface};
+use hairline_document::description::{Description, Object};
 use hairline_document::estimate::Estimate;
 use hairline_document::inputs::{Input, is_same_file};
 use hairline_document::wear::{Wear, set_wear};
@@ -19,6 +19,7 @@ use crate::highlight::{self, Highlight};
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use hairline_render::failure::Failure;
+use hairline_render::motion::set_time;
 
 /// Values of flags that replace those of the scene file.
 #[derive(Clone, Copy, Debug, Default)]
@@ -95,15 +96,6 @@ impl Loaded {
 
     fn built(&mut self, description: &Description) -> Result<Scene, hairline_document::Error> {
         (self.builder).build(&Loader::default(), description, &self.folder)
-    }
-}
-
-/// Sets the time of the models' animations.
-pub fn set_time(description: &mut Description, time_s: f64) {
-    for object in &mut description.objects {
-        if let Surface::Mesh(_) = object.surface {
-            object.time_s = Some(time_s);
-        }
     }
 }
 

@@ -6,7 +6,7 @@ use conformance::unbiased::{
 };
 use hairline_image::Image;
 use hairline_image::metrics::Verdict;
-use hairline_render::backend::Backend;
+use hairline_render::Backend;
 use hairline_scene::{Scene, Transport};
 
 fn picture(scene: &Scene, samples: u32, transport: Transport) -> Image {

@@ -8,7 +8,7 @@ use hairline_image::tone_map::srgb_from_linear;
 use hairline_image::{Display, Image, ToneMap};
 use hairline_index::TriangleIndex;
 use hairline_optics::gaussian::gaussian;
-use hairline_render::backend::Backend;
+use hairline_render::Backend;
 use hairline_scene::Transport;
 
 const DISPLAY: Display = Display {
