@@ -13,8 +13,8 @@ use conformance::unbiased::{
 };
 use hairline_image::metrics::Verdict;
 use hairline_image::output::write_atomically;
+use hairline_render::Backend;
 use hairline_scene::{Scene, Transport};
-use hairline_work::backend::Backend;
 use serde::{Deserialize, Serialize};
 
 /// Relative error of the light in a wrong picture, which the verdict must notice.

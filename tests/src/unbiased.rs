@@ -6,10 +6,9 @@ use hairline_image::{Image, Layer, Layers, Noise};
 use hairline_index::TriangleIndex;
 use hairline_optics::mask::Mask;
 use hairline_reference::{BATCH_SAMPLES, Integrator, SceneIndex, Settings};
+use hairline_render::failure::Failure;
+use hairline_render::{Backend, Painter, Quiet, Task};
 use hairline_scene::{Scene, Transport};
-use hairline_work::Quiet;
-use hairline_work::backend::{Backend, Painter, Task};
-use hairline_work::failure::Failure;
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -72,7 +71,7 @@ fn read(name: &str, changed: impl Fn(String) -> String) -> Scene {
 /// Renders as `hairline render` does, except that fireflies stay.
 ///
 /// # Errors
-/// Those of [`Painter::open`] and [`Painter::render`].
+/// Those of [`Painter::choose`] and [`Painter::render_now`].
 pub fn rendered(
     scene: &Scene,
     backend: Backend,
@@ -81,15 +80,11 @@ pub fn rendered(
 ) -> Result<Image, Failure> {
     let task = Task {
         mask: MASK,
-        method: None,
-        backend,
-        samples,
-        transport,
-        is_transparent: false,
         is_filtered: false,
+        ..Task::new(samples, transport)
     };
-    let mut painter = Painter::open(scene, task, &Quiet)?;
-    Ok(painter.render(scene, &|| false, &|_| {})?.image)
+    let mut painter = Painter::choose(scene, backend, task, &Quiet)?;
+    Ok(painter.render_now(scene, &|_| true)?.image)
 }
 
 /// Expected picture with shadows and bounces: that of the path tracer, and as much of the closed form's own error as is seen of the light. With

@@ -12,9 +12,9 @@ use anyhow::anyhow;
 use clap::Parser;
 use hairline_console::{Backend, EXIT_CODES, View, tell};
 use hairline_document::{Description, probe};
+use hairline_render::failure::Failure;
 use hairline_viewer::window::{Error, Renderer};
 use hairline_viewer::{Options, engine, open};
-use hairline_work::failure::Failure;
 
 /// Edit a scene in a window: scratches, lights and materials, live.
 #[derive(Debug, Parser)]

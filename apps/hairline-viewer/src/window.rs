@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
 
 use anyhow::anyhow;
 
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Opens the window by `open`. The window's libraries panic where the system lacks one that they need: that becomes a sentence.
 pub fn in_one_sentence<T>(open: impl FnOnce() -> T) -> Result<T, Failure> {

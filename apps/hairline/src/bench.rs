@@ -24,7 +24,7 @@ use crate::cli::{self, BenchPart};
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
 use figures::Figures;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 use machine::Machine;
 use stage::{Stage, TALK_SIZE_PX};
 use thoroughness::Thoroughness;

@@ -12,8 +12,8 @@ use hairline_console::{Backend, EXIT_CODES, Switch, View};
 use hairline_document::DEFAULT_SAMPLES;
 use hairline_document::description::{Camera, Object};
 use hairline_document::export::BAKE_PX;
-use hairline_editor::navigate;
-use hairline_editor::wear::Wear;
+use hairline_document::navigate;
+use hairline_document::wear::Wear;
 use hairline_image::{FPS_MAX, Layer, ToneMap};
 
 use crate::compare::limits::{self, Limit};

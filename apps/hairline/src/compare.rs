@@ -18,7 +18,7 @@ use self::limits::Finding;
 use crate::cli;
 use crate::progress::Progress;
 use crate::scene_file::refuse_inputs;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 use side::Side;
 
 /// Reads, compares, prints, writes the report, and holds the figures to the limits.

@@ -6,7 +6,7 @@ use hairline_document::Loader;
 use hairline_document::export::{Export, Format};
 use hairline_image::output::{check_writable, write_atomically};
 use hairline_memory::in_words;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 use crate::cli;
 use crate::interrupt::{Interrupt, cannot_listen};

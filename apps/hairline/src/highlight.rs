@@ -3,13 +3,13 @@
 use anyhow::anyhow;
 use glam::{DVec2, DVec3};
 use hairline_document::description::Description;
+use hairline_document::place_light::place_highlight;
 use hairline_document::text::shown;
-use hairline_editor::place_light::place_highlight;
 use hairline_index::TriangleIndex;
 use hairline_scene::Scene;
 
 use crate::size_limit::SIDE_MAX_PX;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Pixel where a highlight should lie, and the light for it.
 #[derive(Clone, Debug, PartialEq)]

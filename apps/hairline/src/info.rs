@@ -8,7 +8,7 @@ use hairline_console::print;
 use hairline_gpu::headless;
 
 use crate::cli;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Prints to stdout.
 pub fn run(arguments: &cli::Info) -> Result<(), Failure> {

@@ -7,7 +7,8 @@ use anyhow::anyhow;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
 
-use hairline_work::failure::Failure;
+use crate::progress::Progress;
+use hairline_render::failure::Failure;
 
 /// The failure where the system refuses.
 pub fn cannot_listen(error: std::io::Error) -> Failure {
@@ -35,6 +36,14 @@ impl Interrupt {
             flag::register(signal, interrupt.asked.clone())?;
         }
         Ok(interrupt)
+    }
+
+    /// Shows the share that is done, and says whether the work goes on: until a signal came.
+    pub fn go_on(&self, progress: &Progress) -> impl Fn(f64) -> bool + Sync {
+        move |share| {
+            progress.set(share);
+            !self.is_asked()
+        }
     }
 
     /// Whether a signal came.

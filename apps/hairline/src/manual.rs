@@ -8,7 +8,7 @@ use clap_mangen::roff::Roff;
 
 use crate::cli::Cli;
 use hairline_console::print;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Prints a shell's completions of the command line.
 pub fn completions(shell: Shell) -> Result<(), Failure> {

@@ -7,7 +7,7 @@ use hairline_optics::mask;
 use hairline_published::sine_integral::SineIntegral;
 use hairline_published::{Method, PublishedMethod, Structure};
 
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Flags of the method by which scratches are computed.
 #[derive(Args, Clone, Debug, Default)]

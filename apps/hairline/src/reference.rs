@@ -5,16 +5,16 @@ use std::time::Duration;
 use anyhow::anyhow;
 use hairline_console::{Switch, tell};
 use hairline_document::Arrays;
-use hairline_image::{Display, Format, Output};
+use hairline_image::{Format, Output};
 use hairline_optics::mask::Mask;
 use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
-use hairline_work::reference::{self, Count, End, Limits, identity};
+use hairline_render::reference::{self, Count, End, Limits, identity};
 
 use crate::cli;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::{Progress, Terminal};
 use crate::scene_file::{self, Overrides};
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Largest time whose samples a crash or a power cut may lose.
 const SAVE_EVERY: Duration = Duration::from_secs(60);
@@ -82,10 +82,7 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
         tell("warning: a .png keeps neither the variance nor what --resume needs; an .exr does");
     }
 
-    let display = Display {
-        exposure_ev: scene.camera.exposure_ev,
-        tone_map: scene.render.tone_map,
-    };
+    let display = scene.display();
     let save = |image: &_| -> Result<(), Failure> {
         Ok(output.write_image_with_notes(image, &display, &notes)?)
     };

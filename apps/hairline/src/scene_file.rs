@@ -6,11 +6,11 @@ use std::sync::Arc;
 use anyhow::anyhow;
 use glam::Vec3;
 use hairline_console::{BUILT_IN, refuse_other_files, tell};
-use hairline_document::description::{Description, Object, Surface};
+use hairline_document::description::{Description, Object};
 use hairline_document::estimate::Estimate;
 use hairline_document::inputs::{Input, is_same_file};
+use hairline_document::wear::{Wear, set_wear};
 use hairline_document::{Loader, SceneBuilder, Stage, reading, subject};
-use hairline_editor::wear::{Wear, set_wear};
 use hairline_image::{Finish, ToneMap};
 use hairline_memory::budget_bytes;
 use hairline_scene::Scene;
@@ -18,7 +18,8 @@ use hairline_scene::Scene;
 use crate::highlight::{self, Highlight};
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
+use hairline_render::motion::set_time;
 
 /// Values of flags that replace those of the scene file.
 #[derive(Clone, Copy, Debug, Default)]
@@ -98,15 +99,6 @@ impl Loaded {
     }
 }
 
-/// Sets the time of the models' animations.
-pub fn set_time(description: &mut Description, time_s: f64) {
-    for object in &mut description.objects {
-        if let Surface::Mesh(_) = object.surface {
-            object.time_s = Some(time_s);
-        }
-    }
-}
-
 /// Gives wear to the objects that a scene is about.
 fn give_wear(description: &mut Description, scene: &Scene, wear: Wear) {
     let bounds_m = |object: &Object| {
@@ -117,8 +109,8 @@ fn give_wear(description: &mut Description, scene: &Scene, wear: Wear) {
     let boxes_m: Vec<_> = description.objects.iter().map(bounds_m).collect();
     for object in subject::objects(description, &boxes_m) {
         let (low_m, high_m) = boxes_m[object];
-        let set = set_wear(description, object, low_m.distance(high_m), wear);
-        set.unwrap_or_else(|error| unreachable!("the object is there: {error}"));
+        let name = description.objects[object].name.clone();
+        set_wear(description, &name, low_m.distance(high_m), wear);
     }
 }
 

@@ -12,7 +12,7 @@ use hairline_scene::Object;
 
 use crate::cli;
 use crate::scene_file::{self, Loaded, Overrides};
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Writes the list.
 pub fn run(arguments: &cli::Scratches) -> Result<(), Failure> {

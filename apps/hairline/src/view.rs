@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use std::process::Command;
 
 use anyhow::anyhow;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Hands `arguments` to the viewer, and ends as it ends.
 pub fn run(arguments: impl Iterator<Item = OsString>) -> Result<(), Failure> {

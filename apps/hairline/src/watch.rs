@@ -10,7 +10,7 @@ use hairline_document::Description;
 use crate::cli;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::render;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Interval of looking at the files. An editor that saves in several steps is done in this time.
 const EVERY: Duration = Duration::from_millis(200);

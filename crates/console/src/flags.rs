@@ -2,9 +2,9 @@
 
 use anyhow::anyhow;
 use clap::ValueEnum;
+use hairline_render::BouncesWithoutShadows;
+use hairline_render::failure::Failure;
 use hairline_scene::Transport;
-use hairline_work::backend::{self, BouncesWithoutShadows};
-use hairline_work::failure::Failure;
 
 /// The last line of a program's help.
 pub const EXIT_CODES: &str =
@@ -31,7 +31,7 @@ pub enum Backend {
     Cpu,
 }
 
-impl From<Backend> for backend::Backend {
+impl From<Backend> for hairline_render::Backend {
     fn from(flag: Backend) -> Self {
         match flag {
             Backend::Auto => Self::Auto,
@@ -47,7 +47,7 @@ impl From<Backend> for backend::Backend {
 /// [`Failure::Input`] where there are bounces without shadows.
 pub fn transport(shadows: Option<Switch>, bounces: Option<u32>) -> Result<Transport, Failure> {
     let shadows = shadows.map(|switch| switch == Switch::On);
-    backend::transport(shadows, bounces).map_err(|BouncesWithoutShadows| {
+    hairline_render::transport(shadows, bounces).map_err(|BouncesWithoutShadows| {
         let bounces = bounces.unwrap_or(0);
         Failure::Input(anyhow!(
             "--bounces {bounces}: without shadows the light that an object hides would be counted beside its own; add --shadows on"

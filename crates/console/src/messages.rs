@@ -7,7 +7,7 @@ use std::panic::PanicHookInfo;
 use anyhow::anyhow;
 use hairline_document::text::printable;
 
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// A line to stderr. Control characters in it are escaped, since parts of it come from files. What cannot be written is left out.
 pub fn tell(line: impl fmt::Display) {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::anyhow;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Refuses pictures and lists with a hint at their use. Files of other names are read, or refused there.
 ///

@@ -63,17 +63,17 @@ impl Prepared<'_> {
         Some((image, counts))
     }
 
-    /// Renders until `cancelled` says so, and returns the picture with whether it is whole. Tiles that were not done by then are black and
-    /// empty.
+    /// Renders some rows until `cancelled` says so, and returns the picture with whether it is whole. Tiles that were not done by then are black
+    /// and empty.
     pub fn render_until(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),
         options: &RenderOptions,
+        rows: Range<u32>,
         progress: &(dyn Fn(f64) + Sync),
     ) -> (Image, bool) {
-        let size_px = self.scene.render.size_px;
-        let mut image = Image::new(size_px);
-        let (picture, _) = self.picture(options, 0..size_px[1], cancelled);
+        let mut image = Image::new([self.scene.render.size_px[0], rows.len() as u32]);
+        let (picture, _) = self.picture(options, rows, cancelled);
         // Segments that were cut short would make darker pixels, not fewer.
         let is_whole = !cancelled() && picture.render(&mut image, progress, cancelled).is_some();
         (image, is_whole)

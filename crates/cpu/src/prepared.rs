@@ -68,28 +68,23 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// Makes the pieces of scratches ready for a scene that differs in its camera or the size of its picture.
-    pub fn look_from(&mut self, scene: &Scene) {
-        if !self.scratches.serves(&scene.camera, scene.render.size_px) {
-            self.scratches = Arc::new(ScratchIndex::build(scene));
-        }
-    }
-
     /// Shares the structures with a scene that differs only in camera, lights, environment or settings. A camera that comes much nearer
     /// or goes far away needs other pieces of scratches.
     pub fn with_scene<'b>(&self, scene: &'b Scene) -> Prepared<'b> {
-        let mut shared = Prepared {
+        let serves = self.scratches.serves(&scene.camera, scene.render.size_px);
+        Prepared {
             scene,
             triangles: self.triangles.clone(),
-            scratches: self.scratches.clone(),
+            scratches: match serves {
+                true => self.scratches.clone(),
+                false => Arc::new(ScratchIndex::build(scene)),
+            },
             laid: self.laid.clone(),
             tables: self.tables.clone(),
             draft: self.draft.clone(),
             sampler: OnceLock::new(),
             alike_rad: OnceLock::new(),
-        };
-        shared.look_from(scene);
-        shared
+        }
     }
 
     /// Replaces the scratches by a few of them, each of which stands for many. For Hairline's own method; others take all. There is no

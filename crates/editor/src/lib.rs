@@ -1,5 +1,5 @@
 //! Editing of a scene without any user interface: a document with undo, the actions on it, the ranges and names of
-//! panels' controls, and the tools that move cameras and lights or draw scratches.
+//! panels' controls, and the tools that draw scratches or reshape lights.
 //!
 //! ```
 //! use hairline_editor::Document;
@@ -31,12 +31,11 @@ pub mod brush;
 pub mod document;
 pub mod grating_presets;
 mod history;
+pub mod light_corners;
 pub mod maps;
-pub mod navigate;
 pub mod own_presets;
 mod paths;
 pub mod pen;
-pub mod place_light;
 pub mod presets;
 pub mod quantity;
 pub mod ranges;
@@ -44,9 +43,7 @@ pub mod recent;
 mod rotation;
 pub mod selection;
 pub mod settings;
-pub mod shown;
 pub mod strength;
-pub mod wear;
 
 pub use actions::ActionError;
 pub use document::Document;

@@ -148,8 +148,8 @@ fn scale(number: &mut f64, factor: f64) {
 mod tests {
     use super::*;
     use crate::presets::{LayerPreset, drawn_layer};
-    use crate::wear::Wear;
     use hairline_document::description::{Laid, Stroke};
+    use hairline_document::wear::Wear;
 
     fn laid(layer: &Scratches) -> &Laid {
         match &layer.layer {

@@ -72,16 +72,15 @@ impl Batch {
 /// use hairline_image::{Batches, Image};
 ///
 /// let mut batches = Batches::new(8);
-/// batches.fill(&|_| {}, |batch, _| {
+/// while let Some(batch) = batches.next() {
 ///     let mut part = Image::new([1, 1]);
 ///     part.base[0] = [batch.first as f32; 3];
-///     Ok::<_, ()>(Some(part))
-/// })?;
+///     batches.add(part);
+/// }
 /// let image = batches.image().unwrap();
 /// assert_eq!(image.base[0], [2.0; 3]);
 /// // Of means 0 and 4: their variance, 8, over their number.
 /// assert_eq!(image.noise.as_ref().unwrap().base[0], [4.0; 3]);
-/// # Ok::<(), ()>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Batches {
@@ -151,27 +150,6 @@ impl Batches {
             first: self.done,
             count: size.min(self.samples - self.done),
         })
-    }
-
-    /// Adds batch after batch until all are there or `render` gives none: it renders a batch, and may tell which share of it is done.
-    /// `progress` is told the share of all.
-    ///
-    /// # Errors
-    /// What `render` fails with; the batches before it stay.
-    pub fn fill<E>(
-        &mut self,
-        progress: &(dyn Fn(f64) + Sync),
-        mut render: impl FnMut(Batch, &(dyn Fn(f64) + Sync)) -> Result<Option<Image>, E>,
-    ) -> Result<(), E> {
-        while let Some(batch) = self.next() {
-            let (first, count) = (f64::from(batch.first), f64::from(batch.count));
-            let told = |share: f64| progress((first + share * count) / f64::from(self.samples));
-            let Some(image) = render(batch, &told)? else {
-                break;
-            };
-            self.add(image);
-        }
-        Ok(())
     }
 
     /// Mean of the batches until now. It says how sure it is where there is more than one batch to come.

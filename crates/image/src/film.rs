@@ -1,6 +1,8 @@
 //! Images in memory: the layers of a render, and plain pictures.
 
-use crate::traced::Traced;
+use std::ops::Range;
+
+use crate::traced::{Traced, TracedPixel};
 
 /// Picture of a renderer: one value a pixel in each layer, row by row from the top. All layers are equally long.
 ///
@@ -136,6 +138,45 @@ impl Image {
     pub fn index(&self, x: u32, y: u32) -> usize {
         debug_assert!(x < self.size_px[0] && y < self.size_px[1]);
         y as usize * self.size_px[0] as usize + x as usize
+    }
+
+    /// A copy of some rows, without alpha, noise and what rays found.
+    pub fn rows(&self, rows: Range<u32>) -> Self {
+        let width = self.size_px[0];
+        let pixels = (rows.start * width) as usize..(rows.end * width) as usize;
+        Self {
+            size_px: [width, rows.len() as u32],
+            base: self.base[pixels.clone()].to_vec(),
+            scratches: self.scratches[pixels.clone()].to_vec(),
+            density: self.density[pixels.clone()].to_vec(),
+            depth_m: self.depth_m[pixels.clone()].to_vec(),
+            normal: self.normal[pixels].to_vec(),
+            alpha: None,
+            noise: None,
+            traced: None,
+        }
+    }
+
+    /// Puts rows of the picture in their place, from row `first` on, with what rays found in them.
+    ///
+    /// # Panics
+    /// Beyond the last row.
+    pub fn put_rows(&mut self, first: u32, part: &Self) {
+        let start = (first * self.size_px[0]) as usize;
+        let pixels = start..start + part.pixel_count();
+        self.base[pixels.clone()].copy_from_slice(&part.base);
+        self.scratches[pixels.clone()].copy_from_slice(&part.scratches);
+        self.density[pixels.clone()].copy_from_slice(&part.density);
+        self.depth_m[pixels.clone()].copy_from_slice(&part.depth_m);
+        self.normal[pixels.clone()].copy_from_slice(&part.normal);
+        if let Some(of_part) = &part.traced {
+            let count = self.pixel_count();
+            let found = self.traced.get_or_insert_with(|| Traced {
+                rounds: of_part.rounds,
+                pixels: vec![TracedPixel::default(); count],
+            });
+            found.pixels[pixels].copy_from_slice(&of_part.pixels);
+        }
     }
 
     /// The picture: base plus scratches.

@@ -33,6 +33,7 @@ mod mp4;
 pub mod output;
 pub mod png;
 mod primaries;
+pub mod shown;
 mod temporary;
 pub mod tone_map;
 mod traced;

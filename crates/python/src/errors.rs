@@ -1,6 +1,6 @@
 //! Exceptions. Their classes are written in Python, where they have their documentation.
 
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;

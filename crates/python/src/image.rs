@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use hairline_image::{
     BandImage, Display, Finish, Format, Layer, Layers, Notes, Output, exr_file, png,
 };
-use hairline_work::reference::identity;
+use hairline_render::reference::identity;
 use numpy::ndarray::{ArrayView2, ArrayView3, Axis};
 use numpy::{
     Element, IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray3,

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use hairline_render::labels::{self, RANKS};
 use hairline_scene::{Object, Scene};
-use hairline_work::labels::{self, RANKS};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, ToPyArray};
 use pyo3::prelude::*;
 

@@ -10,16 +10,14 @@ use hairline_document::estimate::{Estimate, scratches_bytes, textures_bytes};
 use hairline_document::export::{Export, Format};
 use hairline_document::inputs::is_same_file;
 use hairline_document::{Description, Error, Loader, SceneBuilder, Stage, reading};
-use hairline_image::Display;
 use hairline_image::output::write_atomically;
 use hairline_memory::{available_bytes, budget_bytes};
 use hairline_optics::mask::Mask;
 use hairline_reference::{Integrator, Model, SceneIndex, Settings};
+use hairline_render::failure::Failure;
+use hairline_render::reference::{self, Limits, identity};
+use hairline_render::{Backend, BouncesWithoutShadows, Listener, Painter, Task};
 use hairline_scene::{Scene, ScratchTables};
-use hairline_work::Listener;
-use hairline_work::backend::{self, Backend, BouncesWithoutShadows, Painter, Rendered, Task};
-use hairline_work::failure::Failure;
-use hairline_work::reference::{self, Limits, identity};
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -288,7 +286,7 @@ impl Built {
     fn labels(&self, host: &Bound<'_, PyAny>) -> PyResult<Labels> {
         let ended = watched::run(host, |told| {
             told.begin("labelling");
-            hairline_work::labels::labels(&self.scene, &|| told.is_cancelled())
+            hairline_render::labels::labels(&self.scene, &|| told.is_cancelled())
         })?;
         match (ended.made, ended.interrupt) {
             (_, Some(interrupt)) => Err(interrupt),
@@ -327,47 +325,38 @@ impl Built {
         host: &Bound<'_, PyAny>,
     ) -> PyResult<Image> {
         let py = host.py();
-        let transport = backend::transport(shadows, bounces)
+        let transport = hairline_render::transport(shadows, bounces)
             .map_err(|BouncesWithoutShadows| refused(bounces))?;
+        let backends = [
+            ("auto", Backend::Auto),
+            ("gpu", Backend::Gpu),
+            ("cpu", Backend::Cpu),
+        ];
+        let backend = named("backend", backend, &backends)?;
         let task = Task {
-            mask: Mask::default(),
-            method: None,
-            backend: named(
-                "backend",
-                backend,
-                &[
-                    ("auto", Backend::Auto),
-                    ("gpu", Backend::Gpu),
-                    ("cpu", Backend::Cpu),
-                ],
-            )?,
-            samples,
-            transport,
-            is_filtered: true,
             is_transparent: transparent || self.description.cuts_out(),
+            ..Task::new(samples, transport)
         };
         let notes = task.notes();
         let ended = watched::run(host, |told| {
-            let mut painter = Painter::open(&self.scene, task, told)?;
+            let mut painter = Painter::choose(&self.scene, backend, task, told)?;
             told.begin("rendering");
-            let cancelled = || told.is_cancelled();
-            painter.render(&self.scene, &cancelled, &|share| told.set(share))
+            painter.render_now(&self.scene, &|share| {
+                told.set(share);
+                !told.is_cancelled()
+            })
         })?;
-        let Rendered {
-            image,
-            samples,
-            wanted,
-        } = match (ended.made, &ended.interrupt) {
+        let rendered = match (ended.made, &ended.interrupt) {
             (Ok(rendered), _) => rendered,
             (Err(_), Some(interrupt)) => return Err(interrupt.clone_ref(py)),
             (Err(failure), None) => return Err(errors::of_failure(py, &failure)),
         };
-        let is_whole = samples == wanted;
+        let (is_whole, image) = (rendered.is_whole(), rendered.image);
         let has_some = image.depth_m.iter().any(|depth| *depth > 0.0)
             || image.base.iter().flatten().any(|value| *value > 0.0);
         match ended.interrupt {
             Some(interrupt) if !is_whole && !has_some => Err(interrupt),
-            _ => Ok(Image::new(image, self.display(), notes, is_whole)),
+            _ => Ok(Image::new(image, self.scene.display(), notes, is_whole)),
         }
     }
 
@@ -471,19 +460,12 @@ impl Built {
         let is_empty = noise.is_none_or(|noise| noise.samples.iter().all(|n| *n == 0));
         match ended.interrupt {
             Some(interrupt) if is_empty => Err(interrupt),
-            _ => Ok(Image::new(image, self.display(), notes, is_whole)),
+            _ => Ok(Image::new(image, self.scene.display(), notes, is_whole)),
         }
     }
 }
 
 impl Built {
-    fn display(&self) -> Display {
-        Display {
-            exposure_ev: self.scene.camera.exposure_ev,
-            tone_map: self.scene.render.tone_map,
-        }
-    }
-
     /// Tables of the scene with all digits.
     fn smooth_tables(&self) -> Arc<ScratchTables> {
         let mut kept = self.smooth.lock().unwrap_or_else(|left| left.into_inner());

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Condvar, Mutex, OnceLock};
 use std::time::Duration;
 
-use hairline_work::Listener;
+use hairline_render::Listener;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 

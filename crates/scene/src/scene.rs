@@ -5,7 +5,7 @@
 //! was refused, before one of these exists.
 
 use glam::{DVec2, DVec3, Vec3};
-use hairline_image::Batches;
+use hairline_image::{Batches, Display};
 use hairline_optics::scratch::DEPTH_MAX_NM;
 use hairline_optics::section::Section;
 use hairline_optics::spectrum::Observer;
@@ -86,6 +86,14 @@ impl Scene {
     pub fn all_lights(&self) -> impl Iterator<Item = &Light> + Clone {
         let suns = self.environment.iter().flat_map(Environment::suns);
         self.lights.iter().chain(suns)
+    }
+
+    /// How its pictures are shown.
+    pub fn display(&self) -> Display {
+        Display {
+            exposure_ev: self.camera.exposure_ev,
+            tone_map: self.render.tone_map,
+        }
     }
 
     /// Returns the scene with nothing to be seen behind its surfaces: its environment shines, and the camera does not see it.

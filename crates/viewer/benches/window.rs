@@ -11,8 +11,9 @@ use std::time::{Duration, Instant};
 
 use egui::{ViewportCommand, vec2};
 use hairline_document::description::{Amount, Layer};
+use hairline_document::navigate;
+use hairline_editor::DragKey;
 use hairline_editor::presets::LayerPreset;
-use hairline_editor::{DragKey, navigate};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::window::{Renderer, open_as};
 use hairline_viewer::{Options, Viewer};

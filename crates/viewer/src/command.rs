@@ -3,7 +3,7 @@
 mod key_text;
 
 use egui::{Key, KeyboardShortcut, Modifiers};
-use hairline_editor::navigate::Viewpoint;
+use hairline_document::navigate::Viewpoint;
 
 use crate::free_view::ViewCommand;
 use crate::overlays::Overlay;

@@ -10,7 +10,7 @@
 
 mod adding;
 mod backend;
-pub(crate) mod bands;
+mod bands;
 mod build;
 mod builder;
 #[cfg(not(target_arch = "wasm32"))]

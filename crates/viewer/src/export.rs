@@ -272,7 +272,8 @@ impl Export {
         let (wished, told) = (wish.clone(), report.clone());
         #[cfg(not(target_arch = "wasm32"))]
         let job = Job::start("export", move |stop| {
-            wished.block_on(work::run(&wished, &built, stop, &told));
+            let running = work::run(&wished, &built, stop, &told);
+            hairline_render::block_on(wished.backend.gpu(), running);
         });
         #[cfg(target_arch = "wasm32")]
         let job = Job::in_page(async move |stop| work::run(&wished, &built, &stop, &told).await);

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use hairline_document::Description;
-use hairline_editor::shown::Shown;
+use hairline_image::shown::Shown;
 
 mod command;
 mod develop;

@@ -24,10 +24,13 @@ fn options(samples: u32, batch: Batch) -> RenderOptions {
 /// The closed form through as many points of the lens as there are batches.
 fn added_up(scene: &Scene, samples: u32) -> Image {
     let mut batches = Batches::new(samples).unfiltered();
-    let Ok(()) = batches.fill(&|_| {}, |batch, _| {
-        let image = closed_form::render(scene, &options(samples, batch), &|_| {});
-        Ok::<_, std::convert::Infallible>(Some(image))
-    });
+    while let Some(batch) = batches.next() {
+        batches.add(closed_form::render(
+            scene,
+            &options(samples, batch),
+            &|_| {},
+        ));
+    }
     batches.into_image().unwrap()
 }
 

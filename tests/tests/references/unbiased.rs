@@ -6,8 +6,8 @@ use conformance::unbiased::{
 };
 use hairline_image::Image;
 use hairline_image::metrics::Verdict;
+use hairline_render::Backend;
 use hairline_scene::{Scene, Transport};
-use hairline_work::backend::Backend;
 
 fn picture(scene: &Scene, samples: u32, transport: Transport) -> Image {
     rendered(scene, Backend::Cpu, samples, transport).unwrap_or_else(|error| panic!("{error}"))

@@ -8,8 +8,8 @@ use hairline_image::tone_map::srgb_from_linear;
 use hairline_image::{Display, Image, ToneMap};
 use hairline_index::TriangleIndex;
 use hairline_optics::gaussian::gaussian;
+use hairline_render::Backend;
 use hairline_scene::Transport;
-use hairline_work::backend::Backend;
 
 const DISPLAY: Display = Display {
     exposure_ev: 0.0,

@@ -10,7 +10,7 @@ use super::timing::by_turns;
 use super::way::BenchMethod;
 use super::worker::{Ready, Worker, counted};
 use crate::progress::Progress;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Function that makes a curve: its name, its methods, and the scene at each place. One of the functions below.
 pub type Stages = fn(Stage, bool) -> Plan;

@@ -11,7 +11,7 @@ use anyhow::anyhow;
 use glam::DVec2;
 use hairline_scene::Scene;
 
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Lights of the disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

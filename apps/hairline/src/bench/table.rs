@@ -13,7 +13,7 @@ use super::timing::by_turns;
 use super::way::BenchMethod;
 use super::worker::{Ready, Worker, counted};
 use crate::progress::Progress;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Measures all cells, by lamps and zooms of one scene.
 pub fn of_the_talk(

@@ -14,7 +14,7 @@ use hairline_scene::Scene;
 
 use super::figures::{Outcome, Spread, Timing};
 use super::worker::{Elapsed, PictureRows, Ready, Worker};
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Time that a measurement may take.
 #[derive(Clone, Copy, Debug)]

@@ -14,7 +14,7 @@ use hairline_published::Method;
 use hairline_scene::Scene;
 
 use super::way::BenchMethod;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// A renderer.
 pub enum Worker {

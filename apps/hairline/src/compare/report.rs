@@ -17,7 +17,7 @@ use self::values::ToneTable;
 use super::figure::figure;
 use super::side::Side;
 use super::table::{self, Column};
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 const STYLE: &str = include_str!("report/report.css");
 const SCRIPT: &str = include_str!("report/report.js");

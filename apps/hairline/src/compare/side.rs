@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use hairline_image::Layers;
 
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// One of the two pictures.
 pub struct Side {

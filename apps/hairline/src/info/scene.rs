@@ -13,7 +13,7 @@ use hairline_scene::{Light, LightShape};
 use serde::Serialize;
 
 use crate::scene_file::{self, Loaded, Overrides};
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Summary of a scene, in the units of its file.
 #[derive(Serialize)]
@@ -99,7 +99,7 @@ impl Strength {
                 irradiance: light.color.map(|channel| channel * irradiance),
             },
             _ => Self::Near {
-                center_m: hairline_editor::place_light::center(light).into(),
+                center_m: hairline_document::place_light::center(light).into(),
                 radiance: light.color.map(|channel| channel * light.radiance),
             },
         }

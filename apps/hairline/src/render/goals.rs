@@ -7,7 +7,7 @@ use hairline_image::{Animation, FPS, Output, check_sequence, output};
 
 use crate::cli;
 use crate::scene_file;
-use hairline_work::failure::Failure;
+use hairline_render::failure::Failure;
 
 /// Destination of the pictures.
 pub struct Goals {

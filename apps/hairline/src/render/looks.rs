@@ -6,55 +6,54 @@ use std::path::Path;
 use anyhow::anyhow;
 use hairline_document::description::Look;
 use hairline_document::text::shown;
-use hairline_image::{Display, Image, Output, output};
+use hairline_image::{Output, output};
 
+use super::work::Work;
 use crate::cli;
 use crate::interrupt::{Interrupt, cannot_listen};
-use crate::progress::{Progress, Terminal};
+use crate::progress::Progress;
 use crate::scene_file::{self, Loaded, refuse_inputs};
-use hairline_work::backend::{Painter, Task};
-use hairline_work::failure::Failure;
-use hairline_work::{Listener, Quiet};
+use hairline_render::failure::Failure;
+use hairline_render::{Painter, Writer};
 
-/// Renders all looks; `write` puts a picture in its place.
+/// Renders and writes all looks.
 ///
 /// # Errors
 /// [`Failure::Input`] for a scene without looks and for names of files that cannot be, [`Failure::Work`] where rendering or writing fails or the
 /// user stops it: pictures that are whole by then stay.
-pub fn run(
-    loaded: &mut Loaded,
-    arguments: &cli::Render,
-    (task, terminal): (Task, &Terminal),
-    write: &dyn Fn(&Output, &Image, &Display) -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    let scene = &loaded.description;
+pub(super) fn run(mut loaded: Loaded, work: &Work<'_>) -> Result<(), Failure> {
+    let (scene, arguments) = (&loaded.description, work.arguments);
     let outputs = outputs(&scene.looks, arguments)?;
     let paths: Vec<_> = outputs.iter().map(Output::path).collect();
     let inputs = scene.inputs(&loaded.folder);
     refuse_inputs(&paths, arguments.scene.as_deref(), &inputs)?;
     let interrupt = Interrupt::listen().map_err(cannot_listen)?;
-    let is_stopped = || interrupt.is_asked();
     let count = outputs.len();
     // All of them, before the first is rendered: what is wrong with the last is told at once. They share what they have in common.
     let scenes = (0..count).map(|i| loaded.with_look(i));
     let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
-    let mut progress = None;
+    let (mut painter, mut progress) = (None, None);
     for (i, (scene, output)) in scenes.iter().zip(&outputs).enumerate() {
-        // The renderer is reported once.
-        let listener: &dyn Listener = if i == 0 { terminal } else { &Quiet };
-        let mut painter = Painter::open(scene, task.clone(), listener)?;
+        let painter = match &mut painter {
+            Some(painter) => {
+                Painter::take_now(painter, scene)?;
+                painter
+            }
+            none => none.insert(work.painter(scene)?),
+        };
         let progress = &*progress.get_or_insert_with(|| Progress::start("rendering"));
-        let done = |share: f64| progress.set((i as f64 + share) / count as f64);
-        let rendered = painter.render(scene, &is_stopped, &done)?;
+        let go_on = interrupt.go_on(progress);
+        let done = |share: f64| go_on((i as f64 + share) / count as f64);
+        let rendered = painter.render_now(scene, &done)?;
         if interrupt.is_asked() {
             let whole = format!("interrupted; {i} of {count} pictures are whole");
             return Err(Failure::Work(anyhow!("{whole}")));
         }
-        let display = Display {
-            exposure_ev: scene.camera.exposure_ev,
-            tone_map: scene.render.tone_map,
+        let writer = Writer {
+            display: scene.display(),
+            ..work.writer.clone()
         };
-        write(output, &rendered.image, &display)?;
+        writer.write(output, &rendered.image)?;
     }
     Ok(())
 }

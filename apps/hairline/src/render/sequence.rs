@@ -3,85 +3,79 @@
 
 use anyhow::anyhow;
 use hairline_console::print;
-use hairline_image::{Animation, Display, Image, Output};
+use hairline_image::Animation;
+use hairline_render::failure::Failure;
+use hairline_render::{Error, FINE_SAMPLES, Motion, Painter, Sequence, block_on};
 use hairline_scene::Scene;
 
 use super::goals::Goals;
-use super::motion::Motion;
 use super::steadiness::Steadiness;
+use super::work::Work;
 use crate::interrupt::{Interrupt, cannot_listen};
-use crate::progress::{Progress, Terminal};
+use crate::progress::Progress;
 use crate::scene_file::Loaded;
-use hairline_work::backend::{FINE_SAMPLES, Painter, Rendered, Task};
-use hairline_work::failure::Failure;
-use hairline_work::{Listener, Quiet};
 
-/// Renders all frames; `write` puts a picture in its place. With `stability` the same frames are rendered with many samples, and
-/// how steady both are is printed.
+/// Renders and writes all frames. With `--stability` the same frames are rendered with many samples, and how steady both are is printed.
 ///
 /// # Errors
 /// [`Failure::Work`] where rendering or writing fails or the user stops it: frames that are whole by then stay.
-pub fn run(
-    loaded: &mut Loaded,
+pub(super) fn run(
+    mut loaded: Loaded,
     motion: &Motion,
     goals: &Goals,
-    stability: bool,
-    (task, terminal): (Task, &Terminal),
-    write: &dyn Fn(&Output, &Image) -> Result<(), Failure>,
+    work: &Work<'_>,
 ) -> Result<(), Failure> {
-    let scene = &loaded.scene;
-    let display = Display {
-        exposure_ev: scene.camera.exposure_ev,
-        tone_map: scene.render.tone_map,
-    };
+    let interrupt = Interrupt::listen().map_err(cannot_listen)?;
     let begin = |path| {
-        let size_px = scene.render.size_px;
-        let has_alpha = task.is_transparent;
-        let (frames, finish) = (motion.frames, &loaded.finish);
+        let (size_px, has_alpha) = (loaded.scene.render.size_px, work.task.is_transparent);
+        let (frames, finish) = (motion.frames, &work.writer.finish);
         Animation::begin(path, size_px, frames, goals.fps, has_alpha, finish)
     };
+    let sequence = Sequence {
+        writer: work.writer.clone(),
+        animation: goals.animation.as_deref().map(begin).transpose()?,
+    };
+    let steady = work.arguments.sequence.stability;
     let mut frames = Frames {
         motion,
         goals,
-        display,
-        write,
-        interrupt: Interrupt::listen().map_err(cannot_listen)?,
-        animation: goals.animation.as_deref().map(begin).transpose()?,
-        steadiness: stability.then(|| Steadiness::new(display)),
+        sequence,
+        interrupt,
+        steadiness: steady.then(|| Steadiness::new(work.writer.display)),
         progress: None,
     };
     let camera = loaded.description.camera.clone();
-    let place = |frame: usize| motion.position_m(&camera, frame as u32);
-    if motion.is_of_camera() {
-        let mut moved = loaded.scene.clone();
-        let mut painter = Painter::open(&loaded.scene, task.clone(), terminal)?;
-        for frame in 0..motion.frames as usize {
-            moved.camera.position_m = place(frame);
-            frames.add(frame, &moved, &mut painter)?;
+    let is_of_camera = motion.is_of_camera();
+    // By its own camera: frames that are seen from about as far away share its pieces of scratches.
+    let painter = is_of_camera.then(|| work.painter(&loaded.scene));
+    let mut painter = painter.transpose()?;
+    for frame in 0..motion.frames {
+        if !is_of_camera {
+            let mut now = loaded.description.clone();
+            motion.move_scene(&mut now, frame);
+            loaded.show(&now)?;
         }
-        return frames.finish();
-    }
-    for frame in 0..motion.frames as usize {
-        let mut now = loaded.description.clone();
-        motion.move_scene(&mut now, frame as u32);
-        loaded.show(&now)?;
-        loaded.scene.camera.position_m = place(frame);
-        // The renderer is reported once.
-        let listener: &dyn Listener = if frame == 0 { terminal } else { &Quiet };
-        let mut painter = Painter::open(&loaded.scene, task.clone(), listener)?;
-        frames.add(frame, &loaded.scene, &mut painter)?;
+        loaded.scene.camera.position_m = motion.position_m(&camera, frame);
+        let scene = &loaded.scene;
+        let painter = match &mut painter {
+            Some(painter) if is_of_camera => painter,
+            Some(painter) => {
+                painter.take_now(scene)?;
+                painter
+            }
+            none => none.insert(work.painter(scene)?),
+        };
+        frames.add(frame as usize, scene, painter)?;
     }
     frames.finish()
 }
 
-/// Writer of the frames.
+/// Frames on their way to files.
 struct Frames<'a> {
     motion: &'a Motion,
     goals: &'a Goals,
-    display: Display,
-    write: &'a dyn Fn(&Output, &Image) -> Result<(), Failure>,
+    sequence: Sequence,
     interrupt: Interrupt,
-    animation: Option<Animation>,
     steadiness: Option<Steadiness>,
     /// Progress from the first frame on: messages before it have a line of their own.
     progress: Option<Progress>,
@@ -89,41 +83,43 @@ struct Frames<'a> {
 
 impl Frames<'_> {
     fn add(&mut self, frame: usize, scene: &Scene, painter: &mut Painter) -> Result<(), Failure> {
+        let interrupt = &self.interrupt;
         let kept = |failure| match failure {
             Failure::Work(error) => Failure::Work(anyhow!("{error:#}; {}", self.goals.kept(frame))),
             input @ Failure::Input(_) => input,
         };
-        let interrupt = &self.interrupt;
+        let interrupted = || kept(Failure::Work(anyhow!("interrupted")));
         if interrupt.is_asked() {
-            return Err(kept(Failure::Work(anyhow!("interrupted"))));
+            return Err(interrupted());
         }
         let progress = &*(self.progress).get_or_insert_with(|| Progress::start("rendering"));
-        let done =
-            |share: f64| progress.set((frame as f64 + share) / f64::from(self.motion.frames));
+        let go_on = interrupt.go_on(progress);
+        let done = |share: f64| go_on((frame as f64 + share) / f64::from(self.motion.frames));
         // Share of a frame's time; its reference takes the rest.
         let own = match self.steadiness {
             Some(_) => 1.0 / f64::from(1 + FINE_SAMPLES),
             None => 1.0,
         };
-        let is_stopped = || interrupt.is_asked();
-        let rendered = painter.render(scene, &is_stopped, &|share| done(own * share));
-        let Rendered { image, .. } = match rendered {
-            // A frame of fewer samples would stand out, if there is any.
-            _ if interrupt.is_asked() => Err(kept(Failure::Work(anyhow!("interrupted")))),
-            rendered => rendered.map_err(kept),
-        }?;
-        if let Some(output) = self.goals.pictures.get(frame) {
-            (self.write)(output, &image).map_err(kept)?;
-        }
-        if let Some(animation) = &mut self.animation {
-            animation.add(&image, &self.display)?;
-        }
+        let (gpu, output) = (painter.gpu().cloned(), self.goals.pictures.get(frame));
+        let of_frame = |share| done(own * share);
+        let adding = self.sequence.add(painter, scene, output, &of_frame);
+        let image = match block_on(gpu.as_ref(), adding) {
+            Ok(Some(image)) => image,
+            Ok(None) => return Err(interrupted()),
+            Err(Error::Device(_)) if interrupt.is_asked() => return Err(interrupted()),
+            Err(Error::Animation(error)) => return Err(error.into()),
+            Err(error) => return Err(kept(error.into())),
+        };
         // A reference may take minutes: not for a figure that nobody waits for any more.
         if let Some(steadiness) = &mut self.steadiness
             && !interrupt.is_asked()
         {
-            let rest = |share| done(own + (1.0 - own) * share);
-            let reference = painter.render_finely(scene, &rest).map_err(kept)?;
+            let rest = |share| {
+                done(own + (1.0 - own) * share);
+            };
+            let gpu = painter.gpu().cloned();
+            let reference = block_on(gpu.as_ref(), painter.render_finely(scene, &rest));
+            let reference = reference.map_err(|error| kept(error.into()))?;
             let camera = scene.camera.frame(scene.render.size_px);
             steadiness.add(camera, [image, reference]);
         }
@@ -132,7 +128,7 @@ impl Frames<'_> {
 
     fn finish(self) -> Result<(), Failure> {
         drop(self.progress);
-        if let Some(animation) = self.animation {
+        if let Some(animation) = self.sequence.animation {
             animation.finish()?;
         }
         if let Some(steadiness) = self.steadiness {

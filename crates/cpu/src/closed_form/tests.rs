@@ -227,17 +227,14 @@ fn added_up(scene: &Scene, samples: u32, batches: u32) -> Image {
     let prepared = Prepared::new(scene);
     let mut sum = Batches::new(samples).unfiltered();
     let rows = 0..scene.render.size_px[1];
-    let added = sum.fill(&|_| {}, |batch, progress| {
+    while let Some(batch) = sum.next().filter(|it| it.first < batches * BATCH_SAMPLES) {
         let options = RenderOptions {
             batch: Some(batch),
             shadows: true,
             ..options(samples)
         };
-        let is_over = || batch.first >= batches * BATCH_SAMPLES;
-        let part = prepared.render_unless(&is_over, &options, rows.clone(), progress);
-        Ok::<_, ()>(part.map(|part| part.0))
-    });
-    assert_eq!(added, Ok(()));
+        sum.add(prepared.render_rows(&options, rows.clone(), &|_| {}));
+    }
     assert_eq!(sum.done(), samples.min(batches * BATCH_SAMPLES));
     sum.into_image().unwrap()
 }

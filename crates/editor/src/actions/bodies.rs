@@ -7,7 +7,9 @@ use hairline_document::probe;
 
 use super::{ActionError, objects};
 use crate::presets::ShapePreset;
-use crate::{Selection, navigate, rotation_deg};
+use hairline_document::navigate;
+
+use crate::{Selection, rotation_deg};
 
 /// A box: its least and its largest corner, metres.
 pub type Bounds = (DVec3, DVec3);

@@ -373,7 +373,7 @@ fn shines_on(light: &Light, target: DVec3) {
     let LightKind::Polygon { .. } = light.kind else {
         return;
     };
-    let towards = (target - hairline_editor::place_light::center(light)).normalize();
-    let facing = hairline_editor::place_light::facing(light).unwrap();
+    let towards = (target - hairline_document::place_light::center(light)).normalize();
+    let facing = hairline_document::place_light::facing(light).unwrap();
     assert!(facing.dot(towards) > 1.0 - 1e-9, "{light:?}");
 }

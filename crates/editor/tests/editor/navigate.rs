@@ -4,7 +4,7 @@
 use crate::seeded;
 use glam::{DVec2, DVec3};
 use hairline_document::description::Camera;
-use hairline_editor::navigate::*;
+use hairline_document::navigate::*;
 use proptest::prelude::*;
 
 const SIZE_PX: DVec2 = DVec2::new(800.0, 500.0);
@@ -250,7 +250,7 @@ fn surroundings_turn_as_the_camera_does() {
     };
     let before = seen(&scene);
     let objects = scene.objects.clone();
-    hairline_editor::navigate::turn_surroundings(&mut scene, 1.1);
+    hairline_document::navigate::turn_surroundings(&mut scene, 1.1);
     for (a, b) in before.iter().zip(seen(&scene)) {
         assert!(a.distance(b) < 1e-3, "{a} {b}");
     }
@@ -260,7 +260,7 @@ fn surroundings_turn_as_the_camera_does() {
 /// What stands still with the lights and turns with the objects is the same picture, turned.
 #[test]
 fn a_turntable_of_the_lights_turns_all_light_and_nothing_else() {
-    use hairline_editor::navigate;
+    use hairline_document::navigate;
     let mut scene = hairline_fixtures::scenes::lit_plate()
         .part("[studio]\nrotation_deg = 10\n[environment]\nbuiltin = \"window\"\nrotation_deg = 350\n")
         .description();

@@ -3,8 +3,9 @@
 use crate::seeded;
 use glam::{DVec3, dvec3};
 use hairline_document::description::{Light, LightKind};
+use hairline_document::place_light::*;
 use hairline_editor::ActionError;
-use hairline_editor::place_light::*;
+use hairline_editor::light_corners::{delete_vertex, insert_vertex, move_vertex};
 use proptest::prelude::*;
 
 fn point(range: f64) -> impl Strategy<Value = DVec3> {
@@ -122,7 +123,7 @@ proptest! {
         prop_assert!(((wo + wi).normalize() - facing).length() < 1e-9);
         prop_assert!((center(&light).distance(at) - center(&before).distance(at)).abs() < 1e-12);
         prop_assert!(same(&distances(&light), &distances(&before)));
-        if let Some(normal) = hairline_editor::place_light::facing(&light) {
+        if let Some(normal) = hairline_document::place_light::facing(&light) {
             let two_sided = light.kind.is_two_sided();
             let cos = normal.dot(-wi);
             let cos = if two_sided { cos.abs() } else { cos };

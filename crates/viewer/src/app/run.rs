@@ -1,8 +1,9 @@
 //! Effects of commands.
 
 use egui::ViewportCommand;
+use hairline_document::navigate;
+use hairline_editor::Selection;
 use hairline_editor::actions::{layers, parts};
-use hairline_editor::{Selection, navigate};
 
 use super::Viewer;
 use crate::command::{self, Command};

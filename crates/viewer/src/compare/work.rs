@@ -9,11 +9,12 @@ use hairline_image::metrics::{ErrorMap, error_map};
 use hairline_image::{Display, Image, Layer, Picture, ToneMap, png};
 use hairline_index::{Groove, ScratchIndex, SegmentTree, groove_index};
 use hairline_reference::{BATCH_SAMPLES, Integrator, SceneIndex, Settings};
+use hairline_render::{Painter, Task};
 use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
 use super::figures::Figures;
-use crate::engine::{Built, Wake, bands};
+use crate::engine::{Built, Wake};
 use crate::jobs::Stop;
 
 /// Request for a comparison.
@@ -205,23 +206,20 @@ fn refine(
     report: &Report,
 ) {
     let go_on = |_| !stop.is_asked();
-    let (transport, built) = (wanted.transport, &wanted.built);
-    let batches = transport.batches(&scene.camera, PICTURE_SAMPLES);
-    let picture = bands::render(
-        built,
-        scene,
-        PICTURE_SAMPLES,
-        transport,
-        batches,
-        BAND_PX,
-        &go_on,
-    );
-    let Some(picture) = picture else {
+    let task = Task {
+        // Only what several points of a lens see is filtered, before it is averaged.
+        is_filtered: scene.camera.has_lens(),
+        band_px: Some(BAND_PX),
+        ..Task::new(PICTURE_SAMPLES, wanted.transport)
+    };
+    let mut painter = Painter::on_cpu(wanted.built.parts(), task);
+    let rendered = pollster::block_on(painter.render(scene, &go_on));
+    let Some(rendered) = rendered.ok().flatten().filter(|it| it.is_whole()) else {
         return;
     };
     let integrator = Integrator::from_parts(scene, wanted.settings(), parts.clone());
     let mut sampled = Sampled {
-        picture,
+        picture: rendered.image,
         reference: integrator.start(),
     };
     let mut number = 1;

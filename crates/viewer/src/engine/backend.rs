@@ -27,22 +27,26 @@ impl Backend {
         }
     }
 
+    /// The device, if it is not the CPU.
+    pub(crate) fn gpu(&self) -> Option<&Gpu> {
+        match self {
+            Self::Cpu => None,
+            Self::Gpu(gpu) | Self::Shared(gpu) => Some(gpu),
+        }
+    }
+
     /// Whether it computes on the cores that scenes are built on.
     pub(super) fn is_software(&self) -> bool {
-        match self {
-            Self::Cpu => true,
-            Self::Gpu(gpu) | Self::Shared(gpu) => gpu.adapter.kind == AdapterKind::Software,
-        }
+        let gpu = self.gpu();
+        gpu.is_none_or(|gpu| gpu.adapter.kind == AdapterKind::Software)
     }
 
     /// Name in the status line.
     pub fn label(&self) -> String {
-        match self {
-            Self::Cpu => match pool::threads() {
-                1 => String::from("CPU, 1 thread"),
-                threads => format!("CPU, {threads} threads"),
-            },
-            Self::Gpu(gpu) | Self::Shared(gpu) => gpu.adapter.to_string(),
+        match (self.gpu(), pool::threads()) {
+            (Some(gpu), _) => gpu.adapter.to_string(),
+            (None, 1) => String::from("CPU, 1 thread"),
+            (None, threads) => format!("CPU, {threads} threads"),
         }
     }
 }

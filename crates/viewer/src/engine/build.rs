@@ -7,6 +7,7 @@ use hairline_document::description::Description;
 use hairline_document::{Loader, SceneBuilder};
 use hairline_image::FilePath;
 use hairline_index::{Pieces, ScratchIndex, TriangleIndex, Watch};
+use hairline_render::Parts;
 use hairline_scene::{Scene, ScratchTables};
 use web_time::Instant;
 
@@ -57,11 +58,12 @@ impl Built {
         self.sketch.is_some()
     }
 
-    /// The same with scratches as the camera of `scene` sees them, at the size of its picture: the window's serve nearer views, too.
-    pub(crate) fn seen_from(&self, scene: &Scene) -> Self {
-        Self {
-            scratches: Arc::new(ScratchIndex::build(scene)),
-            ..self.clone()
+    /// What renderers look up in it.
+    pub(crate) fn parts(&self) -> Parts {
+        Parts {
+            triangles: Some(Arc::clone(&self.triangles)),
+            scratches: Arc::clone(&self.scratches),
+            tables: Arc::clone(&self.tables),
         }
     }
 

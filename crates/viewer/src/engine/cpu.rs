@@ -4,13 +4,15 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use std::time::Duration;
 
+use hairline_cpu::closed_form::RenderOptions;
 use hairline_document::DEFAULT_SAMPLES;
 use hairline_image::Image;
+use hairline_render::Task;
 use web_time::Instant;
 
 use super::Backend;
 use super::adding::Adding;
-use super::bands::{BandSize, Bands, IN_TURN, options, prepared};
+use super::bands::{BandSize, Bands, IN_TURN};
 use super::drafts::Drafts;
 use super::frame::Picture;
 use super::pace::{self, Coarseness};
@@ -117,7 +119,7 @@ impl StepRenderer for CpuStepRenderer {
             Crew::Painter
         };
         let scene = step.scene(order);
-        let mut prepared = prepared(&order.built, &scene);
+        let mut prepared = order.built.parts().prepared(&scene);
         if step.thin > 1 || order.built.sketch.is_some() {
             let draft = crew.install(|| self.drafts.of(&order.built, step.thin));
             prepared = prepared.with_draft(draft);
@@ -125,7 +127,10 @@ impl StepRenderer for CpuStepRenderer {
         // What was there before it, shown until the step is done.
         let waiting = before.zip(self.refresh).filter(|_| !is_coarse);
         let shows_rows = !bands.only_edges && order.view.reading.shows == Shows::Beauty;
-        let options = options(step.samples, step.transport, step.batch);
+        let options = RenderOptions {
+            batch: step.batch,
+            ..Task::new(step.samples, step.transport).options()
+        };
         let mut backdrop = None;
         let mut shown_last = Instant::now();
         let is_done = loop {

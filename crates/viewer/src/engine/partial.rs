@@ -5,7 +5,6 @@ use std::sync::Arc;
 use egui::{Color32, ColorImage};
 use hairline_image::{Display, Image, png};
 
-use super::bands::rows_of;
 use super::frame::Picture;
 
 /// A coarse picture as large as the fine one that is to cover it.
@@ -45,9 +44,7 @@ impl Backdrop {
 
     /// The picture whose first `rows` are there.
     pub fn under(&self, fine: &Image, rows: u32) -> Picture {
-        let width = self.size_px[0];
-        let done = (width * rows) as usize;
-        let part = rows_of(fine, 0..done);
+        let part = fine.rows(0..rows);
         let rgb = png::quantize(&part.beauty(), &self.display);
         let mut pixels = self.pixels.clone();
         for (pixel, rgb) in pixels.iter_mut().zip(rgb.chunks_exact(3)) {

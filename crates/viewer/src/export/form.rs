@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use egui::{Checkbox, DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
-use hairline_editor::navigate::Turns;
+use hairline_document::navigate::Turns;
 use hairline_image::{Animation, BATCH_SAMPLES, Batches, FPS, FPS_MAX};
+use hairline_render::Motion;
 
-use super::work::{Expected, Motion};
+use super::work::{Expected, frame_path, is_animation};
 use crate::engine::SHADOW_SAMPLES;
 
 /// Width and height; more is more than a file format or a machine is likely to hold.
@@ -91,16 +92,15 @@ impl Form {
         }
     }
 
-    pub fn motion(&self) -> Motion {
-        if self.is_turntable {
-            Motion::Turntable {
-                frames: self.frames,
-                degrees: self.degrees,
-                turns: self.turns,
-            }
-        } else {
-            Motion::Still
-        }
+    /// The turntable; none: one picture.
+    pub fn motion(&self) -> Option<Motion> {
+        self.is_turntable.then(|| Motion {
+            frames: self.frames,
+            turn_deg: self.degrees,
+            turns: self.turns,
+            zoom: [1.0, 1.0],
+            times_s: None,
+        })
     }
 
     /// The path that is typed; a PNG where no ending is.
@@ -196,7 +196,7 @@ impl Form {
                         "In all, about the camera's up through its target. The step after the last picture would \
                          complete it, so that 360° go round without a jump",
                     );
-                    if self.motion().is_animation(&self.path()) {
+                    if is_animation(&self.path(), self.motion()) {
                         let fps = DragValue::new(&mut self.fps).range(1..=FPS_MAX);
                         row(ui, "Pictures in a second", fps);
                     }
@@ -247,12 +247,12 @@ impl Form {
 
     /// Question before files are replaced; none where none is there, or only the one that a dialog has asked about.
     fn question_before(&self) -> Option<String> {
-        let frames = match self.motion() {
-            Motion::Still => 1,
-            Motion::Turntable { .. } if self.motion().is_animation(&self.path()) => 1,
-            Motion::Turntable { frames, .. } => frames,
+        let (path, motion) = (self.path(), self.motion());
+        let frames = match motion {
+            Some(Motion { frames, .. }) if !is_animation(&path, motion) => frames,
+            _ => 1,
         };
-        let paths = (0..frames).map(|frame| self.motion().path(&self.path(), frame));
+        let paths = (0..frames).map(|frame| frame_path(&path, motion, frame));
         let there: Vec<PathBuf> = paths
             .filter(|path| self.agreed.as_ref() != Some(path) && path.is_file())
             .collect();
@@ -350,7 +350,7 @@ impl Form {
 
     /// Remarks on the result.
     fn remarks(&mut self, ui: &mut Ui, scene: &ExportContext) {
-        let first = self.motion().path(&self.path(), 0);
+        let first = frame_path(&self.path(), self.motion(), 0);
         let ending = first.extension().unwrap_or_default().to_string_lossy();
         let format = match ending.to_lowercase().as_str() {
             "png" => match (scene.is_deep, scene.has_backdrop) {
@@ -375,7 +375,7 @@ impl Form {
             }
             _ => "End the name in .png or .exr.",
         };
-        let names = match self.is_turntable && !self.motion().is_animation(&self.path()) {
+        let names = match self.is_turntable && !is_animation(&self.path(), self.motion()) {
             true => {
                 let name = first.file_name().unwrap_or_default();
                 format!(" The first picture is {}.", name.to_string_lossy())

@@ -30,7 +30,8 @@ impl Rehearsal {
         };
         #[cfg(not(target_arch = "wasm32"))]
         let job = Job::start("rehearsal", move |stop| {
-            wished.block_on(work::rehearse(&wished, &built, stop, &tell));
+            let rehearsing = work::rehearse(&wished, &built, stop, &tell);
+            hairline_render::block_on(wished.backend.gpu(), rehearsing);
         })?;
         #[cfg(target_arch = "wasm32")]
         let job =

@@ -1,48 +1,33 @@
 //! The pictures of an export, one after the other: rendered, written whole, then the next.
 
+use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use hairline_document::{Description, description};
-use hairline_editor::navigate::{self, Turns};
-use hairline_gpu::{AdapterKind, Gpu, GpuScene, Method, RenderOptions, Renderer};
-use hairline_image::{
-    Animation, Batches, Display, FilePath, Finish, Image, Output, filter_traced, output,
-};
-use hairline_scene::{Camera, Scene, Transport};
+use hairline_document::Description;
+use hairline_gpu::AdapterKind;
+use hairline_image::{Animation, Display, FilePath, Finish, Notes, Output, output};
+use hairline_render::{Motion, Painter, Sequence, Task, Writer};
+use hairline_scene::{Scene, Transport};
 use web_time::Instant;
 
-use crate::engine::{Backend, Built, ViewBuilder, Wake, bands};
+use crate::engine::{Backend, Built, ViewBuilder, Wake};
 use crate::jobs::Stop;
 
-/// Number of pictures, and the movement of the camera between them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Motion {
-    /// One, from the camera's place.
-    Still,
-    /// Pictures on the way around the target. The step after the last one would complete the angle.
-    Turntable {
-        frames: u32,
-        degrees: f64,
-        turns: Turns,
-    },
+/// Path of a picture, counted from 0: NAME.png, or with a motion NAME-0001.png and on; NAME.apng and NAME.mp4 have all of them.
+pub(super) fn frame_path(path: &Path, motion: Option<Motion>, frame: u32) -> PathBuf {
+    match motion {
+        Some(Motion { frames, .. }) if !is_animation(path, motion) => {
+            output::numbered(path, frame + 1, frames)
+        }
+        _ => path.to_owned(),
+    }
 }
 
-impl Motion {
-    /// Path of a picture, counted from 0: NAME.png, or NAME-0001.png and on; NAME.apng and NAME.mp4 have all of them.
-    pub fn path(self, path: &Path, frame: u32) -> PathBuf {
-        match self {
-            Self::Turntable { .. } if self.is_animation(path) => path.to_owned(),
-            Self::Still => path.to_owned(),
-            Self::Turntable { frames, .. } => output::numbered(path, frame + 1, frames),
-        }
-    }
-
-    /// Whether all pictures go into one file.
-    pub fn is_animation(self, path: &Path) -> bool {
-        matches!(self, Self::Turntable { .. }) && Animation::is_asked_by(path)
-    }
+/// Whether all pictures go into one file.
+pub(super) fn is_animation(path: &Path, motion: Option<Motion>) -> bool {
+    motion.is_some() && Animation::is_asked_by(path)
 }
 
 /// Request for an export.
@@ -58,7 +43,8 @@ pub(super) struct Wish {
     pub transport: Transport,
     /// Whether the background is transparent; the environment is not seen then.
     pub is_transparent: bool,
-    pub motion: Motion,
+    /// The turntable; none: one picture.
+    pub motion: Option<Motion>,
     /// Pictures of an animation in a second.
     pub fps: u16,
     /// Path of the export; a turntable's pictures have numbers in their names.
@@ -68,20 +54,17 @@ pub(super) struct Wish {
 
 impl Wish {
     pub fn frames(&self) -> u32 {
-        match self.motion {
-            Motion::Still => 1,
-            Motion::Turntable { frames, .. } => frames,
-        }
+        self.motion.map_or(1, |motion| motion.frames)
     }
 
     /// Path of a picture, counted from 0.
     pub fn frame_path(&self, frame: u32) -> PathBuf {
-        self.motion.path(&self.path, frame)
+        frame_path(&self.path, self.motion, frame)
     }
 
     /// Whether all pictures go into one file.
     pub fn is_animation(&self) -> bool {
-        self.motion.is_animation(&self.path)
+        is_animation(&self.path, self.motion)
     }
 
     /// Sentence about the pictures that stay where the export ended early.
@@ -108,56 +91,57 @@ impl Wish {
             && self.description == other.description
     }
 
-    /// The scene's description in a picture.
-    fn at(&self, frame: u32) -> Description {
-        let mut moved = Description::clone(&self.description);
-        if let Motion::Turntable {
-            frames,
-            degrees,
-            turns,
-        } = self.motion
-        {
-            let angle_rad = f64::from(frame) / f64::from(frames.max(1)) * degrees.to_radians();
-            navigate::turn_table(&mut moved, turns, angle_rad);
-        }
-        moved
+    /// The scene built anew for a picture: none where the one before serves, or once `stop` is set.
+    fn build(
+        &self,
+        views: &mut ViewBuilder,
+        frame: u32,
+        stop: &Stop,
+    ) -> Result<Option<Built>, hairline_document::Error> {
+        let Some(motion) = self.motion.filter(|it| frame > 0 && !it.is_of_camera()) else {
+            return Ok(None);
+        };
+        let mut now = Description::clone(&self.description);
+        motion.move_scene(&mut now, frame);
+        let (cancelled, asked) = (|| stop.is_asked(), Instant::now());
+        views.build(&cancelled, 0, asked, now.into(), &self.base_dir, None)
     }
 
-    /// Whether a scene is built for each picture.
-    fn moves_scene(&self) -> bool {
-        match self.motion {
-            Motion::Turntable { turns, .. } => turns != Turns::Camera,
-            Motion::Still => false,
-        }
-    }
-
-    /// Waits for work on the wish's device, which only a thread may.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub fn block_on(&self, working: impl Future<Output = ()>) {
-        match &self.backend {
-            Backend::Cpu => pollster::block_on(working),
-            Backend::Gpu(gpu) | Backend::Shared(gpu) => gpu.block_on(working),
-        }
-    }
-
-    fn scene(&self, built: &Built, camera: &description::Camera) -> Scene {
+    /// The built scene in a picture.
+    fn scene(&self, built: &Built, frame: u32) -> Scene {
+        let camera = &self.description.camera;
+        let turned = self.motion.map(|motion| motion.turned(camera, frame));
         let mut scene = built.scene.clone();
-        scene.camera = crate::viewport::camera(camera);
+        scene.camera = crate::viewport::camera(turned.as_ref().unwrap_or(camera));
         scene.render.size_px = self.size_px;
         scene.render.filter_std_px = self.description.render.filter_std_px;
-        match self.is_transparent {
-            true => scene.before_nothing(),
-            false => scene,
+        scene
+    }
+
+    /// Settings of the rendering. As many samples as were asked for: elsewhere a lens has 64 at least, and the form says what fewer look like.
+    fn task(&self) -> Task {
+        let band_px = match self.backend.gpu().map(|gpu| gpu.adapter.kind) {
+            None => CPU_BAND_PX,
+            Some(AdapterKind::Software) => SOFTWARE_BAND_PX,
+            Some(_) => HARDWARE_BAND_PX,
+        };
+        Task {
+            is_transparent: self.is_transparent,
+            has_coarse_lens: true,
+            band_px: Some(band_px),
+            ..Task::new(self.samples, self.transport)
         }
     }
 
-    /// The batches that a picture's samples add up in, if they do. As many as were asked for: elsewhere a lens has 64 at least, and the form
-    /// says what fewer look like.
-    fn batches(&self, camera: &Camera) -> Option<Batches> {
-        match camera.has_lens() {
-            true => Some(Batches::new(self.samples)),
-            false => self.transport.batches(camera, self.samples),
-        }
+    /// Renderer of the export, of the same kind as the window's painter. The window's pieces of scratches serve nearer views, too: it has its own.
+    async fn open(
+        &self,
+        built: &Built,
+        scene: &Scene,
+        task: Task,
+    ) -> Result<Painter<'static>, hairline_gpu::Error> {
+        let parts = built.parts().seen_from(scene);
+        Painter::open(self.backend.gpu(), scene, parts, task, None).await
     }
 
     fn display(&self) -> Display {
@@ -213,6 +197,12 @@ impl Report {
         change(&mut self.lock());
         (self.wake)();
     }
+
+    fn tell_share(&self, share: f64) {
+        if self.lock().share != share {
+            self.tell(|state| state.share = share);
+        }
+    }
 }
 
 /// What is known of an export before it begins.
@@ -231,8 +221,16 @@ const GUESS_FROM: f64 = 0.04;
 const SMALL_PX: u32 = 128;
 
 /// Begins the first picture, and tells how long it will take and what will be seen.
-pub(super) async fn rehearse(wish: &Wish, built: &Built, stop: &Stop, tell: &dyn Fn(Expected)) {
-    let scene = wish.scene(built, &wish.description.camera);
+pub(super) async fn rehearse(
+    wish: &Wish,
+    built: &Built,
+    stop: &Stop,
+    tell: &(dyn Fn(Expected) + Sync),
+) {
+    let mut scene = wish.scene(built, 0);
+    if wish.is_transparent {
+        scene = scene.before_nothing();
+    }
     let mut small = scene.clone();
     small.render.size_px = fitting(wish.size_px, [SMALL_PX; 2]);
     let expected = Expected {
@@ -243,8 +241,12 @@ pub(super) async fn rehearse(wish: &Wish, built: &Built, stop: &Stop, tell: &dyn
                 .all(|share| *share == 1.0),
     };
     tell(expected);
-    let built = built.seen_from(&scene);
-    let Ok(mut painter) = Painter::open(wish, &built).await else {
+    let task = Task {
+        is_transparent: false,
+        ..wish.task()
+    };
+    let opening = wish.open(built, &scene, task);
+    let Ok(mut painter) = opening.await else {
         return;
     };
     let start = Instant::now();
@@ -261,8 +263,9 @@ pub(super) async fn rehearse(wish: &Wish, built: &Built, stop: &Stop, tell: &dyn
         let [few, enough] = GUESS_AFTER.map(|time| start.elapsed() > time);
         !(stop.is_asked() || enough || few && share >= GUESS_FROM)
     };
-    if let Ok(Some(mut image)) = painter.paint(&built, &scene, wish, &go_on).await {
-        filter_traced(&mut image);
+    if let Ok(Some(rendered)) = painter.render(&scene, &go_on).await
+        && rendered.is_whole()
+    {
         guess(1.0);
     }
 }
@@ -272,263 +275,79 @@ pub(super) async fn run(wish: &Wish, built: &Built, stop: &Stop, report: &Report
     let end = match frames(wish, built, stop, report).await {
         Ok(true) => End::Complete,
         Ok(false) => End::Cancelled,
-        Err(message) => End::Failed(message),
+        Err(error) => End::Failed(error.to_string()),
     };
     report.tell(|state| state.end = Some(end));
 }
 
 /// False if it was stopped.
-async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Result<bool, String> {
-    let mut seen = built.seen_from(&wish.scene(built, &wish.at(0).camera));
-    let opened = Painter::open(wish, &seen).await;
-    let mut painter = opened.map_err(|error| error.to_string())?;
-    let backdrop = wish.description.backdrop(&wish.base_dir);
-    let finish = Finish {
-        is_deep: wish.description.render.png_bits == 16,
-        behind: (backdrop.map_err(|error| error.to_string())?).map(Arc::new),
-    };
-    let begin = || {
+async fn frames(
+    wish: &Wish,
+    built: &Built,
+    stop: &Stop,
+    report: &Report,
+) -> Result<bool, Box<dyn Error>> {
+    let mut painter = wish.open(built, &wish.scene(built, 0), wish.task()).await?;
+    let backdrop = wish.description.backdrop(&wish.base_dir)?;
+    let begin = |finish: &Finish| {
+        let (path, has_alpha) = (wish.base_dir.at(&wish.path), wish.is_transparent);
         Animation::begin(
-            wish.base_dir.at(&wish.path),
+            path,
             wish.size_px,
             wish.frames(),
             wish.fps,
-            wish.is_transparent,
-            &finish,
+            has_alpha,
+            finish,
         )
     };
-    let animation = wish.is_animation().then(begin).transpose();
-    let mut animation = animation.map_err(|error| error.to_string())?;
+    let writer = Writer {
+        display: wish.display(),
+        finish: Finish {
+            is_deep: wish.description.render.png_bits == 16,
+            behind: backdrop.map(Arc::new),
+        },
+        notes: Notes::new(),
+    };
+    let animation = wish.is_animation().then(|| begin(&writer.finish));
+    let mut sequence = Sequence {
+        animation: animation.transpose()?,
+        writer,
+    };
     let mut views = ViewBuilder::default();
     for frame in 0..wish.frames() {
         // Before the work: the folder may have gone meanwhile.
-        let output = match animation {
-            Some(_) => None,
-            None => {
-                let output = Output::check(wish.base_dir.at(wish.frame_path(frame)));
-                Some(output.map_err(|error| error.to_string())?.finished(&finish))
-            }
-        };
+        let check = || Output::check(wish.base_dir.at(wish.frame_path(frame)));
+        let output = (!wish.is_animation()).then(check).transpose()?;
+        let turned = wish.build(&mut views, frame, stop)?;
+        let scene = wish.scene(turned.as_ref().unwrap_or(built), frame);
+        if let Some(turned) = turned {
+            painter
+                .take(&scene, turned.parts().seen_from(&scene))
+                .await?;
+        }
         let go_on = |share: f64| {
-            report.tell(|state| state.share = share);
+            report.tell_share(share);
             !stop.is_asked()
         };
-        let now = wish.at(frame);
-        let camera = now.camera.clone();
-        let turned = match wish.moves_scene() && frame > 0 {
-            true => {
-                let cancelled = || stop.is_asked();
-                let (now, asked) = (Arc::new(now), Instant::now());
-                let built = views.build(&cancelled, 0, asked, now, &wish.base_dir, None);
-                match built.map_err(|error| error.to_string())? {
-                    None => return Ok(false),
-                    built => built,
-                }
-            }
-            false => None,
-        };
-        let own = turned.as_ref().unwrap_or(built);
-        let scene = wish.scene(own, &camera);
-        if turned.is_some() || !seen.scratches.serves(&scene.camera, scene.render.size_px) {
-            seen = own.seen_from(&scene);
-            let taken = painter.take(&seen, wish.transport).await;
-            taken.map_err(|error| error.to_string())?;
-        }
-        let image = painter
-            .paint(&seen, &scene, wish, &go_on)
-            .await
-            .map_err(|error| error.to_string())?;
-        let Some(mut image) = image else {
-            return Ok(false);
-        };
-        filter_traced(&mut image);
-        if stop.is_asked() {
+        let adding = sequence.add(&mut painter, &scene, output.as_ref(), &go_on);
+        if adding.await?.is_none() {
             return Ok(false);
         }
-        if wish.is_transparent {
-            let batches = wish.batches(&scene.camera);
-            let all = batches.map_or(wish.samples, |it| it.samples());
-            let (triangles, shadows) = (&seen.triangles, wish.transport.shadows);
-            let is_stopped = || stop.is_asked();
-            let alpha =
-                hairline_cpu::picture_alpha(&scene, triangles, [all; 2], shadows, &is_stopped);
-            image.alpha = Some(alpha);
-        }
-        let written = match (&mut animation, &output) {
-            (Some(animation), _) => animation.add(&image, &wish.display()),
-            (None, Some(output)) => output.write_image(&image, &wish.display()),
-            (None, None) => Ok(()),
-        };
-        written.map_err(|error| error.to_string())?;
         report.tell(|state| {
             state.written += 1;
             state.share = 0.0;
         });
     }
-    let finished = animation.map_or(Ok(()), Animation::finish);
-    finished.map_err(|error| error.to_string())?;
+    sequence.animation.map_or(Ok(()), Animation::finish)?;
     Ok(true)
 }
 
-/// Pixels of the first band on the CPU.
+/// Pixels of a band on the CPU.
 const CPU_BAND_PX: u32 = 1 << 13;
 /// Pixels between two looks at whether to go on, on a driver that computes on the CPU; with all their samples.
 const SOFTWARE_BAND_PX: u32 = 1 << 13;
 /// Pixels between two looks on a GPU.
 const HARDWARE_BAND_PX: u32 = 1 << 19;
-
-/// Renderer of the export: of the same kind as the window's painter, but one of its own.
-enum Painter {
-    Cpu,
-    Gpu {
-        renderer: Box<Renderer>,
-        uploaded: Box<GpuScene>,
-        band_px: u32,
-    },
-}
-
-impl Painter {
-    async fn open(wish: &Wish, built: &Built) -> Result<Self, hairline_gpu::Error> {
-        match &wish.backend {
-            Backend::Cpu => Ok(Self::Cpu),
-            Backend::Gpu(gpu) | Backend::Shared(gpu) => {
-                Self::on_gpu(gpu, built, wish.transport).await
-            }
-        }
-    }
-
-    async fn on_gpu(
-        gpu: &Gpu,
-        built: &Built,
-        transport: Transport,
-    ) -> Result<Self, hairline_gpu::Error> {
-        let Built {
-            scene,
-            scratches,
-            tables,
-            ..
-        } = built;
-        let mut renderer = Renderer::new(gpu).await?;
-        let method = Method::default();
-        let mut uploaded = renderer.upload(scene, scratches, tables, &method).await?;
-        if transport.shadows {
-            let added = renderer.add_shadows(&mut uploaded, scene, transport.bounces);
-            added.await?;
-        }
-        Ok(Self::Gpu {
-            renderer: Box::new(renderer),
-            uploaded: Box::new(uploaded),
-            band_px: match gpu.adapter.kind {
-                AdapterKind::Software => SOFTWARE_BAND_PX,
-                _ => HARDWARE_BAND_PX,
-            },
-        })
-    }
-
-    /// Goes on with a scene of other lights, or seen from elsewhere.
-    async fn take(
-        &mut self,
-        built: &Built,
-        transport: Transport,
-    ) -> Result<(), hairline_gpu::Error> {
-        let Self::Gpu {
-            renderer, uploaded, ..
-        } = self
-        else {
-            return Ok(());
-        };
-        let Built {
-            scene,
-            scratches,
-            tables,
-            ..
-        } = built;
-        let method = Method::default();
-        renderer
-            .update(uploaded, scene, scratches, tables, &method)
-            .await?;
-        if transport.shadows {
-            let added = renderer.add_shadows(uploaded, scene, transport.bounces);
-            added.await?;
-        }
-        Ok(())
-    }
-
-    /// Renders a picture; none if `go_on` said no.
-    async fn paint(
-        &mut self,
-        built: &Built,
-        scene: &Scene,
-        wish: &Wish,
-        go_on: &dyn Fn(f64) -> bool,
-    ) -> Result<Option<Image>, hairline_gpu::Error> {
-        match self {
-            Self::Cpu => {
-                let (samples, transport) = (wish.samples, wish.transport);
-                let batches = wish.batches(&scene.camera);
-                Ok(bands::render(
-                    built,
-                    scene,
-                    samples,
-                    transport,
-                    batches,
-                    CPU_BAND_PX,
-                    go_on,
-                ))
-            }
-            Self::Gpu {
-                renderer,
-                uploaded,
-                band_px,
-            } => {
-                let mut options = RenderOptions {
-                    samples: wish.samples,
-                    ..Default::default()
-                };
-                let band_px = *band_px;
-                let Some(mut batches) = wish.batches(&scene.camera) else {
-                    return on_gpu_in_bands(renderer, uploaded, scene, &options, band_px, go_on)
-                        .await;
-                };
-                options.samples = batches.samples();
-                while let Some(batch) = batches.next() {
-                    options.batch = Some(batch);
-                    let (first, count) = (f64::from(batch.first), f64::from(batch.count));
-                    let all = f64::from(options.samples);
-                    let go_on = |share: f64| go_on((first + count * share) / all);
-                    let part =
-                        on_gpu_in_bands(renderer, uploaded, scene, &options, band_px, &go_on);
-                    match part.await? {
-                        Some(image) => batches.add(image),
-                        None => return Ok(None),
-                    }
-                }
-                Ok(batches.into_image())
-            }
-        }
-    }
-}
-
-/// Renders a picture on a GPU in bands; none if `go_on` said no.
-async fn on_gpu_in_bands(
-    renderer: &mut Renderer,
-    uploaded: &GpuScene,
-    scene: &Scene,
-    options: &RenderOptions,
-    band_px: u32,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Result<Option<Image>, hairline_gpu::Error> {
-    let size_px = scene.render.size_px;
-    let mut image = Image::new(size_px);
-    for (done, rows) in bands::spread(size_px, band_px) {
-        if !go_on(done) {
-            return Ok(None);
-        }
-        let part = renderer.render_rows(scene, uploaded, options, rows.clone(), &|_| {});
-        bands::put_rows(&mut image, bands::pixels(size_px, rows), &part.await?);
-    }
-    Ok(Some(image))
-}
 
 /// The largest size of the shape of `scene_px` within `within_px`.
 pub(super) fn fitting(scene_px: [u32; 2], within_px: [u32; 2]) -> [u32; 2] {

@@ -7,11 +7,11 @@ use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_document::description::{
     Light, LightKind, Material, MaterialKind, Scratches, Shape, Surface,
 };
+use hairline_document::place_light::place_highlight;
+use hairline_document::wear::Wear;
 use hairline_document::{Description, Loader};
 use hairline_editor::grating_presets::GratingPreset;
-use hairline_editor::place_light::place_highlight;
 use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
-use hairline_editor::wear::Wear;
 use hairline_image::{Display, Picture, png};
 use hairline_optics::metal::Metal;
 use hairline_scene::Environment;

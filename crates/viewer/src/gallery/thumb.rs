@@ -1,8 +1,8 @@
 //! Subjects of small pictures.
 
+use hairline_document::wear::Wear;
 use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
-use hairline_editor::wear::Wear;
 use hairline_sky::BuiltInMap;
 
 /// Subject of a small picture. Presets of surfaces are shown on the kind of object that they are for.

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use egui::ColorImage;
 use hairline_document::Description;
 use hairline_image::{Display, FilePath, png};
+use hairline_render::{Painter, Task};
 use hairline_scene::Transport;
 use web_time::Instant;
 
-use crate::engine::{ViewBuilder, bands};
+use crate::engine::ViewBuilder;
 use crate::jobs::Stop;
 use crate::thumbnail::HEIGHT;
 
@@ -48,18 +49,15 @@ pub(super) fn make(
         let Ok(Some(built)) = built else {
             continue;
         };
+        let task = Task {
+            has_coarse_lens: true,
+            band_px: Some(BAND_PX),
+            ..Task::new(SAMPLES, Transport::DIRECT)
+        };
+        let mut painter = Painter::on_cpu(built.parts(), task);
         let go_on = |_: f64| !stop.is_asked();
-        let transport = Transport::DIRECT;
-        let image = bands::render(
-            &built,
-            &built.scene,
-            SAMPLES,
-            transport,
-            None,
-            BAND_PX,
-            &go_on,
-        );
-        let Some(image) = image else {
+        let rendered = pollster::block_on(painter.render(&built.scene, &go_on));
+        let Some(rendered) = rendered.ok().flatten().filter(|it| it.is_whole()) else {
             return;
         };
         let display = Display {
@@ -67,7 +65,7 @@ pub(super) fn make(
             tone_map: small.render.tone_map,
         };
         let size = small.render.size_px.map(|side| side as usize);
-        let pixels = ColorImage::from_rgb(size, &png::quantize(&image.beauty(), &display));
+        let pixels = ColorImage::from_rgb(size, &png::quantize(&rendered.image.beauty(), &display));
         take(SmallPicture { scene, pixels });
     }
 }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use egui::{Button, Id, Ui};
 use hairline_document::description::{Camera, Description, Render};
+use hairline_document::navigate::{self, Viewpoint};
 use hairline_editor::actions::pictures::PictureOf;
-use hairline_editor::navigate::{self, Viewpoint};
 use hairline_image::ToneMap;
 
 use super::form::Form;

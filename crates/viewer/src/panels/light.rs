@@ -3,9 +3,10 @@
 use egui::Ui;
 use glam::DVec3;
 use hairline_document::description::{Cone, Light, LightKind, Rows};
+use hairline_document::place_light;
 use hairline_editor::actions::parts;
 use hairline_editor::actions::pictures::PictureOf;
-use hairline_editor::{Selection, place_light};
+use hairline_editor::{Selection, light_corners};
 
 use super::form::Form;
 use crate::command::Command;
@@ -160,7 +161,7 @@ fn vertices(ui: &mut Ui, work: &mut Workspace, index: usize, vertices_m: &[[f64;
     if let Some((i, to_m, change)) = moved {
         let mut failed = None;
         work.drag(&change.label, change.key, |d| {
-            failed = place_light::move_vertex(&mut d.lights[index], i, to_m.into()).err();
+            failed = light_corners::move_vertex(&mut d.lights[index], i, to_m.into()).err();
         });
         if let Some(error) = failed {
             work.notices.error("light", error.to_string());
@@ -168,13 +169,13 @@ fn vertices(ui: &mut Ui, work: &mut Workspace, index: usize, vertices_m: &[[f64;
     }
     if let Some(i) = inserted {
         work.apply("Split an edge", |d, _| {
-            place_light::insert_vertex(&mut d.lights[index], i)?;
+            light_corners::insert_vertex(&mut d.lights[index], i)?;
             Ok(Selection::Light(index))
         });
     }
     if let Some(i) = deleted {
         work.apply("Remove a corner", |d, _| {
-            place_light::delete_vertex(&mut d.lights[index], i)?;
+            light_corners::delete_vertex(&mut d.lights[index], i)?;
             Ok(Selection::Light(index))
         });
     }

@@ -2,12 +2,12 @@
 
 use egui::Ui;
 use hairline_document::description::{Object, Rows, Shape, Surface, Up};
+use hairline_document::wear::{self, Wear};
 use hairline_editor::Selection;
 use hairline_editor::actions::{gratings, layers, objects};
 use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::LayerPreset;
-use hairline_editor::shown::FAINT;
-use hairline_editor::wear::{self, Wear};
+use hairline_image::shown::FAINT;
 
 use super::form::{Form, NAME};
 use super::material::material_cards;

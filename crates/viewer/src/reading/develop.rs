@@ -1,7 +1,7 @@
 //! Conversion of a render to the picture on the screen, by a reading.
 
 use egui::ColorImage;
-use hairline_editor::shown::{Shown, best_lamps};
+use hairline_image::shown::{Shown, best_lamps};
 use hairline_image::{Display, Image, png};
 
 use super::histogram::Histogram;

@@ -4,16 +4,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::{Pos2, Rect};
 use glam::{DVec2, DVec3};
-use hairline_cpu::closed_form::Prepared;
 use hairline_document::DEFAULT_SAMPLES;
 use hairline_editor::actions::layers;
 use hairline_image::Display;
 use hairline_index::Hit;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
+use hairline_render::Task;
 use hairline_scene::{CameraFrame, Scene};
 
 use super::false_color;
-use crate::engine::{Built, SHADOW_SAMPLES, View, bands};
+use crate::engine::{Built, SHADOW_SAMPLES, View};
 use crate::jobs::Job;
 
 /// A pixel, and the surface under it.
@@ -182,17 +182,12 @@ fn read(spot: &ProbedPixel) -> Option<Reading> {
     scene.camera = view.camera;
     scene.render.size_px = view.size_px;
     scene.render.filter_std_px = view.filter_std_px;
-    let prepared = Prepared::from_parts(
-        &scene,
-        Arc::clone(&built.triangles),
-        Arc::clone(&built.scratches),
-        Arc::clone(&built.tables),
-    );
+    let prepared = built.parts().prepared(&scene);
     let samples = match view.transport.shadows {
         true => SHADOW_SAMPLES,
         false => DEFAULT_SAMPLES,
     };
-    let options = bands::options(samples, view.transport, None);
+    let options = Task::new(samples, view.transport).options();
     let pixel = prepared.read_pixel(&options, *at_px)?;
     let image = &pixel.image;
     Some(Reading {

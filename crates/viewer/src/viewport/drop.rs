@@ -2,7 +2,7 @@
 
 use egui::{Align2, Color32, FontId, Painter, Response, Ui, vec2};
 use glam::DVec3;
-use hairline_editor::navigate;
+use hairline_document::navigate;
 use hairline_scene::Mesh;
 
 use super::lens::Lens;

@@ -2,7 +2,8 @@
 
 use egui::{PointerButton, Response};
 use glam::DVec2;
-use hairline_editor::{DragKey, Selection, navigate};
+use hairline_document::navigate;
+use hairline_editor::{DragKey, Selection};
 
 use crate::parts;
 use crate::tools::Tool;

@@ -3,7 +3,7 @@
 use egui::{PointerButton, Response};
 use glam::DVec3;
 use hairline_document::description::Light;
-use hairline_editor::place_light::{center, extent_m, place_highlight, set_distance_m};
+use hairline_document::place_light::{center, extent_m, place_highlight, set_distance_m};
 use hairline_editor::quantity::Unit;
 use hairline_editor::{DragKey, Selection};
 

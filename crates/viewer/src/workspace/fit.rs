@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use hairline_document::navigate;
 use hairline_document::{Description, probe};
+use hairline_editor::Selection;
 use hairline_editor::actions::materials;
 use hairline_editor::brush::BrushSettings;
-use hairline_editor::shown::{LITTLE, Shown};
-use hairline_editor::{Selection, navigate};
+use hairline_image::shown::{LITTLE, Shown};
 
 use super::Workspace;
 
@@ -65,7 +66,7 @@ impl Workspace {
                 let Some(light) = description.lights.get(i) else {
                     return;
                 };
-                let center = hairline_editor::place_light::center(light);
+                let center = hairline_document::place_light::center(light);
                 let reach = DVec3::splat(0.25 * self.diagonal_m(None));
                 navigate::corners(center - reach, center + reach).to_vec()
             }

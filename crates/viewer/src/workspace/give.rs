@@ -1,9 +1,10 @@
 //! Presets that are given to an object, or to a part of it: by a click on their card, or by a drop of it.
 
 use hairline_document::description::Scratches;
+use hairline_document::wear;
+use hairline_editor::Selection;
 use hairline_editor::actions::{gratings, layers, materials};
 use hairline_editor::presets::MaterialPreset;
-use hairline_editor::wear;
 
 use super::Workspace;
 use crate::gallery::{StandIn, Thumb};
@@ -35,7 +36,10 @@ impl Workspace {
                 })
             }
             Thumb::Wear(grade, _) => {
-                self.apply("Wear", |d, _| wear::set_wear(d, object, diagonal_m, grade));
+                self.apply("Wear", |d, _| {
+                    wear::set_wear(d, &name, diagonal_m, grade);
+                    Ok(Selection::Object(object))
+                });
             }
             Thumb::Layer(preset, _) => self.apply("Add scratches", |d, _| {
                 let layer = Scratches {

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use hairline_document::description::Camera;
-use hairline_editor::{DragKey, navigate};
+use hairline_document::navigate;
+use hairline_editor::DragKey;
 
 use super::Workspace;
 use crate::free_view::ViewCommand;

@@ -175,7 +175,7 @@ fn a_stroke_that_the_picture_waits_for_lies_where_the_pointer_was() {
 fn share_of_view(harness: &Harness<'static, Viewer>, stroke: &Stroke) -> f64 {
     let camera = &common::description(harness).camera;
     let point_m = stroke.points_m[0].into();
-    stroke.radius_m / hairline_editor::navigate::view_height_m(camera, point_m)
+    stroke.radius_m / hairline_document::navigate::view_height_m(camera, point_m)
 }
 
 #[test]
@@ -197,7 +197,7 @@ fn the_first_brush_fits_the_object_and_the_view_and_not_the_table() {
     // Nearer, it is as large on the screen.
     let document = harness.state_mut().document_mut();
     document.edit("nearer", |d| {
-        hairline_editor::navigate::dolly(&mut d.camera, 8.0)
+        hairline_document::navigate::dolly(&mut d.camera, 8.0)
     });
     harness.run_steps(3);
     common::drag(&mut harness, from, from + vec2(120.0, 10.0), 6);

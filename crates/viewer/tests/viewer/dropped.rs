@@ -10,8 +10,8 @@ use egui::{Pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use hairline_document::description::{MaterialKind, MetalColor, Override, Shape, Surface};
+use hairline_document::wear::{self, Wear};
 use hairline_editor::Selection;
-use hairline_editor::wear::{self, Wear};
 use hairline_optics::metal::Metal;
 use hairline_viewer::Viewer;
 

@@ -5,7 +5,8 @@ use egui::{Pos2, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
 use glam::DVec3;
 use hairline_document::description::{Cone, Light, LightKind};
-use hairline_editor::{Selection, place_light};
+use hairline_document::place_light;
+use hairline_editor::Selection;
 use hairline_viewer::Viewer;
 
 const LAMP: usize = 0;

@@ -4,7 +4,8 @@ use crate::common::{self, SMALL, description, light, picture, viewer, wait_built
 use egui::{Key, vec2};
 use egui_kittest::Harness;
 use glam::DVec3;
-use hairline_editor::{Selection, place_light};
+use hairline_document::place_light;
+use hairline_editor::Selection;
 use hairline_viewer::Viewer;
 
 /// A ball on the ground, seen from the side, and a lamp a metre off.

@@ -6,7 +6,8 @@ use crate::common::{
 use egui::{Key, Modifiers, Shape, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use hairline_editor::{Selection, navigate};
+use hairline_document::navigate;
+use hairline_editor::Selection;
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 

@@ -3,7 +3,8 @@
 use glam::DVec3;
 use hairline_document::Description;
 use hairline_document::description::{Light, LightKind};
-use hairline_editor::{Selection, place_light};
+use hairline_document::place_light;
+use hairline_editor::Selection;
 
 use super::cone::LightCone;
 

@@ -3,7 +3,8 @@
 use glam::{DMat3, DVec3};
 use hairline_document::Description;
 use hairline_document::description::{Light, Object};
-use hairline_editor::{Selection, place_light};
+use hairline_document::place_light;
+use hairline_editor::{Selection, light_corners};
 
 use super::motion::Motion;
 
@@ -41,7 +42,7 @@ fn change_light(light: &mut Light, before: &Light, motion: &Motion) {
         Motion::Resize(factor) => place_light::resize(&mut changed, factor),
         Motion::Corner(i, to_m) => {
             // If the polygon would cross itself, the corner stays at the last good place.
-            if place_light::move_vertex(&mut changed, i, to_m).is_err() {
+            if light_corners::move_vertex(&mut changed, i, to_m).is_err() {
                 return;
             }
         }

@@ -6,7 +6,7 @@
 use egui::{Pos2, Vec2};
 use glam::DVec3;
 use hairline_document::description::{Cone, Light};
-use hairline_editor::place_light;
+use hairline_document::place_light;
 
 use crate::viewport::lens::Lens;
 

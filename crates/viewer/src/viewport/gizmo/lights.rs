@@ -4,7 +4,7 @@ use egui::{Color32, Painter, Pos2, Vec2};
 use glam::DVec3;
 use hairline_document::Description;
 use hairline_document::description::{Light, LightKind};
-use hairline_editor::place_light;
+use hairline_document::place_light;
 use hairline_optics::band::{TUBE_CORNERS, TubeOutline, tube_outline};
 
 use super::cone::LightCone;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::{Color32, ColorImage, Painter, Pos2, Shape, Stroke, Ui};
 use glam::DVec3;
 use hairline_document::Description;
-use hairline_editor::shown::FAINT;
+use hairline_image::shown::FAINT;
 
 use crate::engine::Frame;
 use crate::tools::Tool;

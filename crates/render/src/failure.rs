@@ -3,6 +3,8 @@
 use std::fmt;
 use std::process::ExitCode;
 
+use anyhow::anyhow;
+
 /// The two ways to fail, by who can help.
 #[derive(Debug)]
 pub enum Failure {
@@ -32,6 +34,21 @@ impl fmt::Display for Failure {
 impl From<hairline_document::Error> for Failure {
     fn from(error: hairline_document::Error) -> Self {
         Self::Input(error.into())
+    }
+}
+
+impl From<hairline_gpu::Error> for Failure {
+    fn from(error: hairline_gpu::Error) -> Self {
+        Self::Work(anyhow!("{error}; --backend cpu needs no driver"))
+    }
+}
+
+impl From<crate::Error> for Failure {
+    fn from(error: crate::Error) -> Self {
+        match error {
+            crate::Error::Device(error) => error.into(),
+            crate::Error::Picture(error) | crate::Error::Animation(error) => error.into(),
+        }
     }
 }
 

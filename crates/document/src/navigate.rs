@@ -2,12 +2,11 @@
 //!
 //! Pixels count to the right and down, as a pointer moves; `size_px` is the size of the view.
 
-use glam::{DQuat, DVec2, DVec3};
-use hairline_document::description::{Camera, Description};
-use hairline_document::framing;
-use hairline_document::schema::{LARGEST_M, SMALLEST_M};
-
+use crate::description::{Camera, Description};
+use crate::framing;
 use crate::place_light::turn_about;
+use crate::schema::{LARGEST_M, SMALLEST_M};
+use glam::{DQuat, DVec2, DVec3};
 
 /// A view along `up` has no up, so the poles are kept away from by this: less than a pixel's difference to the eye.
 const POLE_RAD: f64 = 1e-3;

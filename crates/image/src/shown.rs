@@ -1,6 +1,6 @@
 //! How much of its scratches a picture shows, and which brightness of lamps shows most of them.
 
-use hairline_image::{Display, Image};
+use crate::{Display, Image};
 
 /// Share of the scratched pixels in which scratches must be noticed; below it other light is offered.
 pub const FAINT: f32 = 0.08;

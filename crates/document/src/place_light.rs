@@ -1,11 +1,10 @@
-//! Lights that are moved, turned, sized and reshaped by hand, or placed so that their highlight lies at a given point.
+//! Lights that are moved, turned and sized by hand, or placed so that their highlight lies at a given point.
 
 use glam::{DQuat, DVec3};
-use hairline_document::description::{Light, LightKind};
-use hairline_document::schema::{LARGEST_M, SMALLEST_M};
 use hairline_scene::vector_area_m2;
 
-use crate::ActionError;
+use crate::description::{Light, LightKind};
+use crate::schema::{LARGEST_M, SMALLEST_M};
 
 /// The middle of a light: of a polygon the centroid of its area, of a sun far off.
 pub fn center(light: &Light) -> DVec3 {
@@ -141,86 +140,6 @@ fn face(light: &mut Light, point_m: DVec3) {
         false => towards,
     };
     turn(light, DQuat::from_rotation_arc(normal, towards));
-}
-
-/// Drags a vertex of a polygon. With more than three it stays in the plane of the polygon, at the place nearest to
-/// `to_m`; three span a plane wherever they are.
-///
-/// # Errors
-/// [`ActionError`], where the polygon would cross itself or lose its area; then it is as it was.
-pub fn move_vertex(light: &mut Light, index: usize, to_m: DVec3) -> Result<(), ActionError> {
-    reshape(light, |vertices| {
-        let n = vertices.len();
-        if index >= n {
-            return Err(ActionError::Missing("corner"));
-        }
-        let to = match (n > 3, vector_area_m2(vertices).try_normalize()) {
-            (true, Some(normal)) => {
-                // Through the others, so that dragging to and fro does not let the plane drift.
-                let others = vertices.iter().enumerate().filter(|(i, _)| *i != index);
-                let through = others.map(|(_, v)| *v).sum::<DVec3>() / (n - 1) as f64;
-                to_m - normal * (to_m - through).dot(normal)
-            }
-            _ => to_m,
-        };
-        vertices[index] = to;
-        Ok(())
-    })
-}
-
-/// Adds a vertex in the middle of the edge that begins at vertex `edge`; its index is `edge + 1`.
-///
-/// # Errors
-/// [`ActionError`]; then the polygon is as it was.
-pub fn insert_vertex(light: &mut Light, edge: usize) -> Result<(), ActionError> {
-    reshape(light, |vertices| {
-        let a = *vertices.get(edge).ok_or(ActionError::Missing("corner"))?;
-        let b = vertices[(edge + 1) % vertices.len()];
-        vertices.insert(edge + 1, 0.5 * (a + b));
-        Ok(())
-    })
-}
-
-/// Takes a vertex out.
-///
-/// # Errors
-/// [`ActionError`], where fewer than three would be left or the rest would cross itself; then the polygon is as it was.
-pub fn delete_vertex(light: &mut Light, index: usize) -> Result<(), ActionError> {
-    reshape(light, |vertices| {
-        if index >= vertices.len() {
-            return Err(ActionError::Missing("corner"));
-        }
-        vertices.remove(index);
-        Ok(())
-    })
-}
-
-/// Changes the vertices of a polygon, unless the result is no light.
-fn reshape(
-    light: &mut Light,
-    change: impl FnOnce(&mut Vec<DVec3>) -> Result<(), ActionError>,
-) -> Result<(), ActionError> {
-    let LightKind::Polygon {
-        vertices_m,
-        two_sided,
-    } = &light.kind
-    else {
-        return Err(ActionError::Missing("corner"));
-    };
-    let mut vertices = points(vertices_m);
-    change(&mut vertices)?;
-    let reshaped = Light {
-        kind: LightKind::Polygon {
-            vertices_m: vertices.into_iter().map(|v| v.to_array()).collect(),
-            two_sided: *two_sided,
-        },
-        ..light.clone()
-    };
-    reshaped
-        .check()
-        .map_err(|flaw| ActionError::Shape(format!("{}; {}", flaw.found(), flaw.right())))?;
-    *light = reshaped;
-    Ok(())
 }
 
 /// A unit direction without digits that nobody sees, for a file that people read.

@@ -1,10 +1,11 @@
 //! A picture with many samples in every pixel. The renderers take several at edges only, since the closed forms average over the
 //! rest of a pixel; here they average over a sample's share of it.
 
-use std::ops::Range;
-
+use hairline_gpu::Error;
 use hairline_image::Image;
 use hairline_scene::Scene;
+
+use crate::rows::{Piece, Rows};
 
 /// Samples along each side of a pixel.
 const SIDE: u32 = 8;
@@ -13,31 +14,38 @@ pub const FINE_SAMPLES: u32 = SIDE * SIDE;
 /// Rows of the picture that are rendered together: enough for all threads, and little memory.
 const BAND_ROWS: u32 = 8;
 
-/// Some rows of a scene's picture, one sample a pixel.
-pub(super) type RenderRows<'a, E> =
-    dyn FnMut(&Scene, Range<u32>, &(dyn Fn(f64) + Sync)) -> Result<Image, E> + 'a;
-
-/// Renders with [`FINE_SAMPLES`] in every pixel: by a picture so many times larger, whose pixels are the samples.
-pub(super) fn render<E>(
-    scene: &Scene,
-    render_rows: &mut RenderRows<E>,
-    progress: &(dyn Fn(f64) + Sync),
-) -> Result<Image, E> {
-    let [width, height] = scene.render.size_px;
+/// The scene with a picture so many times larger, whose pixels are the samples.
+pub(crate) fn enlarged(scene: &Scene) -> Scene {
     let mut large = scene.clone();
-    large.render.size_px = [SIDE * width, SIDE * height];
+    large.render.size_px = scene.render.size_px.map(|side| SIDE * side);
     // The square of all samples of a pixel has a part of the variance.
     let variance = scene.render.filter_std_px.powi(2);
     let own = (variance - 1.0 / 12.0).max(0.25 * variance).sqrt();
     large.render.filter_std_px = f64::from(SIDE) * own;
-    let mut image = Image::new([width, height]);
+    large
+}
+
+/// Averages the samples of a picture; `large` are rows of the [`enlarged`] one.
+pub(crate) async fn averaged(
+    size_px: [u32; 2],
+    progress: &(dyn Fn(f64) + Sync),
+    large: &mut Rows<'_>,
+) -> Result<Image, Error> {
+    let [width, height] = size_px;
+    let mut image = Image::new(size_px);
     for first in (0..height).step_by(BAND_ROWS as usize) {
         let rows = first..(first + BAND_ROWS).min(height);
         let told = |share: f64| {
             let done = f64::from(rows.start) + share * f64::from(rows.end - rows.start);
             progress(done / f64::from(height));
+            true
         };
-        let samples = render_rows(&large, SIDE * rows.start..SIDE * rows.end, &told)?;
+        let piece = Piece {
+            samples: 1,
+            batch: None,
+            rows: SIDE * rows.start..SIDE * rows.end,
+        };
+        let (samples, _) = large.render(piece, &told).await?;
         let mut at = image.index(0, rows.start);
         for y in 0..rows.end - rows.start {
             for x in 0..width {
