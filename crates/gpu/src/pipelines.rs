@@ -117,8 +117,7 @@ impl<'a> Orders<'a> {
 
     fn create(&self, order: &Order) -> wgpu::ComputePipeline {
         let Self { gpu, layouts, .. } = self;
-        let text = shaders::compose(&[order.module]);
-        let mut constants = self.variant.constants(&text);
+        let mut constants = self.variant.constants(order.module);
         constants.retain(|(name, _)| order.more.iter().all(|(other, _)| other != name));
         constants.extend(&order.more);
         let label = Some(order.module.name);

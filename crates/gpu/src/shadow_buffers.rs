@@ -5,7 +5,6 @@ use wgpu::BufferUsages;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{ShadowRay, ShadowRound, TracedRays};
-use crate::resources::Resources;
 use crate::sizes::Points;
 
 /// The arrays over samples. They grow to the size that is needed.
@@ -32,15 +31,6 @@ const PICKS_MOST: u64 = 16;
 const PICKS_BYTES_MOST: u64 = 1 << 28;
 
 impl ShadowBuffers {
-    /// All that passes may bind of it.
-    pub(crate) fn resources(&self) -> Resources {
-        Resources::default()
-            .buffer("shadow_round", &self.round)
-            .buffer("rays", &self.rays)
-            .buffer("traced", &self.traced)
-            .buffer("picks", &self.picks)
-    }
-
     pub(crate) async fn new(gpu: &Gpu) -> Result<Self, Error> {
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let storage = BufferUsages::STORAGE;

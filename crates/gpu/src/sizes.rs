@@ -9,8 +9,8 @@ use crate::compute_pass::{ComputePass, Workgroups};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{self, COUNTED_CHUNKS, COUNTED_ENTRIES, COUNTED_GROUPS};
+use crate::pass_bindings;
 use crate::pipelines::Orders;
-use crate::shaders;
 use crate::variant::RayOrigin;
 
 /// Numbers of entries, groups and chunks, at the places that the shader has for them.
@@ -38,15 +38,14 @@ pub(crate) struct Sizes {
     pub wanted: Numbers,
 }
 
+/// A pass that sizes dispatches.
+pub(crate) type SizesPass = ComputePass<pass_bindings::Sizes<'static>>;
+
 /// The pass that sizes dispatches by one of the numbers.
-pub(crate) fn pass(orders: &mut Orders, counted: usize, seen: RayOrigin) -> ComputePass {
+pub(crate) fn pass(orders: &mut Orders, counted: usize, seen: RayOrigin) -> SizesPass {
     let constants = [("COUNTED", counted as f64), seen.constant()];
-    ComputePass::order(
-        orders,
-        "sizes",
-        (&shaders::SIZES, "count_sizes"),
-        &constants,
-    )
+    let entry_point = pass_bindings::Sizes::COUNT_SIZES;
+    ComputePass::order(orders, "sizes", entry_point, &constants)
 }
 
 impl Sizes {

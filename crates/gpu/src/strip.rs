@@ -10,7 +10,6 @@ use crate::compute_pass::Workgroups;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{BaseLight, ChunkSum, PixelPaint, PixelPoint, SortSettings};
-use crate::resources::Resources;
 use crate::scan::{Scan, ScanPasses};
 use crate::shadow_buffers::ShadowBuffers;
 use crate::sizes::{Numbers, Sizes};
@@ -179,25 +178,6 @@ impl StripBuffers {
 }
 
 impl StripBuffers {
-    /// All that passes over the strip may bind.
-    pub(crate) fn resources(&self) -> Resources {
-        let (samples, lists) = (&self.samples, &self.lists);
-        let sorted = lists.made.as_ref().map_or(0, |made| made.sorted);
-        Resources::default()
-            .texture("visibility", &self.visibility)
-            .buffer("group_starts", &self.group_starts)
-            .buffer("list_starts", &self.list_starts)
-            .buffer("entry_starts", &lists.entry_starts)
-            .buffer("entries", &lists.entries[sorted])
-            .buffer("points", &samples.points)
-            .buffer("paints", &samples.paints)
-            .buffer("base_light", &samples.base_light)
-            .buffer("chunk_starts", &samples.chunk_starts)
-            .buffer("chunk_sums", &samples.chunk_sums)
-            .buffer("chunk_words", &samples.chunk_sums)
-            .buffer("grating_words", &samples.chunk_sums)
-    }
-
     /// Workgroups of a tile each, over so many rows.
     pub(crate) fn tiles(&self, rows: u32) -> Workgroups {
         Workgroups::Known([self.width_px, rows].map(|n| n.div_ceil(TILE_PX)))
@@ -298,6 +278,11 @@ impl Lists {
             ],
             made: None,
         })
+    }
+
+    /// The entries in the order of tiles, once they are sorted.
+    pub(crate) fn sorted(&self) -> &wgpu::Buffer {
+        &self.entries[self.made.as_ref().map_or(0, |made| made.sorted)]
     }
 
     /// Makes room for the entries of so many segments to be counted.

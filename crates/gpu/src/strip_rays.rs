@@ -5,14 +5,11 @@ use hairline_image::Batch;
 use crate::bounces::{Bounce, Bounces};
 use crate::compute_pass::Workgroups;
 use crate::error::Error;
-use crate::film::Film;
 use crate::frame::Rounds;
 use crate::layout::ShadowRound;
 use crate::lights::{self, LightKind};
-use crate::passes::Shade;
-use crate::resources::Resources;
 use crate::shadow_buffers::ShadowBuffers;
-use crate::shadow_picks::Scratched;
+use crate::shadow_picks::{RayBuffers, Scratched};
 use crate::shadows::Shadows;
 use crate::sizes::CHUNKS;
 use crate::strip::{BounceBuffers, StripBuffers};
@@ -28,9 +25,7 @@ impl StripRays<'_, '_> {
         on: &Scratched,
         rounds: Rounds,
     ) -> Result<(), Error> {
-        let Self {
-            view, film, points, ..
-        } = *self;
+        let Self { view, points, .. } = *self;
         let (gpu, groups) = (&self.strip.gpu, &on.groups);
         let mut shadow_buffers = match room.shadows.take() {
             Some(shadow_buffers) => shadow_buffers,
@@ -62,9 +57,9 @@ impl StripRays<'_, '_> {
                 next.round = round;
                 next.ends_round = (i + 1 == sources.len()).into();
                 shadow_buffers.write(gpu, &next);
-                let resources = of_rays(room, &shadow_buffers, film, shadows);
+                let buffers = self.ray_buffers(room, &shadow_buffers);
                 self.strip.submit(self.view, |recording| {
-                    shadows.record_base_round(kind, recording, &resources, groups);
+                    shadows.record_base_round(kind, recording, buffers, groups);
                 });
             }
         }
@@ -74,7 +69,7 @@ impl StripRays<'_, '_> {
                 .make_room_for_picks(gpu, points, lanes, next.rounds)
                 .await?;
             next.source = source;
-            next.way = by.way as u32;
+            next.way = by.way() as u32;
             for round in 0..next.rounds {
                 next.round = round;
                 if round % most == 0 {
@@ -82,17 +77,30 @@ impl StripRays<'_, '_> {
                     next.picks = most.min(next.rounds - round);
                 }
                 shadow_buffers.write(gpu, &next);
-                let resources = of_rays(room, &shadow_buffers, film, shadows);
+                let buffers = self.ray_buffers(room, &shadow_buffers);
                 self.strip.submit(self.view, |recording| {
                     if round == next.first_pick {
-                        by.record_picks(recording, &resources, &shadow_buffers, on);
+                        by.record_picks(recording, buffers, on);
                     }
-                    shadows.record_picked_round(by, recording, &resources, groups);
+                    shadows.record_picked_round(by, recording, buffers, groups);
                 });
             }
         }
         room.shadows = Some(shadow_buffers);
         Ok(())
+    }
+
+    fn ray_buffers<'a>(
+        &'a self,
+        strip: &'a StripBuffers,
+        shadows: &'a ShadowBuffers,
+    ) -> RayBuffers<'a> {
+        let film = self.film;
+        RayBuffers {
+            strip,
+            shadows,
+            film,
+        }
     }
 
     /// Converts the sums of so many rounds to light.
@@ -112,8 +120,8 @@ impl StripRays<'_, '_> {
         };
         shadow_buffers.write(&self.strip.gpu, &all);
         self.strip.submit(self.view, |recording| {
-            let resources = of_rays(room, shadow_buffers, self.film, shadows);
-            shadows.traced.run(recording, &resources, groups);
+            let buffers = self.ray_buffers(room, shadow_buffers);
+            shadows.record_light(recording, buffers, groups);
         });
     }
 
@@ -183,7 +191,6 @@ impl StripRays<'_, '_> {
         on: &Scratched,
         first: ShadowRound,
     ) -> Result<(), Error> {
-        let (gpu, film) = (&self.strip.gpu, self.film);
         let mut on = on.clone();
         for depth in 0..bounces.count {
             let round = match depth {
@@ -204,10 +211,10 @@ impl StripRays<'_, '_> {
                 ends_round: (depth + 1 == bounces.count).into(),
                 ..round
             };
-            bounce_buffers.write(gpu, &round);
+            bounce_buffers.write(&self.strip.gpu, &round);
             let to = depth as usize % 2;
             self.strip.submit(self.view, |recording| {
-                let Some(by) = bounce(room, bounce_buffers, film, bounces, &round, &on.groups)
+                let Some(by) = Bounce::new(room, bounce_buffers, self.film, &round, &on.groups)
                 else {
                     return;
                 };
@@ -222,7 +229,7 @@ impl StripRays<'_, '_> {
             let next = seed(&first, depth + 1);
             self.shade_hits(bounces, hits, &mut on, next).await?;
             self.strip.submit(self.view, |recording| {
-                if let Some(by) = bounce(room, bounce_buffers, film, bounces, &round, &on.groups) {
+                if let Some(by) = Bounce::new(room, bounce_buffers, self.film, &round, &on.groups) {
                     bounces.record_light(recording, &by);
                 }
             });
@@ -259,13 +266,7 @@ impl StripRays<'_, '_> {
             if let Some(scratches) = &bounces.scratches {
                 scratches.shade.record(recording, hits, &on.chunks);
             }
-            if let Shade::Own { base, gratings, .. } = &passes.shade {
-                let resources = hits.resources().and(film.resources());
-                base.run(recording, &resources, &on.groups);
-                if let Some(gratings) = gratings {
-                    gratings.run(recording, &resources, &on.groups);
-                }
-            }
+            passes.shade.record(recording, hits, film, &on.groups);
         });
         let rounds = Rounds {
             now: Batch::all(1),
@@ -275,31 +276,6 @@ impl StripRays<'_, '_> {
         self.finish(&bounces.shadows, hits, &on.groups, 1);
         Ok(())
     }
-}
-
-/// All that passes of shadow rays may bind.
-fn of_rays(
-    room: &StripBuffers,
-    shadow_buffers: &ShadowBuffers,
-    film: &Film,
-    shadows: &Shadows,
-) -> Resources {
-    let room = room.resources().and(shadow_buffers.resources());
-    room.and(film.resources())
-        .texture("triangle_tree", &shadows.tree.view)
-}
-
-fn bounce<'a>(
-    room: &'a StripBuffers,
-    bounce_buffers: &'a BounceBuffers,
-    film: &Film,
-    bounces: &Bounces,
-    round: &ShadowRound,
-    groups: &Workgroups,
-) -> Option<Bounce<'a>> {
-    let way = Way::ALL[round.way as usize];
-    let by = (round.depth, way);
-    Bounce::new(room, bounce_buffers, film, &bounces.shadows, by, groups)
 }
 
 /// Seed of the random numbers for the hits of a round: a place may be met again in other rounds.

@@ -6,17 +6,18 @@ use std::ops::Range;
 use wgpu::BufferUsages;
 
 use crate::bindings::{Layouts, bind};
-use crate::compute_pass::{ComputePass, Recording, in_a_row};
+use crate::compute_pass::{Recording, in_a_row};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
 use crate::frame::{Rounds, View, frame, halo_rows};
 use crate::layout::Frame;
+use crate::pass_bindings;
 use crate::passes::{ScratchPasses, Shade};
 use crate::pipelines::compiled;
 use crate::scan::ScanPasses;
 use crate::shadow_picks::Scratched;
-use crate::sizes::{CHUNKS, ENTRIES, GROUPS, Points, Sizes};
+use crate::sizes::{CHUNKS, ENTRIES, GROUPS, Points, Sizes, SizesPass};
 use crate::strip::{GROUP, MadeLists, StripBuffers, TILE_PX, strip_points, tile_count};
 use crate::strip_sizes::{half, numbers_most};
 use crate::timing::Timing;
@@ -128,8 +129,7 @@ impl StripShader {
                 sorted = Some(self.make_lists(recording, view, scratches, film, room, tiles));
             }
             if view.step > 0 {
-                let resources = room.resources().and(film.resources());
-                passes.edges.run(recording, &resources, &in_a_row(tiles));
+                passes.record_edges(recording, room, film, tiles);
                 scans.record(recording.encoder, &room.group_scan, recording.timing);
                 // Not every place of a group has a sample.
                 let points = &room.samples.points;
@@ -153,8 +153,7 @@ impl StripShader {
             self.submit(view, |recording| {
                 let rows = rows + 2 * halo_rows(view.scene);
                 self.visibility.record(recording, room, rows);
-                let resources = room.resources().and(film.resources());
-                passes.surface.run(recording, &resources, &room.tiles(rows));
+                passes.record_surface(recording, room, film, rows);
             });
         }
         let on = Scratched {
@@ -166,29 +165,15 @@ impl StripShader {
             Shade::Other(_) => None,
         };
         self.submit(view, |recording| {
-            let resources = room.resources().and(film.resources());
-            if let Some(ScratchPasses { share, .. }) = passes.scratches().filter(|_| view.step > 0)
-            {
-                share.run(recording, &resources, &room.tiles(rows));
-            }
-            match &passes.shade {
-                Shade::Own {
-                    base,
-                    scratches,
-                    gratings,
-                } => {
-                    base.run(recording, &resources, &on.groups);
-                    if let Some(scratches) = scratches {
-                        scratches.shade.record(recording, room, &on.chunks);
-                    }
-                    if let Some(gratings) = gratings {
-                        gratings.run(recording, &resources, &on.groups);
-                    }
+            if let Some(scratches) = passes.scratches() {
+                if view.step > 0 {
+                    scratches.record_share(recording, room, film, rows);
                 }
-                Shade::Other(pass) => pass.run(recording, &resources, &on.groups),
+                scratches.shade.record(recording, room, &on.chunks);
             }
+            passes.shade.record(recording, room, film, &on.groups);
             if shadows.is_none() {
-                passes.resolve.run(recording, &resources, &room.tiles(rows));
+                passes.record_resolve(recording, room, film, rows);
             }
         });
         if let Some(shadows) = shadows {
@@ -208,13 +193,8 @@ impl StripShader {
             }
             rays.finish(shadows, room, &on.groups, rounds.now.count);
             self.submit(view, |recording| {
-                let resources = room.resources().and(film.resources());
-                let tiles = room.tiles(rows);
-                passes.resolve.run(recording, &resources, &tiles);
-                if let (Some(shadow_buffers), Some(_)) = (&room.shadows, &film.traced) {
-                    let resources = resources.and(shadow_buffers.resources());
-                    shadows.film.run(recording, &resources, &tiles);
-                }
+                passes.record_resolve(recording, room, film, rows);
+                shadows.record_film(recording, room, film, rows);
             });
         }
         Ok(())
@@ -243,16 +223,17 @@ impl StripShader {
     pub(crate) fn size(
         &self,
         recording: &mut Recording,
-        pass: &ComputePass,
+        pass: &SizesPass,
         totals: &wgpu::Buffer,
         sizes: &Sizes,
         film: &Film,
     ) {
-        let resources = film
-            .resources()
-            .buffer("totals", totals)
-            .buffer("sizes", &sizes.buffer);
-        pass.run(recording, &resources, &in_a_row(1));
+        let bound = pass_bindings::Sizes {
+            totals,
+            sizes: &sizes.buffer,
+            film: &film.buffer,
+        };
+        pass.run(recording, &bound, &in_a_row(1));
         let (from, to) = (&sizes.buffer, &self.frame);
         (recording.encoder).copy_buffer_to_buffer(from, 0, to, COUNTED_OFFSET, COUNTED_BYTES);
     }
