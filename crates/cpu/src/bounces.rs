@@ -7,7 +7,7 @@ use crate::resolve::{PointLight, Sample};
 use crate::shade_base::PixelBase;
 use crate::shade_scratches::{Picks, ScratchPoint, pick_one_pair};
 use crate::shadows::{HitBuffers, MetObject, ShadowPoint, Shadows};
-use crate::surface::{SurfacePoint, surface_point};
+use crate::surface::{SeenHit, SurfacePoint, surface_point};
 use glam::{DVec3, Vec3};
 use hairline_optics::mask::ScratchSums;
 
@@ -41,7 +41,11 @@ impl<'a> Shadows<'a> {
             return DVec3::ZERO;
         };
         let scene = self.prepared.scene;
-        let position_m = origin_m + direction * hit.distance_m;
+        let seen = SeenHit {
+            hit: &hit,
+            position_m: origin_m + direction * hit.distance_m,
+            to_viewer: -direction,
+        };
         let across = |normal: DVec3, width_m: f64| {
             let leaves = normal.dot(direction).min(-MIN_COS);
             let (e1, e2) = direction.any_orthonormal_pair();
@@ -51,7 +55,7 @@ impl<'a> Shadows<'a> {
         let all_m = width(solid_angle_sr);
         let tables = &self.prepared.tables;
         let footprint = |normal| across(normal, all_m);
-        let mut point = surface_point(scene, tables, position_m, -direction, footprint, &hit);
+        let mut point = surface_point(scene, tables, &seen, footprint);
         // Rays meet other places each: the scratches of one place stand for those of a wide footprint, which are many.
         let scratches_m = width(0.0).min(point.coherence_um * 1e-6);
         point.footprint_axes_m = across(point.normal, scratches_m);

@@ -17,8 +17,34 @@ use crate::strip_shader::StripRays;
 use crate::variant::Way;
 
 impl StripRays<'_, '_> {
+    /// The light of the samples that rays find, on the film.
+    pub(crate) async fn shade(
+        &self,
+        shadows: &Shadows,
+        room: &mut StripBuffers,
+        on: &Scratched,
+        rows: u32,
+    ) -> Result<(), Error> {
+        let Self { view, film, .. } = *self;
+        let rounds = Rounds {
+            now: view.rounds(),
+            seed: 0,
+        };
+        self.shadows(shadows, room, on, rounds).await?;
+        if let Some(bounces) = view.bounces() {
+            self.bounces(bounces, room, on).await?;
+        }
+        self.finish(shadows, room, &on.groups, rounds.now.count);
+        self.strip.submit(view, |recording| {
+            let passes = &view.uploaded.passes;
+            passes.record_resolve(recording, room, film, rows);
+            shadows.record_film(recording, room, film, rows);
+        });
+        Ok(())
+    }
+
     /// Finds which part of the light of the samples is seen.
-    pub(crate) async fn shadows(
+    async fn shadows(
         &self,
         shadows: &Shadows,
         room: &mut StripBuffers,
@@ -104,13 +130,7 @@ impl StripRays<'_, '_> {
     }
 
     /// Converts the sums of so many rounds to light.
-    pub(crate) fn finish(
-        &self,
-        shadows: &Shadows,
-        room: &StripBuffers,
-        groups: &Workgroups,
-        rounds: u32,
-    ) {
+    fn finish(&self, shadows: &Shadows, room: &StripBuffers, groups: &Workgroups, rounds: u32) {
         let Some(shadow_buffers) = &room.shadows else {
             return;
         };
@@ -126,7 +146,7 @@ impl StripRays<'_, '_> {
     }
 
     /// Finds the light of other objects that the samples send.
-    pub(crate) async fn bounces(
+    async fn bounces(
         &self,
         bounces: &Bounces,
         room: &mut StripBuffers,

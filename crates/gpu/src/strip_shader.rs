@@ -10,7 +10,7 @@ use crate::compute_pass::{Recording, in_a_row};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
-use crate::frame::{Rounds, View, frame, halo_rows};
+use crate::frame::{View, frame, halo_rows};
 use crate::layout::Frame;
 use crate::pass_bindings;
 use crate::passes::{ScratchPasses, Shade};
@@ -97,57 +97,12 @@ impl StripShader {
         room: &mut StripBuffers,
         strip: Range<u32>,
     ) -> Result<(), Error> {
-        let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
+        let passes = &view.uploaded.passes;
         let rows = strip.len() as u32;
         let tiles = tile_count(room.width_px, rows);
-        let first = strip_points(room.width_px, rows);
-        room.make_room(gpu, scans, passes, tiles, first).await?;
-        let most = u64::from(GROUP) * u64::from(room.sizes.room[GROUPS]);
-        let points = Points {
-            first,
-            most: most.max(first),
-        };
-        // Lists of the first step serve the other steps.
-        let made = room.lists.made.take();
-        room.lists.made = made.filter(|made| view.step > 0 && made.rows == strip);
-        let kept = room.lists.made.is_some();
-        if passes.scratches().is_some() {
-            let segments = view.uploaded.data.buffers.segment_count();
-            let lists = &mut room.lists;
-            lists.make_room_for_segments(gpu, scans, segments).await?;
-        } else {
-            room.samples.one_chunk_a_group(gpu);
-        }
-        room.group_scan.set_count(gpu, tiles + 1);
+        let points = self.make_room(view, room, rows).await?;
         self.write_frame(view, &strip, film_row, view.step_samples().start);
-        let mut sorted = None;
-        self.submit(view, |recording| {
-            if view.step == 0 && strip.start == film_row {
-                film.clear(recording.encoder);
-            }
-            if let Some(scratches) = passes.scratches().filter(|_| !kept) {
-                sorted = Some(self.make_lists(recording, view, scratches, film, room, tiles));
-            }
-            if view.step > 0 {
-                passes.record_edges(recording, room, film, tiles);
-                scans.record(recording.encoder, &room.group_scan, recording.timing);
-                // Not every place of a group has a sample.
-                let points = &room.samples.points;
-                recording.encoder.clear_buffer(points, 0, None);
-            }
-            let sizes = &room.sizes;
-            let starts = &room.group_starts;
-            self.size(recording, &passes.sizes[GROUPS], starts, sizes, film);
-            if let Some(scratches) = passes.scratches() {
-                scratches.shade.record_chunks(recording, scans, room);
-            }
-            let starts = &room.samples.chunk_starts;
-            self.size(recording, &passes.sizes[CHUNKS], starts, sizes, film);
-        });
-        if let Some(sorted) = sorted {
-            let rows = strip.clone();
-            room.lists.made = Some(MadeLists { rows, sorted });
-        }
+        self.group(view, film, film_row, room, &strip);
         for sample in view.step_samples() {
             self.write_frame(view, &strip, film_row, sample);
             self.submit(view, |recording| {
@@ -177,27 +132,86 @@ impl StripShader {
             }
         });
         if let Some(shadows) = shadows {
-            let rounds = Rounds {
-                now: view.rounds(),
-                seed: 0,
-            };
             let rays = StripRays {
                 strip: self,
                 view,
                 film,
                 points,
             };
-            rays.shadows(shadows, room, &on, rounds).await?;
-            if let Some(bounces) = view.bounces() {
-                rays.bounces(bounces, room, &on).await?;
-            }
-            rays.finish(shadows, room, &on.groups, rounds.now.count);
-            self.submit(view, |recording| {
-                passes.record_resolve(recording, room, film, rows);
-                shadows.record_film(recording, room, film, rows);
-            });
+            rays.shade(shadows, room, &on, rows).await?;
         }
         Ok(())
+    }
+
+    /// Makes room for a step of so many rows. Says how many samples there is room for.
+    async fn make_room(
+        &self,
+        view: &View<'_>,
+        room: &mut StripBuffers,
+        rows: u32,
+    ) -> Result<Points, Error> {
+        let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
+        let tiles = tile_count(room.width_px, rows);
+        let first = strip_points(room.width_px, rows);
+        room.make_room(gpu, scans, passes, tiles, first).await?;
+        let most = u64::from(GROUP) * u64::from(room.sizes.room[GROUPS]);
+        if passes.scratches().is_some() {
+            let segments = view.uploaded.data.buffers.segment_count();
+            let lists = &mut room.lists;
+            lists.make_room_for_segments(gpu, scans, segments).await?;
+        } else {
+            room.samples.one_chunk_a_group(gpu);
+        }
+        room.group_scan.set_count(gpu, tiles + 1);
+        Ok(Points {
+            first,
+            most: most.max(first),
+        })
+    }
+
+    /// Makes the tile lists, and counts the groups of samples and the chunks of their lists.
+    fn group(
+        &self,
+        view: &View,
+        film: &Film,
+        film_row: u32,
+        room: &mut StripBuffers,
+        strip: &Range<u32>,
+    ) {
+        let (scans, passes) = (&self.scans, &view.uploaded.passes);
+        let tiles = tile_count(room.width_px, strip.len() as u32);
+        // Lists of the first step serve the other steps.
+        let made = room.lists.made.take();
+        room.lists.made = made.filter(|made| view.step > 0 && made.rows == *strip);
+        let kept = room.lists.made.is_some();
+        let mut sorted = None;
+        self.submit(view, |recording| {
+            if view.step == 0 && strip.start == film_row {
+                film.clear(recording.encoder);
+            }
+            if let Some(scratches) = passes.scratches().filter(|_| !kept) {
+                sorted = Some(self.make_lists(recording, view, scratches, film, room, tiles));
+            }
+            if view.step > 0 {
+                passes.record_edges(recording, room, film, tiles);
+                scans.record(recording.encoder, &room.group_scan, recording.timing);
+                // Not every place of a group has a sample.
+                let points = &room.samples.points;
+                recording.encoder.clear_buffer(points, 0, None);
+            }
+            let sizes = &room.sizes;
+            let starts = &room.group_starts;
+            self.size(recording, &passes.sizes[GROUPS], starts, sizes, film);
+            if let Some(scratches) = passes.scratches() {
+                scratches.shade.record_chunks(recording, scans, room);
+            }
+            let starts = &room.samples.chunk_starts;
+            self.size(recording, &passes.sizes[CHUNKS], starts, sizes, film);
+        });
+        if let Some(sorted) = sorted {
+            let rows = strip.clone();
+            room.lists.made = Some(MadeLists { rows, sorted });
+        }
     }
 
     /// Makes the tile lists of a strip. Returns which of the two buffers holds them.

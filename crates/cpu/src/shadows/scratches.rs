@@ -4,7 +4,8 @@ use super::{HitBuffers, MetObject, Purpose, RayEnd, ShadowPoint, Shadows, normal
 use crate::sampling::luminance;
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{DrawnLight, Frame, Pick, Picks, ScratchLight};
-use crate::surface::{RayStart, SurfacePoint};
+use crate::surface::SurfacePoint;
+use crate::surface::ray_start::RayStart;
 use crate::traced::{LayerLight, LayerRays};
 use glam::DVec3;
 use hairline_optics::gaussian::gaussian;

@@ -264,3 +264,21 @@ fn sample_normals(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -
     mean.w = (mean.w * mean.w + 0.5 * seen * (steps2[0] + steps2[1]) / (up * up)).sqrt();
     mean
 }
+
+/// Origin of rays to lights: see [`super::SurfacePoint::raised_m`].
+pub(super) fn raised(position_m: DVec3, hit: &Hit, mesh: &Mesh, side: f64) -> DVec3 {
+    let [u, v] = hit.barycentric;
+    let weights = [1.0 - u - v, u, v];
+    let triangle = mesh.triangles[hit.triangle as usize];
+    let normals = triangle.map(|i| mesh.normals[i as usize]);
+    if normals[0] == normals[1] && normals[0] == normals[2] {
+        return position_m;
+    }
+    let rises = (0..3).map(|i| {
+        let corner_m = mesh.positions_m[triangle[i] as usize].as_dvec3();
+        let normal = side * normals[i].as_dvec3();
+        let below_m = (position_m - corner_m).dot(normal).min(0.0);
+        normal * (-weights[i] * below_m)
+    });
+    position_m + rises.sum::<DVec3>()
+}
