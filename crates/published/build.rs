@@ -13,7 +13,7 @@ fn main() -> io::Result<()> {
     for read in ["shaders", below, "../gpu/build/modules.rs"] {
         println!("cargo::rerun-if-changed={read}");
     }
-    let shaders = Shaders::read(Path::new("shaders"), "published/", "crate::shaders")?.on(
+    let shaders = Shaders::read(Path::new("shaders"), "published/", "crate::shaders")?.with_base(
         Shaders::read(Path::new(below), "", "hairline_gpu::shaders")?,
     );
     let arrays = shaders.reflection("other_method").bindings.len();

@@ -23,20 +23,20 @@ impl<'a> PictureView<'a> {
     pub fn new(texture: &'a Texture, corners: &[DVec3]) -> Self {
         Self {
             texture,
-            plane: PicturePlane::of(corners),
+            plane: PicturePlane::from_corners(corners),
             across_variance: [0.0; 2],
         }
     }
 
     /// The picture for chords that stand for a band, by the band's variance at q = 0 and for each q².
-    pub fn across(self, across_variance: [f64; 2]) -> Self {
+    pub fn with_across_variance(self, across_variance: [f64; 2]) -> Self {
         Self {
             across_variance,
             ..self
         }
     }
 
-    fn at(&self, look: PictureLook) -> DVec3 {
+    fn radiance(&self, look: PictureLook) -> DVec3 {
         let size_px = self.texture.size_px.map(f64::from).into();
         picture_radiance(
             self.texture,
@@ -88,7 +88,7 @@ impl<'a> PictureView<'a> {
     pub fn on_chord(&self, directions: [DVec3; 3], q: f64) -> DVec3 {
         let [middle, per_q2] = self.across_variance;
         let across_std = (middle + per_q2 * q * q).max(0.0).sqrt();
-        self.at(self.plane.picture_on_chord(directions, across_std))
+        self.radiance(self.plane.picture_on_chord(directions, across_std))
     }
 }
 

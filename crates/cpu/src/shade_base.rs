@@ -241,9 +241,9 @@ impl<'p, 'a> Base<'p, 'a> {
             // The body gets the light that the surface does not reflect.
             body: point.diffuse * DVec3::from(lobe.mix.body_share),
             lobe,
-            coat: coat.map(|it| {
-                let layer = layer(it);
-                (CoatPart::new(it.weight, layer.albedo), layer)
+            coat: coat.map(|coat| {
+                let layer = layer(coat);
+                (CoatPart::new(coat.weight, layer.albedo), layer)
             }),
         }
     }
@@ -265,7 +265,7 @@ impl<'p, 'a> Base<'p, 'a> {
         };
         BaseRadiance {
             specular: part.reflected(by_coat(coat), base.specular),
-            diffuse: part.below(base.specular, base.diffuse),
+            diffuse: part.transmitted(base.specular, base.diffuse),
         }
     }
 
@@ -519,7 +519,7 @@ fn brushed_around(
     lobe: &BrushedLobe,
     of: &LobeFresnel,
 ) -> DVec3 {
-    let taps = lobe.around(&of.fresnel);
+    let taps = lobe.environment_taps(&of.fresnel);
     let directions = taps.map(|tap| point.world_from_surface(tap.direction));
     let radiance = environment.prefiltered_all(directions, taps.map(|tap| tap.roughness));
     let (mut mean, mut weights) = (DVec3::ZERO, DVec3::splat(1e-300));

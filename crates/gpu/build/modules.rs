@@ -94,7 +94,7 @@ impl Shaders {
 
     /// Adds modules that others may need, and that are not made.
     #[allow(dead_code, reason = "for crates that stand on this one")]
-    pub fn on(mut self, below: Self) -> Self {
+    pub fn with_base(mut self, below: Self) -> Self {
         for (short, mut module) in below.modules {
             module.is_own = false;
             self.modules.insert(short, module);

@@ -74,12 +74,12 @@ impl Bounces {
             false => None,
         };
         let mut orders = Orders::new(gpu, layouts, variant);
-        let bounces = Self::over(&mut orders, shadows, scratches, count);
+        let bounces = Self::order(&mut orders, shadows, scratches, count);
         orders.compile().await?;
         Ok(bounces)
     }
 
-    fn over(
+    fn order(
         orders: &mut Orders,
         shadows: &Shadows,
         tree: Option<wgpu::TextureView>,

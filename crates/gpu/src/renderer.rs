@@ -103,7 +103,7 @@ impl Renderer {
     /// [`Error::OutOfMemory`], [`Error::Lost`].
     pub async fn time_passes(&mut self) -> Result<bool, Error> {
         if !self.strips.timing.is_on() {
-            self.strips.timing = Timing::on(&self.gpu).await?;
+            self.strips.timing = Timing::begin(&self.gpu).await?;
         }
         Ok(self.strips.timing.is_on())
     }

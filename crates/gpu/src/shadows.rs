@@ -54,17 +54,17 @@ impl Shadows {
         let far = positions.map(|p| (p.as_dvec3() - origin_m).length());
         let extent_m = far.fold(0.0, f64::max) as f32;
         let mut orders = Orders::new(gpu, layouts, variant);
-        let shadows = Self::over(&mut orders, tree, extent_m, RayOrigin::ByCamera);
+        let shadows = Self::order(&mut orders, tree, extent_m, RayOrigin::ByCamera);
         orders.compile().await?;
         Ok(shadows)
     }
 
     /// Makes the passes for hits.
     pub(crate) fn of_hits(&self, orders: &mut Orders) -> Self {
-        Self::over(orders, self.tree.clone(), self.extent_m, RayOrigin::ByRays)
+        Self::order(orders, self.tree.clone(), self.extent_m, RayOrigin::ByRays)
     }
 
-    fn over(orders: &mut Orders, tree: TriangleTree, extent_m: f32, seen: RayOrigin) -> Self {
+    fn order(orders: &mut Orders, tree: TriangleTree, extent_m: f32, seen: RayOrigin) -> Self {
         let has = orders.variant().has;
         let mut by_picks = Vec::new();
         if has.scratches {

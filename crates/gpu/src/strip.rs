@@ -167,7 +167,7 @@ impl StripBuffers {
             visibility: target(VISIBILITY_FORMAT, TextureUsages::TEXTURE_BINDING).await?,
             depth: target(DEPTH_FORMAT, TextureUsages::empty()).await?,
             list_starts: gpu.buffer("tile lists", bytes, usage).await?,
-            group_scan: scans.of(gpu, &group_starts, starts).await?,
+            group_scan: scans.scan(gpu, &group_starts, starts).await?,
             group_starts,
             samples: Samples::new(gpu, scans).await?,
             lists: Lists::new(gpu, scans).await?,
@@ -199,7 +199,7 @@ impl Samples {
                 .await?,
             base_light: gpu.buffer("base of samples", BASE_BYTES, storage).await?,
             points_max: 1,
-            chunk_scan: scans.of(gpu, &chunk_starts, 2).await?,
+            chunk_scan: scans.scan(gpu, &chunk_starts, 2).await?,
             chunk_starts,
             groups_max: 1,
             chunk_sums: gpu.buffer("sums of chunks", CHUNK_BYTES, storage).await?,
@@ -233,7 +233,7 @@ impl Samples {
             self.groups_max = 0;
             let bytes = 4 * (u64::from(groups) + 1);
             self.chunk_starts = gpu.buffer("chunks of groups", bytes, POINTS_USAGE).await?;
-            self.chunk_scan = scans.of(gpu, &self.chunk_starts, groups + 1).await?;
+            self.chunk_scan = scans.scan(gpu, &self.chunk_starts, groups + 1).await?;
             self.groups_max = groups;
         }
         if self.chunks_max < chunks {
@@ -260,7 +260,7 @@ impl Lists {
         let entry_starts = gpu.buffer("entries of segments", 4, least).await?;
         let digit_starts = gpu.buffer("digits of entries", 4, least).await?;
         Ok(Self {
-            entry_scan: scans.of(gpu, &entry_starts, 1).await?,
+            entry_scan: scans.scan(gpu, &entry_starts, 1).await?,
             entry_starts,
             segments: 0,
             entries: [
@@ -268,7 +268,7 @@ impl Lists {
                 gpu.buffer("tile lists", ENTRY_BYTES, least).await?,
             ],
             entries_max: 1,
-            digit_scan: scans.of(gpu, &digit_starts, 1).await?,
+            digit_scan: scans.scan(gpu, &digit_starts, 1).await?,
             digit_starts,
             digits: [
                 digit(gpu, 0).await?,
@@ -296,7 +296,7 @@ impl Lists {
             let bytes = 4 * (u64::from(segments) + 1);
             let usage = BufferUsages::STORAGE;
             self.entry_starts = gpu.buffer("entries of segments", bytes, usage).await?;
-            self.entry_scan = scans.of(gpu, &self.entry_starts, segments + 1).await?;
+            self.entry_scan = scans.scan(gpu, &self.entry_starts, segments + 1).await?;
             self.segments = segments;
         }
         self.entry_scan.set_count(gpu, segments + 1);
@@ -326,7 +326,7 @@ impl Lists {
             let digits = DIGITS * entries.div_ceil(SORT_BLOCK);
             let bytes = 4 * u64::from(digits);
             self.digit_starts = gpu.buffer("digits of entries", bytes, storage).await?;
-            self.digit_scan = scans.of(gpu, &self.digit_starts, digits).await?;
+            self.digit_scan = scans.scan(gpu, &self.digit_starts, digits).await?;
             self.entries_max = entries;
         }
         Ok(())

@@ -54,7 +54,7 @@ pub(crate) struct Contents {
 }
 
 impl Contents {
-    pub(crate) fn of(scene: &Scene, tables: &ScratchTables, method: &Method) -> Self {
+    pub(crate) fn new(scene: &Scene, tables: &ScratchTables, method: &Method) -> Self {
         let gratings = method.other.is_none();
         let single_grooves =
             gratings && scene.objects.iter().any(|o| shows_single_grooves(scene, o));
@@ -75,7 +75,7 @@ impl Contents {
             branching_grooves: single_grooves && any(branches),
             groove_maps: gratings && any(has_maps),
             groove_spots: gratings && any(has_spots),
-            lights: Kinds::of(scene),
+            lights: Kinds::from_scene(scene),
             doors: scene
                 .lights
                 .iter()

@@ -40,7 +40,7 @@ impl Batch {
     }
 
     /// Batches in which `samples`, at least 1, are averaged; more than a batch are rounded up to whole ones.
-    pub fn of(samples: u32) -> impl Iterator<Item = Self> {
+    pub fn split(samples: u32) -> impl Iterator<Item = Self> {
         let count = samples.clamp(1, BATCH_SAMPLES);
         let batches = samples.max(1).div_ceil(count);
         (0..batches).map(move |batch| Self {

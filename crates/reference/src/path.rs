@@ -256,13 +256,13 @@ impl Integrator<'_> {
             }
         }
         if let (Some((direction, value, pdf)), Some(hit)) = (drawn, next) {
-            sum += value / pdf * self.beyond(vertex, direction, &hit, wavelengths);
+            sum += value / pdf * self.next_light(vertex, direction, &hit, wavelengths);
         }
         sum
     }
 
     /// Light from the surface that a path meets next.
-    fn beyond(
+    fn next_light(
         &self,
         vertex: &Vertex,
         direction: DVec3,

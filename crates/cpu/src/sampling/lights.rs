@@ -48,7 +48,7 @@ struct Picture {
 impl Picture {
     /// Value of the picture along a ray.
     fn seen(&self, from: DVec3, direction: DVec3) -> DVec3 {
-        let plane = PicturePlane::of(&self.corners_m.map(|corner| corner - from));
+        let plane = PicturePlane::from_corners(&self.corners_m.map(|corner| corner - from));
         let texture = &self.textures[self.texture];
         picture_radiance(texture, plane.picture_uv(direction), 0.0, WHOLE)
     }

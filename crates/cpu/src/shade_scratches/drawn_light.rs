@@ -198,7 +198,7 @@ impl ScratchLight<'_> {
         };
         let response = |cell: &EnvironmentCell| {
             let row = self.row(cell.direction.z);
-            move |q: f64| DVec3::from(row.at(self.width_um() * q))
+            move |q: f64| DVec3::from(row.look_up(self.width_um() * q))
         };
         let sent = |cell: &EnvironmentCell| {
             let (response, blur) = (response(cell), cell.environment_cell_roughness());
@@ -246,7 +246,7 @@ impl ScratchLight<'_> {
             let row = self.row(cell.direction.z);
             let ends = [(-1.0, cell.q_low), (1.0, cell.q_high)];
             let width_um = self.width_um();
-            let spectrum = move |q: f64| DVec3::from(row.at(width_um * q));
+            let spectrum = move |q: f64| DVec3::from(row.look_up(width_um * q));
             offers.offer(line, ends.into_iter(), spectrum);
         });
         let total = offers.lines.total;

@@ -133,9 +133,10 @@ impl<'a> Shadows<'a> {
     /// Draws one source that stands for all, by a cheap bound of its light.
     fn one_source(&self, at: &ShadowPoint, base: &Base, lobes: &Lobes) -> Option<Source> {
         let environment = self.prepared.scene.environment.as_ref();
-        let around = environment.map(|it| {
+        let around = environment.map(|environment| {
             let albedo = base.albedo();
-            luminance((albedo.specular + albedo.diffuse) * it.irradiance(at.point.normal)) / PI
+            let irradiance = environment.irradiance(at.point.normal);
+            luminance((albedo.specular + albedo.diffuse) * irradiance) / PI
         });
         let [pick, ..] = at.random(Purpose::Source, 0);
         let mut choice = Choice::new(pick);

@@ -179,7 +179,7 @@ impl Brought {
 
     /// Light that is sent of radiance 1 from all around, for each unit of energy.
     fn per_energy(&self) -> DVec3 {
-        over(self.sent, self.energy).max(DVec3::ZERO)
+        ratio(self.sent, self.energy).max(DVec3::ZERO)
     }
 
     /// The mean light. Each ray has a colour of its own; weighed by it, even light looks as all scratches send it together. Where few rays have a
@@ -188,7 +188,7 @@ impl Brought {
         let of_all = luminance(self.light) / luminance(self.colors).max(1e-300);
         let mean = DVec3::select(
             self.colors.cmpgt(LEAST_COLOR * self.sent),
-            over(self.light, self.colors),
+            ratio(self.light, self.colors),
             DVec3::splat(of_all),
         );
         mean.clamp(-MOST_COLOR * self.most, MOST_COLOR * self.most)
@@ -213,7 +213,7 @@ fn in_gamut(color: DVec3) -> DVec3 {
 }
 
 /// 0 where there is nothing to take a part of.
-fn over(part: DVec3, all: DVec3) -> DVec3 {
+fn ratio(part: DVec3, all: DVec3) -> DVec3 {
     let is_there = all.cmpgt(DVec3::ZERO);
     DVec3::select(
         is_there,

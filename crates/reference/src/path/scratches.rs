@@ -114,7 +114,7 @@ impl Integrator<'_> {
                 break;
             };
             let value = lobe.eval(&drawn) / (drawn.pdf * share / all);
-            return value * self.beyond(vertex, direction, &hit, wavelengths);
+            return value * self.next_light(vertex, direction, &hit, wavelengths);
         }
         DVec3::ZERO
     }
@@ -188,7 +188,7 @@ impl Integrator<'_> {
                     &self.scene.environment,
                 ) {
                     (Some(hit), _) if bounces && draw == goes_on => {
-                        let beyond = draws * self.beyond(vertex, direction, &hit, wavelengths);
+                        let beyond = draws * self.next_light(vertex, direction, &hit, wavelengths);
                         add(beyond, field.eval(wi), pdf);
                     }
                     (None, Some(environment)) => {

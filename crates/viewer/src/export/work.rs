@@ -289,7 +289,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
     };
     let begin = || {
         Animation::begin(
-            wish.base_dir.at(&wish.path),
+            wish.base_dir.with_path(&wish.path),
             wish.size_px,
             wish.frames(),
             wish.fps,
@@ -305,7 +305,7 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         let output = match animation {
             Some(_) => None,
             None => {
-                let output = Output::check(wish.base_dir.at(wish.frame_path(frame)));
+                let output = Output::check(wish.base_dir.with_path(wish.frame_path(frame)));
                 Some(output.map_err(|error| error.to_string())?.finished(&finish))
             }
         };
