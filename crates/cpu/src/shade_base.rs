@@ -200,7 +200,7 @@ impl<'a> Layer<'a> {
     }
 
     /// Adds multiple scattering to `single`, the light of single scattering.
-    pub fn of_single(&self, single: DVec3) -> DVec3 {
+    pub(crate) fn of_single(&self, single: DVec3) -> DVec3 {
         ggx_area_reflectance(single.to_array(), self.mix.scattered_f0, self.lobe_albedo).into()
     }
 }
@@ -305,7 +305,7 @@ impl<'p, 'a> Base<'p, 'a> {
     }
 
     /// The part of the environment without its suns.
-    pub fn by_environment(&self, environment: &Environment) -> BaseRadiance {
+    pub(crate) fn by_environment(&self, environment: &Environment) -> BaseRadiance {
         let under_coat = self.under_coat();
         let bare = BaseRadiance {
             specular: self.lobe.surrounded_by(environment, under_coat),
@@ -353,7 +353,7 @@ impl<'p, 'a> PixelBase<'p, 'a> {
     }
 
     /// The base of a point that has no parts.
-    pub fn of_point(point: &'p SurfacePoint<'a>, views: &'p LightViews<'a>) -> Self {
+    pub(crate) fn of_point(point: &'p SurfacePoint<'a>, views: &'p LightViews<'a>) -> Self {
         Self::new(point, views, &[], &[])
     }
 
@@ -394,7 +394,7 @@ impl<'p, 'a> PixelBase<'p, 'a> {
     }
 
     /// The part of the environment without its suns.
-    pub fn by_environment(&self, environment: &Environment) -> BaseRadiance {
+    pub(crate) fn by_environment(&self, environment: &Environment) -> BaseRadiance {
         self.mean(|base, _| base.by_environment(environment))
     }
 

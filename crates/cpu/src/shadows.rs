@@ -299,7 +299,7 @@ impl ShadowPoint<'_, '_> {
     }
 
     /// Seed of the random picks of the sample's scratches. It depends on the rounds.
-    pub fn picks_seed(&self) -> u64 {
+    pub(crate) fn picks_seed(&self) -> u64 {
         u64::from(self.rounds.now.first) << 32 | u64::from(self.seed)
     }
 }

@@ -115,7 +115,7 @@ impl SurfacePoint<'_> {
     }
 
     /// Slopes that a pixel sees. `map_std` is the spread of the normal map's.
-    pub fn pixel_slopes(&self, map_std: f64) -> PixelSlopes {
+    pub(crate) fn pixel_slopes(&self, map_std: f64) -> PixelSlopes {
         let local = |step| self.surface_from_world(step).truncate();
         PixelSlopes {
             turns: self.normal_turns.map(|turn| turn.truncate()),
@@ -155,7 +155,7 @@ impl SurfacePoint<'_> {
     }
 
     /// The point under a filter that is `times` as wide.
-    pub fn with_footprint_of(self, times: f64) -> Self {
+    pub(crate) fn with_footprint_of(self, times: f64) -> Self {
         Self {
             footprint_axes_m: self.footprint_axes_m.map(|axis| axis * times),
             normal_turns: self.normal_turns.map(|turn| turn * times),

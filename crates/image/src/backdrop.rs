@@ -16,7 +16,7 @@ impl Backdrop {
     }
 
     /// The pixels of a picture of that size, row by row: as large as fills it, with the middle in the middle.
-    pub fn resized(&self, size_px: [u32; 2]) -> Vec<[f32; 3]> {
+    pub(crate) fn resized(&self, size_px: [u32; 2]) -> Vec<[f32; 3]> {
         let own_px = self.0.size_px;
         let scale = |axis: usize| f64::from(size_px[axis]) / f64::from(own_px[axis].max(1));
         let factor = scale(0).max(scale(1));

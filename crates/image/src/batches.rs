@@ -8,7 +8,7 @@ use crate::{Image, Noise, filter_traced};
 /// Samples in a batch of [`Batches`] whose pictures are averaged.
 pub const BATCH_SAMPLES: u32 = 4;
 /// Largest number of rounds of rays in a batch: the closed forms are computed once for each batch.
-pub const BATCH_ROUNDS: u32 = 16;
+const BATCH_ROUNDS: u32 = 16;
 
 /// Rounds of the first batch while somebody looks: of fewer, filtered, a picture is worse than one without.
 const FIRST_ROUNDS: u32 = 8;

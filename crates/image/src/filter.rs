@@ -96,7 +96,7 @@ impl Traced {
 
 impl Image {
     /// Replaces base and scratches by the light that rays found, without a filter, and sets their variances.
-    pub fn show_traced(&mut self) {
+    pub(crate) fn show_traced(&mut self) {
         let Some(traced) = &self.traced else { return };
         for (i, pixel) in traced.pixels.iter().enumerate() {
             [self.base[i], self.scratches[i]] = pixel.light();

@@ -163,7 +163,7 @@ impl TriangleIndex {
     }
 
     /// [`Self::intersect`] with a rule for surfaces that cover a part of what lies behind them.
-    pub fn intersect_covered(
+    pub(crate) fn intersect_covered(
         &self,
         origin: DVec3,
         direction: DVec3,

@@ -36,7 +36,7 @@ impl Cover {
     }
 
     /// The part of `reflected`, which a metal under it sends with its outer face, that comes from below that face.
-    pub fn part_below(&self, reflected: [f64; 3], cos_theta: f64) -> [f64; 3] {
+    pub(crate) fn part_below(&self, reflected: [f64; 3], cos_theta: f64) -> [f64; 3] {
         let outer = self.outer(cos_theta);
         // A black plate of the index of air sends nothing.
         reflected.map(|all| if all > 0.0 { 1.0 - outer / all } else { 0.0 })

@@ -42,7 +42,7 @@ impl GrooveSpectrum {
     }
 
     /// The grid for grooves of this depth and less.
-    pub fn down_to(depth_nm: f64, shape: &GrooveShape) -> Self {
+    pub(crate) fn down_to(depth_nm: f64, shape: &GrooveShape) -> Self {
         let kernel = match shape.is_wide() {
             false => Kernel::narrow(),
             true => Kernel::wide(shape.width_in_windows()),

@@ -100,7 +100,7 @@ impl AreaLights {
     }
 
     /// Any lights, in this order.
-    pub fn from_lights<'l>(lights: impl IntoIterator<Item = &'l Light>) -> Self {
+    pub(crate) fn from_lights<'l>(lights: impl IntoIterator<Item = &'l Light>) -> Self {
         Self::with_textures(lights, &Arc::default())
     }
 
@@ -108,7 +108,7 @@ impl AreaLights {
     ///
     /// # Panics
     /// Panics if a picture is not among them.
-    pub fn with_textures<'l>(
+    pub(crate) fn with_textures<'l>(
         lights: impl IntoIterator<Item = &'l Light>,
         textures: &Arc<Vec<Texture>>,
     ) -> Self {

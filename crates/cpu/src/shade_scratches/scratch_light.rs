@@ -168,7 +168,7 @@ impl<'a> ScratchLight<'a> {
     }
 
     /// Energy that the grooves of a grating take from the reflection in the mirror's direction.
-    pub fn taken_by_row(&self) -> DVec3 {
+    pub(crate) fn taken_by_row(&self) -> DVec3 {
         match self.table.by_incidence {
             true => self.incidence_row().taken().into(),
             false => self.all_around(),
@@ -355,7 +355,7 @@ impl<'a> ScratchLight<'a> {
 
     /// Light of radiance 1 from all sides off the scratch.
     #[inline(always)]
-    pub fn all_around(&self) -> DVec3 {
+    pub(crate) fn all_around(&self) -> DVec3 {
         let mut sum = DVec3::ZERO;
         self.for_cells(|cell| {
             let row = self.row(cell.direction.z);

@@ -23,7 +23,7 @@ impl RayStart {
     }
 
     /// The place of a hit, on the viewer's side.
-    pub fn from_hit(scene: &Scene, seen: &SeenHit) -> Self {
+    pub(crate) fn from_hit(scene: &Scene, seen: &SeenHit) -> Self {
         let SeenHit {
             hit,
             position_m,

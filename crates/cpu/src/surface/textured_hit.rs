@@ -158,7 +158,7 @@ impl<'a> TexturedHit<'a> {
     }
 
     /// Turns of the interpolated normal over the axes of the footprint.
-    pub fn smooth_turns(&self) -> [DVec3; 2] {
+    pub(crate) fn smooth_turns(&self) -> [DVec3; 2] {
         let [a, b, c] = self.normals;
         // Most triangles of what is flat have one normal.
         match a == b && a == c {

@@ -12,7 +12,7 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Rows of a table by the component of the direction to the viewer across the grooves, over what the one along them leaves, from -1 to 1; and by the
 /// angle to the plane across them, from 0 to 90 degrees.
-pub const INCIDENCES: [usize; 2] = [64, 8];
+const INCIDENCES: [usize; 2] = [64, 8];
 
 const _: () = assert!(INCIDENCES[0] * INCIDENCES[1] == ROWS);
 

@@ -252,7 +252,13 @@ impl Efficiencies {
 
     /// The share of unpolarised light that an order sends back. It comes from a direction with the components `across` and `along` the
     /// grooves; the one that it leaves in has `across` - order times wavelength over pitch with the same sign, as seen from the surface on the other side.
-    pub fn efficiency(&self, order: i32, wavelength_nm: f64, across: f64, along: f64) -> f64 {
+    pub(crate) fn efficiency(
+        &self,
+        order: i32,
+        wavelength_nm: f64,
+        across: f64,
+        along: f64,
+    ) -> f64 {
         let cos = (1.0 - along * along).max(0.0).sqrt();
         let order = if across < 0.0 { -order } else { order };
         let across = across.abs().min(cos);
