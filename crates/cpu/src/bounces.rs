@@ -12,13 +12,13 @@ use glam::{DVec3, Vec3};
 use hairline_optics::mask::ScratchSums;
 
 impl<'a> Shadows<'a> {
-    /// Room for a thread.
-    pub fn rooms(&self) -> Vec<HitBuffers<'a>> {
-        let room = || HitBuffers {
+    /// Buffers for a thread.
+    pub fn hit_buffers(&self) -> Vec<HitBuffers<'a>> {
+        let new = || HitBuffers {
             views: LightViews::new(self.prepared.scene),
             picks: Picks::new(),
         };
-        (0..self.options.bounces).map(|_| room()).collect()
+        (0..self.options.bounces).map(|_| new()).collect()
     }
 
     /// Radiance that arrives at a point along one of its rays from the object that the ray has met. The ray stands for a solid angle, and
@@ -27,7 +27,7 @@ impl<'a> Shadows<'a> {
         &self,
         at: &ShadowPoint,
         met: &MetObject,
-        rooms: &mut [HitBuffers<'a>],
+        hit_buffers: &mut [HitBuffers<'a>],
     ) -> DVec3 {
         let MetObject {
             origin_m,
@@ -37,7 +37,7 @@ impl<'a> Shadows<'a> {
             round,
             by_base,
         } = *met;
-        let Some((HitBuffers { views, picks }, rooms)) = rooms.split_first_mut() else {
+        let Some((HitBuffers { views, picks }, hit_buffers)) = hit_buffers.split_first_mut() else {
             return DVec3::ZERO;
         };
         let scene = self.prepared.scene;
@@ -82,7 +82,7 @@ impl<'a> Shadows<'a> {
             base: self.base(
                 &onwards,
                 &PixelBase::of_point(onwards.point, onwards.views),
-                rooms,
+                hit_buffers,
             ),
             ..PointLight::default()
         };
@@ -90,9 +90,9 @@ impl<'a> Shadows<'a> {
             picks.clear(1, onwards.picks_seed());
             let point = ScratchPoint::of_ray(&point, hit.object, views);
             pick_one_pair(self.prepared, &point, &mut sums, picks);
-            light.scratches = self.by_picks(&onwards, picks, rooms);
+            light.scratches = self.by_picks(&onwards, picks, hit_buffers);
         }
-        light.gratings = has_gratings.then(|| self.gratings(&onwards, picks, rooms));
+        light.gratings = has_gratings.then(|| self.gratings(&onwards, picks, hit_buffers));
         let coherence = self.prepared.depth_coherence(hit.object);
         let masked = sums.resolve(self.options.mask, coherence);
         let sample = Sample::surface(&point, hit.object, &masked, light, 0.0);

@@ -58,7 +58,7 @@ pub(crate) enum PictureMethod<'a> {
     Other(Box<dyn PointShader + 'a>),
 }
 
-/// The room that a thread needs for a tile, filled anew for each.
+/// The buffers that a thread needs for a tile, filled anew for each.
 pub(crate) struct Tile<'a> {
     picture: &'a Picture<'a>,
     /// Callback that tells whether to stop. It is called before each batch, and with shadows before each point, since its rays take
@@ -75,7 +75,7 @@ pub(crate) struct Tile<'a> {
     /// Picks of each point, if there are shadows.
     picks: Option<Vec<Picks>>,
     grating_picks: Picks,
-    rooms: Vec<HitBuffers<'a>>,
+    hit_buffers: Vec<HitBuffers<'a>>,
     shader: ScratchShader,
     pixels: Vec<Pixel>,
     pub counts: Counts,
@@ -101,7 +101,10 @@ impl<'a> Tile<'a> {
                 .as_ref()
                 .map(|_| (0..BATCH).map(|_| Picks::new()).collect()),
             grating_picks: Picks::new(),
-            rooms: picture.shadows.as_ref().map_or(Vec::new(), |it| it.rooms()),
+            hit_buffers: picture
+                .shadows
+                .as_ref()
+                .map_or(Vec::new(), |it| it.hit_buffers()),
             shader: ScratchShader::new(),
             pixels: vec![Pixel::default(); SIDE * SIDE],
             counts: Counts::default(),

@@ -38,14 +38,14 @@ impl BinPasses {
         &self,
         recording: &mut Recording,
         scans: &ScanPasses,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         segments: u32,
     ) {
         let workgroups = in_a_row((segments + 1).div_ceil(WORKGROUP));
-        let entry_starts = &room.lists.entry_starts;
+        let entry_starts = &buffers.lists.entry_starts;
         let bound = Project { entry_starts };
         self.project.run(recording, &bound, &workgroups);
-        let scan = &room.lists.entry_scan;
+        let scan = &buffers.lists.entry_scan;
         scans.record(recording.encoder, scan, recording.timing);
     }
 
@@ -54,23 +54,23 @@ impl BinPasses {
         &self,
         recording: &mut Recording,
         scans: &ScanPasses,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         tiles: u32,
         segments: u32,
     ) -> usize {
-        let lists = &room.lists;
+        let lists = &buffers.lists;
         let workgroups = in_a_row(segments.div_ceil(WORKGROUP));
         let bound = Bin {
             entry_starts: &lists.entry_starts,
             entries: &lists.entries[0],
         };
         self.bin.run(recording, &bound, &workgroups);
-        let blocks = room.sizes.workgroups(ENTRIES);
+        let blocks = buffers.sizes.workgroups(ENTRIES);
         let sorted = self.sort.record(recording, scans, lists, tiles, &blocks);
         let workgroups = in_a_row((tiles + 1).div_ceil(TILES_WORKGROUP));
         let bound = TileLists {
             entries: &lists.entries[sorted],
-            list_starts: &room.list_starts,
+            list_starts: &buffers.list_starts,
         };
         self.tile_lists.run(recording, &bound, &workgroups);
         sorted

@@ -217,9 +217,9 @@ pub(crate) struct Bounce<'a> {
 }
 
 impl<'a> Bounce<'a> {
-    /// Rays of a round that was written. Hits lie in two rooms in turn. None until there are shadows.
+    /// Rays of a round that was written. Hits lie in two sets of buffers in turn. None until there are shadows.
     pub(crate) fn new(
-        room: &'a StripBuffers,
+        strip: &'a StripBuffers,
         buffers: &'a BounceBuffers,
         film: &'a Film,
         round: &ShadowRound,
@@ -228,7 +228,7 @@ impl<'a> Bounce<'a> {
         let depth = round.depth;
         let turn = depth as usize % 2;
         let from = match depth {
-            0 => room,
+            0 => strip,
             _ => &buffers.hits[1 - turn],
         };
         Some(Self {
@@ -236,7 +236,7 @@ impl<'a> Bounce<'a> {
             shadows: from.shadows.as_ref()?,
             to: &buffers.hits[turn],
             buffers,
-            seen: room.shadows.as_ref()?,
+            seen: strip.shadows.as_ref()?,
             film,
             groups: groups.clone(),
             depth,

@@ -110,13 +110,13 @@ impl ScenePasses {
     pub(crate) fn record_edges(
         &self,
         recording: &mut Recording,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         film: &Film,
         tiles: u32,
     ) {
         let bound = Edges {
             film: &film.buffer,
-            group_starts: &room.group_starts,
+            group_starts: &buffers.group_starts,
         };
         self.edges.run(recording, &bound, &in_a_row(tiles));
     }
@@ -125,38 +125,38 @@ impl ScenePasses {
     pub(crate) fn record_surface(
         &self,
         recording: &mut Recording,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         film: &Film,
         rows: u32,
     ) {
         let bound = Surface {
-            visibility: &room.visibility,
-            points: &room.samples.points,
-            paints: &room.samples.paints,
-            group_starts: &room.group_starts,
+            visibility: &buffers.visibility,
+            points: &buffers.samples.points,
+            paints: &buffers.samples.paints,
+            group_starts: &buffers.group_starts,
             film: &film.buffer,
         };
-        self.surface.run(recording, &bound, &room.tiles(rows));
+        self.surface.run(recording, &bound, &buffers.tiles(rows));
     }
 
     /// Adds base and scratches of the pixels of so many rows to the film.
     pub(crate) fn record_resolve(
         &self,
         recording: &mut Recording,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         film: &Film,
         rows: u32,
     ) {
-        let samples = &room.samples;
+        let samples = &buffers.samples;
         let bound = Resolve {
             points: &samples.points,
             base_light: &samples.base_light,
-            group_starts: &room.group_starts,
+            group_starts: &buffers.group_starts,
             chunk_starts: &samples.chunk_starts,
             chunk_sums: &samples.chunk_sums,
             film: &film.buffer,
         };
-        self.resolve.run(recording, &bound, &room.tiles(rows));
+        self.resolve.run(recording, &bound, &buffers.tiles(rows));
     }
 }
 
@@ -165,17 +165,17 @@ impl ScratchPasses {
     pub(crate) fn record_share(
         &self,
         recording: &mut Recording,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         film: &Film,
         rows: u32,
     ) {
         let bound = ShareScratches {
-            points: &room.samples.points,
-            paints: &room.samples.paints,
-            group_starts: &room.group_starts,
+            points: &buffers.samples.points,
+            paints: &buffers.samples.paints,
+            group_starts: &buffers.group_starts,
             film: &film.buffer,
         };
-        self.share.run(recording, &bound, &room.tiles(rows));
+        self.share.run(recording, &bound, &buffers.tiles(rows));
     }
 }
 
@@ -184,11 +184,11 @@ impl Shade {
     pub(crate) fn record(
         &self,
         recording: &mut Recording,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         film: &Film,
         groups: &Workgroups,
     ) {
-        let (scene, samples) = (recording.scene, &room.samples);
+        let (scene, samples) = (recording.scene, &buffers.samples);
         match self {
             Self::Own { base, gratings, .. } => {
                 let bound = ShadeBase {
@@ -200,7 +200,7 @@ impl Shade {
                 base.run(recording, &bound, groups);
                 if let Some(gratings) = gratings {
                     let sums = &samples.chunk_sums;
-                    let bound = shade_gratings::bindings(scene, room, film, sums);
+                    let bound = shade_gratings::bindings(scene, buffers, film, sums);
                     gratings.run(recording, &bound, groups);
                 }
             }

@@ -23,15 +23,15 @@ pub(crate) fn kinds(
 /// Bindings of a pass that writes sums, or picks.
 pub(crate) fn bindings<'a>(
     scene: &'a SceneData,
-    room: &'a StripBuffers,
+    buffers: &'a StripBuffers,
     film: &'a Film,
     grating_words: &'a wgpu::Buffer,
 ) -> ShadeGratings<'a> {
     ShadeGratings {
-        points: &room.samples.points,
-        paints: &room.samples.paints,
+        points: &buffers.samples.points,
+        paints: &buffers.samples.paints,
         gratings: scene.buffers.gratings(),
-        chunk_starts: &room.samples.chunk_starts,
+        chunk_starts: &buffers.samples.chunk_starts,
         grating_words,
         film: &film.buffer,
         range: &scene.light_ranges.buffer,

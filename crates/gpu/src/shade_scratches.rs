@@ -36,16 +36,16 @@ impl ShadeScratchesPass {
         &self,
         recording: &mut Recording,
         scans: &ScanPasses,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
     ) {
-        let workgroups = in_a_row((room.samples.groups_max + 1).div_ceil(CHUNKS_WORKGROUP));
+        let workgroups = in_a_row((buffers.samples.groups_max + 1).div_ceil(CHUNKS_WORKGROUP));
         let bound = GroupChunks {
-            group_starts: &room.group_starts,
-            list_starts: &room.list_starts,
-            chunk_starts: &room.samples.chunk_starts,
+            group_starts: &buffers.group_starts,
+            list_starts: &buffers.list_starts,
+            chunk_starts: &buffers.samples.chunk_starts,
         };
         self.chunks.run(recording, &bound, &workgroups);
-        let scan = &room.samples.chunk_scan;
+        let scan = &buffers.samples.chunk_scan;
         scans.record(recording.encoder, scan, recording.timing);
     }
 
@@ -53,10 +53,10 @@ impl ShadeScratchesPass {
     pub(crate) fn record(
         &self,
         recording: &mut Recording,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         chunks: &Workgroups,
     ) {
-        let bound = bindings(recording.scene, room, &room.samples.chunk_sums);
+        let bound = bindings(recording.scene, buffers, &buffers.samples.chunk_sums);
         self.kinds.run(recording, &bound, chunks);
     }
 }
@@ -73,15 +73,15 @@ pub(crate) fn kinds(
 /// Bindings of a pass that writes sums, or picks.
 pub(crate) fn bindings<'a>(
     scene: &'a SceneData,
-    room: &'a StripBuffers,
+    buffers: &'a StripBuffers,
     chunk_words: &'a wgpu::Buffer,
 ) -> ShadeScratches<'a> {
     ShadeScratches {
-        group_starts: &room.group_starts,
-        points: &room.samples.points,
-        entries: room.lists.sorted(),
-        list_starts: &room.list_starts,
-        chunk_starts: &room.samples.chunk_starts,
+        group_starts: &buffers.group_starts,
+        points: &buffers.samples.points,
+        entries: buffers.lists.sorted(),
+        list_starts: &buffers.list_starts,
+        chunk_starts: &buffers.samples.chunk_starts,
         chunk_words,
         range: &scene.light_ranges.buffer,
     }

@@ -86,8 +86,8 @@ impl ShadowBuffers {
     ) -> Result<u32, Error> {
         // States take at most half of an array: sums take twice as much. One pick always fits.
         let most = PICKS_BYTES_MOST.min(gpu.largest_array()) / 2;
-        let room = most / (PICK_BYTES * points.first.max(1));
-        let count = room.clamp(1, PICKS_MOST).min(u64::from(wanted.max(1)));
+        let fits = most / (PICK_BYTES * points.first.max(1));
+        let count = fits.clamp(1, PICKS_MOST).min(u64::from(wanted.max(1)));
         let bytes = PICK_BYTES * (lanes + points.most.max(points.first * count));
         if self.picks_bytes < bytes {
             self.picks_bytes = 0;

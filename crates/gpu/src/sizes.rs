@@ -33,7 +33,7 @@ pub(crate) const CHUNKS: usize = COUNTED_CHUNKS as usize;
 pub(crate) struct Sizes {
     pub buffer: wgpu::Buffer,
     /// Numbers that there is room for.
-    pub room: Numbers,
+    pub capacity: Numbers,
     /// Numbers that there is to be room for: a quarter more than was needed.
     pub wanted: Numbers,
 }
@@ -55,7 +55,7 @@ impl Sizes {
         let bytes = size_of::<layout::Sizes>() as u64;
         Ok(Self {
             buffer: gpu.buffer("sizes", bytes, usage).await?,
-            room: [0; 3],
+            capacity: [0; 3],
             wanted: [0; 3],
         })
     }
@@ -68,18 +68,19 @@ impl Sizes {
     }
 
     /// Tells the device how much room there is.
-    pub(crate) fn set_room(&mut self, gpu: &Gpu, room: Numbers) {
-        if self.room != room {
-            self.room = room;
-            let at = offset_of!(layout::Sizes, room) as u64;
-            gpu.queue.write_buffer(&self.buffer, at, bytes_of(&room));
+    pub(crate) fn set_capacity(&mut self, gpu: &Gpu, capacity: Numbers) {
+        if self.capacity != capacity {
+            self.capacity = capacity;
+            let at = offset_of!(layout::Sizes, capacity) as u64;
+            gpu.queue
+                .write_buffer(&self.buffer, at, bytes_of(&capacity));
         }
     }
 
     /// Takes note of what was needed of strips that will have `1 / parts` of the rows.
     pub(crate) fn want(&mut self, gpu: &Gpu, needed: Numbers, parts: u32) {
-        for ((wanted, needed), room) in self.wanted.iter_mut().zip(needed).zip(self.room) {
-            if needed > room {
+        for ((wanted, needed), most) in self.wanted.iter_mut().zip(needed).zip(self.capacity) {
+            if needed > most {
                 *wanted = (needed / parts).saturating_add(needed / 4);
             }
         }

@@ -64,13 +64,13 @@ pub(crate) struct StripBuffers {
     pub bounces: Option<Box<BounceBuffers>>,
 }
 
-/// Arrays over samples in which the passes of bounces store their results for one another, and the rooms for their hits. They grow to the size
+/// Arrays over samples in which the passes of bounces store their results for one another, and the buffers of their hits. They grow to the size
 /// that is needed.
 pub(crate) struct BounceBuffers {
     pub round: wgpu::Buffer,
     pub rays: wgpu::Buffer,
     pub points_max: u64,
-    /// Two rooms that take turns: rays leave the hits of one, and the hits that they meet lie in the other.
+    /// Two sets of buffers that take turns: rays leave the hits of one, and the hits that they meet lie in the other.
     pub hits: [StripBuffers; 2],
     pub groups_max: u32,
 }

@@ -21,7 +21,7 @@ impl StripRays<'_, '_> {
     pub(crate) async fn shade(
         &self,
         shadows: &Shadows,
-        room: &mut StripBuffers,
+        buffers: &mut StripBuffers,
         on: &Scratched,
         rows: u32,
     ) -> Result<(), Error> {
@@ -30,15 +30,15 @@ impl StripRays<'_, '_> {
             now: view.rounds(),
             seed: 0,
         };
-        self.shadows(shadows, room, on, rounds).await?;
+        self.shadows(shadows, buffers, on, rounds).await?;
         if let Some(bounces) = view.bounces() {
-            self.bounces(bounces, room, on).await?;
+            self.bounces(bounces, buffers, on).await?;
         }
-        self.finish(shadows, room, &on.groups, rounds.now.count);
+        self.finish(shadows, buffers, &on.groups, rounds.now.count);
         self.strip.submit(view, |recording| {
             let passes = &view.uploaded.passes;
-            passes.record_resolve(recording, room, film, rows);
-            shadows.record_film(recording, room, film, rows);
+            passes.record_resolve(recording, buffers, film, rows);
+            shadows.record_film(recording, buffers, film, rows);
         });
         Ok(())
     }
@@ -47,19 +47,19 @@ impl StripRays<'_, '_> {
     async fn shadows(
         &self,
         shadows: &Shadows,
-        room: &mut StripBuffers,
+        buffers: &mut StripBuffers,
         on: &Scratched,
         rounds: Rounds,
     ) -> Result<(), Error> {
         let Self { view, points, .. } = *self;
         let (gpu, groups) = (&self.strip.gpu, &on.groups);
-        let mut shadow_buffers = match room.shadows.take() {
+        let mut shadow_buffers = match buffers.shadows.take() {
             Some(shadow_buffers) => shadow_buffers,
             None => ShadowBuffers::new(gpu).await?,
         };
         let layers = shadows.layers;
         shadow_buffers.make_room(gpu, points.most, layers).await?;
-        let lanes = room.lanes();
+        let lanes = buffers.lanes();
         self.strip.submit(self.view, |recording| {
             shadow_buffers.clear(recording.encoder)
         });
@@ -83,9 +83,9 @@ impl StripRays<'_, '_> {
                 next.round = round;
                 next.ends_round = (i + 1 == sources.len()).into();
                 shadow_buffers.write(gpu, &next);
-                let buffers = self.ray_buffers(room, &shadow_buffers);
+                let rays = self.ray_buffers(buffers, &shadow_buffers);
                 self.strip.submit(self.view, |recording| {
-                    shadows.record_base_round(kind, recording, buffers, groups);
+                    shadows.record_base_round(kind, recording, rays, groups);
                 });
             }
         }
@@ -103,16 +103,16 @@ impl StripRays<'_, '_> {
                     next.picks = most.min(next.rounds - round);
                 }
                 shadow_buffers.write(gpu, &next);
-                let buffers = self.ray_buffers(room, &shadow_buffers);
+                let rays = self.ray_buffers(buffers, &shadow_buffers);
                 self.strip.submit(self.view, |recording| {
                     if round == next.first_pick {
-                        by.record_picks(recording, buffers, on);
+                        by.record_picks(recording, rays, on);
                     }
-                    shadows.record_picked_round(by, recording, buffers, groups);
+                    shadows.record_picked_round(by, recording, rays, groups);
                 });
             }
         }
-        room.shadows = Some(shadow_buffers);
+        buffers.shadows = Some(shadow_buffers);
         Ok(())
     }
 
@@ -130,8 +130,8 @@ impl StripRays<'_, '_> {
     }
 
     /// Converts the sums of so many rounds to light.
-    fn finish(&self, shadows: &Shadows, room: &StripBuffers, groups: &Workgroups, rounds: u32) {
-        let Some(shadow_buffers) = &room.shadows else {
+    fn finish(&self, shadows: &Shadows, buffers: &StripBuffers, groups: &Workgroups, rounds: u32) {
+        let Some(shadow_buffers) = &buffers.shadows else {
             return;
         };
         let all = ShadowRound {
@@ -140,8 +140,8 @@ impl StripRays<'_, '_> {
         };
         shadow_buffers.write(&self.strip.gpu, &all);
         self.strip.submit(self.view, |recording| {
-            let buffers = self.ray_buffers(room, shadow_buffers);
-            shadows.record_light(recording, buffers, groups);
+            let rays = self.ray_buffers(buffers, shadow_buffers);
+            shadows.record_light(recording, rays, groups);
         });
     }
 
@@ -149,7 +149,7 @@ impl StripRays<'_, '_> {
     async fn bounces(
         &self,
         bounces: &Bounces,
-        room: &mut StripBuffers,
+        buffers: &mut StripBuffers,
         on: &Scratched,
     ) -> Result<(), Error> {
         let Self {
@@ -159,20 +159,21 @@ impl StripRays<'_, '_> {
             ..
         } = *self;
         let (gpu, scans, passes) = (&strip.gpu, &strip.scans, &view.uploaded.passes);
-        let mut bounce_buffers = match room.bounces.take() {
+        let mut bounce_buffers = match buffers.bounces.take() {
             Some(bounce_buffers) => bounce_buffers,
             None => Box::new(BounceBuffers::new(gpu, scans).await?),
         };
-        let made = bounce_buffers.make_room(gpu, scans, passes, room, points.most, bounces.count);
+        let made =
+            bounce_buffers.make_room(gpu, scans, passes, buffers, points.most, bounces.count);
         made.await?;
         let Batch {
             first: first_round,
             count: rounds,
         } = view.rounds();
         let mut most = rounds;
-        let lanes = room.lanes();
+        let lanes = buffers.lanes();
         if bounces.scratches.is_some()
-            && let Some(shadow_buffers) = &mut room.shadows
+            && let Some(shadow_buffers) = &mut buffers.shadows
         {
             let made = shadow_buffers.make_room_for_picks(gpu, points, lanes, rounds);
             most = made.await?;
@@ -195,10 +196,10 @@ impl StripRays<'_, '_> {
                     ..ShadowRound::default()
                 };
                 let hits = &mut *bounce_buffers;
-                self.go_on(bounces, room, hits, on, first).await?;
+                self.go_on(bounces, buffers, hits, on, first).await?;
             }
         }
-        room.bounces = Some(bounce_buffers);
+        buffers.bounces = Some(bounce_buffers);
         Ok(())
     }
 
@@ -206,7 +207,7 @@ impl StripRays<'_, '_> {
     async fn go_on(
         &self,
         bounces: &Bounces,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         bounce_buffers: &mut BounceBuffers,
         on: &Scratched,
         first: ShadowRound,
@@ -234,7 +235,7 @@ impl StripRays<'_, '_> {
             bounce_buffers.write(&self.strip.gpu, &round);
             let to = depth as usize % 2;
             self.strip.submit(self.view, |recording| {
-                let Some(by) = Bounce::new(room, bounce_buffers, self.film, &round, &on.groups)
+                let Some(by) = Bounce::new(buffers, bounce_buffers, self.film, &round, &on.groups)
                 else {
                     return;
                 };
@@ -249,7 +250,9 @@ impl StripRays<'_, '_> {
             let next = seed(&first, depth + 1);
             self.shade_hits(bounces, hits, &mut on, next).await?;
             self.strip.submit(self.view, |recording| {
-                if let Some(by) = Bounce::new(room, bounce_buffers, self.film, &round, &on.groups) {
+                if let Some(by) =
+                    Bounce::new(buffers, bounce_buffers, self.film, &round, &on.groups)
+                {
                     bounces.record_light(recording, &by);
                 }
             });

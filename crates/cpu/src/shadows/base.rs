@@ -82,7 +82,7 @@ impl<'a> Shadows<'a> {
         &self,
         at: &ShadowPoint,
         base: &PixelBase,
-        rooms: &mut [HitBuffers<'a>],
+        hit_buffers: &mut [HitBuffers<'a>],
     ) -> BaseLight {
         let lobes = Lobes::new(&base.whole, at.point);
         let sources = if at.depth == 0 {
@@ -101,7 +101,7 @@ impl<'a> Shadows<'a> {
             diffuse: LayerRays::new(open.diffuse, around.diffuse),
         };
         for round in 0..at.rounds.now.count {
-            self.base_round(at, &lobes, round, &sources, &mut rays, rooms);
+            self.base_round(at, &lobes, round, &sources, &mut rays, hit_buffers);
             rays.specular.end_round();
             rays.diffuse.end_round();
         }
@@ -182,7 +182,7 @@ impl<'a> Shadows<'a> {
         round: u32,
         sources: &[Source],
         rays: &mut BaseRays,
-        rooms: &mut [HitBuffers<'a>],
+        hit_buffers: &mut [HitBuffers<'a>],
     ) {
         let [u, v, ..] = at.random(Purpose::Origin, round);
         let start = self.under_the_pixel(at, normals(u, v));
@@ -201,7 +201,7 @@ impl<'a> Shadows<'a> {
                     round,
                     by_base: true,
                 };
-                let brought = self.light_of_object(at, &met, rooms);
+                let brought = self.light_of_object(at, &met, hit_buffers);
                 rays.bounce(ray.sent.times(brought / ray.pdf));
             }
         }

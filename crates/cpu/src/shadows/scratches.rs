@@ -16,7 +16,7 @@ impl<'a> Shadows<'a> {
         &self,
         at: &ShadowPoint,
         picks: &mut Picks,
-        rooms: &mut [HitBuffers<'a>],
+        hit_buffers: &mut [HitBuffers<'a>],
     ) -> (ShadedGratings, LayerLight) {
         // Other numbers than those of the point's scratches.
         let at = &ShadowPoint {
@@ -26,7 +26,7 @@ impl<'a> Shadows<'a> {
         picks.clear(at.rounds.now.count, at.picks_seed());
         let (prepared, point) = (self.prepared, at.point);
         let open = ShadedGratings::new(prepared, point, at.object, at.views, Some(picks));
-        (open, self.by_picks(at, picks, rooms))
+        (open, self.by_picks(at, picks, hit_buffers))
     }
 
     /// Returns the scratches' light that is not hidden, before they weaken one another, and the light of other objects off them.
@@ -34,7 +34,7 @@ impl<'a> Shadows<'a> {
         &self,
         at: &ShadowPoint,
         picks: &Picks,
-        rooms: &mut [HitBuffers<'a>],
+        hit_buffers: &mut [HitBuffers<'a>],
     ) -> LayerLight {
         let bounces = at.depth < self.options.bounces;
         // Until it is known what all send from all around, as if that were 1.
@@ -48,7 +48,7 @@ impl<'a> Shadows<'a> {
                 self.to_source(at, &frame, round, pick, weight_of_one, &mut rays);
             }
             if bounces && let Some(pick) = picks.by_energy.get(round) {
-                rays.bounce(self.by_object(at, round, pick, &mut brought, rooms));
+                rays.bounce(self.by_object(at, round, pick, &mut brought, hit_buffers));
             }
             rays.end_round();
         }
@@ -103,7 +103,7 @@ impl<'a> Shadows<'a> {
         round: u32,
         pick: &Pick,
         brought: &mut Brought,
-        rooms: &mut [HitBuffers<'a>],
+        hit_buffers: &mut [HitBuffers<'a>],
     ) -> DVec3 {
         let point = at.point;
         let by = self.picked(point, pick);
@@ -124,7 +124,7 @@ impl<'a> Shadows<'a> {
                 round,
                 by_base: false,
             };
-            self.light_of_object(at, &met, rooms)
+            self.light_of_object(at, &met, hit_buffers)
         });
         brought.add(pick, pick.share * sent, drawn.color, light);
         light

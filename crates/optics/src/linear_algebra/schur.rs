@@ -278,7 +278,7 @@ impl<S: Simd> Schur<S> {
             rows.set(i, i, rows.entry(i, i) - shift);
         }
         let mut rotations = Vec::with_capacity(end - from);
-        let mut room = panel::<S>(self.adjoint);
+        let mut workspace = panel::<S>(self.adjoint);
         for k in from..end - 1 {
             let rotation = Rotation::new(rows.entry(k, k), rows.entry(k + 1, k));
             let [upper, lower] = rows.two_rows(k, k);
@@ -297,7 +297,7 @@ impl<S: Simd> Schur<S> {
                 first,
                 column,
                 &rotations[column - from..],
-                &mut room,
+                &mut workspace,
             );
         }
         for i in from..end {
@@ -314,22 +314,23 @@ fn rotate_columns<S: Simd>(
     first: usize,
     from: usize,
     rotations: &[Rotation],
-    room: &mut [f64],
+    workspace: &mut [f64],
 ) {
     let lanes = S::F64_LANES;
     let skipped = from % lanes;
-    let room = &mut room[..(skipped + rotations.len() + 1).next_multiple_of(lanes) * 2 * lanes];
+    let workspace =
+        &mut workspace[..(skipped + rotations.len() + 1).next_multiple_of(lanes) * 2 * lanes];
     let block = matrix.values.chunks_exact_mut(matrix.vectors * 2 * lanes);
     for (l, row) in block.skip(first).take(lanes).enumerate() {
         let vectors = row[from / lanes * 2 * lanes..].chunks_exact(2 * lanes);
-        for (columns, vector) in room.chunks_exact_mut(2 * lanes * lanes).zip(vectors) {
+        for (columns, vector) in workspace.chunks_exact_mut(2 * lanes * lanes).zip(vectors) {
             for j in 0..lanes {
                 columns[2 * lanes * j + l] = vector[j];
                 columns[2 * lanes * j + l + lanes] = vector[j + lanes];
             }
         }
     }
-    let columns = &mut rows::<S>(room)[skipped..];
+    let columns = &mut rows::<S>(workspace)[skipped..];
     let mut x = columns[0];
     for (k, rotation) in rotations.iter().enumerate() {
         let mut y = columns[k + 1];
@@ -341,7 +342,7 @@ fn rotate_columns<S: Simd>(
     let block = matrix.values.chunks_exact_mut(matrix.vectors * 2 * lanes);
     for (l, row) in block.skip(first).take(lanes).enumerate() {
         let vectors = row[from / lanes * 2 * lanes..].chunks_exact_mut(2 * lanes);
-        for (columns, vector) in room.chunks_exact(2 * lanes * lanes).zip(vectors) {
+        for (columns, vector) in workspace.chunks_exact(2 * lanes * lanes).zip(vectors) {
             for j in 0..lanes {
                 vector[j] = columns[2 * lanes * j + l];
                 vector[j + lanes] = columns[2 * lanes * j + l + lanes];
