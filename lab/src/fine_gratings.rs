@@ -85,7 +85,7 @@ pub(crate) fn measured() -> String {
                 let ours = fine.as_ref().map(|table| {
                     let seen = IncidenceRow::new(table, [across, along]);
                     move |low: f64, high: f64| {
-                        let at = |q: f64| luminance(seen.at(GRATING_WIDTH_UM * q));
+                        let at = |q: f64| luminance(seen.look_up(GRATING_WIDTH_UM * q));
                         (at(high) - at(low)).abs()
                     }
                 });

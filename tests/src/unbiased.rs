@@ -253,6 +253,6 @@ pub fn found(
         off: errors().sum::<f64>() / all,
         off_std: squares.sqrt() / all,
         rms: (squares - noise).max(0.0).sqrt() * count.sqrt() / all,
-        z: ZTest::between(image.size_px, &a, &b, Some(inside)).expect("both are estimates"),
+        z: ZTest::compare(image.size_px, &a, &b, Some(inside)).expect("both are estimates"),
     }
 }

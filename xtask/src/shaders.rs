@@ -36,7 +36,7 @@ struct Module {
 struct Pass {
     name: String,
     text: String,
-    entry: String,
+    entry: &'static str,
     constants: BTreeMap<&'static str, f64>,
 }
 
@@ -48,12 +48,12 @@ impl Shaders {
         let published = hairline_published::shaders::ALL;
         for module in shaders::ALL.iter().chain(published) {
             let text = shaders::compose(&[module]);
-            for entry in entries(module.source) {
-                passes.extend(pipeline_variants(&text, &methods).into_iter().map(
+            for entry in module.entry_points {
+                passes.extend(pipeline_variants(module, &methods).into_iter().map(
                     |(variant, constants)| Pass {
                         name: format!("{}, {variant}", module.name),
                         text: text.clone(),
-                        entry: entry.clone(),
+                        entry,
                         constants: constants.into_iter().collect(),
                     },
                 ));
@@ -83,12 +83,4 @@ fn methods() -> [(&'static str, Method); 3] {
         ("published", hairline_published::Method::PUBLISHED.on_gpu()),
         ("published by lists, linear mask", by_lists.on_gpu()),
     ]
-}
-
-/// The compute entry points of a file: the functions that follow `@compute`.
-fn entries(source: &str) -> impl Iterator<Item = String> {
-    source.split("@compute").skip(1).filter_map(|after| {
-        let (_, name) = after.split_once("fn ")?;
-        Some(name.split('(').next()?.trim().to_owned())
-    })
 }

@@ -20,7 +20,7 @@ pub fn alpha(scene: &Scene, triangles: &TriangleIndex, done: u32, samples: u32) 
     if !scene.camera.has_lens() {
         return shares(scene, triangles, &scene.camera.frame(size_px), all, samples);
     }
-    let batches: Vec<_> = Batch::of(samples)
+    let batches: Vec<_> = Batch::split(samples)
         .filter(|batch| batch.first < done)
         .collect();
     let mut sums = vec![0.0; size_px[0] as usize * size_px[1] as usize];

@@ -7,18 +7,18 @@ use crate::resolve::{PointLight, Sample};
 use crate::shade_base::PixelBase;
 use crate::shade_scratches::{Picks, ScratchPoint, pick_one_pair};
 use crate::shadows::{HitBuffers, MetObject, ShadowPoint, Shadows};
-use crate::surface::{SurfacePoint, surface_point};
+use crate::surface::{SeenHit, SurfacePoint, surface_point};
 use glam::{DVec3, Vec3};
 use hairline_optics::mask::ScratchSums;
 
 impl<'a> Shadows<'a> {
-    /// Room for a thread.
-    pub fn rooms(&self) -> Vec<HitBuffers<'a>> {
-        let room = || HitBuffers {
+    /// Buffers for a thread.
+    pub fn hit_buffers(&self) -> Vec<HitBuffers<'a>> {
+        let new = || HitBuffers {
             views: LightViews::new(self.prepared.scene),
             picks: Picks::new(),
         };
-        (0..self.options.bounces).map(|_| room()).collect()
+        (0..self.options.bounces).map(|_| new()).collect()
     }
 
     /// Radiance that arrives at a point along one of its rays from the object that the ray has met. The ray stands for a solid angle, and
@@ -27,7 +27,7 @@ impl<'a> Shadows<'a> {
         &self,
         at: &ShadowPoint,
         met: &MetObject,
-        rooms: &mut [HitBuffers<'a>],
+        hit_buffers: &mut [HitBuffers<'a>],
     ) -> DVec3 {
         let MetObject {
             origin_m,
@@ -37,11 +37,15 @@ impl<'a> Shadows<'a> {
             round,
             by_base,
         } = *met;
-        let Some((HitBuffers { views, picks }, rooms)) = rooms.split_first_mut() else {
+        let Some((HitBuffers { views, picks }, hit_buffers)) = hit_buffers.split_first_mut() else {
             return DVec3::ZERO;
         };
         let scene = self.prepared.scene;
-        let position_m = origin_m + direction * hit.distance_m;
+        let seen = SeenHit {
+            hit: &hit,
+            position_m: origin_m + direction * hit.distance_m,
+            to_viewer: -direction,
+        };
         let across = |normal: DVec3, width_m: f64| {
             let leaves = normal.dot(direction).min(-MIN_COS);
             let (e1, e2) = direction.any_orthonormal_pair();
@@ -51,7 +55,7 @@ impl<'a> Shadows<'a> {
         let all_m = width(solid_angle_sr);
         let tables = &self.prepared.tables;
         let footprint = |normal| across(normal, all_m);
-        let mut point = surface_point(scene, tables, position_m, -direction, footprint, &hit);
+        let mut point = surface_point(scene, tables, &seen, footprint);
         // Rays meet other places each: the scratches of one place stand for those of a wide footprint, which are many.
         let scratches_m = width(0.0).min(point.coherence_um * 1e-6);
         point.footprint_axes_m = across(point.normal, scratches_m);
@@ -78,7 +82,7 @@ impl<'a> Shadows<'a> {
             base: self.base(
                 &onwards,
                 &PixelBase::of_point(onwards.point, onwards.views),
-                rooms,
+                hit_buffers,
             ),
             ..PointLight::default()
         };
@@ -86,9 +90,9 @@ impl<'a> Shadows<'a> {
             picks.clear(1, onwards.picks_seed());
             let point = ScratchPoint::of_ray(&point, hit.object, views);
             pick_one_pair(self.prepared, &point, &mut sums, picks);
-            light.scratches = self.by_picks(&onwards, picks, rooms);
+            light.scratches = self.by_picks(&onwards, picks, hit_buffers);
         }
-        light.gratings = has_gratings.then(|| self.gratings(&onwards, picks, rooms));
+        light.gratings = has_gratings.then(|| self.gratings(&onwards, picks, hit_buffers));
         let coherence = self.prepared.depth_coherence(hit.object);
         let masked = sums.resolve(self.options.mask, coherence);
         let sample = Sample::surface(&point, hit.object, &masked, light, 0.0);

@@ -121,10 +121,10 @@ pub struct LightViews<'a> {
 impl<'a> LightViews<'a> {
     /// Room for the lights of a scene.
     pub fn new(scene: &'a Scene) -> Self {
-        Self::of(scene.all_lights().collect(), &scene.textures)
+        Self::from_lights(scene.all_lights().collect(), &scene.textures)
     }
 
-    fn of(lights: Vec<&'a Light>, textures: &'a [Texture]) -> Self {
+    fn from_lights(lights: Vec<&'a Light>, textures: &'a [Texture]) -> Self {
         Self {
             lights,
             textures,
@@ -154,7 +154,7 @@ impl<'a> LightViews<'a> {
         let under_coat = point.under_coat();
         self.has_own_under_coat = under_coat.is_some();
         if let Some(under_coat) = under_coat {
-            let new = || Self::of(self.lights.clone(), self.textures).into();
+            let new = || Self::from_lights(self.lights.clone(), self.textures).into();
             self.under_coat
                 .get_or_insert_with(new)
                 .look_from(&under_coat);
@@ -319,7 +319,7 @@ impl<'a> LightViews<'a> {
             }));
             if let LightView::Polygon { vertices, .. } = view {
                 let directions = &self.directions[vertices.clone()];
-                self.edges.extend(OutlineEdge::around(directions));
+                self.edges.extend(OutlineEdge::of_outline(directions));
             }
         }
     }

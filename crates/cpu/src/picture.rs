@@ -23,20 +23,20 @@ impl<'a> PictureView<'a> {
     pub fn new(texture: &'a Texture, corners: &[DVec3]) -> Self {
         Self {
             texture,
-            plane: PicturePlane::of(corners),
+            plane: PicturePlane::from_corners(corners),
             across_variance: [0.0; 2],
         }
     }
 
     /// The picture for chords that stand for a band, by the band's variance at q = 0 and for each q².
-    pub fn across(self, across_variance: [f64; 2]) -> Self {
+    pub(crate) fn with_across_variance(self, across_variance: [f64; 2]) -> Self {
         Self {
             across_variance,
             ..self
         }
     }
 
-    fn at(&self, look: PictureLook) -> DVec3 {
+    fn radiance(&self, look: PictureLook) -> DVec3 {
         let size_px = self.texture.size_px.map(f64::from).into();
         picture_radiance(
             self.texture,
@@ -47,7 +47,7 @@ impl<'a> PictureView<'a> {
     }
 
     /// Mean of the picture in the reflection of a lobe.
-    pub fn on_lobe(&self, lobe: &LtcLobe, of: &LobeFresnel) -> DVec3 {
+    pub(crate) fn on_lobe(&self, lobe: &LtcLobe, of: &LobeFresnel) -> DVec3 {
         self.mean(|part| {
             let vector = ltc_vector(lobe, &part.corners());
             let reflected = ltc_small_light(lobe, of, vector);
@@ -56,7 +56,7 @@ impl<'a> PictureView<'a> {
     }
 
     /// Mean of the picture in the irradiance of a diffuse body.
-    pub fn on_body(&self) -> DVec3 {
+    pub(crate) fn on_body(&self) -> DVec3 {
         self.mean(|part| {
             let vector = irradiance_polygon(&part.corners());
             (DVec3::splat(vector.z), part.picture_look(vector))
@@ -85,10 +85,10 @@ impl<'a> PictureView<'a> {
 
     /// Colour of the picture for a part of a chord with its middle at q. `directions` are those of the part's ends and its
     /// middle.
-    pub fn on_chord(&self, directions: [DVec3; 3], q: f64) -> DVec3 {
+    pub(crate) fn on_chord(&self, directions: [DVec3; 3], q: f64) -> DVec3 {
         let [middle, per_q2] = self.across_variance;
         let across_std = (middle + per_q2 * q * q).max(0.0).sqrt();
-        self.at(self.plane.picture_on_chord(directions, across_std))
+        self.radiance(self.plane.picture_on_chord(directions, across_std))
     }
 }
 

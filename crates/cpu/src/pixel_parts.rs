@@ -2,7 +2,7 @@
 //! is seen through a narrower one (docs/model.md, (28e)). Twin: pixel_parts.wgsl.
 
 use crate::prepared::Prepared;
-use crate::surface::{BumpSlopes, SurfacePoint, surface_with_bumps};
+use crate::surface::{BumpSlopes, SeenHit, SurfacePoint, surface_with_bumps};
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
 use hairline_optics::ggx::ggx_alpha;
@@ -98,10 +98,13 @@ pub(crate) fn pixel_parts<'a>(
         };
         let std_px = place_std(along) * std_px;
         let narrow = |normal| axes_m(position_m, normal, std_px);
-        let to_viewer = -from_camera_m.normalize();
-        let as_turns = BumpSlopes::Turns;
-        let seen = surface_with_bumps(scene, tables, position_m, to_viewer, narrow, &hit, as_turns);
-        (place.weight, seen)
+        let seen = SeenHit {
+            hit: &hit,
+            position_m,
+            to_viewer: -from_camera_m.normalize(),
+        };
+        let part = surface_with_bumps(scene, tables, &seen, narrow, BumpSlopes::Turns);
+        (place.weight, part)
     };
     places(along).map(part).collect()
 }

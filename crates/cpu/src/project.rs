@@ -137,9 +137,9 @@ impl Rows {
             false => 0.0,
         };
         let px = 1.0 / camera.per_px_x.length();
-        let room = DVec2::splat(filter_px + jitter_px + ROUNDING_PX);
-        let low = DVec2::new(0.0, rows.start.into()) - camera.middle_px - room;
-        let high = DVec2::new(camera.size_px.x, rows.end.into()) - camera.middle_px + room;
+        let margin = DVec2::splat(filter_px + jitter_px + ROUNDING_PX);
+        let low = DVec2::new(0.0, rows.start.into()) - camera.middle_px - margin;
+        let high = DVec2::new(camera.size_px.x, rows.end.into()) - camera.middle_px + margin;
         let (x, y) = (camera.per_px_x * px * px, camera.per_px_y * px * px);
         let planes = [
             x - camera.forward * low.x,

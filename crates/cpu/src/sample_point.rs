@@ -43,7 +43,7 @@ pub(crate) enum Shared {
 
 impl<'a> SamplePoint<'a> {
     /// Origin of the sample's rays, if it sees a surface.
-    pub fn shadow_point<'p>(
+    pub(crate) fn shadow_point<'p>(
         &'p self,
         camera: &'p CameraFrame,
         views: &'p LightViews<'a>,
@@ -73,7 +73,7 @@ impl<'a> SamplePoint<'a> {
     }
 
     /// Origin of the rays off the sample's scratches; none if another sample shades them.
-    pub fn scratched_point<'p>(
+    pub(crate) fn scratched_point<'p>(
         &'p self,
         camera: &'p CameraFrame,
         views: &'p LightViews<'a>,

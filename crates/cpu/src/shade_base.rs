@@ -200,7 +200,7 @@ impl<'a> Layer<'a> {
     }
 
     /// Adds multiple scattering to `single`, the light of single scattering.
-    pub fn of_single(&self, single: DVec3) -> DVec3 {
+    pub(crate) fn of_single(&self, single: DVec3) -> DVec3 {
         ggx_area_reflectance(single.to_array(), self.mix.scattered_f0, self.lobe_albedo).into()
     }
 }
@@ -241,9 +241,9 @@ impl<'p, 'a> Base<'p, 'a> {
             // The body gets the light that the surface does not reflect.
             body: point.diffuse * DVec3::from(lobe.mix.body_share),
             lobe,
-            coat: coat.map(|it| {
-                let layer = layer(it);
-                (CoatPart::new(it.weight, layer.albedo), layer)
+            coat: coat.map(|coat| {
+                let layer = layer(coat);
+                (CoatPart::new(coat.weight, layer.albedo), layer)
             }),
         }
     }
@@ -265,7 +265,7 @@ impl<'p, 'a> Base<'p, 'a> {
         };
         BaseRadiance {
             specular: part.reflected(by_coat(coat), base.specular),
-            diffuse: part.below(base.specular, base.diffuse),
+            diffuse: part.transmitted(base.specular, base.diffuse),
         }
     }
 
@@ -305,7 +305,7 @@ impl<'p, 'a> Base<'p, 'a> {
     }
 
     /// The part of the environment without its suns.
-    pub fn by_environment(&self, environment: &Environment) -> BaseRadiance {
+    pub(crate) fn by_environment(&self, environment: &Environment) -> BaseRadiance {
         let under_coat = self.under_coat();
         let bare = BaseRadiance {
             specular: self.lobe.surrounded_by(environment, under_coat),
@@ -353,7 +353,7 @@ impl<'p, 'a> PixelBase<'p, 'a> {
     }
 
     /// The base of a point that has no parts.
-    pub fn of_point(point: &'p SurfacePoint<'a>, views: &'p LightViews<'a>) -> Self {
+    pub(crate) fn of_point(point: &'p SurfacePoint<'a>, views: &'p LightViews<'a>) -> Self {
         Self::new(point, views, &[], &[])
     }
 
@@ -394,7 +394,7 @@ impl<'p, 'a> PixelBase<'p, 'a> {
     }
 
     /// The part of the environment without its suns.
-    pub fn by_environment(&self, environment: &Environment) -> BaseRadiance {
+    pub(crate) fn by_environment(&self, environment: &Environment) -> BaseRadiance {
         self.mean(|base, _| base.by_environment(environment))
     }
 
@@ -519,7 +519,7 @@ fn brushed_around(
     lobe: &BrushedLobe,
     of: &LobeFresnel,
 ) -> DVec3 {
-    let taps = lobe.around(&of.fresnel);
+    let taps = lobe.environment_taps(&of.fresnel);
     let directions = taps.map(|tap| point.world_from_surface(tap.direction));
     let radiance = environment.prefiltered_all(directions, taps.map(|tap| tap.roughness));
     let (mut mean, mut weights) = (DVec3::ZERO, DVec3::splat(1e-300));

@@ -89,7 +89,7 @@ impl ShadedGratings {
                 }
                 let half = (point.wo + views.views[view].bound().axis).with_z(0.0);
                 let along = point.world_from_surface(half);
-                if let Some(across) = grating.across(seen, normal, along).map(row)
+                if let Some(across) = grating.grooves_towards(seen, normal, along).map(row)
                     && let Some(sent) =
                         (across.light(prepared, point)).light(&stds, place, views, view, &mut roots)
                 {

@@ -173,7 +173,7 @@ impl Shading<'_, '_> {
             }
         }
         if !self.shader.pairs.is_empty() {
-            self.light(segment, line.along(), node);
+            self.light(segment, line.direction(), node);
         }
     }
 

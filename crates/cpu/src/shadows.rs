@@ -15,7 +15,8 @@ use crate::prepared::Prepared;
 use crate::sampling::environment::EnvironmentSampler;
 use crate::sampling::lights::AreaLights;
 use crate::shade_scratches::Picks;
-use crate::surface::{RayStart, SurfacePoint};
+use crate::surface::ray_start::RayStart;
+use crate::surface::{SeenHit, SurfacePoint};
 use glam::{DVec2, DVec3};
 use hairline_image::Batch;
 use hairline_index::{Hit, intersect_triangle};
@@ -184,7 +185,7 @@ impl<'a> Shadows<'a> {
             self.lights.reach_m(light as usize, from_m, direction)
         });
         let end = RayEnd { light, distance_m };
-        wi.z > 0.0 && self.sees(point, &RayStart::of(point), direction, end)
+        wi.z > 0.0 && self.sees(point, &RayStart::from_point(point), direction, end)
     }
 
     /// Whether nothing hides, from a place on the surface, the point that a direction leads to. The ray goes to that very point: a parallel one
@@ -239,7 +240,7 @@ impl<'a> Shadows<'a> {
             is_smooth,
         }) = at.pixel
         else {
-            return RayStart::of(at.point);
+            return RayStart::from_point(at.point);
         };
         let beside_px = DVec2::from(stds) * std_px;
         let ray = camera.camera_ray(at_px + beside_px);
@@ -252,10 +253,14 @@ impl<'a> Shadows<'a> {
             on_triangle().or_else(|| triangles.intersect_object(at.object, from_m, direction));
         match hit {
             Some(hit) => {
-                let position_m = from_m + direction * hit.distance_m;
-                RayStart::of_hit(self.prepared.scene, position_m, -direction, &hit)
+                let seen = SeenHit {
+                    hit: &hit,
+                    position_m: from_m + direction * hit.distance_m,
+                    to_viewer: -direction,
+                };
+                RayStart::from_hit(self.prepared.scene, &seen)
             }
-            None => RayStart::of(at.point),
+            None => RayStart::from_point(at.point),
         }
     }
 
@@ -294,7 +299,7 @@ impl ShadowPoint<'_, '_> {
     }
 
     /// Seed of the random picks of the sample's scratches. It depends on the rounds.
-    pub fn picks_seed(&self) -> u64 {
+    pub(crate) fn picks_seed(&self) -> u64 {
         u64::from(self.rounds.now.first) << 32 | u64::from(self.seed)
     }
 }

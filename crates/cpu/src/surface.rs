@@ -1,5 +1,6 @@
 //! Stage 2, surface: the surface under a sample: position, frame, footprint, material with its textures. Twin: surface.wgsl.
 
+pub(crate) mod ray_start;
 mod textured_hit;
 
 use glam::{DMat3, DVec2, DVec3};
@@ -10,9 +11,9 @@ use hairline_optics::filtered_lobe::PixelSlopes;
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_alpha;
 use hairline_optics::spectrum::Observer;
-use hairline_scene::{Mesh, Scene, ScratchTables};
+use hairline_scene::{MaterialOptics, Scene, ScratchTables};
 
-use textured_hit::TexturedHit;
+use textured_hit::{TexturedHit, raised};
 
 /// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane. Of a surface under a coat it is that of the
 /// coat; [`SurfacePoint::under_coat`] has that of what is under it.
@@ -114,7 +115,7 @@ impl SurfacePoint<'_> {
     }
 
     /// Slopes that a pixel sees. `map_std` is the spread of the normal map's.
-    pub fn pixel_slopes(&self, map_std: f64) -> PixelSlopes {
+    pub(crate) fn pixel_slopes(&self, map_std: f64) -> PixelSlopes {
         let local = |step| self.surface_from_world(step).truncate();
         PixelSlopes {
             turns: self.normal_turns.map(|turn| turn.truncate()),
@@ -154,7 +155,7 @@ impl SurfacePoint<'_> {
     }
 
     /// The point under a filter that is `times` as wide.
-    pub fn with_footprint_of(self, times: f64) -> Self {
+    pub(crate) fn with_footprint_of(self, times: f64) -> Self {
         Self {
             footprint_axes_m: self.footprint_axes_m.map(|axis| axis * times),
             normal_turns: self.normal_turns.map(|turn| turn * times),
@@ -185,30 +186,41 @@ pub(crate) enum BumpSlopes {
     Turns,
 }
 
-/// The surface at a hit, seen from the unit direction `to_viewer`. `footprint` gives, for a plane of a given unit normal
-/// through the hit, how the hit moves by one standard deviation of the pixel's filter to the right and down, metres.
+/// A hit as it is seen.
+#[derive(Clone, Copy)]
+pub struct SeenHit<'h> {
+    /// The hit.
+    pub hit: &'h Hit,
+    /// Its place.
+    pub position_m: DVec3,
+    /// Unit direction to the viewer.
+    pub to_viewer: DVec3,
+}
+
+/// The surface at a hit. `footprint` gives, for a plane of a given unit normal through the hit, how the hit moves by one standard deviation of the
+/// pixel's filter to the right and down, metres.
 pub fn surface_point<'a>(
     scene: &'a Scene,
     tables: &'a ScratchTables,
-    position_m: DVec3,
-    to_viewer: DVec3,
+    seen: &SeenHit,
     footprint: impl Fn(DVec3) -> [DVec3; 2],
-    hit: &Hit,
 ) -> SurfacePoint<'a> {
-    let bumps = BumpSlopes::Spread;
-    surface_with_bumps(scene, tables, position_m, to_viewer, footprint, hit, bumps)
+    surface_with_bumps(scene, tables, seen, footprint, BumpSlopes::Spread)
 }
 
 /// [`surface_point`], with bumps that widen the lobe in either way.
 pub(crate) fn surface_with_bumps<'a>(
     scene: &'a Scene,
     tables: &'a ScratchTables,
-    position_m: DVec3,
-    to_viewer: DVec3,
+    seen: &SeenHit,
     footprint: impl Fn(DVec3) -> [DVec3; 2],
-    hit: &Hit,
     bumps: BumpSlopes,
 ) -> SurfacePoint<'a> {
+    let SeenHit {
+        hit,
+        position_m,
+        to_viewer,
+    } = *seen;
     let at = TexturedHit::new(scene, hit, to_viewer, &footprint);
     let (material, side) = (at.material, at.side);
     let mesh = &scene.objects[hit.object as usize].mesh;
@@ -218,19 +230,7 @@ pub(crate) fn surface_with_bumps<'a>(
     // A coat with a normal map of its own turns another way than what is under it.
     let as_turns = bumps == BumpSlopes::Turns && !(has_coat && material.has_coat_normals());
     let under_coat = at.mapped(material.normal_texture, as_turns);
-    let mut coat = optics.coat_curve.zip(material.coat).map(|(curve, coat)| {
-        let [weight, roughness] = material.coat_textures.map(|index| at.texture(index));
-        PointCoat {
-            weight: coat.weight * weight.map_or(1.0, |t| t.x),
-            roughness: coat.roughness * roughness.map_or(1.0, |t| t.y),
-            fresnel: FresnelRgb {
-                f0: [COAT_F0; 3],
-                f90: 1.0,
-                curve: &tables.curves[curve as usize],
-            },
-            slope_std: under_coat.slope_std,
-        }
-    });
+    let mut coat = point_coat(&at, tables, optics, under_coat.slope_std);
     let mut normal = under_coat.normal;
     if let Some(coat) = coat.as_mut().filter(|coat| coat.weight > 0.0)
         && material.has_coat_normals()
@@ -270,14 +270,7 @@ pub(crate) fn surface_with_bumps<'a>(
         diffuse: paint.diffuse,
         metallic: paint.metallic,
         roughness: paint.roughness,
-        facets: at.anisotropy().map(|(way, strength)| {
-            let alpha = ggx_alpha(paint.roughness);
-            let ([axis_x, axis_y], _) = frame(normal_under_coat, to_viewer);
-            FacetAxes {
-                along: DVec2::new(way.dot(axis_x), way.dot(axis_y)).normalize_or(DVec2::X),
-                alphas: DVec2::new(anisotropic_alpha(alpha, strength), alpha),
-            }
-        }),
+        facets: facet_axes(&at, paint.roughness, normal_under_coat, to_viewer),
         coat,
         slope_std: under_coat.slope_std,
         open: at.open(),
@@ -290,64 +283,41 @@ pub(crate) fn surface_with_bumps<'a>(
     }
 }
 
-/// A place on a surface from which rays start.
-pub(crate) struct RayStart {
-    /// As [`SurfacePoint::raised_m`].
-    raised_m: DVec3,
-    /// Normal of the triangle there, on the viewer's side, of any length.
-    facet: DVec3,
+/// The coat at a hit, with the slopes of what is under it.
+fn point_coat<'a>(
+    at: &TexturedHit,
+    tables: &'a ScratchTables,
+    optics: &MaterialOptics,
+    slope_std: f64,
+) -> Option<PointCoat<'a>> {
+    let (curve, coat) = optics.coat_curve.zip(at.material.coat)?;
+    let [weight, roughness] = at.material.coat_textures.map(|index| at.texture(index));
+    Some(PointCoat {
+        weight: coat.weight * weight.map_or(1.0, |texel| texel.x),
+        roughness: coat.roughness * roughness.map_or(1.0, |texel| texel.y),
+        fresnel: FresnelRgb {
+            f0: [COAT_F0; 3],
+            f90: 1.0,
+            curve: &tables.curves[curve as usize],
+        },
+        slope_std,
+    })
 }
 
-impl RayStart {
-    pub fn of(point: &SurfacePoint) -> Self {
-        Self {
-            raised_m: point.raised_m,
-            facet: point.facet,
-        }
-    }
-
-    /// The place of a hit, on the side that `to_viewer` points to.
-    pub fn of_hit(scene: &Scene, position_m: DVec3, to_viewer: DVec3, hit: &Hit) -> Self {
-        let mesh = &scene.objects[hit.object as usize].mesh;
-        let corners =
-            mesh.triangles[hit.triangle as usize].map(|i| mesh.positions_m[i as usize].as_dvec3());
-        let geometric = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        let side = if geometric.dot(to_viewer) < 0.0 {
-            -1.0
-        } else {
-            1.0
-        };
-        Self {
-            raised_m: raised(position_m, hit, mesh, side),
-            facet: side * geometric,
-        }
-    }
-
-    /// Where a ray of a point starts: in the place, unless the surface there has turned away from its direction. Then it is the point itself, which sends
-    /// light that way: a convex body does not stand before itself.
-    pub fn position_m(&self, point: &SurfacePoint, direction: DVec3) -> DVec3 {
-        match self.facet.dot(direction) > 0.0 {
-            true => self.raised_m,
-            false => point.raised_m,
-        }
-    }
-}
-
-fn raised(position_m: DVec3, hit: &Hit, mesh: &Mesh, side: f64) -> DVec3 {
-    let [u, v] = hit.barycentric;
-    let weights = [1.0 - u - v, u, v];
-    let triangle = mesh.triangles[hit.triangle as usize];
-    let normals = triangle.map(|i| mesh.normals[i as usize]);
-    if normals[0] == normals[1] && normals[0] == normals[2] {
-        return position_m;
-    }
-    let rises = (0..3).map(|i| {
-        let corner_m = mesh.positions_m[triangle[i] as usize].as_dvec3();
-        let normal = side * normals[i].as_dvec3();
-        let below_m = (position_m - corner_m).dot(normal).min(0.0);
-        normal * (-weights[i] * below_m)
-    });
-    position_m + rises.sum::<DVec3>()
+/// The facets' spread at a hit, if they lean further one way than across it.
+fn facet_axes(
+    at: &TexturedHit,
+    roughness: f64,
+    normal: DVec3,
+    to_viewer: DVec3,
+) -> Option<FacetAxes> {
+    let (way, strength) = at.anisotropy()?;
+    let alpha = ggx_alpha(roughness);
+    let ([axis_x, axis_y], _) = frame(normal, to_viewer);
+    Some(FacetAxes {
+        along: DVec2::new(way.dot(axis_x), way.dot(axis_y)).normalize_or(DVec2::X),
+        alphas: DVec2::new(anisotropic_alpha(alpha, strength), alpha),
+    })
 }
 
 /// The axes across a normal, and the direction to the viewer in the frame of all three: in its x-z plane. Any x will do where they look along the

@@ -1,5 +1,6 @@
 //! A tile of the picture: the stages from the surface to the film, for batches of its points.
 
+mod layers;
 mod shade;
 
 use crate::bin::{TILE_PX, TileLists};
@@ -16,7 +17,7 @@ use crate::shade_scratches::{BATCH, Picks, ScratchShader};
 use crate::shadows::{HitBuffers, Rounds, Shadows};
 use crate::share_scratches::share_scratches;
 use crate::silhouettes::is_smooth;
-use crate::surface::surface_point;
+use crate::surface::{SeenHit, surface_point};
 use crate::visibility::{Visibility, center, coverage};
 use glam::{DVec2, DVec3};
 use hairline_image::{Image, Traced, TracedPixel};
@@ -27,6 +28,8 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use layers::Layers;
 
 /// Number of samples of a pixel that are shaded together and may share scratches.
 const SAMPLES_AT_ONCE: usize = 16;
@@ -55,7 +58,7 @@ pub(crate) enum PictureMethod<'a> {
     Other(Box<dyn PointShader + 'a>),
 }
 
-/// The room that a thread needs for a tile, filled anew for each.
+/// The buffers that a thread needs for a tile, filled anew for each.
 pub(crate) struct Tile<'a> {
     picture: &'a Picture<'a>,
     /// Callback that tells whether to stop. It is called before each batch, and with shadows before each point, since its rays take
@@ -72,7 +75,7 @@ pub(crate) struct Tile<'a> {
     /// Picks of each point, if there are shadows.
     picks: Option<Vec<Picks>>,
     grating_picks: Picks,
-    rooms: Vec<HitBuffers<'a>>,
+    hit_buffers: Vec<HitBuffers<'a>>,
     shader: ScratchShader,
     pixels: Vec<Pixel>,
     pub counts: Counts,
@@ -98,7 +101,10 @@ impl<'a> Tile<'a> {
                 .as_ref()
                 .map(|_| (0..BATCH).map(|_| Picks::new()).collect()),
             grating_picks: Picks::new(),
-            rooms: picture.shadows.as_ref().map_or(Vec::new(), |it| it.rooms()),
+            hit_buffers: picture
+                .shadows
+                .as_ref()
+                .map_or(Vec::new(), |it| it.hit_buffers()),
             shader: ScratchShader::new(),
             pixels: vec![Pixel::default(); SIDE * SIDE],
             counts: Counts::default(),
@@ -243,7 +249,7 @@ impl<'a> Picture<'a> {
                 pixels: vec![TracedPixel::default(); image.pixel_count()],
             });
         }
-        let mut layers = Layers::of(image);
+        let mut layers = Layers::new(image);
         let parts: Vec<(usize, Layers)> = tile_rows
             .into_iter()
             .zip(heights)
@@ -251,26 +257,25 @@ impl<'a> Picture<'a> {
             .collect();
         let (done, all) = (AtomicUsize::new(0), parts.len());
         let is_cancelled = AtomicBool::new(false);
-        // Rooms are reused: they take long to allocate, and a thread goes from tile to tile.
-        let rooms: Mutex<Vec<Tile>> = Mutex::default();
+        // Tiles are reused: they take long to allocate, and a thread goes from one to the next.
+        let unused: Mutex<Vec<Tile>> = Mutex::default();
+        let render_tile = |column, row| {
+            if is_cancelled.load(Ordering::Relaxed) {
+                return [None; SIDE * SIDE];
+            }
+            let mut tile = take(&unused).unwrap_or_else(|| Tile::new(self, cancelled));
+            let Some(samples) = tile.render(column, row) else {
+                is_cancelled.store(true, Ordering::Relaxed);
+                return [None; SIDE * SIDE];
+            };
+            put_back(&unused, tile);
+            samples
+        };
         parts.into_par_iter().for_each(|(row, mut layers)| {
             let first = self.rows.start.max(row * SIDE) - row * SIDE;
-            let tiles: Vec<_> = (0..width.div_ceil(SIDE))
-                .into_par_iter()
-                .map(|column| {
-                    if is_cancelled.load(Ordering::Relaxed) {
-                        return [None; SIDE * SIDE];
-                    }
-                    let mut tile = take(&rooms).unwrap_or_else(|| Tile::new(self, cancelled));
-                    let Some(samples) = tile.render(column, row) else {
-                        is_cancelled.store(true, Ordering::Relaxed);
-                        return [None; SIDE * SIDE];
-                    };
-                    put_back(&rooms, tile);
-                    samples
-                })
-                .collect();
-            for i in 0..layers.depth_m.len() {
+            let columns = (0..width.div_ceil(SIDE)).into_par_iter();
+            let tiles: Vec<_> = columns.map(|column| render_tile(column, row)).collect();
+            for i in 0..layers.len() {
                 let (x, y) = (i % width, first + i / width);
                 if let Some(sample) = &tiles[x / SIDE][y * SIDE + x % SIDE] {
                     layers.set(i, sample);
@@ -282,8 +287,8 @@ impl<'a> Picture<'a> {
         if is_cancelled.into_inner() {
             return None;
         }
-        let rooms = rooms.into_inner().unwrap_or_default();
-        let counts = rooms.iter().map(|tile| tile.counts);
+        let tiles = unused.into_inner().unwrap_or_default();
+        let counts = tiles.iter().map(|tile| tile.counts);
         Some(counts.fold(Counts::default(), |a, b| a + b))
     }
 
@@ -304,8 +309,12 @@ impl<'a> Picture<'a> {
             let axes = self.camera.footprint_axes(ray, depth_m, normal);
             axes.map(|axis| axis * std_px)
         };
-        let position_m = self.camera.position_m + ray * depth_m;
-        let point = surface_point(scene, tables, position_m, -direction, footprint, &hit);
+        let seen = SeenHit {
+            hit: &hit,
+            position_m: self.camera.position_m + ray * depth_m,
+            to_viewer: -direction,
+        };
+        let point = surface_point(scene, tables, &seen, footprint);
         let parts = pixel_parts(self.prepared, &self.camera, &hit, &point, std_px);
         SampleView::Surface {
             hit,
@@ -316,68 +325,12 @@ impl<'a> Picture<'a> {
     }
 }
 
-fn take<T>(rooms: &Mutex<Vec<T>>) -> Option<T> {
-    rooms.lock().ok()?.pop()
+fn take<T>(unused: &Mutex<Vec<T>>) -> Option<T> {
+    unused.lock().ok()?.pop()
 }
 
-fn put_back<T>(rooms: &Mutex<Vec<T>>, room: T) {
-    if let Ok(mut rooms) = rooms.lock() {
-        rooms.push(room);
-    }
-}
-
-/// Some rows of an image's layers.
-struct Layers<'i> {
-    base: &'i mut [[f32; 3]],
-    scratches: &'i mut [[f32; 3]],
-    density: &'i mut [[f32; 3]],
-    depth_m: &'i mut [f32],
-    normal: &'i mut [[f32; 3]],
-    /// Empty without shadows.
-    traced: &'i mut [TracedPixel],
-}
-
-impl<'i> Layers<'i> {
-    fn of(image: &'i mut Image) -> Self {
-        let traced = image.traced.as_mut();
-        Self {
-            traced: traced.map_or(&mut [], |traced| &mut traced.pixels),
-            base: &mut image.base,
-            scratches: &mut image.scratches,
-            density: &mut image.density,
-            depth_m: &mut image.depth_m,
-            normal: &mut image.normal,
-        }
-    }
-
-    /// Takes the first pixels away from it.
-    fn split_off_first(&mut self, pixels: usize) -> Self {
-        fn split<'i, T>(layer: &mut &'i mut [T], pixels: usize) -> &'i mut [T] {
-            let (first, rest) = std::mem::take(layer).split_at_mut(pixels);
-            *layer = rest;
-            first
-        }
-        Self {
-            base: split(&mut self.base, pixels),
-            scratches: split(&mut self.scratches, pixels),
-            density: split(&mut self.density, pixels),
-            depth_m: split(&mut self.depth_m, pixels),
-            normal: split(&mut self.normal, pixels),
-            traced: match self.traced.len() {
-                0 => &mut [],
-                _ => split(&mut self.traced, pixels),
-            },
-        }
-    }
-
-    fn set(&mut self, pixel: usize, sample: &Sample) {
-        let traced = sample.traced();
-        [self.base[pixel], self.scratches[pixel]] = traced.light();
-        if let Some(kept) = self.traced.get_mut(pixel) {
-            *kept = traced;
-        }
-        self.density[pixel] = sample.density.as_vec3().to_array();
-        self.depth_m[pixel] = sample.depth_m as f32;
-        self.normal[pixel] = sample.normal.as_vec3().to_array();
+fn put_back<T>(unused: &Mutex<Vec<T>>, one: T) {
+    if let Ok(mut unused) = unused.lock() {
+        unused.push(one);
     }
 }

@@ -49,7 +49,7 @@ impl LayerLight {
     }
 
     /// The light of as many samples as it is said to be of: the rounds are those that they have in all.
-    pub fn for_samples(self, samples: f64) -> Self {
+    pub(crate) fn for_samples(self, samples: f64) -> Self {
         self.scaled(DVec3::splat(samples))
     }
 
@@ -65,7 +65,7 @@ impl LayerLight {
     }
 
     /// Sets the light that is sent of radiance 1 from all around, and the light of other objects, of which each round told the mean over that.
-    pub fn with_bounced(self, around: DVec3, bounced: DVec3) -> Self {
+    pub(crate) fn with_bounced(self, around: DVec3, bounced: DVec3) -> Self {
         Self {
             around,
             bounced,
@@ -148,7 +148,7 @@ impl LayerRays {
         self.bounced += light;
     }
 
-    pub fn end_round(&mut self) {
+    pub(crate) fn end_round(&mut self) {
         let sum = &mut self.sum;
         sum.weight += self.weight;
         sum.seen += self.seen;

@@ -90,7 +90,7 @@ impl Visibility {
     }
 
     /// Pixels whose surroundings the samples of one may see: itself, and more where the filter is wide. None where these are all.
-    pub fn seen_by_samples(
+    pub(crate) fn seen_by_samples(
         &self,
         x: usize,
         y: usize,
@@ -124,7 +124,7 @@ impl Visibility {
     }
 
     /// The object that a pixel's centre sees, and the reciprocal of the depth there; (`u32::MAX`, 0) for the background.
-    pub fn object_and_per_depth(&self, x: usize, y: usize) -> (u32, f64) {
+    pub(crate) fn object_and_per_depth(&self, x: usize, y: usize) -> (u32, f64) {
         let i = self.index(x, y);
         (self.hits[i].object, self.per_depths_m[i])
     }

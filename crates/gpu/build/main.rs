@@ -1,8 +1,9 @@
-//! What Rust knows of shaders, made of their own text: the modules with what each needs and binds, and the structs that host and shaders share. For a
+//! What Rust knows of shaders, made of their own text: the modules with what each needs and binds, a struct of the bindings of each pass, and the structs that host and shaders share. For a
 //! page also the shaders without comments and indentation, two thirds of the text, since a page has to download each byte. A program has the full text.
 
 mod layout;
 mod modules;
+mod passes;
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -22,6 +23,7 @@ fn main() -> io::Result<()> {
         false => "env!(\"CARGO_MANIFEST_DIR\"), \"/shaders\"",
     };
     fs::write(output.join("modules.rs"), shaders.rust(folder))?;
+    fs::write(output.join("passes.rs"), passes::rust(&shaders))?;
     let layout = shaders.parse("layout");
     fs::write(output.join("layout.rs"), layout::rust(&layout))?;
     if is_for_pages {

@@ -1,13 +1,19 @@
-//! The shader modules of a folder, as statics of Rust: what a module needs is a line of the comment at its top, what a pass binds is what the compiler
-//! finds. The build script of another crate, whose modules stand on those of this one, has this file too.
+//! The shader modules of a folder, as statics of Rust: what a module needs is a line of the comment at its top. What it binds, its entry points and
+//! its overrides are what the compiler finds. The build script of another crate, whose modules stand on those of this one, has this file too.
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::{fs, io};
 
 use naga::front::wgsl::{Frontend, Options};
-use naga::{AddressSpace, ImageClass, ScalarKind, StorageAccess, TypeInner};
+use naga::{
+    AddressSpace, GlobalVariable, ImageClass, ScalarKind, ShaderStage, StorageAccess, TypeInner,
+};
+
+/// A uniform of this type is a part of an array: each dispatch chooses one.
+const PART: &str = "LightRange";
 
 /// Modules by their short names, which differ over all folders.
 pub struct Shaders {
@@ -24,6 +30,35 @@ struct Module {
     path: &'static str,
     needs: Vec<String>,
     is_own: bool,
+    reflection: OnceCell<Reflection>,
+}
+
+/// What the compiler finds in the text of a pass, and of the modules that it needs.
+#[derive(Default)]
+pub struct Reflection {
+    /// Bindings of group 3, in the order of their numbers.
+    pub bindings: Vec<Binding>,
+    /// Names of the compute passes.
+    pub entry_points: Vec<String>,
+    pub overrides: Vec<String>,
+}
+
+pub struct Binding {
+    pub number: u32,
+    pub name: String,
+    /// The variant of `BindingKind`.
+    pub kind: BindingKind,
+}
+
+/// Twin: src/shaders.rs.
+#[derive(Clone, Copy, Debug)]
+#[allow(dead_code, reason = "written as Rust, by its debug text")]
+pub enum BindingKind {
+    Storage { is_read_only: bool },
+    Uniform,
+    UniformPart { bytes: u64 },
+    Integers,
+    Numbers,
 }
 
 impl Shaders {
@@ -47,6 +82,7 @@ impl Shaders {
                         text,
                         path,
                         is_own: true,
+                        reflection: OnceCell::new(),
                     };
                     let other = modules.insert(short, module);
                     assert!(other.is_none(), "two shaders are called {file}");
@@ -58,7 +94,7 @@ impl Shaders {
 
     /// Adds modules that others may need, and that are not made.
     #[allow(dead_code, reason = "for crates that stand on this one")]
-    pub fn on(mut self, below: Self) -> Self {
+    pub fn with_base(mut self, below: Self) -> Self {
         for (short, mut module) in below.modules {
             module.is_own = false;
             self.modules.insert(short, module);
@@ -76,19 +112,25 @@ impl Shaders {
                 let (path, constant) = (self.get(need).path, need.to_uppercase());
                 format!("&{path}::{constant}, ")
             });
-            let is_pass = module.text.contains("@compute") || module.text.contains("@vertex");
-            let bindings = match is_pass {
-                true => self.bindings(short),
-                false => String::new(),
-            };
+            let Reflection {
+                bindings,
+                entry_points,
+                overrides,
+            } = self.reflection(short);
+            let bindings = bindings.iter().map(|Binding { number, name, kind }| {
+                format!(
+                    "Binding {{ number: {number}, name: {name:?}, kind: BindingKind::{kind:?} }}, "
+                )
+            });
             let _ = writeln!(
                 made,
                 "#[doc = {:?}]\npub static {constant}: Module = Module {{ name: {:?}, source: include_str!(concat!({folder}, \"/{}.wgsl\")), \
-                 needs: &[{}], bindings: &[{bindings}] }};",
+                 needs: &[{}], bindings: &[{}], entry_points: &{entry_points:?}, overrides: &{overrides:?} }};",
                 about(&module.text),
                 module.name,
                 module.file,
                 needs.collect::<String>(),
+                bindings.collect::<String>(),
             );
             let _ = write!(all, "&{constant}, ");
         }
@@ -97,31 +139,40 @@ impl Shaders {
         )
     }
 
-    /// What a module binds in group 3, and the modules that it needs.
-    fn bindings(&self, short: &str) -> String {
+    /// What the compiler finds in a pass; nothing of modules that are none.
+    pub fn reflection(&self, short: &str) -> &Reflection {
+        let module = self.get(short);
+        let is_pass = module.file.starts_with("passes/");
+        let reflection = || match is_pass {
+            true => self.reflect(short),
+            false => Reflection::default(),
+        };
+        module.reflection.get_or_init(reflection)
+    }
+
+    fn reflect(&self, short: &str) -> Reflection {
         let parsed = self.parse(short);
-        let bound = parsed.global_variables.iter();
-        let bound = bound.filter_map(|(_, it)| Some((it.binding?, it)));
-        let mut bound: Vec<_> = bound.filter(|(at, _)| at.group == 3).collect();
-        bound.sort_by_key(|(at, _)| at.binding);
-        let each = bound.into_iter().map(|(at, it)| {
-            let kind = match (it.space, &parsed.types[it.ty].inner) {
-                (AddressSpace::Uniform, _) => "Uniform".to_owned(),
-                (AddressSpace::Storage { access }, _) => {
-                    let is_read_only = access == StorageAccess::LOAD;
-                    format!("Storage {{ is_read_only: {is_read_only} }}")
-                }
-                (_, TypeInner::Image { class, .. }) => match class {
-                    ImageClass::Sampled { kind, .. } if *kind == ScalarKind::Float => "Numbers",
-                    _ => "Integers",
-                }
-                .to_owned(),
-                (_, other) => panic!("{short}: no binding of the host for {other:?}"),
-            };
-            let (number, name) = (at.binding, it.name.as_deref().unwrap_or_default());
-            format!("Binding {{ number: {number}, name: {name:?}, kind: BindingKind::{kind} }}, ")
-        });
-        each.collect()
+        let variables = parsed.global_variables.iter();
+        let mut bindings: Vec<Binding> = variables
+            .filter_map(|(_, variable)| {
+                let place = variable.binding.filter(|place| place.group == 3)?;
+                Some(Binding {
+                    number: place.binding,
+                    name: variable.name.clone().unwrap_or_default(),
+                    kind: binding_kind(short, &parsed, variable),
+                })
+            })
+            .collect();
+        bindings.sort_by_key(|binding| binding.number);
+        let compute =
+            (parsed.entry_points.iter()).filter(|entry| entry.stage == ShaderStage::Compute);
+        Reflection {
+            bindings,
+            entry_points: compute.map(|entry| entry.name.clone()).collect(),
+            overrides: (parsed.overrides.iter())
+                .filter_map(|(_, constant)| constant.name.clone())
+                .collect(),
+        }
     }
 
     /// Parses a module with what it needs before it.
@@ -131,11 +182,18 @@ impl Shaders {
     pub fn parse(&self, short: &str) -> naga::Module {
         let mut joined = Vec::new();
         self.join(short, &mut joined);
-        let text: String = joined.iter().map(|it| &*self.get(it).text).collect();
+        let text: String = joined.iter().map(|name| &*self.get(name).text).collect();
         let mut options = Options::new();
         options.parse_doc_comments = true;
         let parsed = Frontend::new_with_options(options).parse(&text);
         parsed.unwrap_or_else(|error| panic!("{short}.wgsl:\n{}", error.emit_to_string(&text)))
+    }
+
+    /// The short names of the modules that are not of another crate.
+    #[allow(dead_code, reason = "for the crate whose passes it orders")]
+    pub fn own(&self) -> impl Iterator<Item = &str> {
+        let own = self.modules.iter().filter(|(_, module)| module.is_own);
+        own.map(|(short, _)| &**short)
     }
 
     fn join<'a>(&'a self, short: &'a str, joined: &mut Vec<&'a str>) {
@@ -150,6 +208,26 @@ impl Shaders {
     fn get(&self, short: &str) -> &Module {
         let found = self.modules.get(short);
         found.unwrap_or_else(|| panic!("a shader needs {short}, and there is no {short}.wgsl"))
+    }
+}
+
+fn binding_kind(short: &str, parsed: &naga::Module, variable: &GlobalVariable) -> BindingKind {
+    let ty = &parsed.types[variable.ty];
+    match (variable.space, &ty.inner) {
+        (AddressSpace::Uniform, _) if ty.name.as_deref() == Some(PART) => {
+            BindingKind::UniformPart {
+                bytes: ty.inner.size(parsed.to_ctx()).into(),
+            }
+        }
+        (AddressSpace::Uniform, _) => BindingKind::Uniform,
+        (AddressSpace::Storage { access }, _) => BindingKind::Storage {
+            is_read_only: access == StorageAccess::LOAD,
+        },
+        (_, TypeInner::Image { class, .. }) => match class {
+            ImageClass::Sampled { kind, .. } if *kind == ScalarKind::Float => BindingKind::Numbers,
+            _ => BindingKind::Integers,
+        },
+        (_, other) => panic!("{short}.wgsl: no binding of the host for {other:?}"),
     }
 }
 

@@ -4,9 +4,9 @@
 //! list begins.
 
 use crate::compute_pass::{ComputePass, Recording, in_a_row};
+use crate::pass_bindings::{Bin, Project, TileLists};
 use crate::pipelines::Orders;
 use crate::scan::ScanPasses;
-use crate::shaders;
 use crate::sizes::ENTRIES;
 use crate::sort::SortPasses;
 use crate::strip::StripBuffers;
@@ -17,19 +17,19 @@ const WORKGROUP: u32 = 256;
 const TILES_WORKGROUP: u32 = 64;
 
 pub(crate) struct BinPasses {
-    project: ComputePass,
-    bin: ComputePass,
+    project: ComputePass<Project<'static>>,
+    bin: ComputePass<Bin<'static>>,
     sort: SortPasses,
-    tile_lists: ComputePass,
+    tile_lists: ComputePass<TileLists<'static>>,
 }
 
 impl BinPasses {
     pub(crate) fn new(orders: &mut Orders) -> Self {
         Self {
-            project: orders.pass("project", &shaders::PROJECT, "project"),
-            bin: orders.pass("bin", &shaders::BIN, "bin"),
+            project: orders.pass("project", Project::PROJECT),
+            bin: orders.pass("bin", Bin::BIN),
             sort: SortPasses::new(orders),
-            tile_lists: orders.pass("lists", &shaders::TILE_LISTS, "tile_lists"),
+            tile_lists: orders.pass("lists", TileLists::TILE_LISTS),
         }
     }
 
@@ -38,12 +38,14 @@ impl BinPasses {
         &self,
         recording: &mut Recording,
         scans: &ScanPasses,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         segments: u32,
     ) {
         let workgroups = in_a_row((segments + 1).div_ceil(WORKGROUP));
-        self.project.run(recording, &room.resources(), &workgroups);
-        let scan = &room.lists.entry_scan;
+        let entry_starts = &buffers.lists.entry_starts;
+        let bound = Project { entry_starts };
+        self.project.run(recording, &bound, &workgroups);
+        let scan = &buffers.lists.entry_scan;
         scans.record(recording.encoder, scan, recording.timing);
     }
 
@@ -52,19 +54,25 @@ impl BinPasses {
         &self,
         recording: &mut Recording,
         scans: &ScanPasses,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         tiles: u32,
         segments: u32,
     ) -> usize {
-        let resources = room.resources();
+        let lists = &buffers.lists;
         let workgroups = in_a_row(segments.div_ceil(WORKGROUP));
-        self.bin.run(recording, &resources, &workgroups);
-        let lists = &room.lists;
-        let blocks = room.sizes.workgroups(ENTRIES);
+        let bound = Bin {
+            entry_starts: &lists.entry_starts,
+            entries: &lists.entries[0],
+        };
+        self.bin.run(recording, &bound, &workgroups);
+        let blocks = buffers.sizes.workgroups(ENTRIES);
         let sorted = self.sort.record(recording, scans, lists, tiles, &blocks);
-        let resources = resources.buffer("entries", &lists.entries[sorted]);
         let workgroups = in_a_row((tiles + 1).div_ceil(TILES_WORKGROUP));
-        self.tile_lists.run(recording, &resources, &workgroups);
+        let bound = TileLists {
+            entries: &lists.entries[sorted],
+            list_starts: &buffers.list_starts,
+        };
+        self.tile_lists.run(recording, &bound, &workgroups);
         sorted
     }
 }

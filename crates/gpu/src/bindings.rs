@@ -167,19 +167,16 @@ pub(crate) fn bind(
     })
 }
 
-/// Name of the uniform whose part each dispatch chooses.
-const DYNAMIC: &str = "range";
-
 impl Binding {
     pub(crate) fn is_dynamic(&self) -> bool {
-        self.name == DYNAMIC
+        matches!(self.kind, BindingKind::UniformPart { .. })
     }
 
     pub(crate) fn ty(&self) -> BindingType {
         match self.kind {
             BindingKind::Storage { is_read_only } => storage(is_read_only),
-            BindingKind::Uniform if self.is_dynamic() => dynamic_uniform(),
             BindingKind::Uniform => uniform(),
+            BindingKind::UniformPart { .. } => dynamic_uniform(),
             BindingKind::Integers => integers(),
             BindingKind::Numbers => numbers(TextureViewDimension::D2, false),
         }

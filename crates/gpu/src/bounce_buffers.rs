@@ -80,7 +80,7 @@ impl StripBuffers {
         let bytes = 4 * u64::from(starts);
         let storage = BufferUsages::STORAGE;
         let list_starts = gpu.buffer("lists of hits", bytes, storage).await?;
-        let group_scan = scans.of(gpu, &list_starts, starts).await?;
+        let group_scan = scans.scan(gpu, &list_starts, starts).await?;
         Ok(Self {
             list_starts,
             group_scan,

@@ -9,18 +9,20 @@ use crate::compute_pass::{ComputePass, Recording, Workgroups};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
-use crate::layout::ScratchNode;
+use crate::layout::{ScratchNode, ShadowRound};
+use crate::pass_bindings::{
+    BounceBaseRays, BounceGather, BounceGratingRays, BounceLight, BounceScratchRays, BounceSurface,
+    BounceTrace, ShadeScratches, ShadowPicks,
+};
 use crate::pipelines::Orders;
-use crate::resources::Resources;
 use crate::rows;
 use crate::scan::ScanPasses;
 use crate::scene_data::SceneData;
-use crate::shade_scratches::{ShadeScratchesPass, picks_by_energy};
-use crate::shaders;
+use crate::shade_scratches::{self, ShadeScratchesPass, picks_by_energy};
 use crate::shadow_buffers::ShadowBuffers;
-use crate::shadow_picks::{Scratched, into_picks};
+use crate::shadow_picks::{self, Scratched};
 use crate::shadows::Shadows;
-use crate::sizes::{self, ENTRIES};
+use crate::sizes::{self, ENTRIES, SizesPass};
 use crate::strip::{BounceBuffers, StripBuffers};
 use crate::transfer::Transfer;
 use crate::variant::{RayOrigin, ShadeVariant, Way};
@@ -29,27 +31,27 @@ use crate::variant::{RayOrigin, ShadeVariant, Way};
 pub(crate) struct Bounces {
     /// Largest number of objects on a path of light, besides the one that the camera sees.
     pub count: u32,
-    base_rays: ComputePass,
+    base_rays: ComputePass<BounceBaseRays<'static>>,
     /// Passes for rays from the camera's samples, and from hits.
-    trace: [ComputePass; 2],
-    surface: ComputePass,
-    light: ComputePass,
+    trace: [ComputePass<BounceTrace<'static>>; 2],
+    surface: ComputePass<BounceSurface<'static>>,
+    light: ComputePass<BounceLight<'static>>,
     /// Shadows of hits.
     pub shadows: Shadows,
     /// Passes for rays off scratches; none where the scene has no scratches.
     pub scratches: Option<BounceScratches>,
     /// Pass for rays off gratings; none where the scene has none.
-    gratings: Option<ComputePass>,
+    gratings: Option<ComputePass<BounceGratingRays<'static>>>,
 }
 
 pub(crate) struct BounceScratches {
-    begin: ComputePass,
+    begin: ComputePass<ShadowPicks<'static>>,
     /// Picks for the camera's samples, and for hits.
-    pick: [ComputePass; 2],
-    rays: ComputePass,
-    count: ComputePass,
-    pub size: ComputePass,
-    list: ComputePass,
+    pick: [ComputePass<ShadeScratches<'static>>; 2],
+    rays: ComputePass<BounceScratchRays<'static>>,
+    count: ComputePass<BounceGather<'static>>,
+    pub size: SizesPass,
+    list: ComputePass<BounceGather<'static>>,
     pub shade: ShadeScratchesPass,
     tree: wgpu::TextureView,
 }
@@ -72,12 +74,12 @@ impl Bounces {
             false => None,
         };
         let mut orders = Orders::new(gpu, layouts, variant);
-        let bounces = Self::over(&mut orders, shadows, scratches, count);
+        let bounces = Self::order(&mut orders, shadows, scratches, count);
         orders.compile().await?;
         Ok(bounces)
     }
 
-    fn over(
+    fn order(
         orders: &mut Orders,
         shadows: &Shadows,
         tree: Option<wgpu::TextureView>,
@@ -87,24 +89,19 @@ impl Bounces {
         let scratches = tree.map(|tree| BounceScratches::new(orders, tree));
         let has_gratings = orders.variant().has.gratings;
         let trace = [RayOrigin::ByCamera, RayOrigin::ByRays].map(|seen| {
-            let module = (&shaders::BOUNCE_TRACE, "bounce_trace");
-            ComputePass::order(orders, "bounce trace", module, &[seen.constant()])
+            let entry_point = BounceTrace::BOUNCE_TRACE;
+            ComputePass::order(orders, "bounce trace", entry_point, &[seen.constant()])
         });
-        let mut rays = |module, entry_point| orders.pass("bounce rays", module, entry_point);
-        let base_rays = rays(&shaders::BOUNCE_BASE_RAYS, "bounce_base_rays");
-        let gratings =
-            has_gratings.then(|| rays(&shaders::BOUNCE_GRATING_RAYS, "bounce_grating_rays"));
-        let surface = orders.pass("bounce surface", &shaders::BOUNCE_SURFACE, "bounce_surface");
-        let light = orders.pass("bounce light", &shaders::BOUNCE_LIGHT, "bounce_light");
+        let grating_rays = BounceGratingRays::BOUNCE_GRATING_RAYS;
         Self {
             count,
-            base_rays,
+            base_rays: orders.pass("bounce rays", BounceBaseRays::BOUNCE_BASE_RAYS),
             trace,
-            surface,
-            light,
+            gratings: has_gratings.then(|| orders.pass("bounce rays", grating_rays)),
+            surface: orders.pass("bounce surface", BounceSurface::BOUNCE_SURFACE),
+            light: orders.pass("bounce light", BounceLight::BOUNCE_LIGHT),
             shadows,
             scratches,
-            gratings,
         }
     }
 
@@ -119,38 +116,99 @@ impl Bounces {
 
     /// Draws a ray of each sample, and follows it to its hit.
     pub(crate) fn record_rays(&self, recording: &mut Recording, by: &Bounce) {
-        let groups = &by.groups;
-        let resources = &by.resources;
+        let (groups, samples) = (&by.groups, &by.from.samples);
         let is_seen = by.depth == 0;
         let goes = |way| !is_seen || by.way == way;
         if goes(Way::Base) {
-            self.base_rays.run(recording, resources, groups);
+            let bound = BounceBaseRays {
+                points: &samples.points,
+                paints: &samples.paints,
+                rays: &by.buffers.rays,
+                chunk_starts: &samples.chunk_starts,
+                chunk_sums: &samples.chunk_sums,
+                shadow_round: &by.buffers.round,
+                traced: &by.seen.traced,
+            };
+            self.base_rays.run(recording, &bound, groups);
         }
         if let Some(scratches) = &self.scratches
             && goes(Way::Scratches)
         {
-            scratches.rays.run(recording, resources, groups);
+            let bound = BounceScratchRays {
+                points: &samples.points,
+                paints: &samples.paints,
+                rays: &by.buffers.rays,
+                chunk_starts: &samples.chunk_starts,
+                chunk_sums: &samples.chunk_sums,
+                shadow_round: &by.buffers.round,
+                picks: &by.shadows.picks,
+            };
+            scratches.rays.run(recording, &bound, groups);
         }
         if let Some(pass) = &self.gratings
             && goes(Way::Gratings)
         {
-            pass.run(recording, resources, groups);
+            let bound = BounceGratingRays {
+                points: &samples.points,
+                paints: &samples.paints,
+                gratings: recording.scene.buffers.gratings(),
+                chunk_starts: &samples.chunk_starts,
+                chunk_sums: &samples.chunk_sums,
+                shadow_round: &by.buffers.round,
+                rays: &by.buffers.rays,
+            };
+            pass.run(recording, &bound, groups);
         }
-        self.trace[usize::from(!is_seen)].run(recording, resources, groups);
-        self.surface.run(recording, resources, groups);
+        self.record_hits(recording, by);
+    }
+
+    /// Follows the rays that were drawn.
+    fn record_hits(&self, recording: &mut Recording, by: &Bounce) {
+        let (samples, rays, hits) = (&by.from.samples, &by.buffers.rays, &by.to.samples);
+        let bound = BounceTrace {
+            points: &samples.points,
+            paints: &samples.paints,
+            rays,
+            film: &by.film.buffer,
+            shadow_round: &by.buffers.round,
+            triangle_tree: &self.shadows.tree.view,
+        };
+        self.trace[usize::from(by.depth > 0)].run(recording, &bound, &by.groups);
+        let bound = BounceSurface {
+            points: &samples.points,
+            rays,
+            hit_points: &hits.points,
+            hit_paints: &hits.paints,
+        };
+        self.surface.run(recording, &bound, &by.groups);
     }
 
     /// Adds the light of the hits to that of the camera's samples.
     pub(crate) fn record_light(&self, recording: &mut Recording, by: &Bounce) {
-        self.light.run(recording, &by.resources, &by.groups);
+        let Some(hits) = &by.to.shadows else {
+            return;
+        };
+        let bound = BounceLight {
+            rays: &by.buffers.rays,
+            hit_base_light: &by.to.samples.base_light,
+            hit_traced: &hits.traced,
+            traced: &by.seen.traced,
+            shadow_round: &by.buffers.round,
+        };
+        self.light.run(recording, &bound, &by.groups);
     }
 }
 
 /// Rays of one round, from samples to their hits.
 pub(crate) struct Bounce<'a> {
-    resources: Resources,
-    /// Picks of the samples.
-    picks: Option<&'a ShadowBuffers>,
+    from: &'a StripBuffers,
+    /// Arrays of the shadows of the samples.
+    shadows: &'a ShadowBuffers,
+    to: &'a StripBuffers,
+    buffers: &'a BounceBuffers,
+    /// Arrays of the shadows of the camera's samples.
+    seen: &'a ShadowBuffers,
+    film: &'a Film,
     groups: Workgroups,
     /// Number of objects on the path from the samples to the camera.
     depth: u32,
@@ -159,45 +217,30 @@ pub(crate) struct Bounce<'a> {
 }
 
 impl<'a> Bounce<'a> {
-    /// Rays of a round that was written. Hits lie in two rooms in turn. None until there are shadows.
+    /// Rays of a round that was written. Hits lie in two sets of buffers in turn. None until there are shadows.
     pub(crate) fn new(
-        room: &'a StripBuffers,
-        bounce_buffers: &'a BounceBuffers,
-        film: &Film,
-        shadows: &Shadows,
-        (depth, way): (u32, Way),
+        strip: &'a StripBuffers,
+        buffers: &'a BounceBuffers,
+        film: &'a Film,
+        round: &ShadowRound,
         groups: &Workgroups,
     ) -> Option<Self> {
+        let depth = round.depth;
         let turn = depth as usize % 2;
-        let to = &bounce_buffers.hits[turn];
         let from = match depth {
-            0 => room,
-            _ => &bounce_buffers.hits[1 - turn],
+            0 => strip,
+            _ => &buffers.hits[1 - turn],
         };
-        let seen = room.shadows.as_ref()?;
-        let mut resources = from
-            .resources()
-            .and(film.resources())
-            .texture("triangle_tree", &shadows.tree.view);
-        if let Some(shadow_buffers) = &from.shadows {
-            resources = resources.and(shadow_buffers.resources());
-        }
-        if let Some(hits) = &to.shadows {
-            resources = resources.buffer("hit_traced", &hits.traced);
-        }
-        let resources = resources
-            .buffer("traced", &seen.traced)
-            .buffer("rays", &bounce_buffers.rays)
-            .buffer("shadow_round", &bounce_buffers.round)
-            .buffer("hit_points", &to.samples.points)
-            .buffer("hit_paints", &to.samples.paints)
-            .buffer("hit_base_light", &to.samples.base_light);
         Some(Self {
-            resources,
-            picks: from.shadows.as_ref(),
+            from,
+            shadows: from.shadows.as_ref()?,
+            to: &buffers.hits[turn],
+            buffers,
+            seen: strip.shadows.as_ref()?,
+            film,
             groups: groups.clone(),
             depth,
-            way,
+            way: Way::ALL[round.way as usize],
         })
     }
 }
@@ -208,18 +251,13 @@ impl BounceScratches {
             [RayOrigin::ByCamera, RayOrigin::ByRays].map(|seen| picks_by_energy(orders, seen));
         let shade = ShadeScratchesPass::new(orders, RayOrigin::ByRays);
         let size = sizes::pass(orders, ENTRIES, RayOrigin::ByRays);
-        let module = (&shaders::SHADOW_PICKS, "shadow_picks");
-        let begin = ComputePass::order(orders, "bounce picks", module, &[("BY_ENERGY", 1.0)]);
-        let module = &shaders::BOUNCE_SCRATCH_RAYS;
-        let rays = orders.pass("bounce rays", module, "bounce_scratch_rays");
-        let mut gather =
-            |entry_point| orders.pass("bounce gather", &shaders::BOUNCE_GATHER, entry_point);
+        let begin = ShadowPicks::SHADOW_PICKS;
         Self {
-            begin,
+            begin: ComputePass::order(orders, "bounce picks", begin, &[("BY_ENERGY", 1.0)]),
             pick,
-            rays,
-            count: gather("bounce_count"),
-            list: gather("bounce_list"),
+            rays: orders.pass("bounce rays", BounceScratchRays::BOUNCE_SCRATCH_RAYS),
+            count: orders.pass("bounce gather", BounceGather::BOUNCE_COUNT),
+            list: orders.pass("bounce gather", BounceGather::BOUNCE_LIST),
             size,
             shade,
             tree,
@@ -228,13 +266,11 @@ impl BounceScratches {
 
     /// Picks scratches of each sample, as many as the round that was written says.
     pub(crate) fn record_picks(&self, recording: &mut Recording, by: &Bounce, on: &Scratched) {
-        let Some(shadow_buffers) = by.picks else {
-            return;
-        };
-        self.begin.run(recording, &by.resources, &by.groups);
-        let pick = &self.pick[usize::from(by.depth > 0)];
-        let resources = into_picks(&by.resources, shadow_buffers);
-        pick.run(recording, &resources, &on.chunks);
+        let begun = shadow_picks::begin(by.from, by.shadows, &by.buffers.round);
+        self.begin.run(recording, &begun, &by.groups);
+        let picks = &by.shadows.picks;
+        let bound = shade_scratches::bindings(recording.scene, by.from, picks);
+        self.pick[usize::from(by.depth > 0)].run(recording, &bound, &on.chunks);
     }
 
     /// Counts the segments that each hit may see, and finds the start of the hit's list.
@@ -246,8 +282,8 @@ impl BounceScratches {
         film: &Film,
         groups: &Workgroups,
     ) {
-        let resources = self.gathered(hits, film);
-        self.count.run(recording, &resources, groups);
+        let bound = self.gather(hits, film);
+        self.count.run(recording, &bound, groups);
         scans.record(recording.encoder, &hits.group_scan, recording.timing);
     }
 
@@ -259,13 +295,18 @@ impl BounceScratches {
         film: &Film,
         groups: &Workgroups,
     ) {
-        let resources = self.gathered(hits, film);
-        self.list.run(recording, &resources, groups);
+        let bound = self.gather(hits, film);
+        self.list.run(recording, &bound, groups);
     }
 
-    fn gathered(&self, hits: &StripBuffers, film: &Film) -> Resources {
-        let resources = hits.resources().and(film.resources());
-        resources.texture("tree", &self.tree)
+    fn gather<'a>(&'a self, hits: &'a StripBuffers, film: &'a Film) -> BounceGather<'a> {
+        BounceGather {
+            points: &hits.samples.points,
+            list_starts: &hits.list_starts,
+            entries: hits.lists.sorted(),
+            film: &film.buffer,
+            tree: &self.tree,
+        }
     }
 }
 

@@ -20,7 +20,7 @@ pub struct Canvas {
     gpu: Gpu,
     size_px: [u32; 2],
     band_rows: u32,
-    room: StripBuffers,
+    buffers: StripBuffers,
     bands: Vec<CanvasBand>,
 }
 
@@ -39,12 +39,12 @@ impl Canvas {
     ) -> Result<Self, Error> {
         let size_px = size_px.map(|n| n.max(1));
         let band_rows = Film::band_rows(gpu, size_px, submission_px, true);
-        let room = StripBuffers::new(gpu, scans, size_px[0], band_rows).await?;
+        let buffers = StripBuffers::new(gpu, scans, size_px[0], band_rows).await?;
         let mut canvas = Self {
             gpu: gpu.clone(),
             size_px,
             band_rows,
-            room,
+            buffers,
             bands: Vec::new(),
         };
         for band in 0..size_px[1].div_ceil(band_rows) as usize {
@@ -98,7 +98,7 @@ impl Canvas {
     /// Waits until all that was submitted is done. Returns the steps that are to be done again, band by band.
     pub(crate) async fn settle(&mut self) -> Result<Vec<(usize, Range<u32>)>, Error> {
         let films: Vec<&Film> = self.bands.iter().map(|band| &band.film).collect();
-        let short = self.room.settle(&self.gpu, &films).await?;
+        let short = self.buffers.settle(&self.gpu, &films).await?;
         let mut again = Vec::new();
         for (i, (band, short)) in self.bands.iter_mut().zip(short).enumerate() {
             if let Some(from) = short.filter(|from| *from < band.steps) {
@@ -109,7 +109,7 @@ impl Canvas {
         Ok(again)
     }
 
-    /// Marks a band as being worked on; hands out its film, and the room to work in.
+    /// Marks a band as being worked on; hands out its film, and the buffers to work in.
     pub(crate) fn begin(&mut self, band: usize, step: u32) -> (&mut Film, &mut StripBuffers) {
         let CanvasBand { film, steps } = &mut self.bands[band];
         assert!(
@@ -117,7 +117,7 @@ impl Canvas {
             "step {step} cannot follow {steps} steps of band {band}"
         );
         *steps = 0;
-        (film, &mut self.room)
+        (film, &mut self.buffers)
     }
 
     pub(crate) fn finish(&mut self, band: usize, steps: u32) {

@@ -1,24 +1,27 @@
-//! A compute pass over a scene: its pipeline, its own bindings, and its dispatch. A pass is a file of WGSL and an order; its shader says which
-//! resources it binds, by their names.
+//! A compute pass over a scene: its pipeline, its own bindings, and its dispatch. A pass is a file of WGSL and an order; the build script makes a
+//! struct of what its shader binds.
 
-use wgpu::{BindingResource, ShaderStages};
+use std::marker::PhantomData;
+
+use wgpu::ShaderStages;
 
 use crate::bindings::{entry, layout};
 use crate::device::Gpu;
-use crate::layout::LightRange;
+use crate::pass_bindings::{EntryPoint, PassBindings};
 use crate::pipelines::{Orders, Pipeline};
-use crate::resources::Resources;
 use crate::scene_data::SceneData;
-use crate::shaders::{Binding, Module};
+use crate::shaders::Binding;
 use crate::timing::Timing;
 use crate::variant::Constant;
 
-pub(crate) struct ComputePass {
+/// A pass with the bindings `B`.
+pub(crate) struct ComputePass<B> {
     /// Name for timing.
     name: &'static str,
     pipeline: Pipeline,
     group_3: wgpu::BindGroupLayout,
-    bindings: &'static [Binding],
+    has_ranges: bool,
+    bindings: PhantomData<B>,
 }
 
 /// Bindings that all passes of a strip share, and the clock that notes their time.
@@ -41,14 +44,15 @@ pub(crate) enum Workgroups {
 /// Largest number of workgroups in one dimension on every WebGPU device. Twin: sizes.wgsl.
 const WORKGROUPS_MAX: u32 = 65_535;
 
-impl ComputePass {
+impl<B: PassBindings> ComputePass<B> {
     /// Asks for the pipeline of an entry point; `more` constants are added to the variant's or replace them.
     pub(crate) fn order(
         orders: &mut Orders,
         name: &'static str,
-        (module, entry_point): (&'static Module, &'static str),
+        entry_point: EntryPoint<B>,
         more: &[Constant],
     ) -> Self {
+        let EntryPoint { module, .. } = entry_point;
         let entries: Vec<_> = module
             .bindings
             .iter()
@@ -57,9 +61,10 @@ impl ComputePass {
         let group_3 = layout(orders.gpu(), name, &entries);
         Self {
             name,
-            pipeline: orders.pipeline((module, entry_point), &group_3, more),
+            pipeline: orders.pipeline((module, entry_point.name), &group_3, more),
             group_3,
-            bindings: module.bindings,
+            has_ranges: module.bindings.iter().any(Binding::is_dynamic),
+            bindings: PhantomData,
         }
     }
 
@@ -69,51 +74,24 @@ impl ComputePass {
         self.pipeline.get()
     }
 
-    /// Binds group 3: what is not among the `resources` is the scene's.
-    ///
-    /// # Panics
-    /// If neither has a resource that the shader names.
-    pub(crate) fn bind(&self, recording: &Recording, resources: &Resources) -> wgpu::BindGroup {
-        let of_scene =
-            |name: &str| match name {
-                "gratings" => recording.scene.buffers.gratings().as_entire_binding(),
-                "range" => BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer: &recording.scene.light_ranges.buffer,
-                    offset: 0,
-                    size: wgpu::BufferSize::new(size_of::<LightRange>() as u64),
-                }),
-                _ => recording.scene.method_tables.get(name).unwrap_or_else(|| {
-                    unreachable!("nobody gives `{name}` to the pass {}", self.name)
-                }),
-            };
-        let entries: Vec<_> = self
-            .bindings
-            .iter()
-            .map(|own| wgpu::BindGroupEntry {
-                binding: own.number,
-                resource: resources
-                    .get(own.name)
-                    .unwrap_or_else(|| of_scene(own.name)),
-            })
-            .collect();
-        let device = &recording.gpu.device;
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
+    /// Binds group 3.
+    pub(crate) fn bind(&self, gpu: &Gpu, bound: &B::With<'_>) -> wgpu::BindGroup {
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(self.name),
             layout: &self.group_3,
-            entries: &entries,
+            entries: &B::entries(bound),
         })
     }
 
-    /// Binds resources by their names and records one dispatch; over the first range of lights where there are ranges.
+    /// Binds group 3 and records one dispatch; over the first range of lights where there are ranges.
     pub(crate) fn run(
         &self,
         recording: &mut Recording,
-        resources: &Resources,
+        bound: &B::With<'_>,
         workgroups: &Workgroups,
     ) {
-        let group = self.bind(recording, resources);
-        let has_ranges = self.bindings.iter().any(Binding::is_dynamic);
-        let offsets: &[u32] = if has_ranges { &[0] } else { &[] };
+        let group = self.bind(recording.gpu, bound);
+        let offsets: &[u32] = if self.has_ranges { &[0] } else { &[] };
         self.dispatch(recording, &group, offsets, workgroups);
     }
 
@@ -150,13 +128,12 @@ impl ComputePass {
 
 impl Orders<'_> {
     /// Asks for a pass without constants of its own.
-    pub(crate) fn pass(
+    pub(crate) fn pass<B: PassBindings>(
         &mut self,
         name: &'static str,
-        module: &'static Module,
-        entry_point: &'static str,
-    ) -> ComputePass {
-        ComputePass::order(self, name, (module, entry_point), &[])
+        entry_point: EntryPoint<B>,
+    ) -> ComputePass<B> {
+        ComputePass::order(self, name, entry_point, &[])
     }
 }
 

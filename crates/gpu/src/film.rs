@@ -8,7 +8,6 @@ use wgpu::BufferUsages;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{FILM_PIXELS_OFFSET, FilmPixel};
-use crate::resources::Resources;
 use crate::strip::{TILE_PX, strip_rows_max};
 
 /// Sums over the samples of each pixel of a band.
@@ -57,15 +56,6 @@ impl Film {
             traced: None,
             pixels,
         })
-    }
-
-    /// All that passes may bind of it.
-    pub(crate) fn resources(&self) -> Resources {
-        let film = Resources::default().buffer("film", &self.buffer);
-        match &self.traced {
-            Some(traced) => film.buffer("film_traced", &traced.buffer),
-            None => film,
-        }
     }
 
     /// Makes room for the light that so many rounds of rays find; none without rays.

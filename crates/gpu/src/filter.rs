@@ -30,7 +30,7 @@ pub(crate) struct FilterPasses {
     variances: Pass,
     step: Pass,
     film: Pass,
-    room: Option<FilterBuffers>,
+    buffers: Option<FilterBuffers>,
 }
 
 struct Pass {
@@ -64,7 +64,7 @@ impl FilterPasses {
                 variances: pass("filter_variances", &[0, 3, 4, 5, 7, 8]),
                 step: pass("filter_step", &[0, 3, 4, 5, 7, 8]),
                 film: pass("filter_film", &[0, 1, 2, 4, 5]),
-                room: None,
+                buffers: None,
             }
         })
         .await
@@ -89,18 +89,18 @@ impl FilterPasses {
         }
         let size_px = canvas.size_px();
         let per_layer = 2 * films.len() as u64 + u64::from(PASSES) + 1;
-        let room = match self.room.take() {
-            Some(room)
-                if room.size_px == size_px
-                    && room.settings_max >= per_layer * u64::from(LAYERS) =>
+        let buffers = match self.buffers.take() {
+            Some(buffers)
+                if buffers.size_px == size_px
+                    && buffers.settings_max >= per_layer * u64::from(LAYERS) =>
             {
-                room
+                buffers
             }
             _ => FilterBuffers::new(gpu, size_px, per_layer * u64::from(LAYERS)).await?,
         };
         let mut settings = Vec::new();
         let mut run = |pass: &Pass, film, turn, own, size_px: [u32; 2]| {
-            let resources = resources(&room, film, turn, settings.len());
+            let resources = resources(&buffers, film, turn, settings.len());
             settings.push(own);
             pass.run(gpu, (encoder, timing), &resources, size_px);
         };
@@ -152,8 +152,8 @@ impl FilterPasses {
             bytes.extend_from_slice(bytemuck::bytes_of(one));
             bytes.resize(bytes.len().next_multiple_of(SETTINGS_STRIDE as usize), 0);
         }
-        gpu.queue.write_buffer(&room.settings, 0, &bytes);
-        self.room = Some(room);
+        gpu.queue.write_buffer(&buffers.settings, 0, &bytes);
+        self.buffers = Some(buffers);
         Ok(())
     }
 }
@@ -193,27 +193,27 @@ impl Pass {
 
 /// All bindings in their order, which read the signals of one turn and write those of the other. Twin: filter.wgsl.
 fn resources<'a>(
-    room: &'a FilterBuffers,
+    buffers: &'a FilterBuffers,
     film: &'a Film,
     turn: usize,
     settings: usize,
 ) -> [BindingResource<'a>; 9] {
     let view = BindingResource::TextureView;
     let settings = BindingResource::Buffer(wgpu::BufferBinding {
-        buffer: &room.settings,
+        buffer: &buffers.settings,
         offset: settings as u64 * SETTINGS_STRIDE,
         size: wgpu::BufferSize::new(size_of::<FilterSettings>() as u64),
     });
     let traced = film.traced.as_ref().map_or(&film.buffer, |it| &it.buffer);
-    let [read, written] = [&room.signals[turn], &room.signals[1 - turn]];
+    let [read, written] = [&buffers.signals[turn], &buffers.signals[1 - turn]];
     [
         settings,
         film.buffer.as_entire_binding(),
         traced.as_entire_binding(),
-        view(&room.guides),
+        view(&buffers.guides),
         view(&read[0]),
         view(&read[1]),
-        view(&room.guides),
+        view(&buffers.guides),
         view(&written[0]),
         view(&written[1]),
     ]

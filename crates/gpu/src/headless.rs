@@ -49,7 +49,7 @@ pub fn render(
     options: &RenderOptions,
     progress: &dyn Fn(f64),
 ) -> Result<Image, Error> {
-    let index = Arc::new(ScratchIndex::of(scene, method.pieces()));
+    let index = Arc::new(ScratchIndex::with_pieces(scene, method.pieces()));
     let tables = ScratchTables::new(scene);
     gpu.block_on(async {
         let mut renderer = Renderer::new(gpu).await?;

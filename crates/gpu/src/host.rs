@@ -256,8 +256,8 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
         metallic_roughness_texture: array.packed(material.metallic_roughness_texture),
         normal_texture: array.packed(material.normal_texture.map(|(texture, _)| texture)),
         emission_texture: array.packed(material.emission_texture),
-        alpha: material.cutout.map_or(1.0, |it| it.alpha as f32),
-        threshold: material.cutout.map_or(-1.0, |it| match it.rule {
+        alpha: material.cutout.map_or(1.0, |cutout| cutout.alpha as f32),
+        threshold: material.cutout.map_or(-1.0, |cutout| match cutout.rule {
             AlphaRule::AtLeast(threshold) => threshold as f32,
             AlphaRule::Share => ALPHA_IS_SHARE,
         }),

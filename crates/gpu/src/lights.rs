@@ -61,7 +61,7 @@ impl LightKind {
         only.constants()
     }
 
-    fn of(light: &Light) -> Self {
+    fn from_light(light: &Light) -> Self {
         match &light.shape {
             LightShape::Sphere { .. } => Self::Spheres,
             LightShape::Polygon { .. } if light.picture.is_some() => Self::Pictures,
@@ -79,10 +79,10 @@ pub(crate) struct Kinds([bool; LightKind::ALL.len()]);
 impl Kinds {
     pub(crate) const ALL: Self = Self([true; LightKind::ALL.len()]);
 
-    pub(crate) fn of(scene: &Scene) -> Self {
+    pub(crate) fn from_scene(scene: &Scene) -> Self {
         let mut kinds = Self::default();
         for light in scene.all_lights() {
-            kinds.0[LightKind::of(light) as usize] = true;
+            kinds.0[LightKind::from_light(light) as usize] = true;
         }
         kinds.0[LightKind::Environment as usize] = scene.environment.is_some();
         kinds
@@ -138,13 +138,16 @@ impl Kinds {
 /// All area lights, kind after kind.
 pub(crate) fn sorted(scene: &Scene) -> Vec<&Light> {
     let mut lights: Vec<_> = scene.all_lights().collect();
-    lights.sort_by_key(|light| LightKind::of(light));
+    lights.sort_by_key(|light| LightKind::from_light(light));
     lights
 }
 
 /// The kind of each light, in the order of [`sorted`].
 pub(crate) fn kinds(scene: &Scene) -> Vec<LightKind> {
-    sorted(scene).into_iter().map(LightKind::of).collect()
+    sorted(scene)
+        .into_iter()
+        .map(LightKind::from_light)
+        .collect()
 }
 
 /// Ranges among the sorted lights of each kind that the scene has; the environment has none.
@@ -155,7 +158,10 @@ pub(crate) fn ranges(scene: &Scene) -> Vec<(LightKind, Range<u32>)> {
         let end = kinds.partition_point(|it| *it <= kind);
         (kind, start as u32..end as u32)
     };
-    Kinds::of(scene).over_scratches().map(range).collect()
+    Kinds::from_scene(scene)
+        .over_scratches()
+        .map(range)
+        .collect()
 }
 
 /// Texels of a light without its vertices.

@@ -37,14 +37,14 @@ impl Method {
 ///
 /// Pipelines are kept by its [`Debug`] text, which therefore holds all of its switches.
 pub trait ShadingMethod: Debug + Send + Sync {
-    /// Module of the pass. Its entry point has the name of its file. A workgroup takes a group of samples and fills their `base_light`
-    /// and one chunk of `chunk_sums`.
+    /// Module of the pass, whose bindings are those of `other_method.wgsl` and then its tables. Its entry point has the name of its file. A
+    /// workgroup takes a group of samples and fills their `base_light` and one chunk of `chunk_sums`.
     fn module(&self) -> &'static Module;
 
     /// Values of the constants that its modules leave open.
     fn constants(&self) -> Vec<(&'static str, f64)>;
 
-    /// Textures that its modules bind in group 3 beside the arrays of a strip.
+    /// Textures that its modules bind in group 3 behind the arrays of a strip, in the order of their numbers.
     fn tables(&self, of: &TableSource<'_>) -> Vec<Table>;
 }
 
@@ -75,8 +75,6 @@ impl<'a> TableSource<'a> {
 
 /// A texture that a method's pass reads.
 pub struct Table {
-    /// Name of the texture in the shader.
-    pub name: &'static str,
     /// Name for messages and for [`crate::Written`].
     pub what: &'static str,
     /// Texels in a row: [`ROW_TEXELS`] where `row_texel` of texels.wgsl finds them.

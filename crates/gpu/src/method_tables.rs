@@ -5,7 +5,6 @@ use wgpu::TextureFormat;
 
 use crate::error::Error;
 use crate::method::{Table, TableSource, Texels};
-use crate::resources::Resources;
 use crate::source::Source;
 use crate::transfer::{TexturePosition, Transfer};
 
@@ -14,22 +13,21 @@ pub(crate) async fn upload(
     transfer: &mut Transfer<'_>,
     source: &Source<'_>,
     origin_m: DVec3,
-) -> Result<Resources, Error> {
-    let mut resources = Resources::default();
+) -> Result<Vec<wgpu::TextureView>, Error> {
+    let mut views = Vec::new();
     let Some(method) = &source.method.other else {
-        return Ok(resources);
+        return Ok(views);
     };
-    let of = TableSource {
+    let table_source = TableSource {
         scene: source.scene,
         index: source.index,
         tables: source.tables,
         origin_m,
     };
-    for table in method.tables(&of) {
-        let view = upload_table(transfer, &table).await?;
-        resources = resources.texture(table.name, &view);
+    for table in method.tables(&table_source) {
+        views.push(upload_table(transfer, &table).await?);
     }
-    Ok(resources)
+    Ok(views)
 }
 
 async fn upload_table(

@@ -103,10 +103,10 @@ impl<'a> Orders<'a> {
     /// thread holds it for a second or so.
     fn verdicts(&self) -> Vec<impl Future<Output = Result<(), Error>>> {
         let compile = |order: &Order| {
-            let ears = Ears::open(self.gpu);
+            let scopes = ErrorScopes::open(self.gpu);
             // Nobody else sets it.
             order.pipeline.0.set(self.create(order)).ok();
-            ears.verdict()
+            scopes.verdict()
         };
         #[cfg(not(target_arch = "wasm32"))]
         if !self.gpu.adapter.is_opengl() {
@@ -117,8 +117,7 @@ impl<'a> Orders<'a> {
 
     fn create(&self, order: &Order) -> wgpu::ComputePipeline {
         let Self { gpu, layouts, .. } = self;
-        let text = shaders::compose(&[order.module]);
-        let mut constants = self.variant.constants(&text);
+        let mut constants = self.variant.constants(order.module);
         constants.retain(|(name, _)| order.more.iter().all(|(other, _)| other != name));
         constants.extend(&order.more);
         let label = Some(order.module.name);
@@ -180,20 +179,20 @@ pub(crate) fn alone(
 
 /// Returns what `create` compiles, or the reason why the driver or the shader's own rules refuse it.
 pub(crate) async fn compiled<T>(gpu: &Gpu, create: impl FnOnce() -> T) -> Result<T, Error> {
-    let ears = Ears::open(gpu);
+    let scopes = ErrorScopes::open(gpu);
     let created = create();
-    ears.verdict().await?;
+    scopes.verdict().await?;
     Ok(created)
 }
 
-/// Listener to errors of pipelines on this thread.
-struct Ears<'a> {
+/// Scopes that catch the errors of pipelines on this thread.
+struct ErrorScopes<'a> {
     gpu: &'a Gpu,
     library: wgpu::ErrorScopeGuard,
     driver: wgpu::ErrorScopeGuard,
 }
 
-impl<'a> Ears<'a> {
+impl<'a> ErrorScopes<'a> {
     fn open(gpu: &'a Gpu) -> Self {
         Self {
             gpu,

@@ -103,7 +103,7 @@ impl Renderer {
     /// [`Error::OutOfMemory`], [`Error::Lost`].
     pub async fn time_passes(&mut self) -> Result<bool, Error> {
         if !self.strips.timing.is_on() {
-            self.strips.timing = Timing::on(&self.gpu).await?;
+            self.strips.timing = Timing::begin(&self.gpu).await?;
         }
         Ok(self.strips.timing.is_on())
     }
@@ -233,7 +233,7 @@ impl Renderer {
         for first in (0..height).step_by(band as usize) {
             let in_image = first..(first + band).min(height);
             let in_picture = rows.start + in_image.start..rows.start + in_image.end;
-            let (mut room, mut film) = self.take_band(width, band).await?;
+            let (mut buffers, mut film) = self.take_band(width, band).await?;
             let mut step = 0;
             while step < steps {
                 let view = View {
@@ -249,9 +249,9 @@ impl Renderer {
                     film.hold_traced(&self.gpu, view.traced_rounds()).await?;
                 }
                 self.strips
-                    .shade(&view, &film, &mut room, in_picture.clone())
+                    .shade(&view, &film, &mut buffers, in_picture.clone())
                     .await?;
-                let settled = room.settle(&self.gpu, &[&film]).await?;
+                let settled = buffers.settle(&self.gpu, &[&film]).await?;
                 if let Some(again) = settled[0] {
                     step = again;
                     continue;
@@ -262,7 +262,7 @@ impl Renderer {
                 progress(done / f64::from(height));
             }
             film.read(&self.gpu, &mut image, &in_image).await?;
-            self.band = Some((room, film));
+            self.band = Some((buffers, film));
         }
         Ok(image)
     }
@@ -309,11 +309,11 @@ impl Renderer {
             batch,
             without_shadows: options.without_shadows,
         };
-        let (film, room) = canvas.begin(band, step);
+        let (film, buffers) = canvas.begin(band, step);
         if step == 0 {
             film.hold_traced(&self.gpu, view.traced_rounds()).await?;
         }
-        self.strips.shade(&view, film, room, rows).await?;
+        self.strips.shade(&view, film, buffers, rows).await?;
         self.gpu.check()?;
         canvas.finish(band, step + 1);
         Ok(())
@@ -400,17 +400,17 @@ impl Renderer {
         Ok(pixels)
     }
 
-    /// A film for `rows` rows of `width_px` pixels and the room to work on it: those at hand if they fit.
+    /// A film for `rows` rows of `width_px` pixels and the buffers to work on it: those at hand if they fit.
     async fn take_band(&mut self, width_px: u32, rows: u32) -> Result<(StripBuffers, Film), Error> {
-        if let Some((room, film)) = self.band.take()
-            && room.width_px == width_px
-            && room.rows == rows
+        if let Some((buffers, film)) = self.band.take()
+            && buffers.width_px == width_px
+            && buffers.rows == rows
         {
-            return Ok((room, film));
+            return Ok((buffers, film));
         }
         let gpu = &self.gpu;
-        let room = StripBuffers::new(gpu, &self.strips.scans, width_px, rows).await?;
+        let buffers = StripBuffers::new(gpu, &self.strips.scans, width_px, rows).await?;
         let film = Film::new(gpu, width_px, rows).await?;
-        Ok((room, film))
+        Ok((buffers, film))
     }
 }

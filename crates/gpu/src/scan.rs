@@ -43,7 +43,7 @@ impl ScanPasses {
     }
 
     /// Makes a scan of `values`, an array of `u32` with room for `capacity` of them, which takes all.
-    pub(crate) async fn of(
+    pub(crate) async fn scan(
         &self,
         gpu: &Gpu,
         values: &wgpu::Buffer,

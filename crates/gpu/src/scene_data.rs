@@ -10,7 +10,6 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::light_ranges::LightRanges;
 use crate::method_tables;
-use crate::resources::Resources;
 use crate::scene_buffers::{SceneBuffers, check_size};
 use crate::source::Source;
 use crate::texture_array::TextureArray;
@@ -24,7 +23,7 @@ pub(crate) struct SceneData {
     pub light_count: u32,
     pub light_ranges: LightRanges,
     /// Tables of a method that is not Hairline's own.
-    pub method_tables: Resources,
+    pub method_tables: Vec<wgpu::TextureView>,
     /// The first of the objects that are the shapes of lights.
     pub lamps: u32,
     /// Whether each object has a cutout.

@@ -5,7 +5,7 @@
 //! `passes` has the entry points. A [method](crate::method) of others brings its own.
 //!
 //! A file names the modules that it needs in the comment at its top, `// Needs: scene, lights.`; its first sentence says what it is. A build script
-//! makes the statics of this room of it, with the bindings that the compiler finds.
+//! makes the statics of this room of it, with the bindings, entry points and overrides that the compiler finds.
 //!
 //! Modules are joined by concatenation, what a module needs before it, each once; their module-level names are therefore unique
 //! over all modules.
@@ -23,6 +23,10 @@ pub struct Module {
     pub needs: &'static [&'static Module],
     /// What a pass binds in group 3, which each pass has for itself, in the order of their numbers: its own and those of what it needs.
     pub bindings: &'static [Binding],
+    /// Names of its compute passes.
+    pub entry_points: &'static [&'static str],
+    /// Names of the constants that pipelines may set, its own and those of what it needs.
+    pub overrides: &'static [&'static str],
 }
 
 /// A binding that a shader declares.
@@ -46,6 +50,11 @@ pub enum BindingKind {
     },
     /// A buffer of uniforms.
     Uniform,
+    /// A part of a buffer of uniforms, which each dispatch chooses.
+    UniformPart {
+        /// Size of the part.
+        bytes: u64,
+    },
     /// A texture of integers.
     Integers,
     /// A texture of numbers that are not filtered.

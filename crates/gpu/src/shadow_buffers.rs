@@ -5,7 +5,6 @@ use wgpu::BufferUsages;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{ShadowRay, ShadowRound, TracedRays};
-use crate::resources::Resources;
 use crate::sizes::Points;
 
 /// The arrays over samples. They grow to the size that is needed.
@@ -32,15 +31,6 @@ const PICKS_MOST: u64 = 16;
 const PICKS_BYTES_MOST: u64 = 1 << 28;
 
 impl ShadowBuffers {
-    /// All that passes may bind of it.
-    pub(crate) fn resources(&self) -> Resources {
-        Resources::default()
-            .buffer("shadow_round", &self.round)
-            .buffer("rays", &self.rays)
-            .buffer("traced", &self.traced)
-            .buffer("picks", &self.picks)
-    }
-
     pub(crate) async fn new(gpu: &Gpu) -> Result<Self, Error> {
         let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let storage = BufferUsages::STORAGE;
@@ -96,8 +86,8 @@ impl ShadowBuffers {
     ) -> Result<u32, Error> {
         // States take at most half of an array: sums take twice as much. One pick always fits.
         let most = PICKS_BYTES_MOST.min(gpu.largest_array()) / 2;
-        let room = most / (PICK_BYTES * points.first.max(1));
-        let count = room.clamp(1, PICKS_MOST).min(u64::from(wanted.max(1)));
+        let fits = most / (PICK_BYTES * points.first.max(1));
+        let count = fits.clamp(1, PICKS_MOST).min(u64::from(wanted.max(1)));
         let bytes = PICK_BYTES * (lanes + points.most.max(points.first * count));
         if self.picks_bytes < bytes {
             self.picks_bytes = 0;

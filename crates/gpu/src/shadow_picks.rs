@@ -4,23 +4,38 @@
 //! takes one of the picks.
 
 use crate::compute_pass::{ComputePass, Recording, Workgroups};
+use crate::film::Film;
 use crate::kind_passes::KindPasses;
 use crate::lights::LightKind;
+use crate::pass_bindings::{
+    EntryPoint, ShadeGratings, ShadeScratches, ShadowPickedRays, ShadowPicks,
+};
 use crate::pipelines::Orders;
-use crate::resources::Resources;
 use crate::shadow_buffers::ShadowBuffers;
+use crate::strip::StripBuffers;
 use crate::variant::{RayOrigin, Way};
-use crate::{shade_gratings, shade_scratches, shaders};
+use crate::{shade_gratings, shade_scratches};
 
 /// Passes that pick scratches or gratings, and draw rays by way of them.
 pub(crate) struct PickPasses {
     /// Finds where the running sums of a group begin by which the second lighting picks.
-    begin: ComputePass,
-    pick: KindPasses,
+    begin: ComputePass<ShadowPicks<'static>>,
+    pick: Pick,
     /// One pass for each kind of light that the rays go to.
-    rays: Vec<ComputePass>,
-    /// Lobe by which light leaves the samples.
-    pub way: Way,
+    rays: Vec<ComputePass<ShadowPickedRays<'static>>>,
+}
+
+enum Pick {
+    Scratches(KindPasses<ShadeScratches<'static>>),
+    Gratings(KindPasses<ShadeGratings<'static>>),
+}
+
+/// Samples, and the arrays of their rays.
+#[derive(Clone, Copy)]
+pub(crate) struct RayBuffers<'a> {
+    pub strip: &'a StripBuffers,
+    pub shadows: &'a ShadowBuffers,
+    pub film: &'a Film,
 }
 
 /// Groups and chunks of scratches to be picked from, a workgroup each.
@@ -35,34 +50,44 @@ impl PickPasses {
     pub(crate) fn of_scratches(orders: &mut Orders, seen: RayOrigin) -> Self {
         let constants = [("PICKS", 1.0), seen.constant()];
         let pick = shade_scratches::kinds(orders, "shadow picks", &constants);
-        Self::new(orders, "shadow_picks", pick, Way::Scratches)
+        Self::new(orders, ShadowPicks::SHADOW_PICKS, Pick::Scratches(pick))
     }
 
     /// Makes the passes for gratings.
     pub(crate) fn of_gratings(orders: &mut Orders) -> Self {
         let pick = shade_gratings::kinds(orders, "shadow picks", &[("PICKS", 1.0)]);
-        Self::new(orders, "shadow_grating_picks", pick, Way::Gratings)
+        Self::new(
+            orders,
+            ShadowPicks::SHADOW_GRATING_PICKS,
+            Pick::Gratings(pick),
+        )
     }
 
-    fn new(orders: &mut Orders, begin: &'static str, pick: KindPasses, way: Way) -> Self {
+    fn new(orders: &mut Orders, begin: EntryPoint<ShadowPicks<'static>>, pick: Pick) -> Self {
         let mut kinds: Vec<_> = orders.variant().has.lights.of_rays().collect();
         if kinds.is_empty() {
             // Then there is no pick, which one pass must tell.
             kinds.push(LightKind::Spheres);
         }
         let rays = kinds.into_iter().map(|kind| {
-            let module = (&shaders::SHADOW_PICKED_RAYS, "shadow_picked_rays");
+            let entry_point = ShadowPickedRays::SHADOW_PICKED_RAYS;
             let mut constants = kind.constants().to_vec();
-            constants.push(("OF_GRATINGS", (way == Way::Gratings).into()));
-            ComputePass::order(orders, "shadow rays", module, &constants)
+            constants.push(("OF_GRATINGS", matches!(pick, Pick::Gratings(_)).into()));
+            ComputePass::order(orders, "shadow rays", entry_point, &constants)
         });
         let rays = rays.collect();
-        let module = (&shaders::SHADOW_PICKS, begin);
         Self {
-            begin: ComputePass::order(orders, "shadow picks", module, &[]),
+            begin: orders.pass("shadow picks", begin),
             pick,
             rays,
-            way,
+        }
+    }
+
+    /// Lobe by which light leaves the samples.
+    pub(crate) fn way(&self) -> Way {
+        match self.pick {
+            Pick::Scratches(_) => Way::Scratches,
+            Pick::Gratings(_) => Way::Gratings,
         }
     }
 
@@ -70,37 +95,58 @@ impl PickPasses {
     pub(crate) fn record_picks(
         &self,
         recording: &mut Recording,
-        resources: &Resources,
-        shadow_buffers: &ShadowBuffers,
+        buffers: RayBuffers,
         on: &Scratched,
     ) {
-        self.begin.run(recording, resources, &on.groups);
-        let into_picks = into_picks(resources, shadow_buffers);
-        let workgroups = match self.way {
-            Way::Gratings => &on.groups,
-            _ => &on.chunks,
-        };
-        self.pick.run(recording, &into_picks, workgroups);
+        let (scene, picks) = (recording.scene, &buffers.shadows.picks);
+        let begun = begin(buffers.strip, buffers.shadows, &buffers.shadows.round);
+        self.begin.run(recording, &begun, &on.groups);
+        match &self.pick {
+            Pick::Scratches(pass) => {
+                let bound = shade_scratches::bindings(scene, buffers.strip, picks);
+                pass.run(recording, &bound, &on.chunks);
+            }
+            Pick::Gratings(pass) => {
+                let bound = shade_gratings::bindings(scene, buffers.strip, buffers.film, picks);
+                pass.run(recording, &bound, &on.groups);
+            }
+        }
     }
 
     /// Draws a ray of each sample by way of the round's pick.
     pub(crate) fn record_rays(
         &self,
         recording: &mut Recording,
-        resources: &Resources,
+        buffers: RayBuffers,
         groups: &Workgroups,
     ) {
+        let (samples, shadows) = (&buffers.strip.samples, buffers.shadows);
+        let bound = ShadowPickedRays {
+            points: &samples.points,
+            chunk_starts: &samples.chunk_starts,
+            gratings: recording.scene.buffers.gratings(),
+            picks: &shadows.picks,
+            rays: &shadows.rays,
+            shadow_round: &shadows.round,
+            paints: &samples.paints,
+        };
         for pass in &self.rays {
-            pass.run(recording, resources, groups);
+            pass.run(recording, &bound, groups);
         }
     }
 }
 
-/// Passes of light with these resources write to the picks in place of the sums.
-pub(crate) fn into_picks(resources: &Resources, shadow_buffers: &ShadowBuffers) -> Resources {
-    let picks = &shadow_buffers.picks;
-    resources
-        .clone()
-        .buffer("chunk_words", picks)
-        .buffer("grating_words", picks)
+/// Bindings of the pass that begins the picks of a round.
+pub(crate) fn begin<'a>(
+    strip: &'a StripBuffers,
+    shadows: &'a ShadowBuffers,
+    shadow_round: &'a wgpu::Buffer,
+) -> ShadowPicks<'a> {
+    ShadowPicks {
+        points: &strip.samples.points,
+        chunk_starts: &strip.samples.chunk_starts,
+        chunk_sums: &strip.samples.chunk_sums,
+        picks: &shadows.picks,
+        shadow_round,
+    }
 }

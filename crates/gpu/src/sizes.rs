@@ -9,8 +9,8 @@ use crate::compute_pass::{ComputePass, Workgroups};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{self, COUNTED_CHUNKS, COUNTED_ENTRIES, COUNTED_GROUPS};
+use crate::pass_bindings;
 use crate::pipelines::Orders;
-use crate::shaders;
 use crate::variant::RayOrigin;
 
 /// Numbers of entries, groups and chunks, at the places that the shader has for them.
@@ -33,20 +33,19 @@ pub(crate) const CHUNKS: usize = COUNTED_CHUNKS as usize;
 pub(crate) struct Sizes {
     pub buffer: wgpu::Buffer,
     /// Numbers that there is room for.
-    pub room: Numbers,
+    pub capacity: Numbers,
     /// Numbers that there is to be room for: a quarter more than was needed.
     pub wanted: Numbers,
 }
 
+/// A pass that sizes dispatches.
+pub(crate) type SizesPass = ComputePass<pass_bindings::Sizes<'static>>;
+
 /// The pass that sizes dispatches by one of the numbers.
-pub(crate) fn pass(orders: &mut Orders, counted: usize, seen: RayOrigin) -> ComputePass {
+pub(crate) fn pass(orders: &mut Orders, counted: usize, seen: RayOrigin) -> SizesPass {
     let constants = [("COUNTED", counted as f64), seen.constant()];
-    ComputePass::order(
-        orders,
-        "sizes",
-        (&shaders::SIZES, "count_sizes"),
-        &constants,
-    )
+    let entry_point = pass_bindings::Sizes::COUNT_SIZES;
+    ComputePass::order(orders, "sizes", entry_point, &constants)
 }
 
 impl Sizes {
@@ -56,7 +55,7 @@ impl Sizes {
         let bytes = size_of::<layout::Sizes>() as u64;
         Ok(Self {
             buffer: gpu.buffer("sizes", bytes, usage).await?,
-            room: [0; 3],
+            capacity: [0; 3],
             wanted: [0; 3],
         })
     }
@@ -69,18 +68,19 @@ impl Sizes {
     }
 
     /// Tells the device how much room there is.
-    pub(crate) fn set_room(&mut self, gpu: &Gpu, room: Numbers) {
-        if self.room != room {
-            self.room = room;
-            let at = offset_of!(layout::Sizes, room) as u64;
-            gpu.queue.write_buffer(&self.buffer, at, bytes_of(&room));
+    pub(crate) fn set_capacity(&mut self, gpu: &Gpu, capacity: Numbers) {
+        if self.capacity != capacity {
+            self.capacity = capacity;
+            let at = offset_of!(layout::Sizes, capacity) as u64;
+            gpu.queue
+                .write_buffer(&self.buffer, at, bytes_of(&capacity));
         }
     }
 
     /// Takes note of what was needed of strips that will have `1 / parts` of the rows.
     pub(crate) fn want(&mut self, gpu: &Gpu, needed: Numbers, parts: u32) {
-        for ((wanted, needed), room) in self.wanted.iter_mut().zip(needed).zip(self.room) {
-            if needed > room {
+        for ((wanted, needed), most) in self.wanted.iter_mut().zip(needed).zip(self.capacity) {
+            if needed > most {
                 *wanted = (needed / parts).saturating_add(needed / 4);
             }
         }

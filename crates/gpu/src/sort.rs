@@ -3,23 +3,21 @@
 //! Inputs: entries. Outputs: entries in the order of tiles, and within a tile in the order of segments. One invocation an entry.
 
 use crate::compute_pass::{ComputePass, Recording, Workgroups};
+use crate::pass_bindings::Sort;
 use crate::pipelines::Orders;
-use crate::resources::Resources;
 use crate::scan::ScanPasses;
-use crate::shaders;
 use crate::strip::{DIGIT_BITS, Lists};
 
 pub(crate) struct SortPasses {
-    count: ComputePass,
-    scatter: ComputePass,
+    count: ComputePass<Sort<'static>>,
+    scatter: ComputePass<Sort<'static>>,
 }
 
 impl SortPasses {
     pub(crate) fn new(orders: &mut Orders) -> Self {
-        let mut pass = |entry_point| orders.pass("sort", &shaders::SORT, entry_point);
         Self {
-            count: pass("sort_count"),
-            scatter: pass("sort_scatter"),
+            count: orders.pass("sort", Sort::SORT_COUNT),
+            scatter: orders.pass("sort", Sort::SORT_SCATTER),
         }
     }
 
@@ -36,14 +34,15 @@ impl SortPasses {
         let digits = bits.div_ceil(DIGIT_BITS);
         for (digit, settings) in lists.digits.iter().enumerate().take(digits as usize) {
             let from = digit % 2;
-            let resources = Resources::default()
-                .buffer("settings", settings)
-                .buffer("entries", &lists.entries[from])
-                .buffer("digit_starts", &lists.digit_starts)
-                .buffer("sorted", &lists.entries[1 - from]);
-            self.count.run(recording, &resources, blocks);
+            let bound = Sort {
+                settings,
+                entries: &lists.entries[from],
+                digit_starts: &lists.digit_starts,
+                sorted: &lists.entries[1 - from],
+            };
+            self.count.run(recording, &bound, blocks);
             scans.record(recording.encoder, &lists.digit_scan, recording.timing);
-            self.scatter.run(recording, &resources, blocks);
+            self.scatter.run(recording, &bound, blocks);
         }
         digits as usize % 2
     }

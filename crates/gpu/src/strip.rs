@@ -10,7 +10,6 @@ use crate::compute_pass::Workgroups;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{BaseLight, ChunkSum, PixelPaint, PixelPoint, SortSettings};
-use crate::resources::Resources;
 use crate::scan::{Scan, ScanPasses};
 use crate::shadow_buffers::ShadowBuffers;
 use crate::sizes::{Numbers, Sizes};
@@ -65,13 +64,13 @@ pub(crate) struct StripBuffers {
     pub bounces: Option<Box<BounceBuffers>>,
 }
 
-/// Arrays over samples in which the passes of bounces store their results for one another, and the rooms for their hits. They grow to the size
+/// Arrays over samples in which the passes of bounces store their results for one another, and the buffers of their hits. They grow to the size
 /// that is needed.
 pub(crate) struct BounceBuffers {
     pub round: wgpu::Buffer,
     pub rays: wgpu::Buffer,
     pub points_max: u64,
-    /// Two rooms that take turns: rays leave the hits of one, and the hits that they meet lie in the other.
+    /// Two sets of buffers that take turns: rays leave the hits of one, and the hits that they meet lie in the other.
     pub hits: [StripBuffers; 2],
     pub groups_max: u32,
 }
@@ -168,7 +167,7 @@ impl StripBuffers {
             visibility: target(VISIBILITY_FORMAT, TextureUsages::TEXTURE_BINDING).await?,
             depth: target(DEPTH_FORMAT, TextureUsages::empty()).await?,
             list_starts: gpu.buffer("tile lists", bytes, usage).await?,
-            group_scan: scans.of(gpu, &group_starts, starts).await?,
+            group_scan: scans.scan(gpu, &group_starts, starts).await?,
             group_starts,
             samples: Samples::new(gpu, scans).await?,
             lists: Lists::new(gpu, scans).await?,
@@ -179,25 +178,6 @@ impl StripBuffers {
 }
 
 impl StripBuffers {
-    /// All that passes over the strip may bind.
-    pub(crate) fn resources(&self) -> Resources {
-        let (samples, lists) = (&self.samples, &self.lists);
-        let sorted = lists.made.as_ref().map_or(0, |made| made.sorted);
-        Resources::default()
-            .texture("visibility", &self.visibility)
-            .buffer("group_starts", &self.group_starts)
-            .buffer("list_starts", &self.list_starts)
-            .buffer("entry_starts", &lists.entry_starts)
-            .buffer("entries", &lists.entries[sorted])
-            .buffer("points", &samples.points)
-            .buffer("paints", &samples.paints)
-            .buffer("base_light", &samples.base_light)
-            .buffer("chunk_starts", &samples.chunk_starts)
-            .buffer("chunk_sums", &samples.chunk_sums)
-            .buffer("chunk_words", &samples.chunk_sums)
-            .buffer("grating_words", &samples.chunk_sums)
-    }
-
     /// Workgroups of a tile each, over so many rows.
     pub(crate) fn tiles(&self, rows: u32) -> Workgroups {
         Workgroups::Known([self.width_px, rows].map(|n| n.div_ceil(TILE_PX)))
@@ -219,7 +199,7 @@ impl Samples {
                 .await?,
             base_light: gpu.buffer("base of samples", BASE_BYTES, storage).await?,
             points_max: 1,
-            chunk_scan: scans.of(gpu, &chunk_starts, 2).await?,
+            chunk_scan: scans.scan(gpu, &chunk_starts, 2).await?,
             chunk_starts,
             groups_max: 1,
             chunk_sums: gpu.buffer("sums of chunks", CHUNK_BYTES, storage).await?,
@@ -253,7 +233,7 @@ impl Samples {
             self.groups_max = 0;
             let bytes = 4 * (u64::from(groups) + 1);
             self.chunk_starts = gpu.buffer("chunks of groups", bytes, POINTS_USAGE).await?;
-            self.chunk_scan = scans.of(gpu, &self.chunk_starts, groups + 1).await?;
+            self.chunk_scan = scans.scan(gpu, &self.chunk_starts, groups + 1).await?;
             self.groups_max = groups;
         }
         if self.chunks_max < chunks {
@@ -280,7 +260,7 @@ impl Lists {
         let entry_starts = gpu.buffer("entries of segments", 4, least).await?;
         let digit_starts = gpu.buffer("digits of entries", 4, least).await?;
         Ok(Self {
-            entry_scan: scans.of(gpu, &entry_starts, 1).await?,
+            entry_scan: scans.scan(gpu, &entry_starts, 1).await?,
             entry_starts,
             segments: 0,
             entries: [
@@ -288,7 +268,7 @@ impl Lists {
                 gpu.buffer("tile lists", ENTRY_BYTES, least).await?,
             ],
             entries_max: 1,
-            digit_scan: scans.of(gpu, &digit_starts, 1).await?,
+            digit_scan: scans.scan(gpu, &digit_starts, 1).await?,
             digit_starts,
             digits: [
                 digit(gpu, 0).await?,
@@ -298,6 +278,11 @@ impl Lists {
             ],
             made: None,
         })
+    }
+
+    /// The entries in the order of tiles, once they are sorted.
+    pub(crate) fn sorted(&self) -> &wgpu::Buffer {
+        &self.entries[self.made.as_ref().map_or(0, |made| made.sorted)]
     }
 
     /// Makes room for the entries of so many segments to be counted.
@@ -311,7 +296,7 @@ impl Lists {
             let bytes = 4 * (u64::from(segments) + 1);
             let usage = BufferUsages::STORAGE;
             self.entry_starts = gpu.buffer("entries of segments", bytes, usage).await?;
-            self.entry_scan = scans.of(gpu, &self.entry_starts, segments + 1).await?;
+            self.entry_scan = scans.scan(gpu, &self.entry_starts, segments + 1).await?;
             self.segments = segments;
         }
         self.entry_scan.set_count(gpu, segments + 1);
@@ -341,7 +326,7 @@ impl Lists {
             let digits = DIGITS * entries.div_ceil(SORT_BLOCK);
             let bytes = 4 * u64::from(digits);
             self.digit_starts = gpu.buffer("digits of entries", bytes, storage).await?;
-            self.digit_scan = scans.of(gpu, &self.digit_starts, digits).await?;
+            self.digit_scan = scans.scan(gpu, &self.digit_starts, digits).await?;
             self.entries_max = entries;
         }
         Ok(())

@@ -5,14 +5,11 @@ use hairline_image::Batch;
 use crate::bounces::{Bounce, Bounces};
 use crate::compute_pass::Workgroups;
 use crate::error::Error;
-use crate::film::Film;
 use crate::frame::Rounds;
 use crate::layout::ShadowRound;
 use crate::lights::{self, LightKind};
-use crate::passes::Shade;
-use crate::resources::Resources;
 use crate::shadow_buffers::ShadowBuffers;
-use crate::shadow_picks::Scratched;
+use crate::shadow_picks::{RayBuffers, Scratched};
 use crate::shadows::Shadows;
 use crate::sizes::CHUNKS;
 use crate::strip::{BounceBuffers, StripBuffers};
@@ -20,25 +17,49 @@ use crate::strip_shader::StripRays;
 use crate::variant::Way;
 
 impl StripRays<'_, '_> {
-    /// Finds which part of the light of the samples is seen.
-    pub(crate) async fn shadows(
+    /// The light of the samples that rays find, on the film.
+    pub(crate) async fn shade(
         &self,
         shadows: &Shadows,
-        room: &mut StripBuffers,
+        buffers: &mut StripBuffers,
+        on: &Scratched,
+        rows: u32,
+    ) -> Result<(), Error> {
+        let Self { view, film, .. } = *self;
+        let rounds = Rounds {
+            now: view.rounds(),
+            seed: 0,
+        };
+        self.shadows(shadows, buffers, on, rounds).await?;
+        if let Some(bounces) = view.bounces() {
+            self.bounces(bounces, buffers, on).await?;
+        }
+        self.finish(shadows, buffers, &on.groups, rounds.now.count);
+        self.strip.submit(view, |recording| {
+            let passes = &view.uploaded.passes;
+            passes.record_resolve(recording, buffers, film, rows);
+            shadows.record_film(recording, buffers, film, rows);
+        });
+        Ok(())
+    }
+
+    /// Finds which part of the light of the samples is seen.
+    async fn shadows(
+        &self,
+        shadows: &Shadows,
+        buffers: &mut StripBuffers,
         on: &Scratched,
         rounds: Rounds,
     ) -> Result<(), Error> {
-        let Self {
-            view, film, points, ..
-        } = *self;
+        let Self { view, points, .. } = *self;
         let (gpu, groups) = (&self.strip.gpu, &on.groups);
-        let mut shadow_buffers = match room.shadows.take() {
+        let mut shadow_buffers = match buffers.shadows.take() {
             Some(shadow_buffers) => shadow_buffers,
             None => ShadowBuffers::new(gpu).await?,
         };
         let layers = shadows.layers;
         shadow_buffers.make_room(gpu, points.most, layers).await?;
-        let lanes = room.lanes();
+        let lanes = buffers.lanes();
         self.strip.submit(self.view, |recording| {
             shadow_buffers.clear(recording.encoder)
         });
@@ -62,9 +83,9 @@ impl StripRays<'_, '_> {
                 next.round = round;
                 next.ends_round = (i + 1 == sources.len()).into();
                 shadow_buffers.write(gpu, &next);
-                let resources = of_rays(room, &shadow_buffers, film, shadows);
+                let rays = self.ray_buffers(buffers, &shadow_buffers);
                 self.strip.submit(self.view, |recording| {
-                    shadows.record_base_round(kind, recording, &resources, groups);
+                    shadows.record_base_round(kind, recording, rays, groups);
                 });
             }
         }
@@ -74,7 +95,7 @@ impl StripRays<'_, '_> {
                 .make_room_for_picks(gpu, points, lanes, next.rounds)
                 .await?;
             next.source = source;
-            next.way = by.way as u32;
+            next.way = by.way() as u32;
             for round in 0..next.rounds {
                 next.round = round;
                 if round % most == 0 {
@@ -82,28 +103,35 @@ impl StripRays<'_, '_> {
                     next.picks = most.min(next.rounds - round);
                 }
                 shadow_buffers.write(gpu, &next);
-                let resources = of_rays(room, &shadow_buffers, film, shadows);
+                let rays = self.ray_buffers(buffers, &shadow_buffers);
                 self.strip.submit(self.view, |recording| {
                     if round == next.first_pick {
-                        by.record_picks(recording, &resources, &shadow_buffers, on);
+                        by.record_picks(recording, rays, on);
                     }
-                    shadows.record_picked_round(by, recording, &resources, groups);
+                    shadows.record_picked_round(by, recording, rays, groups);
                 });
             }
         }
-        room.shadows = Some(shadow_buffers);
+        buffers.shadows = Some(shadow_buffers);
         Ok(())
     }
 
+    fn ray_buffers<'a>(
+        &'a self,
+        strip: &'a StripBuffers,
+        shadows: &'a ShadowBuffers,
+    ) -> RayBuffers<'a> {
+        let film = self.film;
+        RayBuffers {
+            strip,
+            shadows,
+            film,
+        }
+    }
+
     /// Converts the sums of so many rounds to light.
-    pub(crate) fn finish(
-        &self,
-        shadows: &Shadows,
-        room: &StripBuffers,
-        groups: &Workgroups,
-        rounds: u32,
-    ) {
-        let Some(shadow_buffers) = &room.shadows else {
+    fn finish(&self, shadows: &Shadows, buffers: &StripBuffers, groups: &Workgroups, rounds: u32) {
+        let Some(shadow_buffers) = &buffers.shadows else {
             return;
         };
         let all = ShadowRound {
@@ -112,16 +140,16 @@ impl StripRays<'_, '_> {
         };
         shadow_buffers.write(&self.strip.gpu, &all);
         self.strip.submit(self.view, |recording| {
-            let resources = of_rays(room, shadow_buffers, self.film, shadows);
-            shadows.traced.run(recording, &resources, groups);
+            let rays = self.ray_buffers(buffers, shadow_buffers);
+            shadows.record_light(recording, rays, groups);
         });
     }
 
     /// Finds the light of other objects that the samples send.
-    pub(crate) async fn bounces(
+    async fn bounces(
         &self,
         bounces: &Bounces,
-        room: &mut StripBuffers,
+        buffers: &mut StripBuffers,
         on: &Scratched,
     ) -> Result<(), Error> {
         let Self {
@@ -131,20 +159,21 @@ impl StripRays<'_, '_> {
             ..
         } = *self;
         let (gpu, scans, passes) = (&strip.gpu, &strip.scans, &view.uploaded.passes);
-        let mut bounce_buffers = match room.bounces.take() {
+        let mut bounce_buffers = match buffers.bounces.take() {
             Some(bounce_buffers) => bounce_buffers,
             None => Box::new(BounceBuffers::new(gpu, scans).await?),
         };
-        let made = bounce_buffers.make_room(gpu, scans, passes, room, points.most, bounces.count);
+        let made =
+            bounce_buffers.make_room(gpu, scans, passes, buffers, points.most, bounces.count);
         made.await?;
         let Batch {
             first: first_round,
             count: rounds,
         } = view.rounds();
         let mut most = rounds;
-        let lanes = room.lanes();
+        let lanes = buffers.lanes();
         if bounces.scratches.is_some()
-            && let Some(shadow_buffers) = &mut room.shadows
+            && let Some(shadow_buffers) = &mut buffers.shadows
         {
             let made = shadow_buffers.make_room_for_picks(gpu, points, lanes, rounds);
             most = made.await?;
@@ -167,10 +196,10 @@ impl StripRays<'_, '_> {
                     ..ShadowRound::default()
                 };
                 let hits = &mut *bounce_buffers;
-                self.go_on(bounces, room, hits, on, first).await?;
+                self.go_on(bounces, buffers, hits, on, first).await?;
             }
         }
-        room.bounces = Some(bounce_buffers);
+        buffers.bounces = Some(bounce_buffers);
         Ok(())
     }
 
@@ -178,12 +207,11 @@ impl StripRays<'_, '_> {
     async fn go_on(
         &self,
         bounces: &Bounces,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         bounce_buffers: &mut BounceBuffers,
         on: &Scratched,
         first: ShadowRound,
     ) -> Result<(), Error> {
-        let (gpu, film) = (&self.strip.gpu, self.film);
         let mut on = on.clone();
         for depth in 0..bounces.count {
             let round = match depth {
@@ -204,10 +232,10 @@ impl StripRays<'_, '_> {
                 ends_round: (depth + 1 == bounces.count).into(),
                 ..round
             };
-            bounce_buffers.write(gpu, &round);
+            bounce_buffers.write(&self.strip.gpu, &round);
             let to = depth as usize % 2;
             self.strip.submit(self.view, |recording| {
-                let Some(by) = bounce(room, bounce_buffers, film, bounces, &round, &on.groups)
+                let Some(by) = Bounce::new(buffers, bounce_buffers, self.film, &round, &on.groups)
                 else {
                     return;
                 };
@@ -222,7 +250,9 @@ impl StripRays<'_, '_> {
             let next = seed(&first, depth + 1);
             self.shade_hits(bounces, hits, &mut on, next).await?;
             self.strip.submit(self.view, |recording| {
-                if let Some(by) = bounce(room, bounce_buffers, film, bounces, &round, &on.groups) {
+                if let Some(by) =
+                    Bounce::new(buffers, bounce_buffers, self.film, &round, &on.groups)
+                {
                     bounces.record_light(recording, &by);
                 }
             });
@@ -259,13 +289,7 @@ impl StripRays<'_, '_> {
             if let Some(scratches) = &bounces.scratches {
                 scratches.shade.record(recording, hits, &on.chunks);
             }
-            if let Shade::Own { base, gratings, .. } = &passes.shade {
-                let resources = hits.resources().and(film.resources());
-                base.run(recording, &resources, &on.groups);
-                if let Some(gratings) = gratings {
-                    gratings.run(recording, &resources, &on.groups);
-                }
-            }
+            passes.shade.record(recording, hits, film, &on.groups);
         });
         let rounds = Rounds {
             now: Batch::all(1),
@@ -275,31 +299,6 @@ impl StripRays<'_, '_> {
         self.finish(&bounces.shadows, hits, &on.groups, 1);
         Ok(())
     }
-}
-
-/// All that passes of shadow rays may bind.
-fn of_rays(
-    room: &StripBuffers,
-    shadow_buffers: &ShadowBuffers,
-    film: &Film,
-    shadows: &Shadows,
-) -> Resources {
-    let room = room.resources().and(shadow_buffers.resources());
-    room.and(film.resources())
-        .texture("triangle_tree", &shadows.tree.view)
-}
-
-fn bounce<'a>(
-    room: &'a StripBuffers,
-    bounce_buffers: &'a BounceBuffers,
-    film: &Film,
-    bounces: &Bounces,
-    round: &ShadowRound,
-    groups: &Workgroups,
-) -> Option<Bounce<'a>> {
-    let way = Way::ALL[round.way as usize];
-    let by = (round.depth, way);
-    Bounce::new(room, bounce_buffers, film, &bounces.shadows, by, groups)
 }
 
 /// Seed of the random numbers for the hits of a round: a place may be met again in other rounds.

@@ -6,17 +6,18 @@ use std::ops::Range;
 use wgpu::BufferUsages;
 
 use crate::bindings::{Layouts, bind};
-use crate::compute_pass::{ComputePass, Recording, in_a_row};
+use crate::compute_pass::{Recording, in_a_row};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
-use crate::frame::{Rounds, View, frame, halo_rows};
+use crate::frame::{View, frame, halo_rows};
 use crate::layout::Frame;
+use crate::pass_bindings;
 use crate::passes::{ScratchPasses, Shade};
 use crate::pipelines::compiled;
 use crate::scan::ScanPasses;
 use crate::shadow_picks::Scratched;
-use crate::sizes::{CHUNKS, ENTRIES, GROUPS, Points, Sizes};
+use crate::sizes::{CHUNKS, ENTRIES, GROUPS, Points, Sizes, SizesPass};
 use crate::strip::{GROUP, MadeLists, StripBuffers, TILE_PX, strip_points, tile_count};
 use crate::strip_sizes::{half, numbers_most};
 use crate::timing::Timing;
@@ -68,20 +69,20 @@ impl StripShader {
         &self,
         view: &View<'_>,
         film: &Film,
-        room: &mut StripBuffers,
+        buffers: &mut StripBuffers,
         rows: Range<u32>,
     ) -> Result<(), Error> {
-        room.most = numbers_most(&self.gpu, view);
-        let points_most = u64::from(GROUP) * u64::from(room.most[GROUPS]);
-        while strip_points(room.width_px, room.strip_rows) > points_most
-            && room.strip_rows > TILE_PX
+        buffers.most = numbers_most(&self.gpu, view);
+        let points_most = u64::from(GROUP) * u64::from(buffers.most[GROUPS]);
+        while strip_points(buffers.width_px, buffers.strip_rows) > points_most
+            && buffers.strip_rows > TILE_PX
         {
-            room.strip_rows = half(room.strip_rows);
+            buffers.strip_rows = half(buffers.strip_rows);
         }
-        let strip_rows = room.strip_rows;
+        let strip_rows = buffers.strip_rows;
         for start in rows.clone().step_by(strip_rows as usize) {
             let strip = start..(start + strip_rows).min(rows.end);
-            self.shade_strip(view, film, rows.start, room, strip)
+            self.shade_strip(view, film, rows.start, buffers, strip)
                 .await?;
         }
         Ok(())
@@ -93,131 +94,124 @@ impl StripShader {
         view: &View<'_>,
         film: &Film,
         film_row: u32,
-        room: &mut StripBuffers,
+        buffers: &mut StripBuffers,
         strip: Range<u32>,
     ) -> Result<(), Error> {
-        let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
+        let passes = &view.uploaded.passes;
         let rows = strip.len() as u32;
-        let tiles = tile_count(room.width_px, rows);
-        let first = strip_points(room.width_px, rows);
-        room.make_room(gpu, scans, passes, tiles, first).await?;
-        let most = u64::from(GROUP) * u64::from(room.sizes.room[GROUPS]);
-        let points = Points {
-            first,
-            most: most.max(first),
-        };
-        // Lists of the first step serve the other steps.
-        let made = room.lists.made.take();
-        room.lists.made = made.filter(|made| view.step > 0 && made.rows == strip);
-        let kept = room.lists.made.is_some();
-        if passes.scratches().is_some() {
-            let segments = view.uploaded.data.buffers.segment_count();
-            let lists = &mut room.lists;
-            lists.make_room_for_segments(gpu, scans, segments).await?;
-        } else {
-            room.samples.one_chunk_a_group(gpu);
-        }
-        room.group_scan.set_count(gpu, tiles + 1);
+        let tiles = tile_count(buffers.width_px, rows);
+        let points = self.make_room(view, buffers, rows).await?;
         self.write_frame(view, &strip, film_row, view.step_samples().start);
-        let mut sorted = None;
-        self.submit(view, |recording| {
-            if view.step == 0 && strip.start == film_row {
-                film.clear(recording.encoder);
-            }
-            if let Some(scratches) = passes.scratches().filter(|_| !kept) {
-                sorted = Some(self.make_lists(recording, view, scratches, film, room, tiles));
-            }
-            if view.step > 0 {
-                let resources = room.resources().and(film.resources());
-                passes.edges.run(recording, &resources, &in_a_row(tiles));
-                scans.record(recording.encoder, &room.group_scan, recording.timing);
-                // Not every place of a group has a sample.
-                let points = &room.samples.points;
-                recording.encoder.clear_buffer(points, 0, None);
-            }
-            let sizes = &room.sizes;
-            let starts = &room.group_starts;
-            self.size(recording, &passes.sizes[GROUPS], starts, sizes, film);
-            if let Some(scratches) = passes.scratches() {
-                scratches.shade.record_chunks(recording, scans, room);
-            }
-            let starts = &room.samples.chunk_starts;
-            self.size(recording, &passes.sizes[CHUNKS], starts, sizes, film);
-        });
-        if let Some(sorted) = sorted {
-            let rows = strip.clone();
-            room.lists.made = Some(MadeLists { rows, sorted });
-        }
+        self.group(view, film, film_row, buffers, &strip);
         for sample in view.step_samples() {
             self.write_frame(view, &strip, film_row, sample);
             self.submit(view, |recording| {
                 let rows = rows + 2 * halo_rows(view.scene);
-                self.visibility.record(recording, room, rows);
-                let resources = room.resources().and(film.resources());
-                passes.surface.run(recording, &resources, &room.tiles(rows));
+                self.visibility.record(recording, buffers, rows);
+                passes.record_surface(recording, buffers, film, rows);
             });
         }
         let on = Scratched {
-            groups: room.groups(view.step, tiles),
-            chunks: room.sizes.workgroups(CHUNKS),
+            groups: buffers.groups(view.step, tiles),
+            chunks: buffers.sizes.workgroups(CHUNKS),
         };
         let shadows = match &passes.shade {
             Shade::Own { .. } => view.shadows(),
             Shade::Other(_) => None,
         };
         self.submit(view, |recording| {
-            let resources = room.resources().and(film.resources());
-            if let Some(ScratchPasses { share, .. }) = passes.scratches().filter(|_| view.step > 0)
-            {
-                share.run(recording, &resources, &room.tiles(rows));
-            }
-            match &passes.shade {
-                Shade::Own {
-                    base,
-                    scratches,
-                    gratings,
-                } => {
-                    base.run(recording, &resources, &on.groups);
-                    if let Some(scratches) = scratches {
-                        scratches.shade.record(recording, room, &on.chunks);
-                    }
-                    if let Some(gratings) = gratings {
-                        gratings.run(recording, &resources, &on.groups);
-                    }
+            if let Some(scratches) = passes.scratches() {
+                if view.step > 0 {
+                    scratches.record_share(recording, buffers, film, rows);
                 }
-                Shade::Other(pass) => pass.run(recording, &resources, &on.groups),
+                scratches.shade.record(recording, buffers, &on.chunks);
             }
+            passes.shade.record(recording, buffers, film, &on.groups);
             if shadows.is_none() {
-                passes.resolve.run(recording, &resources, &room.tiles(rows));
+                passes.record_resolve(recording, buffers, film, rows);
             }
         });
         if let Some(shadows) = shadows {
-            let rounds = Rounds {
-                now: view.rounds(),
-                seed: 0,
-            };
             let rays = StripRays {
                 strip: self,
                 view,
                 film,
                 points,
             };
-            rays.shadows(shadows, room, &on, rounds).await?;
-            if let Some(bounces) = view.bounces() {
-                rays.bounces(bounces, room, &on).await?;
-            }
-            rays.finish(shadows, room, &on.groups, rounds.now.count);
-            self.submit(view, |recording| {
-                let resources = room.resources().and(film.resources());
-                let tiles = room.tiles(rows);
-                passes.resolve.run(recording, &resources, &tiles);
-                if let (Some(shadow_buffers), Some(_)) = (&room.shadows, &film.traced) {
-                    let resources = resources.and(shadow_buffers.resources());
-                    shadows.film.run(recording, &resources, &tiles);
-                }
-            });
+            rays.shade(shadows, buffers, &on, rows).await?;
         }
         Ok(())
+    }
+
+    /// Makes room for a step of so many rows. Says how many samples there is room for.
+    async fn make_room(
+        &self,
+        view: &View<'_>,
+        buffers: &mut StripBuffers,
+        rows: u32,
+    ) -> Result<Points, Error> {
+        let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
+        let tiles = tile_count(buffers.width_px, rows);
+        let first = strip_points(buffers.width_px, rows);
+        buffers.make_room(gpu, scans, passes, tiles, first).await?;
+        let most = u64::from(GROUP) * u64::from(buffers.sizes.capacity[GROUPS]);
+        if passes.scratches().is_some() {
+            let segments = view.uploaded.data.buffers.segment_count();
+            let lists = &mut buffers.lists;
+            lists.make_room_for_segments(gpu, scans, segments).await?;
+        } else {
+            buffers.samples.one_chunk_a_group(gpu);
+        }
+        buffers.group_scan.set_count(gpu, tiles + 1);
+        Ok(Points {
+            first,
+            most: most.max(first),
+        })
+    }
+
+    /// Makes the tile lists, and counts the groups of samples and the chunks of their lists.
+    fn group(
+        &self,
+        view: &View,
+        film: &Film,
+        film_row: u32,
+        buffers: &mut StripBuffers,
+        strip: &Range<u32>,
+    ) {
+        let (scans, passes) = (&self.scans, &view.uploaded.passes);
+        let tiles = tile_count(buffers.width_px, strip.len() as u32);
+        // Lists of the first step serve the other steps.
+        let made = buffers.lists.made.take();
+        buffers.lists.made = made.filter(|made| view.step > 0 && made.rows == *strip);
+        let kept = buffers.lists.made.is_some();
+        let mut sorted = None;
+        self.submit(view, |recording| {
+            if view.step == 0 && strip.start == film_row {
+                film.clear(recording.encoder);
+            }
+            if let Some(scratches) = passes.scratches().filter(|_| !kept) {
+                sorted = Some(self.make_lists(recording, view, scratches, film, buffers, tiles));
+            }
+            if view.step > 0 {
+                passes.record_edges(recording, buffers, film, tiles);
+                scans.record(recording.encoder, &buffers.group_scan, recording.timing);
+                // Not every place of a group has a sample.
+                let points = &buffers.samples.points;
+                recording.encoder.clear_buffer(points, 0, None);
+            }
+            let sizes = &buffers.sizes;
+            let starts = &buffers.group_starts;
+            self.size(recording, &passes.sizes[GROUPS], starts, sizes, film);
+            if let Some(scratches) = passes.scratches() {
+                scratches.shade.record_chunks(recording, scans, buffers);
+            }
+            let starts = &buffers.samples.chunk_starts;
+            self.size(recording, &passes.sizes[CHUNKS], starts, sizes, film);
+        });
+        if let Some(sorted) = sorted {
+            let rows = strip.clone();
+            buffers.lists.made = Some(MadeLists { rows, sorted });
+        }
     }
 
     /// Makes the tile lists of a strip. Returns which of the two buffers holds them.
@@ -227,32 +221,33 @@ impl StripShader {
         view: &View,
         passes: &ScratchPasses,
         film: &Film,
-        room: &StripBuffers,
+        buffers: &StripBuffers,
         tiles: u32,
     ) -> usize {
         let (bin, scans) = (&passes.bin, &self.scans);
         let segments = view.uploaded.data.buffers.segment_count();
-        bin.record_count(recording, scans, room, segments);
+        bin.record_count(recording, scans, buffers, segments);
         let size = &view.uploaded.passes.sizes[ENTRIES];
-        let starts = &room.lists.entry_starts;
-        self.size(recording, size, starts, &room.sizes, film);
-        bin.record(recording, scans, room, tiles, segments)
+        let starts = &buffers.lists.entry_starts;
+        self.size(recording, size, starts, &buffers.sizes, film);
+        bin.record(recording, scans, buffers, tiles, segments)
     }
 
     /// Sizes dispatches by prefix sums, and hands the numbers of entries and groups to the passes to come.
     pub(crate) fn size(
         &self,
         recording: &mut Recording,
-        pass: &ComputePass,
+        pass: &SizesPass,
         totals: &wgpu::Buffer,
         sizes: &Sizes,
         film: &Film,
     ) {
-        let resources = film
-            .resources()
-            .buffer("totals", totals)
-            .buffer("sizes", &sizes.buffer);
-        pass.run(recording, &resources, &in_a_row(1));
+        let bound = pass_bindings::Sizes {
+            totals,
+            sizes: &sizes.buffer,
+            film: &film.buffer,
+        };
+        pass.run(recording, &bound, &in_a_row(1));
         let (from, to) = (&sizes.buffer, &self.frame);
         (recording.encoder).copy_buffer_to_buffer(from, 0, to, COUNTED_OFFSET, COUNTED_BYTES);
     }

@@ -58,12 +58,12 @@ impl StripBuffers {
             chunks_max,
             ..
         } = self.samples;
-        let room = [
+        let capacity = [
             self.lists.entries_max,
             groups_max.min(self.most[GROUPS]),
             chunks_max,
         ];
-        self.sizes.set_room(gpu, room);
+        self.sizes.set_capacity(gpu, capacity);
         Ok(())
     }
 
@@ -78,7 +78,7 @@ impl StripBuffers {
     ) -> Result<Vec<Option<u32>>, Error> {
         let hits = self.bounces.iter_mut().flat_map(|it| &mut it.hits);
         let mut sizes = vec![&mut self.sizes];
-        sizes.extend(hits.map(|room| &mut room.sizes));
+        sizes.extend(hits.map(|buffers| &mut buffers.sizes));
         let needed = offset_of!(layout::Sizes, needed) as u64;
         let needed = needed..needed + size_of::<Numbers>() as u64;
         let of_films = films.iter().map(|film| film.short());

@@ -26,7 +26,7 @@ impl TextureArray {
     pub(crate) fn new(scene: &Scene) -> Self {
         let mut side_px = TEXTURE_MAX_PX;
         loop {
-            let array = Self::within(&scene.textures, side_px);
+            let array = Self::limited_to(&scene.textures, side_px);
             let [width, height] = array.size_px.map(u64::from);
             // Four bytes a texel, and a third more for the levels.
             if side_px == 1
@@ -39,7 +39,7 @@ impl TextureArray {
     }
 
     /// The array in which no texture is wider or higher than `side_px`.
-    fn within(textures: &[Texture], side_px: u32) -> Self {
+    fn limited_to(textures: &[Texture], side_px: u32) -> Self {
         let mut array = Self {
             size_px: [1, 1],
             levels: 1,

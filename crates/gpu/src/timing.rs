@@ -45,7 +45,7 @@ struct Runs {
 impl Timing {
     /// Begins; stays off where the device has no timestamps, and on software drivers: llvmpipe notes when it last rasterised, and
     /// leaves compute passes out.
-    pub(crate) async fn on(gpu: &Gpu) -> Result<Self, Error> {
+    pub(crate) async fn begin(gpu: &Gpu) -> Result<Self, Error> {
         let features = gpu.device.features();
         let is_software = gpu.adapter.kind == AdapterKind::Software;
         if is_software || !features.contains(wgpu::Features::TIMESTAMP_QUERY) {
@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn more_runs_than_there_is_room_for_are_no_time() {
         let Some(gpu) = test_gpu() else { return };
-        let timing = gpu.block_on(Timing::on(gpu)).unwrap();
+        let timing = gpu.block_on(Timing::begin(gpu)).unwrap();
         if !timing.is_on() {
             return skip("the device has no clock");
         }

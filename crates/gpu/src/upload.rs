@@ -42,7 +42,7 @@ impl GpuScene {
     ) -> Result<Self, Error> {
         let variant = ShadeVariant {
             method: source.method.clone(),
-            has: Contents::of(source.scene, source.tables, source.method),
+            has: Contents::new(source.scene, source.tables, source.method),
         };
         let passes = ScenePasses::new(gpu, layouts, &variant).await?;
         let data = SceneData::new(gpu, layouts, source, last.map(|last| &last.data)).await?;

@@ -5,6 +5,7 @@ use hairline_scene::{Bearing, Grating, GrooveField, Material, Object, Scene, Scr
 
 use crate::lights::{self, Kinds, LightKind};
 use crate::method::Method;
+use crate::shaders::Module;
 
 /// Method and contents for which a pipeline is specialised.
 #[derive(Clone, Debug)]
@@ -53,7 +54,7 @@ pub(crate) struct Contents {
 }
 
 impl Contents {
-    pub(crate) fn of(scene: &Scene, tables: &ScratchTables, method: &Method) -> Self {
+    pub(crate) fn new(scene: &Scene, tables: &ScratchTables, method: &Method) -> Self {
         let gratings = method.other.is_none();
         let single_grooves =
             gratings && scene.objects.iter().any(|o| shows_single_grooves(scene, o));
@@ -74,7 +75,7 @@ impl Contents {
             branching_grooves: single_grooves && any(branches),
             groove_maps: gratings && any(has_maps),
             groove_spots: gratings && any(has_spots),
-            lights: Kinds::of(scene),
+            lights: Kinds::from_scene(scene),
             doors: scene
                 .lights
                 .iter()
@@ -150,10 +151,10 @@ impl Way {
     pub(crate) const ALL: [Self; 3] = [Self::Base, Self::Scratches, Self::Gratings];
 }
 
-/// Returns the values of the overrides in a shader's text, for a scene with everything and for one with nothing, by each of some named
+/// Returns the values of the overrides of a shader, for a scene with everything and for one with nothing, by each of some named
 /// methods: each set has a name. For compilers other than the device's own.
 pub fn pipeline_variants(
-    text: &str,
+    module: &Module,
     methods: &[(&str, Method)],
 ) -> Vec<(String, Vec<(&'static str, f64)>)> {
     let everything = Contents {
@@ -181,11 +182,10 @@ pub fn pipeline_variants(
     for (name, method) in methods {
         for (scene, has) in [("everything", everything), ("nothing", Contents::default())] {
             let method = method.clone();
-            let constants = ShadeVariant { method, has }.constants(text);
-            let kinds = if text.contains("override SCRATCH_LIGHTS:") {
-                0..LightKind::ALL.len() + 1
-            } else {
-                0..1
+            let constants = ShadeVariant { method, has }.constants(module);
+            let kinds = match module.overrides.contains(&"SCRATCH_LIGHTS") {
+                true => 0..LightKind::ALL.len() + 1,
+                false => 0..1,
             };
             for kind in kinds.clone() {
                 let mut constants = constants.clone();
@@ -198,7 +198,7 @@ pub fn pipeline_variants(
                     continue;
                 }
                 let switches = ["PICKS", "BY_ENERGY", "AT_HITS", "OF_GRATINGS", "COUNTED"];
-                let has = |switch: &&str| text.contains(&format!("override {switch}:"));
+                let has = |switch: &&str| module.overrides.contains(switch);
                 for switch in switches.into_iter().filter(has) {
                     let mut constants = constants.clone();
                     constants.push((switch, 1.0));
@@ -213,7 +213,7 @@ pub fn pipeline_variants(
 
 impl ShadeVariant {
     /// The constants that a shader declares, by the names of contents.wgsl, method.wgsl and another method; others would be refused.
-    pub(crate) fn constants(&self, text: &str) -> Vec<Constant> {
+    pub(crate) fn constants(&self, module: &Module) -> Vec<Constant> {
         let Self { method, has } = self;
         let mask = match method.mask {
             Mask::Energy => 0,
@@ -244,7 +244,7 @@ impl ShadeVariant {
         ];
         constants.extend(has.lights.constants());
         constants.extend(method.other.iter().flat_map(|other| other.constants()));
-        constants.retain(|(name, _)| text.contains(&format!("override {name}:")));
+        constants.retain(|(name, _)| module.overrides.contains(name));
         constants
     }
 }

@@ -85,7 +85,7 @@ impl VisibilityPass {
     }
 
     /// Records the pass over so many rows of a strip, with those above and below it.
-    pub(crate) fn record(&self, recording: &mut Recording, room: &StripBuffers, rows: u32) {
+    pub(crate) fn record(&self, recording: &mut Recording, buffers: &StripBuffers, rows: u32) {
         let Recording {
             encoder,
             frame,
@@ -96,7 +96,7 @@ impl VisibilityPass {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("visibility"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &room.visibility,
+                view: &buffers.visibility,
                 depth_slice: None,
                 resolve_target: None,
                 ops: wgpu::Operations {
@@ -105,7 +105,7 @@ impl VisibilityPass {
                 },
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &room.depth,
+                view: &buffers.depth,
                 depth_ops: Some(wgpu::Operations {
                     load: wgpu::LoadOp::Clear(0.0),
                     store: wgpu::StoreOp::Discard,
@@ -115,7 +115,7 @@ impl VisibilityPass {
             timestamp_writes: timing.render("visibility"),
             ..Default::default()
         });
-        pass.set_viewport(0.0, 0.0, room.width_px as f32, rows as f32, 0.0, 1.0);
+        pass.set_viewport(0.0, 0.0, buffers.width_px as f32, rows as f32, 0.0, 1.0);
         pass.set_bind_group(0, *frame, &[]);
         pass.set_bind_group(1, &scene.buffers.group, &[]);
         pass.set_bind_group(2, &scene.textures.group, &[]);

@@ -16,7 +16,7 @@ impl Backdrop {
     }
 
     /// The pixels of a picture of that size, row by row: as large as fills it, with the middle in the middle.
-    pub fn at(&self, size_px: [u32; 2]) -> Vec<[f32; 3]> {
+    pub(crate) fn resized(&self, size_px: [u32; 2]) -> Vec<[f32; 3]> {
         let own_px = self.0.size_px;
         let scale = |axis: usize| f64::from(size_px[axis]) / f64::from(own_px[axis].max(1));
         let factor = scale(0).max(scale(1));
@@ -50,9 +50,9 @@ mod tests {
             picture.rgb[i] = [1.0; 3];
         }
         let backdrop = Backdrop::new(picture.clone());
-        assert_eq!(backdrop.at([6, 2]), picture.rgb);
-        assert_eq!(backdrop.at([2, 2]), vec![[1.0; 3]; 4]);
-        let wide = backdrop.at([12, 2]);
+        assert_eq!(backdrop.resized([6, 2]), picture.rgb);
+        assert_eq!(backdrop.resized([2, 2]), vec![[1.0; 3]; 4]);
+        let wide = backdrop.resized([12, 2]);
         assert_eq!((wide.len(), wide[0]), (24, [0.0; 3]));
         assert!((wide[6][0] - 1.0).abs() < 1e-5, "{:?}", wide[6]);
     }

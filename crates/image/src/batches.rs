@@ -8,7 +8,7 @@ use crate::{Image, Noise, filter_traced};
 /// Samples in a batch of [`Batches`] whose pictures are averaged.
 pub const BATCH_SAMPLES: u32 = 4;
 /// Largest number of rounds of rays in a batch: the closed forms are computed once for each batch.
-pub const BATCH_ROUNDS: u32 = 16;
+const BATCH_ROUNDS: u32 = 16;
 
 /// Rounds of the first batch while somebody looks: of fewer, filtered, a picture is worse than one without.
 const FIRST_ROUNDS: u32 = 8;
@@ -40,7 +40,7 @@ impl Batch {
     }
 
     /// Batches in which `samples`, at least 1, are averaged; more than a batch are rounded up to whole ones.
-    pub fn of(samples: u32) -> impl Iterator<Item = Self> {
+    pub fn split(samples: u32) -> impl Iterator<Item = Self> {
         let count = samples.clamp(1, BATCH_SAMPLES);
         let batches = samples.max(1).div_ceil(count);
         (0..batches).map(move |batch| Self {

@@ -29,14 +29,14 @@ impl Files for Disk {
 
     fn check_writable(&self, path: &Path) -> Result<(), Error> {
         let target = resolve(path)?;
-        drop(temporary::beside(path, &target)?);
+        drop(temporary::open_beside(path, &target)?);
         Ok(())
     }
 
     fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), Error> {
         let fail = |e: &io::Error| Error::cannot_write(path, e);
         let target = resolve(path)?;
-        let mut temporary = temporary::beside(path, &target)?;
+        let mut temporary = temporary::open_beside(path, &target)?;
         temporary.write_all(bytes).map_err(|e| fail(&e))?;
         // Without this a power cut after the rename could leave an empty file under the final name.
         temporary.as_file().sync_data().map_err(|e| fail(&e))?;

@@ -116,7 +116,7 @@ pub fn window(path: impl Into<FilePath>) -> std::result::Result<Window, Error> {
         e => unusable(format!("not an EXR file that can be read: {e}")),
     })?;
     let parts = meta.headers.iter().map(|header| {
-        Window::of(
+        Window::new(
             header.own_attributes.layer_position,
             header.layer_size,
             header.shared_attributes.display_window,
@@ -313,7 +313,7 @@ pub struct Window {
 }
 
 impl Window {
-    fn of(at: Vec2<i32>, size: Vec2<usize>, display: IntegerBounds) -> Self {
+    fn new(at: Vec2<i32>, size: Vec2<usize>, display: IntegerBounds) -> Self {
         let at = [at.0, at.1].map(i64::from);
         let corner = [display.position.0, display.position.1].map(i64::from);
         // Windows that end before they begin are huge to the library.
@@ -471,13 +471,13 @@ impl Contents {
             path: path.to_path_buf(),
             reason,
         };
-        let primaries = file.attributes.chromaticities.map(|it| {
+        let primaries = file.attributes.chromaticities.map(|own| {
             let xy = |at: Vec2<f32>| [at.0, at.1].map(f64::from);
             Primaries {
-                red: xy(it.red),
-                green: xy(it.green),
-                blue: xy(it.blue),
-                white: xy(it.white),
+                red: xy(own.red),
+                green: xy(own.green),
+                blue: xy(own.blue),
+                white: xy(own.white),
             }
         });
         let to_rec_709 = primaries.map_or(Ok(None), |it| it.to_rec_709());
@@ -493,7 +493,7 @@ impl Contents {
                 contents.take_attribute(name, value);
             }
             let mut part = Part {
-                window: Window::of(layer.attributes.layer_position, layer.size, display),
+                window: Window::new(layer.attributes.layer_position, layer.size, display),
                 channels: layer.channel_data.list.into_vec(),
             };
             part.place().map_err(unusable)?;

@@ -31,20 +31,20 @@ impl FilePath {
 
     /// Another path into the same files.
     #[must_use]
-    pub fn at(&self, path: impl Into<PathBuf>) -> Self {
+    pub fn with_path(&self, path: impl Into<PathBuf>) -> Self {
         Self::new(Arc::clone(&self.files), path)
     }
 
     /// As [`Path::join`].
     #[must_use]
     pub fn join(&self, path: impl AsRef<Path>) -> Self {
-        self.at(self.path.join(path))
+        self.with_path(self.path.join(path))
     }
 
     /// The folder that the file is in; empty where the path does not name it.
     #[must_use]
     pub fn folder(&self) -> Self {
-        self.at(self.path.parent().unwrap_or(Path::new("")))
+        self.with_path(self.path.parent().unwrap_or(Path::new("")))
     }
 
     /// What is known of the file before it is read.

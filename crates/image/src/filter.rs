@@ -96,7 +96,7 @@ impl Traced {
 
 impl Image {
     /// Replaces base and scratches by the light that rays found, without a filter, and sets their variances.
-    pub fn show_traced(&mut self) {
+    pub(crate) fn show_traced(&mut self) {
         let Some(traced) = &self.traced else { return };
         for (i, pixel) in traced.pixels.iter().enumerate() {
             [self.base[i], self.scratches[i]] = pixel.light();
@@ -114,7 +114,7 @@ enum Layer {
 }
 
 impl Layer {
-    fn of(self, pixel: &TracedPixel) -> &TracedLight {
+    fn light(self, pixel: &TracedPixel) -> &TracedLight {
         match self {
             Self::Diffuse => &pixel.diffuse,
             Self::Specular => &pixel.specular,
@@ -283,7 +283,7 @@ fn filter_layer(guides: &Guides, traced: &Traced, layer: Layer) -> Vec<Signals> 
     let mut signals: Vec<Signals> = traced
         .pixels
         .par_iter()
-        .map(|pixel| Signals::new(layer.of(pixel), rounds))
+        .map(|pixel| Signals::new(layer.light(pixel), rounds))
         .collect();
     let is_noisy = |s: &Signals| {
         s.share[3] > 0.0

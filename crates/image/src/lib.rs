@@ -41,7 +41,7 @@ mod traced;
 pub use animation::{Animation, FPS, FPS_MAX, check_sequence};
 pub use backdrop::Backdrop;
 pub use bands::BandImage;
-pub use batches::{BATCH_ROUNDS, BATCH_SAMPLES, Batch, Batches, add_batch};
+pub use batches::{BATCH_SAMPLES, Batch, Batches, add_batch};
 pub use disk::Disk;
 pub use error::Error;
 pub use exr_file::Notes;

@@ -95,6 +95,6 @@ mod tests {
         file.write(b"other").unwrap();
         assert_eq!(text(), "other");
         assert_ne!(file.facts().unwrap(), first);
-        assert!(!file.at("a").is_file(), "another path");
+        assert!(!file.with_path("a").is_file(), "another path");
     }
 }

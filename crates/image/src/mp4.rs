@@ -52,7 +52,7 @@ impl Mp4 {
     pub(crate) fn begin(path: &Path, [width, height]: [u32; 2], fps: u16) -> Result<Self, Error> {
         let encoder = encoder(path)?;
         let target = resolve(path)?;
-        let file = temporary::beside(path, &target)?.into_temp_path();
+        let file = temporary::open_beside(path, &target)?.into_temp_path();
         let (size, fps) = (format!("{width}x{height}"), fps.to_string());
         let mut command = Command::new(PROGRAM);
         command.args(["-hide_banner", "-loglevel", "error", "-y"]);

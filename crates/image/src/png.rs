@@ -132,7 +132,7 @@ fn shown<'i>(image: &'i Image, display: &Display, finish: &Finish) -> Result<Sho
         return Ok(Shown { rgb, alpha });
     };
     // Light adds up on the display as it does in a lens, before it is encoded.
-    let behind = behind.at(image.size_px);
+    let behind = behind.resized(image.size_px);
     for (rgb, (share, behind)) in rgb.iter_mut().zip(alpha.iter().zip(behind)) {
         let share = share.clamp(0.0, 1.0);
         *rgb = std::array::from_fn(|c| {

@@ -26,7 +26,7 @@ pub struct ToRec709(Matrix);
 
 impl Primaries {
     /// ITU-R BT.709, white D65.
-    pub const REC_709: Self = Self {
+    pub(crate) const REC_709: Self = Self {
         red: [0.64, 0.33],
         green: [0.30, 0.60],
         blue: [0.15, 0.06],

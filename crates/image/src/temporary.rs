@@ -16,7 +16,7 @@ const SUFFIX: &str = ".tmp";
 
 /// A temporary file in the folder of `target`, so that the rename stays within one file system. It removes itself
 /// unless it is persisted. What dead processes left in this folder is removed.
-pub(crate) fn beside(path: &Path, target: &Path) -> Result<NamedTempFile, Error> {
+pub(crate) fn open_beside(path: &Path, target: &Path) -> Result<NamedTempFile, Error> {
     let folder = match target.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
@@ -102,7 +102,7 @@ mod tests {
         let locked = File::open(folder.path().join(&names[2].0)).unwrap();
         locked.try_lock().unwrap();
         let target = folder.path().join("picture.png");
-        drop(beside(&target, &target).unwrap());
+        drop(open_beside(&target, &target).unwrap());
         for (name, stays) in &names {
             assert_eq!(folder.path().join(name).exists(), *stays, "{name}");
         }

@@ -121,8 +121,8 @@ pub fn tone_neutral(rgb: [f32; 3]) -> [f32; 3] {
     if peak < COMPRESSION_START {
         return color;
     }
-    let room = 1.0 - COMPRESSION_START;
-    let new_peak = 1.0 - room * room / (peak + room - COMPRESSION_START);
+    let headroom = 1.0 - COMPRESSION_START;
+    let new_peak = 1.0 - headroom * headroom / (peak + headroom - COMPRESSION_START);
     let white = 1.0 - 1.0 / (DESATURATION * (peak - new_peak) + 1.0);
     color.map(|c| {
         let compressed = c * (new_peak / peak);

@@ -42,7 +42,7 @@ pub(crate) struct Deviations(Vec<(f32, [Vec3; 2])>);
 
 impl Deviations {
     /// Those of the pieces of a scene.
-    pub(crate) fn of(scene: &Scene, pieces: Pieces) -> Self {
+    pub(crate) fn from_scene(scene: &Scene, pieces: Pieces) -> Self {
         let frame = scene.camera.frame(scene.render.size_px);
         let of = |object: &Object| {
             let nearer = match pieces {

@@ -18,7 +18,7 @@ pub(crate) struct Cutouts {
 
 impl Cutouts {
     /// Finds the cutouts of a scene; none where every surface is whole.
-    pub(crate) fn of(scene: &Scene) -> Option<Self> {
+    pub(crate) fn from_scene(scene: &Scene) -> Option<Self> {
         let cut = |material: &Material| Some((material.clone(), material.cutout?));
         let materials: Vec<_> = scene.materials.iter().map(cut).collect();
         let mut next = 0;

@@ -64,7 +64,7 @@ pub(crate) fn groups<'a>(
     let mut groups: Vec<Vec<LayerRun>> = Vec::new();
     // Pieces in the last group.
     let mut pieces = 0;
-    for run in LayerRun::of(scene, shapes, object, deviation_m) {
+    for run in LayerRun::from_object(scene, shapes, object, deviation_m) {
         let own = run.piece_count();
         match groups.last_mut() {
             Some(group) if pieces + own <= SHARED_PIECES => {
@@ -82,7 +82,7 @@ pub(crate) fn groups<'a>(
 
 impl<'a> LayerRun<'a> {
     /// All runs of an object, in their order; one for each layer, since a builder lays them layer by layer.
-    pub(crate) fn of(
+    pub(crate) fn from_object(
         scene: &'a Scene,
         shapes: &'a GrooveShapes,
         object: &'a Object,

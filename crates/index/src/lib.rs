@@ -34,7 +34,7 @@ pub mod packed_profile;
 pub mod scratch_index;
 pub mod segment_tree;
 mod tree;
-pub mod triangle_beam;
+mod triangle_beam;
 pub(crate) mod triangle_index;
 pub mod watch;
 

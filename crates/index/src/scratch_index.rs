@@ -40,7 +40,7 @@ impl ScratchIndex {
     /// # Panics
     /// Beyond 268 million pieces; no loaded scene has as many on one object.
     pub fn build(scene: &Scene) -> Self {
-        Self::of(scene, Pieces::Seen)
+        Self::with_pieces(scene, Pieces::Seen)
     }
 
     /// Builds the trees over the pieces as they were laid.
@@ -48,14 +48,14 @@ impl ScratchIndex {
     /// # Panics
     /// As [`Self::build`].
     pub fn laid(scene: &Scene) -> Self {
-        Self::of(scene, Pieces::Laid)
+        Self::with_pieces(scene, Pieces::Laid)
     }
 
     /// Builds the trees over some pieces.
     ///
     /// # Panics
     /// As [`Self::build`].
-    pub fn of(scene: &Scene, pieces: Pieces) -> Self {
+    pub fn with_pieces(scene: &Scene, pieces: Pieces) -> Self {
         Self::rebuild(scene, pieces, None, &Watch::default())
             .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
@@ -72,7 +72,7 @@ impl ScratchIndex {
         watch: &Watch,
     ) -> Option<Self> {
         let shapes = GrooveShapes::new(scene);
-        let deviations = Deviations::of(scene, pieces);
+        let deviations = Deviations::from_scene(scene, pieces);
         let kept = last.filter(|(_, index)| index.shapes == shapes);
         let sources = sources(scene, &shapes, &deviations, kept);
         let (tree, depth_coherence) = rayon::join(
@@ -111,7 +111,7 @@ impl ScratchIndex {
             depth_coherence: Self::depth_coherence(scene),
             coherence_max_um: coherences_max_um(scene),
             shapes: GrooveShapes::default(),
-            deviations: Deviations::of(scene, Pieces::Laid),
+            deviations: Deviations::from_scene(scene, Pieces::Laid),
         }
     }
 
@@ -215,7 +215,7 @@ fn coherence_max_um(scene: &Scene, object: &Object) -> f32 {
 #[cfg(test)]
 fn effective_segments(scene: &Scene, object: &Object) -> Vec<IndexedSegment> {
     let shapes = GrooveShapes::new(scene);
-    let runs: Vec<_> = LayerRun::of(scene, &shapes, object, 0.0).collect();
+    let runs: Vec<_> = LayerRun::from_object(scene, &shapes, object, 0.0).collect();
     let mut effective = Vec::with_capacity(runs.iter().map(LayerRun::piece_count).sum());
     for run in runs {
         run.append_effective(&mut effective);

@@ -134,7 +134,7 @@ impl TriangleBeam {
         }
     }
 
-    /// The nearest hit of a ray along the unit `direction` within the pyramid, as [`TriangleIndex::intersect_covered`] finds it. `triangles`
+    /// The nearest hit of a ray along the unit `direction` within the pyramid, as [`TriangleIndex`] finds it. `triangles`
     /// and `origin` are what it was aimed with.
     pub fn intersect(
         &self,

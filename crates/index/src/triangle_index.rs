@@ -37,15 +37,15 @@ pub struct TriangleIndex {
 impl TriangleIndex {
     /// Builds the tree.
     pub fn build(scene: &Scene) -> Self {
-        Self::of(scene, |_| true)
+        Self::with_objects(scene, |_| true)
     }
 
     /// Builds the index without the shapes of lights, for rays of light.
     pub fn without_lamps(scene: &Scene) -> Self {
-        Self::of(scene, |object| !object.is_lamp)
+        Self::with_objects(scene, |object| !object.is_lamp)
     }
 
-    fn of(scene: &Scene, is_in: impl Fn(&Object) -> bool) -> Self {
+    fn with_objects(scene: &Scene, is_in: impl Fn(&Object) -> bool) -> Self {
         let objects = scene.objects.iter().enumerate();
         let objects = objects.filter(|(_, object)| is_in(object));
         let numbers: Vec<(u32, u32)> = objects
@@ -78,7 +78,7 @@ impl TriangleIndex {
             tree,
             triangles,
             lamps: lamps.unwrap_or(scene.objects.len()) as u32,
-            cutouts: Cutouts::of(scene),
+            cutouts: Cutouts::from_scene(scene),
         }
     }
 
@@ -163,7 +163,7 @@ impl TriangleIndex {
     }
 
     /// [`Self::intersect`] with a rule for surfaces that cover a part of what lies behind them.
-    pub fn intersect_covered(
+    pub(crate) fn intersect_covered(
         &self,
         origin: DVec3,
         direction: DVec3,

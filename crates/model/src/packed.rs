@@ -53,7 +53,9 @@ pub fn split(path: &FilePath) -> Option<(FilePath, String)> {
     if path.is_file() {
         return None;
     }
-    let file = models.map(|it| path.at(it)).find(FilePath::is_file)?;
+    let file = models
+        .map(|it| path.with_path(it))
+        .find(FilePath::is_file)?;
     let name = path.strip_prefix(&file).ok()?.to_owned();
     Some((file, name.to_string_lossy().replace('\\', "/")))
 }

@@ -22,7 +22,7 @@ const CELL_SCALE_UM: f64 = 0.3;
 
 /// Number of cells along the band for a grating. Its orders spread the colours over the whole band, so the cells are even in the
 /// angle.
-pub const ROW_CELLS: usize = 48;
+pub(crate) const ROW_CELLS: usize = 48;
 
 /// A part of a light's chord on a grating, of one depth, is no longer in q.
 const ROW_PART: f64 = 0.05;
@@ -33,7 +33,7 @@ pub fn row_part_count(length: f64) -> usize {
 }
 
 /// Number of parts of a cell for shadow rays.
-pub const CELL_PARTS: usize = 6;
+pub(crate) const CELL_PARTS: usize = 6;
 
 /// Alpha of the lobe that blurs a cell over the chord that it spans.
 const CELL_ALPHA: f64 = 0.08;

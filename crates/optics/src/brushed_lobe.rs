@@ -331,7 +331,7 @@ impl BrushedLobe {
     }
 
     /// The sum over slices in a range of places. `crossings` tells the slopes at which a slice enters and leaves a light, with signs.
-    fn over(
+    fn sum_of_slices(
         &self,
         range: [f64; 2],
         of: &FresnelRgb,
@@ -392,7 +392,7 @@ impl BrushedLobe {
     }
 
     /// Look-ups whose sum is the light that the pixel's lobe reflects from all around, but for a factor.
-    pub fn around(&self, of: &FresnelRgb) -> [BrushedTap; BRUSHED_TAPS] {
+    pub fn environment_taps(&self, of: &FresnelRgb) -> [BrushedTap; BRUSHED_TAPS] {
         let [from, to] = self.visible([-1.0, 1.0]);
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let mut taps = [BrushedTap {
@@ -465,7 +465,7 @@ impl BrushedLobe {
             let ends = [1.0, -1.0].map(|sign| (-d1 + sign * inside.sqrt()) / d2);
             range = ends.map(|end| self.place_of_slope(end));
         }
-        self.over(range, of, |x, add| {
+        self.sum_of_slices(range, of, |x, add| {
             let (a1, a0) = (b0 + b1 * x, e0 + x * (e1 + x * e2));
             let inside = d0 + x * (2.0 * d1 + x * d2);
             let sign = if is_outside { -1.0 } else { 1.0 };

@@ -173,7 +173,7 @@ impl View<'_> {
         let (reflected, below) = match &self.coat {
             Some(coat) => {
                 let reflected = coat.part.reflected(coat.eval(wi), metal);
-                (reflected, coat.part.below(metal, DVec3::ZERO))
+                (reflected, coat.part.transmitted(metal, DVec3::ZERO))
             }
             None => (metal, DVec3::ZERO),
         };
@@ -191,7 +191,7 @@ impl View<'_> {
         }
         let below = self.coat.as_ref().map_or(DVec3::ZERO, |coat| {
             let bare = of.conductor.reflectance(self.wo.z, self.mode);
-            coat.part.below(bare, DVec3::ZERO)
+            coat.part.transmitted(bare, DVec3::ZERO)
         });
         let base = self.fresnel * self.left * self.left_by_gratings + below;
         let all = (self.fresnel + below).max(DVec3::splat(1e-30));

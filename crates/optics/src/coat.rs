@@ -31,7 +31,7 @@ impl CoatPart {
     }
 
     /// Light from below the surface: that of base and body through the coat, and that of the body where there is none.
-    pub fn below(&self, by_base: DVec3, by_body: DVec3) -> DVec3 {
+    pub fn transmitted(&self, by_base: DVec3, by_body: DVec3) -> DVec3 {
         by_body * (self.passed + (1.0 - self.weight)) + by_base * self.passed
     }
 }

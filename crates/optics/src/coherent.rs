@@ -73,7 +73,7 @@ pub struct CoherentResponse {
 
 impl CoherentResponse {
     /// Computes the response from the amplitudes B and S in um.
-    pub fn of(base_um: f64, scratches_um: Complex64, coherence_um: f64) -> Self {
+    pub fn from_amplitudes(base_um: f64, scratches_um: Complex64, coherence_um: f64) -> Self {
         let per_area = 1.0 / (PI * coherence_um * coherence_um);
         Self {
             base: per_area * base_um * base_um,
@@ -166,7 +166,7 @@ pub fn coherent_response<'a>(
     } else {
         0.0
     };
-    CoherentResponse::of(b, s, coherence_um)
+    CoherentResponse::from_amplitudes(b, s, coherence_um)
 }
 
 /// The share of the window's energy exp(-|x|^2/sigma^2) that lies on the piece, (34). Grooves lower the mean reflection

@@ -36,7 +36,7 @@ impl Cover {
     }
 
     /// The part of `reflected`, which a metal under it sends with its outer face, that comes from below that face.
-    pub fn part_below(&self, reflected: [f64; 3], cos_theta: f64) -> [f64; 3] {
+    pub(crate) fn part_below(&self, reflected: [f64; 3], cos_theta: f64) -> [f64; 3] {
         let outer = self.outer(cos_theta);
         // A black plate of the index of air sends nothing.
         reflected.map(|all| if all > 0.0 { 1.0 - outer / all } else { 0.0 })
@@ -51,12 +51,12 @@ impl Cover {
     /// Reflectance of a metal of the index n + i k under it at a wavelength. The plate [is grey](Self::is_grey).
     pub fn reflectance(&self, n_k: [f64; 2], cos_theta: f64) -> f64 {
         let ([passed, ..], [crossed, ..]) = (self.passed(cos_theta), self.crossed(cos_theta));
-        let under = self.under(n_k, cos_theta).seen_through(crossed);
+        let under = self.metal_under(n_k, cos_theta).seen_through(crossed);
         self.outer(cos_theta) + passed * passed * under
     }
 
     /// A metal under it.
-    fn under(&self, [n, k]: [f64; 2], cos_theta: f64) -> UnderCover {
+    fn metal_under(&self, [n, k]: [f64; 2], cos_theta: f64) -> UnderCover {
         let inner_cos = fresnel::inner_cos(cos_theta, self.ior);
         UnderCover {
             metal: fresnel::conductor(inner_cos, n / self.ior, k / self.ior),
@@ -79,7 +79,7 @@ impl Cover {
         let (outer, passed) = (self.outer(cos_theta), self.passed(cos_theta));
         let crossed = self.crossed(cos_theta);
         let under = observer.channels_of(|nm| {
-            let under = self.under(metal.n_k(nm).into(), cos_theta);
+            let under = self.metal_under(metal.n_k(nm).into(), cos_theta);
             crossed.map(|crossed| under.seen_through(crossed))
         });
         std::array::from_fn(|c| outer + passed[c] * passed[c] * under[c])

@@ -87,7 +87,7 @@ impl Facets {
     }
 
     /// sqrt(cos^2 + alpha^2 sin^2) with the alpha of that direction.
-    pub fn projected_roughness(&self, w: DVec3) -> f64 {
+    pub(crate) fn projected_roughness(&self, w: DVec3) -> f64 {
         self.stretched(w).length()
     }
 

@@ -92,7 +92,7 @@ impl SeenPart {
             };
         }
         let density = |z: f64| (-0.5 * z * z).exp() * (0.5 * FRAC_1_PI).sqrt();
-        let per_within = 1.0 / gaussian().between(low, high).max(1e-9);
+        let per_within = 1.0 / gaussian().integral(low, high).max(1e-9);
         let mean = ((density(low) - density(high)) * per_within).clamp(low, high);
         let second = 1.0 + (low * density(low) - high * density(high)) * per_within;
         let variance = (second - mean * mean).clamp(0.0, even.min(1.0));
@@ -127,7 +127,7 @@ pub fn scratch_share(
     let per_std = 1.0 / along_variance.max(0.0).sqrt().max(1e-6);
     let line = width_um * across;
     // Pieces of a scratch still add up to the whole: the table's value at a joint counts once up and once down.
-    let along = gaussian().between((start_um - shift) * per_std, (end_um - shift) * per_std);
+    let along = gaussian().integral((start_um - shift) * per_std, (end_um - shift) * per_std);
     ScratchShare {
         segment: line * along,
         line,

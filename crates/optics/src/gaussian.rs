@@ -67,7 +67,7 @@ impl Gaussian {
 
     /// The share from `low` to `high`.
     #[inline]
-    pub fn between(&self, low: f64, high: f64) -> f64 {
+    pub fn integral(&self, low: f64, high: f64) -> f64 {
         self.cdf(high) - self.cdf(low)
     }
 
@@ -106,7 +106,7 @@ mod tests {
             for step in [1e-4, 0.1, 2.0] {
                 if x < 0.0 && x > -5.0 {
                     let exact = ndtr(x + step) - ndtr(x);
-                    relative = relative.max((table.between(x, x + step) / exact - 1.0).abs());
+                    relative = relative.max((table.integral(x, x + step) / exact - 1.0).abs());
                 }
             }
         }

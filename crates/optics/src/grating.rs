@@ -16,7 +16,7 @@ use crate::cover::Cover;
 use crate::diffraction::sinc;
 use crate::spectrum::WAVELENGTH_MIN_NM;
 
-pub use incidence::{INCIDENCES, IncidenceRow, RigorousGrating};
+pub use incidence::{IncidenceRow, RigorousGrating};
 pub use single::GroovesAt;
 pub use table::{GRATING_DEPTH_NM, GRATING_WIDTH_UM};
 
@@ -55,7 +55,7 @@ impl Grating {
 
     /// E D: the mean over the grooves of the change of the reflection coefficient by a floor, (3). `depth_share` is the factor on depths by which
     /// an oblique path is shorter: half the sum of the cosines.
-    pub fn mean_phase_step(&self, depth_share: f64, wavelength_nm: f64) -> Complex64 {
+    pub(crate) fn mean_phase_step(&self, depth_share: f64, wavelength_nm: f64) -> Complex64 {
         let phase = 4.0 * PI * self.depth_nm * depth_share / wavelength_nm;
         1.0 - Complex64::from_polar(self.kept_by_spread(depth_share, wavelength_nm), -phase)
     }
@@ -67,7 +67,7 @@ impl Grating {
     }
 
     /// E |D|^2, which is twice the real part of E D.
-    pub fn mean_phase_step_energy(&self, depth_share: f64, wavelength_nm: f64) -> f64 {
+    pub(crate) fn mean_phase_step_energy(&self, depth_share: f64, wavelength_nm: f64) -> f64 {
         2.0 * self.mean_phase_step(depth_share, wavelength_nm).re
     }
 

@@ -42,7 +42,7 @@ impl GrooveSpectrum {
     }
 
     /// The grid for grooves of this depth and less.
-    pub fn down_to(depth_nm: f64, shape: &GrooveShape) -> Self {
+    pub(crate) fn down_to(depth_nm: f64, shape: &GrooveShape) -> Self {
         let kernel = match shape.is_wide() {
             false => Kernel::narrow(),
             true => Kernel::wide(shape.width_in_windows()),
@@ -103,7 +103,7 @@ pub struct SpectrumRow<'a> {
 
 impl SpectrumRow<'_> {
     fn texel(&self, column: usize) -> [f64; 2] {
-        between(&self.near[column], &self.far[column], self.share)
+        interpolate(&self.near[column], &self.far[column], self.share)
     }
 
     /// What is left of the integral far out, times u over wavelength.
@@ -112,25 +112,25 @@ impl SpectrumRow<'_> {
     }
 
     /// Density and its integral from 0, at u over wavelength from 0 to infinity.
-    pub fn at(&self, u: f64) -> [f64; 2] {
+    pub fn look_up(&self, u: f64) -> [f64; 2] {
         if u >= END {
-            return self.beyond(1.0 / u);
+            return self.past_the_end(1.0 / u);
         }
         let (column, share) = column_at(u);
         cubic_at(&cubic(self.texel(column), self.texel(column + 1)), share)
     }
 
     /// Past the last column, at 1 over u over wavelength.
-    fn beyond(&self, per_u: f64) -> [f64; 2] {
+    fn past_the_end(&self, per_u: f64) -> [f64; 2] {
         let left = self.tail() * per_u;
         [left * per_u, self.limit - left]
     }
 
-    /// What [`Self::at`] returns at many places: densities, and integrals.
+    /// What [`Self::look_up`] returns at many places: densities, and integrals.
     #[inline(always)]
     pub(crate) fn at_all(&self, places: &Places, densities: &mut [f64], integrals: &mut [f64]) {
         let ends = self.near.iter().zip(self.far);
-        let own = ends.map(|(near, far)| between(near, far, self.share));
+        let own = ends.map(|(near, far)| interpolate(near, far, self.share));
         let own: Vec<[f64; 2]> = own.collect();
         let cubics: Vec<[f64; 4]> = own.windows(2).map(|ends| cubic(ends[0], ends[1])).collect();
         let mut lit = densities.iter_mut().zip(integrals);
@@ -138,7 +138,7 @@ impl SpectrumRow<'_> {
             [*density, *integral] = cubic_at(&cubics[column as usize], share.into());
         }
         for (per_u, (density, integral)) in places.beyond.iter().zip(lit) {
-            [*density, *integral] = self.beyond(*per_u);
+            [*density, *integral] = self.past_the_end(*per_u);
         }
     }
 }
@@ -174,7 +174,7 @@ fn column_at(u: f64) -> (usize, f64) {
 
 /// A texel between two rows.
 #[inline(always)]
-fn between(near: &[f32; 2], far: &[f32; 2], share: f64) -> [f64; 2] {
+fn interpolate(near: &[f32; 2], far: &[f32; 2], share: f64) -> [f64; 2] {
     [0, 1].map(|i| f64::from(near[i]) + share * f64::from(far[i] - near[i]))
 }
 

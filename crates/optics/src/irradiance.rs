@@ -268,10 +268,10 @@ pub(crate) fn lambert_end(state: &PolygonIrradiance) -> f64 {
 
 /// The vector irradiance of a polygon over its radiance; vertices as for [`lambert_polygon`].
 pub fn irradiance_polygon(vertices: &[DVec3]) -> DVec3 {
-    irradiance_end(&around(vertices))
+    irradiance_end(&polygon_irradiance(vertices))
 }
 
-fn around(vertices: &[DVec3]) -> PolygonIrradiance {
+fn polygon_irradiance(vertices: &[DVec3]) -> PolygonIrradiance {
     let mut state = lambert_begin();
     for (i, &a) in vertices.iter().enumerate() {
         lambert_edge(&mut state, a, vertices[(i + 1) % vertices.len()]);
@@ -282,7 +282,7 @@ fn around(vertices: &[DVec3]) -> PolygonIrradiance {
 /// Form factor of a polygon on a diffuse surface, in [0, 1]: radiosity over radiance times pi. Vertices are
 /// relative to the point, in the local frame, in order.
 pub fn lambert_polygon(vertices: &[DVec3]) -> f64 {
-    lambert_end(&around(vertices))
+    lambert_end(&polygon_irradiance(vertices))
 }
 
 /// Form factor of a sphere on a diffuse surface, in [0, 1]; `axis` is the unit direction to its centre, `sin2` the squared

@@ -54,7 +54,7 @@ impl PicturePlane {
     ///
     /// # Panics
     /// Panics with fewer than four corners.
-    pub fn of(corners: &[DVec3]) -> Self {
+    pub fn from_corners(corners: &[DVec3]) -> Self {
         Self {
             corner: corners[0],
             right: corners[1] - corners[0],

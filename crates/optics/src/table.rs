@@ -184,7 +184,7 @@ impl ScratchTable {
 
     /// T_c(u, d): by value and slope of the nearest column, linear in depth. Odd in u.
     pub fn scratch_table(&self, u_um: f64, depth_nm: f64) -> [f64; 3] {
-        self.at_depth(depth_nm).at(u_um)
+        self.at_depth(depth_nm).look_up(u_um)
     }
 
     /// T_c(., d), for several look-ups at one depth.
@@ -220,7 +220,7 @@ impl ScratchTable {
     #[inline]
     pub fn scratch_table_total(&self, depth_nm: f64) -> [f64; 3] {
         if let Some(row) = self.smooth_row(depth_nm) {
-            return row.at(f64::INFINITY).map(|half| 2.0 * half);
+            return row.look_up(f64::INFINITY).map(|half| 2.0 * half);
         }
         let (row, g) = self.row_at(depth_nm);
         let (near, far) = (self.totals[row], self.totals[row + 1]);
@@ -326,7 +326,7 @@ pub struct TableRow<'a> {
 impl TableRow<'_> {
     /// T_c(u, d). Odd in u.
     #[inline]
-    pub fn at(&self, u_um: f64) -> [f64; 3] {
+    pub fn look_up(&self, u_um: f64) -> [f64; 3] {
         // Infinite u is in the last column too.
         let u = u_um.abs().min(1e300);
         let x = u / (u + U_HALF_UM) * (COLUMNS - 1) as f64;
@@ -463,7 +463,7 @@ mod tests {
             let u = 8.0 * (0.618_033_988_749_895 * f64::from(i)).fract();
             let depth = 1000.0 * (0.414_213_562_373_095 * f64::from(i)).fract();
             let expected = own.at_depth(depth);
-            let (low, high) = (expected.at(u), expected.at(u + 0.5));
+            let (low, high) = (expected.look_up(u), expected.look_up(u + 0.5));
             let (from, to) = (small(u, depth), small(u + 0.5, depth));
             for c in 0..3 {
                 off += (to[c] - from[c] - high[c] + low[c]).powi(2);

@@ -6,7 +6,7 @@ override PUBLISHED_LISTS: bool = false;
 override PUBLISHED_ANTI_ALIASING: bool = true;
 override PUBLISHED_FAST_SI: bool = true;
 
-// Bindings before these are the pass's arrays. Wavelengths in x, materials in y; beside them the triangles of lights.
+// Bindings before these are those of other_method.wgsl. Wavelengths in x, materials in y; beside them the triangles of lights.
 @group(3) @binding(5) var published_wavelengths: texture_2d<f32>;
 // Empty without the lists.
 @group(3) @binding(6) var triangle_lists: texture_2d<u32>;

@@ -127,7 +127,7 @@ impl PointShader for Published<'_> {
         match &self.lists {
             None => gather(&index.tree, hit.object, point, |i| visit(&segments[i])),
             Some(lists) => {
-                let list = lists.of(self.first_triangles[object] + hit.triangle as usize);
+                let list = lists.list(self.first_triangles[object] + hit.triangle as usize);
                 list.iter().map(|&i| &segments[i as usize]).for_each(visit);
             }
         }

@@ -17,6 +17,8 @@ use crate::triangle_lists::TriangleLists;
 /// Columns beyond the wavelengths. Twin: published_lights.wgsl.
 const LIGHT_TRIANGLE_COLUMNS: usize = 64;
 
+include!(concat!(env!("OUT_DIR"), "/tables.rs"));
+
 impl ShadingMethod for PublishedMethod {
     fn module(&self) -> &'static Module {
         &SHADE_PUBLISHED
@@ -38,27 +40,25 @@ impl ShadingMethod for PublishedMethod {
             Structure::TriangleLists => (triangle_lists(of), Vec::new()),
             Structure::Bvh => (Vec::new(), of.scratch_nodes()),
         };
-        vec![
-            wavelengths(of),
-            Table {
-                name: "triangle_lists",
+        let tables = Tables {
+            published_wavelengths: wavelengths(of),
+            triangle_lists: Table {
                 what: "triangle lists",
                 width: ROW_TEXELS,
                 texels: Texels::Words(lists),
             },
-            Table {
-                name: "scratch_nodes",
+            scratch_nodes: Table {
                 what: "scratch tree",
                 width: ROW_TEXELS,
                 texels: Texels::Integers(nodes),
             },
-            Table {
-                name: "lobe_sptd",
+            lobe_sptd: Table {
                 what: "sphere lobe table",
                 width: LOBE_TABLE_SIZE as u32,
                 texels: Texels::Floats(sptd_table().texels().to_vec()),
             },
-        ]
+        };
+        tables.in_order()
     }
 }
 
@@ -85,7 +85,6 @@ fn wavelengths(of: &TableSource<'_>) -> Table {
         texels[row * width + count + column] = [a, b, c, 0].map(|corner| corner as f32);
     }
     Table {
-        name: "published_wavelengths",
         what: "wavelengths",
         width: width as u32,
         texels: Texels::Floats(texels),

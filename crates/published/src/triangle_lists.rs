@@ -33,11 +33,11 @@ impl TriangleLists {
     /// # Panics
     /// Beyond 4 billion entries: 16 GiB.
     pub fn build(scene: &Scene, index: &ScratchIndex) -> Self {
-        Self::within(REACH_STD as f64, scene, index)
+        Self::with_reach(REACH_STD as f64, scene, index)
     }
 
     /// Builds the lists for points that see as far as `reach_std` standard deviations of the blur of a scratch.
-    fn within(reach_std: f64, scene: &Scene, index: &ScratchIndex) -> Self {
+    fn with_reach(reach_std: f64, scene: &Scene, index: &ScratchIndex) -> Self {
         let mut lists = Self {
             starts: vec![0],
             segments: Vec::new(),
@@ -75,7 +75,7 @@ impl TriangleLists {
 
     /// The list of a triangle, counted over the whole scene.
     #[inline]
-    pub fn of(&self, triangle: usize) -> &[u32] {
+    pub fn list(&self, triangle: usize) -> &[u32] {
         &self.segments[self.starts[triangle] as usize..self.starts[triangle + 1] as usize]
     }
 }

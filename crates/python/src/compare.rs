@@ -55,7 +55,7 @@ pub(crate) fn compare<'py>(
     for layer in &comparison.layers {
         let figures = PyDict::new(py);
         for metric in Metric::ALL {
-            if let Some(value) = metric.of(layer) {
+            if let Some(value) = metric.value(layer) {
                 figures.set_item(metric.name().replace('-', "_"), value)?;
             }
         }

@@ -52,7 +52,7 @@ impl<'a> BaseLobes<'a> {
         reflectance: &'a Reflectance,
         coat: Option<&'a Reflectance>,
     ) -> Self {
-        let ends = MixedEnds::of(point);
+        let ends = MixedEnds::from_point(point);
         let under_coat = point.under_coat();
         let wo = under_coat.map_or(point.wo, |it| it.wo);
         let bare = match point.facets.map(Facets::new) {
@@ -160,7 +160,7 @@ impl<'a> BaseLobes<'a> {
         };
         let (ends, facets) = (ReflectanceEnds::COAT, &coat.facets);
         let by_coat = reflected(coat.reflectance, ends, coat.gain, facets, wi, coat.wo);
-        let below = coat.part.below(specular, diffuse);
+        let below = coat.part.transmitted(specular, diffuse);
         (coat.part.reflected(by_coat, specular), below)
     }
 

@@ -152,7 +152,7 @@ impl<'a> RowView<'a> {
         let sent = cells.iter().map(|cell| {
             let depth_nm = oblique_depth_nm(GRATING_DEPTH_NM, cell.direction.z, self.wo.z);
             let row = table.at_depth(depth_nm);
-            let at = |q: f64| DVec3::from(row.at(GRATING_WIDTH_UM * q));
+            let at = |q: f64| DVec3::from(row.look_up(GRATING_WIDTH_UM * q));
             at(cell.q_high) - at(cell.q_low)
         });
         self.density * sent.sum::<DVec3>()

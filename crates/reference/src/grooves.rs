@@ -89,8 +89,8 @@ impl GrooveView {
             section,
             shape: groove.shape,
             lit_um: parts.as_ref().map_or(piece.width_um, |it| it.lit_um),
-            lit_per_share: parts.as_ref().map_or(1.0, |it| {
-                it.lit_um / (it.width_um * it.offsets_um.len() as f64)
+            lit_per_share: parts.as_ref().map_or(1.0, |parts| {
+                parts.lit_um / (parts.width_um * parts.offsets_um.len() as f64)
             }),
             share: match &parts {
                 None => point_share(&piece, whole, sigma_um),

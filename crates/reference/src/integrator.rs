@@ -64,11 +64,11 @@ impl SceneIndex {
             || TriangleIndex::build(scene),
             || rayon::join(|| groove_index::build(scene), || ScratchTables::new(scene)),
         );
-        Self::of(scene, triangles.into(), grooves.into(), tables.into())
+        Self::from_parts(scene, triangles.into(), grooves.into(), tables.into())
     }
 
     /// Takes trees and tables of a scene that are there already.
-    pub fn of(
+    pub fn from_parts(
         scene: &Scene,
         triangles: Arc<TriangleIndex>,
         grooves: Arc<SegmentTree<Groove>>,

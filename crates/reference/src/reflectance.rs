@@ -80,7 +80,7 @@ impl ReflectanceEnds {
     };
 
     /// Reflectances of a point, mixed where two materials are.
-    pub(crate) fn of(point: &SurfacePoint) -> Self {
+    pub(crate) fn from_point(point: &SurfacePoint) -> Self {
         Self {
             f0: point.fresnel.f0.into(),
             f90: point.fresnel.f90,
@@ -99,8 +99,8 @@ impl MixedEnds {
     }
 
     /// The materials whose mixed reflectances a point has.
-    pub(crate) fn of(point: &SurfacePoint) -> Self {
-        let mixed = ReflectanceEnds::of(point);
+    pub(crate) fn from_point(point: &SurfacePoint) -> Self {
+        let mixed = ReflectanceEnds::from_point(point);
         let (metallic, plastic) = (point.metallic, 1.0 - point.metallic);
         if metallic <= 0.0 || plastic <= 0.0 {
             return Self::pure(mixed);
@@ -156,15 +156,19 @@ impl Reflectance {
         map: Option<usize>,
     ) -> Self {
         if map.is_none() {
-            return Self::at(observer, reflector, &[roughness]);
+            return Self::with_roughness(observer, reflector, &[roughness]);
         }
         let step = |i: usize| i as f64 / ROUGHNESS_STEPS as f64;
         let all: Vec<f64> = (0..=ROUGHNESS_STEPS).map(step).collect();
-        Self::at(observer, reflector, &all)
+        Self::with_roughness(observer, reflector, &all)
     }
 
     /// Reflectance for these roughnesses, in ascending order.
-    pub(crate) fn at(observer: &Observer, reflector: Reflector, roughness: &[f64]) -> Self {
+    pub(crate) fn with_roughness(
+        observer: &Observer,
+        reflector: Reflector,
+        roughness: &[f64],
+    ) -> Self {
         let metal = match &reflector {
             Reflector::Metal(metal) => curve(observer, metal),
             Reflector::Covered(metal, cover) => covered_curve(observer, metal, cover),
@@ -336,7 +340,7 @@ mod tests {
         let all = Reflectance::of_coat(&material).unwrap();
         for roughness in [0.25, 0.5] {
             let exact = albedo(
-                &Reflectance::at(Observer::eye(), Reflector::COAT, &[roughness]),
+                &Reflectance::with_roughness(Observer::eye(), Reflector::COAT, &[roughness]),
                 roughness,
             );
             assert!((albedo(&all, roughness) / exact - 1.0).abs() < 1e-6);

@@ -5,7 +5,7 @@ use crate::path::Light;
 use crate::random::{BATCH_SAMPLES, Purpose, Random};
 use crate::wavelengths::Wavelengths;
 use glam::{DVec2, DVec3};
-use hairline_cpu::surface::surface_point;
+use hairline_cpu::surface::{SeenHit, surface_point};
 use hairline_image::{Image, Noise, add_batch};
 use hairline_scene::camera::lens_point_at;
 use rayon::prelude::*;
@@ -33,11 +33,13 @@ impl Integrator<'_> {
                 let ray = self.camera.camera_ray(middle);
                 let direction = ray.normalize();
                 if let Some(hit) = self.triangles.intersect(self.camera.position_m, direction) {
-                    let position_m = self.camera.position_m + direction * hit.distance_m;
+                    let seen = SeenHit {
+                        hit: &hit,
+                        position_m: self.camera.position_m + direction * hit.distance_m,
+                        to_viewer: -direction,
+                    };
                     let no_footprint = |_| [DVec3::ZERO; 2];
-                    let (scene, tables) = (self.scene, &self.tables);
-                    let point =
-                        surface_point(scene, tables, position_m, -direction, no_footprint, &hit);
+                    let point = surface_point(self.scene, &self.tables, &seen, no_footprint);
                     *depth_m = (hit.distance_m / ray.length()) as f32;
                     *normal = point.normal.as_vec3().to_array();
                 }

@@ -63,7 +63,7 @@ impl<'a> Lobe<'a> {
             drawn_um: groove.drawn_um(coherence_um),
             spectrum,
         };
-        Self::of(
+        Self::with_source(
             (groove.frame, groove.wo, groove.share.segment),
             of,
             wavelengths,
@@ -85,10 +85,10 @@ impl<'a> Lobe<'a> {
             .rigorous
             .map_or([1.0; 3], |it| it.by_grooves(view.wo.z));
         let weight = weight.map(|weight| weight * DVec3::from(by_grooves));
-        Self::of(place, of, wavelengths, &weight, coherence_um)
+        Self::with_source(place, of, wavelengths, &weight, coherence_um)
     }
 
-    fn of(
+    fn with_source(
         (frame, wo, share): (BandFrame, DVec3, f64),
         of: LobeSource<'a>,
         wavelengths: &Wavelengths,
@@ -128,7 +128,7 @@ impl<'a> Lobe<'a> {
                     } => {
                         let per_um = width_um / (nm * 1e-3);
                         let row = spectrum.at_depth(depth_nm * depth_share / nm);
-                        lit_per_share * per_um * row.at(per_um * to.q.abs())[0]
+                        lit_per_share * per_um * row.look_up(per_um * to.q.abs())[0]
                     }
                     LobeSource::Groove {
                         width_um, depth_nm, ..

@@ -70,13 +70,13 @@ impl<'a> SpectralFresnel<'a> {
             spectrum,
             is_bare: matches!(base, Base::Metal(_)),
             reflectance,
-            ends: ReflectanceEnds::of(point),
+            ends: ReflectanceEnds::from_point(point),
             cos_o: point.wo.z,
             coat,
         }
     }
 
-    fn at(&self, cos_theta: f64) -> DVec3 {
+    fn reflectance_at(&self, cos_theta: f64) -> DVec3 {
         let base = self.reflectance.eval(cos_theta, self.ends).once;
         self.coat.map_or(base, |(weight, reflectance)| {
             let coat = reflectance.eval(cos_theta, ReflectanceEnds::COAT).once;
@@ -87,7 +87,7 @@ impl<'a> SpectralFresnel<'a> {
     /// Weights with the model's reflectance, (7) and (17): the spectrum's shape at normal incidence, the colour by the
     /// viewer's angle.
     pub(crate) fn separable(&self, wavelengths: &Wavelengths) -> Spectrum<DVec3> {
-        let fresnel = self.at(self.cos_o);
+        let fresnel = self.reflectance_at(self.cos_o);
         self.shape(wavelengths).map(|weight| weight * fresnel)
     }
 
@@ -116,7 +116,7 @@ impl<'a> SpectralFresnel<'a> {
                 })
             }
             _ => {
-                let both = self.at(cos_i) * self.at(cos_o);
+                let both = self.reflectance_at(cos_i) * self.reflectance_at(cos_o);
                 let mean = both.max(DVec3::ZERO).map(f64::sqrt);
                 self.shape(wavelengths).map(|weight| weight * mean)
             }

@@ -363,7 +363,7 @@ impl PieceInPixel {
         let offset_um = 0.5 * (start + end).dot(across);
         let ends = [start, end].map(|p| p.dot(tangent));
         let per_std = 1.0 / footprint.across_um2.sqrt().max(1e-9);
-        let across = gaussian().between(
+        let across = gaussian().integral(
             (offset_um - 0.5 * width_um) * per_std,
             (offset_um + 0.5 * width_um) * per_std,
         );

@@ -341,7 +341,7 @@ mod tests {
                 let errors = along
                     .iter()
                     .enumerate()
-                    .map(|(i, at)| (gaussian().between(-9.0, *at) - share(i)).abs());
+                    .map(|(i, at)| (gaussian().integral(-9.0, *at) - share(i)).abs());
                 let worst = errors.fold(0.0, f64::max);
                 let variance = along.iter().map(|at| at * at).sum::<f64>() / along.len() as f64;
                 assert!(

@@ -8,7 +8,7 @@ pub fn config_dir() -> Option<PathBuf> {
 }
 
 /// Folder for what can be computed again; none as above.
-pub fn cache_dir() -> Option<PathBuf> {
+pub(crate) fn cache_dir() -> Option<PathBuf> {
     strategy::cache_dir()
 }
 

@@ -370,7 +370,12 @@ impl Grating {
     /// Combines the grooves of [`Self::all_ways`] into one towards a light: the grooves across `along`, a direction in the plane of the surface,
     /// and fewer of them the more they turn away from it (docs/model.md, equation 45a). `along` is as long as the sine between the mirror's
     /// direction and the light's.
-    pub fn across(&self, seen: GroovePlace, normal: DVec3, along: DVec3) -> Option<GroovePlace> {
+    pub fn grooves_towards(
+        &self,
+        seen: GroovePlace,
+        normal: DVec3,
+        along: DVec3,
+    ) -> Option<GroovePlace> {
         let GrooveField::Spots {
             axis, along_row, ..
         } = self.field
@@ -403,7 +408,7 @@ impl Grating {
         } else {
             f64::INFINITY
         };
-        gaussian().between((radius_m - most_m) / std_m, inner)
+        gaussian().integral((radius_m - most_m) / std_m, inner)
     }
 }
 

@@ -234,13 +234,15 @@ impl Export {
     fn begin(&mut self, work: &mut Workspace, mut form: Form) {
         let wish = Self::wish(work, &form);
         let checked = match wish.is_animation() {
-            true => Animation::check(wish.base_dir.at(&wish.path)),
+            true => Animation::check(wish.base_dir.with_path(&wish.path)),
             false => {
                 let ending = match form.is_turntable {
                     true => check_sequence(&wish.path),
                     false => Ok(()),
                 };
-                ending.and_then(|()| Output::check(wish.base_dir.at(wish.frame_path(0))).map(drop))
+                ending.and_then(|()| {
+                    Output::check(wish.base_dir.with_path(wish.frame_path(0))).map(drop)
+                })
             }
         };
         match checked {

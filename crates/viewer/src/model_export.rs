@@ -39,7 +39,7 @@ impl ModelExport {
         wake: egui::Context,
     ) {
         let (sender, outcome) = channel();
-        let output = base_dir.at(path);
+        let output = base_dir.with_path(path);
         let work = move || {
             // Nobody hears of an export whose place was taken.
             let _ = sender.send(write(&description, &base_dir, &output));

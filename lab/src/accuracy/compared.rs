@@ -83,7 +83,7 @@ pub fn uncertainty(image: &Image, reference: &Image, layer: Layer) -> f64 {
     let (a, b) = (Layers::from(image), Layers::from(reference));
     let estimates = a.estimate(layer).zip(b.estimate(layer));
     estimates
-        .and_then(|(a, b)| BeyondNoise::between(&a, &b, Some(&mask)))
+        .and_then(|(a, b)| BeyondNoise::compare(&a, &b, Some(&mask)))
         .map_or(f64::INFINITY, |beyond| rms(&beyond).error)
 }
 

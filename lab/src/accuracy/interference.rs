@@ -301,9 +301,10 @@ fn from_place(grooves_um: &[f64], place_um: f64, nm_step: usize) -> Vec<Response
                     let alone =
                         scratch_amplitude([piece], xi, 2.0, COHERENCE_UM, sample.wavelength_nm);
                     sum += alone;
-                    incoherent += CoherentResponse::of(0.0, alone, COHERENCE_UM).scratches;
+                    incoherent +=
+                        CoherentResponse::from_amplitudes(0.0, alone, COHERENCE_UM).scratches;
                 }
-                let full = CoherentResponse::of(0.0, sum, COHERENCE_UM).scratches;
+                let full = CoherentResponse::from_amplitudes(0.0, sum, COHERENCE_UM).scratches;
                 // The band is narrower for shorter waves: what a light that covers it sees goes with the wavelength.
                 let weight = sample.wavelength_nm * nm_step as f64;
                 response.add(

@@ -65,8 +65,8 @@ impl Compared {
 pub fn compared(name: &str, image: &Image, reference: &Image, layer: Layer) -> Compared {
     let (a, b) = (Layers::from(image), Layers::from(reference));
     let (a, b) = (a.estimate(layer).unwrap(), b.estimate(layer).unwrap());
-    let beyond = BeyondNoise::between(&a, &b, None).expect("one of them has noise");
-    let z = ZTest::between(image.size_px, &a, &b, None).expect("one of them has noise");
+    let beyond = BeyondNoise::compare(&a, &b, None).expect("one of them has noise");
+    let z = ZTest::compare(image.size_px, &a, &b, None).expect("one of them has noise");
     let sum = |v: &[[f32; 3]]| v.iter().flatten().map(|c| f64::from(*c)).sum::<f64>();
     // The channels of a pixel are the same samples' light: their errors add up as they stand, not as independent ones.
     let error = |v: Option<&[[f32; 3]]>| -> f64 {

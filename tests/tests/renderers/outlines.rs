@@ -47,7 +47,7 @@ fn an_outline_is_as_soft_as_the_filter() {
             for x in 0..48 {
                 let right_px = f64::from(x) + 0.5 - 24.0;
                 // Samples end at two standard deviations.
-                let expected = 1.0 - gaussian().between(-9.0, right_px / filter_std_px);
+                let expected = 1.0 - gaussian().integral(-9.0, right_px / filter_std_px);
                 let found = f64::from(image.base[image.index(x, 4)][1]);
                 assert!(
                     (found - expected).abs() < 0.025,

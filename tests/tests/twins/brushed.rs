@@ -276,7 +276,7 @@ fn all_around_brushed_lobes() {
             let lobe = lobe([a, b, c, d], [p, q, r]);
             let [red, green, blue] = lobe.albedo(&gold());
             let [white, ..] = lobe.albedo(&FresnelRgb::schlick([1.0; 3]));
-            let tap = lobe.around(&gold())[(size * 1e3) as usize % BRUSHED_TAPS];
+            let tap = lobe.environment_taps(&gold())[(size * 1e3) as usize % BRUSHED_TAPS];
             let counts = (10.0 * tap.reflected[0]).min(1.0);
             let DVec3 { x, y, z } = counts * tap.direction;
             [

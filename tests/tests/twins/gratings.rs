@@ -139,7 +139,7 @@ fn grooves_under_pixels() {
                 let mut row = [it.tangent.x, it.tangent.y, it.tangent.z, right, down, it.share].to_vec();
                 row.push(it.mixed);
                 let way = grating.all_ways(it, v(&x[4..])).nth(2);
-                let across = grating.across(it, v(&x[4..]), v(&x[10..]) * 100.0);
+                let across = grating.grooves_towards(it, v(&x[4..]), v(&x[10..]) * 100.0);
                 for seen in [way, across] {
                     let [x, y, z] = seen.map_or([0.0; 3], |it| it.tangent.to_array());
                     let [share, std_rad] = seen.map_or([0.0; 2], |it| [it.share, it.angle_std_rad]);
@@ -346,7 +346,7 @@ fn light_from_all_around() {
             for cell in row_cells(BandLine::new(frame.band_from_surface(wo), 0.0)) {
                 let depth_nm = oblique_depth_nm(GRATING_DEPTH_NM, cell.direction.z, z);
                 let row = TABLE.at_depth(depth_nm);
-                let at = |q: f64| DVec3::from(row.at(GRATING_WIDTH_UM * q));
+                let at = |q: f64| DVec3::from(row.look_up(GRATING_WIDTH_UM * q));
                 sum += at(cell.q_high) - at(cell.q_low);
             }
             sum.to_array()
@@ -404,7 +404,7 @@ fn fine_gratings_by_incidence() {
     }];
     let at = |x: f64, y: f64, q: f64| {
         let row = IncidenceRow::new(&table, [y, x]);
-        let [t, taken] = [row.at(GRATING_WIDTH_UM * q), row.taken()];
+        let [t, taken] = [row.look_up(GRATING_WIDTH_UM * q), row.taken()];
         [t[0], t[1], t[2], taken[0], taken[1], taken[2]]
     };
     // The directions matter.

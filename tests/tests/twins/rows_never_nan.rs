@@ -140,7 +140,7 @@ fn light_of_rows() {
         let (low, high) = chord.range(line);
         let cos_i = chord_cos(line, low, high, 0.0);
         let table = TABLES[x[8] as usize].at_depth(oblique_depth_nm(GRATING_DEPTH_NM, cos_i, x[2]));
-        let sent = chord.integral(line, |q| table.at(GRATING_WIDTH_UM * q));
+        let sent = chord.integral(line, |q| table.look_up(GRATING_WIDTH_UM * q));
         let all = sent;
         // Columns hold T in single precision.
         assert!(

@@ -110,7 +110,7 @@ fn compared(image: &Image, reference: &Image) -> Option<CellError> {
     let mask = away_from_silhouettes(image, reference, SILHOUETTE_DEPTH);
     let (a, b) = (Layers::from(image), Layers::from(reference));
     let (a, b) = (a.estimate(Layer::Scratches)?, b.estimate(Layer::Scratches)?);
-    let beyond = BeyondNoise::between(&a, &b, Some(&mask))?;
+    let beyond = BeyondNoise::compare(&a, &b, Some(&mask))?;
     if !(beyond.reference_rms > 0.0) {
         return None;
     }

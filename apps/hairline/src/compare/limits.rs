@@ -32,7 +32,7 @@ impl Limit {
                 "no {layer}.{metric} to hold to a limit: the layer {layer} was not compared"
             ));
         };
-        let Some(found) = self.metric.of(compared) else {
+        let Some(found) = self.metric.value(compared) else {
             let why = self.metric.why_missing();
             return Finding::Absent(format!("no {layer}.{metric} to hold to a limit: {why}"));
         };

@@ -404,7 +404,7 @@ fn figures(comparison: &Comparison) -> Markup {
 }
 
 fn cell(layer: &LayerComparison, metric: Metric) -> String {
-    match metric.of(layer) {
+    match metric.value(layer) {
         Some(value) if value == f64::INFINITY => "\u{221e}".to_owned(),
         Some(value) => figure(value),
         None => "\u{2013}".to_owned(),

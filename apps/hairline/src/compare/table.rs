@@ -81,9 +81,11 @@ pub const COLUMNS: [Column; 10] = [
 /// The columns for which a layer has a figure.
 pub fn columns(comparison: &Comparison) -> impl Iterator<Item = &'static Column> {
     let layers = &comparison.layers;
-    COLUMNS
-        .iter()
-        .filter(|column| layers.iter().any(|layer| column.metric.of(layer).is_some()))
+    COLUMNS.iter().filter(|column| {
+        layers
+            .iter()
+            .any(|layer| column.metric.value(layer).is_some())
+    })
 }
 
 /// Problems of each layer, in a few words for its row.
@@ -176,7 +178,7 @@ pub fn text(a: &Side, b: &Side, comparison: &Comparison) -> String {
     for column in columns(comparison) {
         let figures = layers.iter().map(|&layer| {
             compared(layer)
-                .and_then(|compared| column.metric.of(compared))
+                .and_then(|compared| column.metric.value(compared))
                 .map_or("-".to_owned(), figure)
         });
         table.add_row(std::iter::once(column.heading.to_owned()).chain(figures));
@@ -240,7 +242,7 @@ pub fn json(a: &Side, b: &Side, display: &Display, comparison: &Comparison) -> V
 fn layer_json(layer: &LayerComparison) -> Value {
     let mut figures = Map::new();
     for metric in Metric::ALL {
-        if let Some(value) = metric.of(layer) {
+        if let Some(value) = metric.value(layer) {
             // null where it is infinite.
             figures.insert(metric.name().to_owned(), json!(value));
         }

@@ -79,19 +79,19 @@ impl EnvironmentSampler {
     }
 
     /// Brightness of the texel above or below a row of cells. At a pole it is the mean of both sides.
-    fn beside(&self, x: usize, row: usize, below: bool) -> f64 {
+    fn row_brightness(&self, x: usize, row: usize, below: bool) -> f64 {
         match (row, below) {
-            (0, false) => 0.5 * (self.texel(x, 0) + self.texel(self.across(x), 0)),
+            (0, false) => 0.5 * (self.texel(x, 0) + self.texel(self.opposite_column(x), 0)),
             (row, false) => self.texel(x, row - 1),
             (row, true) if row == self.height => {
-                0.5 * (self.texel(x, row - 1) + self.texel(self.across(x), row - 1))
+                0.5 * (self.texel(x, row - 1) + self.texel(self.opposite_column(x), row - 1))
             }
             (row, true) => self.texel(x, row),
         }
     }
 
     /// The column on the other side of a pole.
-    fn across(&self, x: usize) -> usize {
+    fn opposite_column(&self, x: usize) -> usize {
         let [x, _] = over_the_pole([self.width as i32, self.height as i32], x as i32, -1);
         x as usize
     }
@@ -99,13 +99,19 @@ impl EnvironmentSampler {
     /// The cell to the right of texel centres `x`, below the pole (row 0) or the texel centres `row - 1`.
     fn corners(&self, x: usize, row: usize) -> Corners {
         let right = if x + 1 < self.width { x + 1 } else { 0 };
-        [false, true].map(|below| [self.beside(x, row, below), self.beside(right, row, below)])
+        [false, true].map(|below| {
+            [
+                self.row_brightness(x, row, below),
+                self.row_brightness(right, row, below),
+            ]
+        })
     }
 
     /// The cells of a block: (x, sum of the corners).
     fn block(&self, row: usize, block: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let cells = block * BLOCK..((block + 1) * BLOCK).min(self.width);
-        let column = move |x: usize| self.beside(x, row, false) + self.beside(x, row, true);
+        let column =
+            move |x: usize| self.row_brightness(x, row, false) + self.row_brightness(x, row, true);
         let mut left = column(cells.start);
         cells.map(move |x| {
             let right = column(if x + 1 < self.width { x + 1 } else { 0 });

@@ -48,7 +48,7 @@ struct Picture {
 impl Picture {
     /// Value of the picture along a ray.
     fn seen(&self, from: DVec3, direction: DVec3) -> DVec3 {
-        let plane = PicturePlane::of(&self.corners_m.map(|corner| corner - from));
+        let plane = PicturePlane::from_corners(&self.corners_m.map(|corner| corner - from));
         let texture = &self.textures[self.texture];
         picture_radiance(texture, plane.picture_uv(direction), 0.0, WHOLE)
     }
@@ -100,7 +100,7 @@ impl AreaLights {
     }
 
     /// Any lights, in this order.
-    pub fn from_lights<'l>(lights: impl IntoIterator<Item = &'l Light>) -> Self {
+    pub(crate) fn from_lights<'l>(lights: impl IntoIterator<Item = &'l Light>) -> Self {
         Self::with_textures(lights, &Arc::default())
     }
 
@@ -108,7 +108,7 @@ impl AreaLights {
     ///
     /// # Panics
     /// Panics if a picture is not among them.
-    pub fn with_textures<'l>(
+    pub(crate) fn with_textures<'l>(
         lights: impl IntoIterator<Item = &'l Light>,
         textures: &Arc<Vec<Texture>>,
     ) -> Self {

@@ -34,7 +34,7 @@ impl<'a> PartedChord<'a> {
         let part = |i: usize| {
             let start = low + step * i as f64;
             let row = row(line.direction_at(start + 0.5 * step).z);
-            let at = |q: f64| DVec3::from(row.at(width_um * q));
+            let at = |q: f64| DVec3::from(row.look_up(width_um * q));
             let part = (below - at(start), row);
             below += at(start + step) - at(start);
             part
@@ -48,9 +48,9 @@ impl<'a> PartedChord<'a> {
     }
 
     /// Evaluates the antiderivative. Beyond the chord's ends the depths are those at the ends.
-    pub(super) fn at(&self, q: f64) -> [f64; 3] {
+    pub(super) fn look_up(&self, q: f64) -> [f64; 3] {
         let i = ((q - self.low) / self.step).max(0.0) as usize;
         let (before, row) = &self.parts[i.min(self.parts.len() - 1)];
-        (*before + DVec3::from(row.at(self.width_um * q))).to_array()
+        (*before + DVec3::from(row.look_up(self.width_um * q))).to_array()
     }
 }

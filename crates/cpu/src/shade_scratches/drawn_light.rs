@@ -117,7 +117,7 @@ impl<F: Fn(f64) -> DVec3> Offers<F> {
 impl ScratchLight<'_> {
     /// Draws a direction from which a light reaches the viewer off the scratch, in proportion to the luminance from there, by three numbers in
     /// [0, 1). None where there is no light. Other arguments as for [`Self::light`].
-    pub fn draw_light(
+    pub(crate) fn draw_light(
         &self,
         stds: &BandStds,
         place: BandPlace,
@@ -185,7 +185,7 @@ impl ScratchLight<'_> {
     /// Draws a direction to the environment, as [`Self::draw_light`], by two numbers in [0, 1). A cell is drawn in proportion to its light, then
     /// one of its parts in proportion to the part's. The colour is the environment's in the drawn direction: the closed form takes the
     /// environment and the groove's depth as even over a cell, but an object may hide the cell's bright side alone.
-    pub fn draw_environment(
+    pub(crate) fn draw_environment(
         &self,
         point: &SurfacePoint,
         environment: &Environment,
@@ -198,7 +198,7 @@ impl ScratchLight<'_> {
         };
         let response = |cell: &EnvironmentCell| {
             let row = self.row(cell.direction.z);
-            move |q: f64| DVec3::from(row.at(self.width_um() * q))
+            move |q: f64| DVec3::from(row.look_up(self.width_um() * q))
         };
         let sent = |cell: &EnvironmentCell| {
             let (response, blur) = (response(cell), cell.environment_cell_roughness());
@@ -246,7 +246,7 @@ impl ScratchLight<'_> {
             let row = self.row(cell.direction.z);
             let ends = [(-1.0, cell.q_low), (1.0, cell.q_high)];
             let width_um = self.width_um();
-            let spectrum = move |q: f64| DVec3::from(row.at(width_um * q));
+            let spectrum = move |q: f64| DVec3::from(row.look_up(width_um * q));
             offers.offer(line, ends.into_iter(), spectrum);
         });
         let total = offers.lines.total;

@@ -344,7 +344,7 @@ impl Line {
     }
 
     /// Its direction in the picture.
-    pub fn along(&self) -> DVec2 {
+    pub fn direction(&self) -> DVec2 {
         self.tangent.map(f64::from).into()
     }
 }

@@ -122,7 +122,7 @@ impl Picks {
 
     /// Adds the energy that a scratch takes from the base.
     #[inline]
-    pub fn add_energy(&mut self, energy: DVec3, pick: impl FnOnce() -> Pick) {
+    pub(crate) fn add_energy(&mut self, energy: DVec3, pick: impl FnOnce() -> Pick) {
         self.energy += energy;
         let pick = || Pick {
             radiance: energy,
@@ -133,7 +133,7 @@ impl Picks {
     }
 
     /// Lets the only pick, which was drawn by a bound of its light, stand for all pairs; `light` returns the light of the pick.
-    pub fn light_one(&mut self, light: impl FnOnce(&Pick) -> DVec3) {
+    pub(crate) fn light_one(&mut self, light: impl FnOnce(&Pick) -> DVec3) {
         let (mut radiance, bounds) = (DVec3::ZERO, self.lit.total);
         if let Some((_, Some(pick))) = self.lit.picks.first_mut() {
             radiance = light(pick) * (bounds / luminance(pick.radiance));

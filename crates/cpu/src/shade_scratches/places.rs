@@ -65,7 +65,7 @@ impl Places {
             places: [None; PLACES],
         };
         for (i, (point, off2)) in points.enumerate() {
-            let place = &mut all.places[all.of(point)];
+            let place = &mut all.places[all.index(point)];
             if place.is_none_or(|place| off2 < place.off2) {
                 *place = Some(Place {
                     point: i,
@@ -78,7 +78,7 @@ impl Places {
         all
     }
 
-    fn of(&self, point: &ScratchPoint) -> usize {
+    fn index(&self, point: &ScratchPoint) -> usize {
         let off = (self.along.dot(point.at_px) - self.from_px) * (1.0 / PLACE_PX);
         (off + REACH as f64 + 0.5).clamp(0.0, PLACES as f64 - 1.0) as usize
     }
@@ -93,7 +93,7 @@ impl Places {
 
     /// What a point that sees the segment is sent; none if it looks elsewhere than the point that stands for its place.
     pub fn sent(&self, point: &ScratchPoint, alike_rad: f64) -> Option<DVec3> {
-        let place = self.places[self.of(point)]?;
+        let place = self.places[self.index(point)]?;
         let is_alike = place.normal.distance_squared(point.point.normal) <= alike_rad * alike_rad;
         is_alike.then_some(place.sent)
     }

@@ -67,7 +67,7 @@ pub(super) fn share(
         * (-0.5 * far2).exp()
         * (1.0 / (variance_um2 * (2.0 * std::f64::consts::PI))).sqrt();
     ScratchShare {
-        segment: line * gaussian().between(low, high),
+        segment: line * gaussian().integral(low, high),
         line,
         cover: 1.0,
     }

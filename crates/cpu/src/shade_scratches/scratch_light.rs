@@ -39,11 +39,11 @@ pub(super) enum GrooveRow<'a> {
 
 impl GrooveRow<'_> {
     #[inline]
-    pub fn at(&self, u_um: f64) -> [f64; 3] {
+    pub fn look_up(&self, u_um: f64) -> [f64; 3] {
         match self {
-            Self::Depth(row) => row.at(u_um),
-            Self::Incidence(row) => row.at(u_um),
-            Self::Smooth(row) => row.at(u_um),
+            Self::Depth(row) => row.look_up(u_um),
+            Self::Incidence(row) => row.look_up(u_um),
+            Self::Smooth(row) => row.look_up(u_um),
         }
     }
 }
@@ -168,7 +168,7 @@ impl<'a> ScratchLight<'a> {
     }
 
     /// Energy that the grooves of a grating take from the reflection in the mirror's direction.
-    pub fn taken_by_row(&self) -> DVec3 {
+    pub(crate) fn taken_by_row(&self) -> DVec3 {
         match self.table.by_incidence {
             true => self.incidence_row().taken().into(),
             false => self.all_around(),
@@ -265,8 +265,8 @@ impl<'a> ScratchLight<'a> {
             .then(|| PartedChord::new(line, (low, high), width_um, |cos_i| self.depth_row(cos_i)));
         let parted = parted.flatten();
         move |q| match &parted {
-            Some(parted) => parted.at(q),
-            None => row.at(width_um * q),
+            Some(parted) => parted.look_up(q),
+            None => row.look_up(width_um * q),
         }
     }
 
@@ -310,7 +310,7 @@ impl<'a> ScratchLight<'a> {
         if band_is_whole(wo.x, wo.x + low, wo.x + high, std) {
             let line = BandLine::new(wo, 0.0);
             let spectrum = self.outline_spectrum(outline, line, roots);
-            let picture = picture.map(|(picture, variance)| picture.across(variance));
+            let picture = picture.map(|(picture, variance)| picture.with_across_variance(variance));
             return Some(self.on_line(line, roots, spectrum, picture).into());
         }
         let (lowest, highest) = outline.band_extent(self.frame, wo.x);
@@ -320,7 +320,7 @@ impl<'a> ScratchLight<'a> {
         let lines = self.lines(wo.x, lowest, highest, motion.band(*stds).stds);
         // Several lines see the picture where they lie, and so does one of them.
         let picture = picture.map(|(picture, variance)| match (lines.count, self.one_line) {
-            (1, None) => picture.across(variance),
+            (1, None) => picture.with_across_variance(variance),
             _ => picture,
         });
         // One cosine for all lines: that of the middle line.
@@ -355,11 +355,11 @@ impl<'a> ScratchLight<'a> {
 
     /// Light of radiance 1 from all sides off the scratch.
     #[inline(always)]
-    pub fn all_around(&self) -> DVec3 {
+    pub(crate) fn all_around(&self) -> DVec3 {
         let mut sum = DVec3::ZERO;
         self.for_cells(|cell| {
             let row = self.row(cell.direction.z);
-            let at = |q: f64| DVec3::from(row.at(self.width_um() * q));
+            let at = |q: f64| DVec3::from(row.look_up(self.width_um() * q));
             sum += at(cell.q_high) - at(cell.q_low);
         });
         sum
@@ -405,7 +405,7 @@ impl<'a> ScratchLight<'a> {
         let mut sum = DVec3::ZERO;
         for (cell, blurred) in cells.iter().zip(blurred) {
             let row = self.row(cell.direction.z);
-            let at = |q: f64| DVec3::from(row.at(self.width_um() * q));
+            let at = |q: f64| DVec3::from(row.look_up(self.width_um() * q));
             sum += (at(cell.q_high) - at(cell.q_low)) * blurred;
         }
         sum

@@ -278,7 +278,7 @@ fn what_is_drawn_of_an_environment_comes_from_there() {
             let part = |i: u32| {
                 let (radiance, cos) = of(line.direction_at(at(f64::from(i) + 0.5)));
                 let row = scratch.row(cos);
-                let below = |i: f64| DVec3::from(row.at(f64::from(width_um) * at(i)));
+                let below = |i: f64| DVec3::from(row.look_up(f64::from(width_um) * at(i)));
                 (
                     bin(at(f64::from(i) + 0.5)),
                     luminance(radiance * (below(f64::from(i) + 1.0) - below(f64::from(i)))),

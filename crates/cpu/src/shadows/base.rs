@@ -8,6 +8,7 @@ use crate::sampling::lights::LightHit;
 use crate::sampling::luminance;
 use crate::shade_base::{Base, BaseRadiance, PixelBase, transformed_sphere};
 use crate::shade_scratches::Choice;
+use crate::surface::ray_start::RayStart;
 use crate::traced::{BaseLight, LayerRays};
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
@@ -55,6 +56,16 @@ struct LobeRay {
     followed: Option<Option<Hit>>,
 }
 
+/// What the rays of a round share.
+struct BaseRound<'r> {
+    at: &'r ShadowPoint<'r, 'r>,
+    lobes: &'r Lobes<'r, 'r>,
+    round: u32,
+    start: RayStart,
+    /// The ray by the lobes.
+    drawn: Option<LobeRay>,
+}
+
 /// A direction to a source, with the weight of its ray.
 struct Candidate {
     direction: DVec3,
@@ -71,7 +82,7 @@ impl<'a> Shadows<'a> {
         &self,
         at: &ShadowPoint,
         base: &PixelBase,
-        rooms: &mut [HitBuffers<'a>],
+        hit_buffers: &mut [HitBuffers<'a>],
     ) -> BaseLight {
         let lobes = Lobes::new(&base.whole, at.point);
         let sources = if at.depth == 0 {
@@ -90,7 +101,7 @@ impl<'a> Shadows<'a> {
             diffuse: LayerRays::new(open.diffuse, around.diffuse),
         };
         for round in 0..at.rounds.now.count {
-            self.base_round(at, &lobes, round, &sources, &mut rays, rooms);
+            self.base_round(at, &lobes, round, &sources, &mut rays, hit_buffers);
             rays.specular.end_round();
             rays.diffuse.end_round();
         }
@@ -122,9 +133,10 @@ impl<'a> Shadows<'a> {
     /// Draws one source that stands for all, by a cheap bound of its light.
     fn one_source(&self, at: &ShadowPoint, base: &Base, lobes: &Lobes) -> Option<Source> {
         let environment = self.prepared.scene.environment.as_ref();
-        let around = environment.map(|it| {
+        let around = environment.map(|environment| {
             let albedo = base.albedo();
-            luminance((albedo.specular + albedo.diffuse) * it.irradiance(at.point.normal)) / PI
+            let irradiance = environment.irradiance(at.point.normal);
+            luminance((albedo.specular + albedo.diffuse) * irradiance) / PI
         });
         let [pick, ..] = at.random(Purpose::Source, 0);
         let mut choice = Choice::new(pick);
@@ -170,26 +182,11 @@ impl<'a> Shadows<'a> {
         round: u32,
         sources: &[Source],
         rays: &mut BaseRays,
-        rooms: &mut [HitBuffers<'a>],
+        hit_buffers: &mut [HitBuffers<'a>],
     ) {
-        let point = at.point;
         let [u, v, ..] = at.random(Purpose::Origin, round);
         let start = self.under_the_pixel(at, normals(u, v));
-        let [u, v, pick, _] = at.random(Purpose::Lobe, round);
-        let mut drawn = lobes.sample(pick, DVec2::new(u, v)).map(|wi| {
-            let direction = point.world_from_surface(wi);
-            LobeRay {
-                direction,
-                origin_m: self.off_the_surface(
-                    point,
-                    start.position_m(point, direction),
-                    direction,
-                ),
-                pdf: lobes.pdf(wi),
-                sent: lobes.eval(wi),
-                followed: None,
-            }
-        });
+        let mut drawn = self.lobe_ray(at, lobes, round, &start);
         let bounces = at.depth < self.options.bounces;
         if let Some(ray) = drawn.as_mut().filter(|_| bounces || at.depth == 0) {
             let (origin_m, direction) = (ray.origin_m, ray.direction);
@@ -204,69 +201,111 @@ impl<'a> Shadows<'a> {
                     round,
                     by_base: true,
                 };
-                let brought = self.light_of_object(at, &met, rooms);
+                let brought = self.light_of_object(at, &met, hit_buffers);
                 rays.bounce(ray.sent.times(brought / ray.pdf));
             }
         }
+        let base_round = BaseRound {
+            at,
+            lobes,
+            round,
+            start,
+            drawn,
+        };
         for source in sources {
-            let (to_source, by_lobes) = match source.light {
-                Some(light) => self.to_light(at, lobes, light, round, drawn.as_ref()),
-                None => self.to_environment(at, lobes, round, drawn.as_ref()),
-            };
-            let per_chance = source.per_chance;
-            let sent = |it: &Candidate| luminance(it.weight.specular + it.weight.diffuse).max(0.0);
-            let followed = drawn.as_ref().and_then(|ray| ray.followed);
-            let [_, _, _, chance] = at.random(Purpose::of_source(source.light), round);
-            let end = |it: &Candidate| RayEnd {
+            self.source_rays(&base_round, source, rays);
+        }
+    }
+
+    /// Draws a ray by the lobes.
+    fn lobe_ray(
+        &self,
+        at: &ShadowPoint,
+        lobes: &Lobes,
+        round: u32,
+        start: &RayStart,
+    ) -> Option<LobeRay> {
+        let point = at.point;
+        let [u, v, pick, _] = at.random(Purpose::Lobe, round);
+        let wi = lobes.sample(pick, DVec2::new(u, v))?;
+        let direction = point.world_from_surface(wi);
+        let start_m = start.position_m(point, direction);
+        Some(LobeRay {
+            direction,
+            origin_m: self.off_the_surface(point, start_m, direction),
+            pdf: lobes.pdf(wi),
+            sent: lobes.eval(wi),
+            followed: None,
+        })
+    }
+
+    /// Adds the rays of a round to a source.
+    fn source_rays(&self, of: &BaseRound, source: &Source, rays: &mut BaseRays) {
+        let (at, round) = (of.at, of.round);
+        let (to_source, by_lobes) = match source.light {
+            Some(light) => self.to_light(of, light),
+            None => self.to_environment(of),
+        };
+        let sent = |candidate: &Candidate| {
+            let weight = candidate.weight;
+            luminance(weight.specular + weight.diffuse).max(0.0)
+        };
+        let followed = of.drawn.as_ref().and_then(|ray| ray.followed);
+        let [_, _, _, chance] = at.random(Purpose::of_source(source.light), round);
+        let sees = |candidate: &Candidate| {
+            let end = RayEnd {
                 light: source.light,
-                distance_m: it.distance_m,
+                distance_m: candidate.distance_m,
             };
-            let sees = |it: &Candidate| self.sees(point, &start, it.direction, end(it));
-            let has_closed_form = at.depth == 0 || source.light.is_some();
-            let mut add = |it: &Candidate, factor: f64, is_seen: bool| {
-                let weight = it.weight.times(DVec3::splat(factor * per_chance));
-                if has_closed_form {
-                    rays.add(weight, is_seen);
-                } else if is_seen {
-                    rays.bounce(weight);
-                }
-            };
-            match (followed, to_source, by_lobes) {
-                // The ray by the lobes has its hit already; the ray to the source is cast only if it carries enough light.
-                (Some(hit), to_source, by_lobes) => {
-                    if let Some(it) = by_lobes {
-                        let clear_m = self.clear_of_followed(drawn.as_ref(), source.light);
-                        let is_seen = hit.is_none_or(|hit| hit.distance_m > clear_m);
-                        add(&it, 1.0, is_seen);
-                    }
-                    if let Some(it) = to_source {
-                        let all = luminance(source.open.specular + source.open.diffuse);
-                        let share = if all > 0.0 {
-                            (sent(&it) / (FAINT * all)).min(1.0)
-                        } else {
-                            1.0
-                        };
-                        if chance < share {
-                            add(&it, 1.0 / share, sees(&it));
-                        }
-                    }
-                }
-                // One of the two stands for both (J. Talbot, D. Cline, P. Egbert, Importance Resampling for Global Illumination, 2005).
-                (None, Some(a), Some(b)) => {
-                    let (of_a, of_b) = (sent(&a), sent(&b));
-                    let all = of_a + of_b;
-                    if all > 0.0 {
-                        let (it, own) = if chance * all < of_a {
-                            (a, of_a)
-                        } else {
-                            (b, of_b)
-                        };
-                        add(&it, all / own, sees(&it));
-                    }
-                }
-                (None, Some(it), None) | (None, None, Some(it)) => add(&it, 1.0, sees(&it)),
-                (None, None, None) => {}
+            self.sees(at.point, &of.start, candidate.direction, end)
+        };
+        let has_closed_form = at.depth == 0 || source.light.is_some();
+        let mut add = |candidate: &Candidate, factor: f64, is_seen: bool| {
+            let factor = DVec3::splat(factor * source.per_chance);
+            let weight = candidate.weight.times(factor);
+            if has_closed_form {
+                rays.add(weight, is_seen);
+            } else if is_seen {
+                rays.bounce(weight);
             }
+        };
+        match (followed, to_source, by_lobes) {
+            // The ray by the lobes has its hit already; the ray to the source is cast only if it carries enough light.
+            (Some(hit), to_source, by_lobes) => {
+                if let Some(candidate) = by_lobes {
+                    let clear_m = self.clear_of_followed(of.drawn.as_ref(), source.light);
+                    let is_seen = hit.is_none_or(|hit| hit.distance_m > clear_m);
+                    add(&candidate, 1.0, is_seen);
+                }
+                if let Some(candidate) = to_source {
+                    let all = luminance(source.open.specular + source.open.diffuse);
+                    let share = if all > 0.0 {
+                        (sent(&candidate) / (FAINT * all)).min(1.0)
+                    } else {
+                        1.0
+                    };
+                    if chance < share {
+                        add(&candidate, 1.0 / share, sees(&candidate));
+                    }
+                }
+            }
+            // One of the two stands for both (J. Talbot, D. Cline, P. Egbert, Importance Resampling for Global Illumination, 2005).
+            (None, Some(a), Some(b)) => {
+                let (of_a, of_b) = (sent(&a), sent(&b));
+                let all = of_a + of_b;
+                if all > 0.0 {
+                    let (candidate, own) = if chance * all < of_a {
+                        (a, of_a)
+                    } else {
+                        (b, of_b)
+                    };
+                    add(&candidate, all / own, sees(&candidate));
+                }
+            }
+            (None, Some(candidate), None) | (None, None, Some(candidate)) => {
+                add(&candidate, 1.0, sees(&candidate));
+            }
+            (None, None, None) => {}
         }
     }
 
@@ -281,17 +320,11 @@ impl<'a> Shadows<'a> {
     }
 
     /// Directions to a light: one drawn on it, and that of the lobes where it meets it.
-    fn to_light(
-        &self,
-        at: &ShadowPoint,
-        lobes: &Lobes,
-        light: u32,
-        round: u32,
-        drawn: Option<&LobeRay>,
-    ) -> (Option<Candidate>, Option<Candidate>) {
-        let (point, light) = (at.point, light as usize);
+    fn to_light(&self, of: &BaseRound, light: u32) -> (Option<Candidate>, Option<Candidate>) {
+        let (point, lobes) = (of.at.point, of.lobes);
         let from = point.position_m;
-        let [u, v, ..] = at.random(Purpose::Light(light as u32), round);
+        let [u, v, ..] = of.at.random(Purpose::Light(light), of.round);
+        let light = light as usize;
         let on_light = self
             .lights
             .sample(light, from, DVec2::new(u, v))
@@ -304,7 +337,7 @@ impl<'a> Shadows<'a> {
                     weight: lobes.eval(wi).times(weight),
                 })
             });
-        let by_lobes = drawn.and_then(|ray| {
+        let by_lobes = of.drawn.as_ref().and_then(|ray| {
             let LightHit {
                 distance_m,
                 radiance,
@@ -320,23 +353,17 @@ impl<'a> Shadows<'a> {
     }
 
     /// Candidates for the environment without its suns, which are lights.
-    fn to_environment(
-        &self,
-        at: &ShadowPoint,
-        lobes: &Lobes,
-        round: u32,
-        drawn: Option<&LobeRay>,
-    ) -> (Option<Candidate>, Option<Candidate>) {
-        let point = at.point;
+    fn to_environment(&self, of: &BaseRound) -> (Option<Candidate>, Option<Candidate>) {
+        let lobes = of.lobes;
         let (Some(environment), Some(sampler)) =
             (&self.prepared.scene.environment, self.environment)
         else {
             return (None, None);
         };
         let radiance = |direction| environment.prefiltered_lod(direction, 0.0);
-        let [u, v, ..] = at.random(Purpose::Environment, round);
+        let [u, v, ..] = of.at.random(Purpose::Environment, of.round);
         let (direction, pdf) = sampler.sample(DVec2::new(u, v));
-        let wi = point.surface_from_world(direction);
+        let wi = of.at.point.surface_from_world(direction);
         let candidate = |direction, weight| Candidate {
             direction,
             distance_m: f64::INFINITY,
@@ -346,7 +373,7 @@ impl<'a> Shadows<'a> {
             let weight = radiance(direction) / (pdf + lobes.pdf(wi));
             candidate(direction, lobes.eval(wi).times(weight))
         });
-        let by_lobes = drawn.map(|ray| {
+        let by_lobes = of.drawn.as_ref().map(|ray| {
             let pdf = ray.pdf + sampler.pdf(ray.direction);
             let weight = radiance(ray.direction) / pdf;
             candidate(ray.direction, ray.sent.times(weight))

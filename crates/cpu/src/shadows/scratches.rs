@@ -4,7 +4,8 @@ use super::{HitBuffers, MetObject, Purpose, RayEnd, ShadowPoint, Shadows, normal
 use crate::sampling::luminance;
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{DrawnLight, Frame, Pick, Picks, ScratchLight};
-use crate::surface::{RayStart, SurfacePoint};
+use crate::surface::SurfacePoint;
+use crate::surface::ray_start::RayStart;
 use crate::traced::{LayerLight, LayerRays};
 use glam::DVec3;
 use hairline_optics::gaussian::gaussian;
@@ -15,7 +16,7 @@ impl<'a> Shadows<'a> {
         &self,
         at: &ShadowPoint,
         picks: &mut Picks,
-        rooms: &mut [HitBuffers<'a>],
+        hit_buffers: &mut [HitBuffers<'a>],
     ) -> (ShadedGratings, LayerLight) {
         // Other numbers than those of the point's scratches.
         let at = &ShadowPoint {
@@ -25,7 +26,7 @@ impl<'a> Shadows<'a> {
         picks.clear(at.rounds.now.count, at.picks_seed());
         let (prepared, point) = (self.prepared, at.point);
         let open = ShadedGratings::new(prepared, point, at.object, at.views, Some(picks));
-        (open, self.by_picks(at, picks, rooms))
+        (open, self.by_picks(at, picks, hit_buffers))
     }
 
     /// Returns the scratches' light that is not hidden, before they weaken one another, and the light of other objects off them.
@@ -33,7 +34,7 @@ impl<'a> Shadows<'a> {
         &self,
         at: &ShadowPoint,
         picks: &Picks,
-        rooms: &mut [HitBuffers<'a>],
+        hit_buffers: &mut [HitBuffers<'a>],
     ) -> LayerLight {
         let bounces = at.depth < self.options.bounces;
         // Until it is known what all send from all around, as if that were 1.
@@ -47,7 +48,7 @@ impl<'a> Shadows<'a> {
                 self.to_source(at, &frame, round, pick, weight_of_one, &mut rays);
             }
             if bounces && let Some(pick) = picks.by_energy.get(round) {
-                rays.bounce(self.by_object(at, round, pick, &mut brought, rooms));
+                rays.bounce(self.by_object(at, round, pick, &mut brought, hit_buffers));
             }
             rays.end_round();
         }
@@ -102,7 +103,7 @@ impl<'a> Shadows<'a> {
         round: u32,
         pick: &Pick,
         brought: &mut Brought,
-        rooms: &mut [HitBuffers<'a>],
+        hit_buffers: &mut [HitBuffers<'a>],
     ) -> DVec3 {
         let point = at.point;
         let by = self.picked(point, pick);
@@ -123,7 +124,7 @@ impl<'a> Shadows<'a> {
                 round,
                 by_base: false,
             };
-            self.light_of_object(at, &met, rooms)
+            self.light_of_object(at, &met, hit_buffers)
         });
         brought.add(pick, pick.share * sent, drawn.color, light);
         light
@@ -178,7 +179,7 @@ impl Brought {
 
     /// Light that is sent of radiance 1 from all around, for each unit of energy.
     fn per_energy(&self) -> DVec3 {
-        over(self.sent, self.energy).max(DVec3::ZERO)
+        ratio(self.sent, self.energy).max(DVec3::ZERO)
     }
 
     /// The mean light. Each ray has a colour of its own; weighed by it, even light looks as all scratches send it together. Where few rays have a
@@ -187,7 +188,7 @@ impl Brought {
         let of_all = luminance(self.light) / luminance(self.colors).max(1e-300);
         let mean = DVec3::select(
             self.colors.cmpgt(LEAST_COLOR * self.sent),
-            over(self.light, self.colors),
+            ratio(self.light, self.colors),
             DVec3::splat(of_all),
         );
         mean.clamp(-MOST_COLOR * self.most, MOST_COLOR * self.most)
@@ -212,7 +213,7 @@ fn in_gamut(color: DVec3) -> DVec3 {
 }
 
 /// 0 where there is nothing to take a part of.
-fn over(part: DVec3, all: DVec3) -> DVec3 {
+fn ratio(part: DVec3, all: DVec3) -> DVec3 {
     let is_there = all.cmpgt(DVec3::ZERO);
     DVec3::select(
         is_there,

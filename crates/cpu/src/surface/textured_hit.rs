@@ -158,7 +158,7 @@ impl<'a> TexturedHit<'a> {
     }
 
     /// Turns of the interpolated normal over the axes of the footprint.
-    pub fn smooth_turns(&self) -> [DVec3; 2] {
+    pub(crate) fn smooth_turns(&self) -> [DVec3; 2] {
         let [a, b, c] = self.normals;
         // Most triangles of what is flat have one normal.
         match a == b && a == c {
@@ -263,4 +263,22 @@ fn sample_normals(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -
     let up = (mean.z * 2.0 - 1.0).max(0.1);
     mean.w = (mean.w * mean.w + 0.5 * seen * (steps2[0] + steps2[1]) / (up * up)).sqrt();
     mean
+}
+
+/// Origin of rays to lights: see [`super::SurfacePoint::raised_m`].
+pub(super) fn raised(position_m: DVec3, hit: &Hit, mesh: &Mesh, side: f64) -> DVec3 {
+    let [u, v] = hit.barycentric;
+    let weights = [1.0 - u - v, u, v];
+    let triangle = mesh.triangles[hit.triangle as usize];
+    let normals = triangle.map(|i| mesh.normals[i as usize]);
+    if normals[0] == normals[1] && normals[0] == normals[2] {
+        return position_m;
+    }
+    let rises = (0..3).map(|i| {
+        let corner_m = mesh.positions_m[triangle[i] as usize].as_dvec3();
+        let normal = side * normals[i].as_dvec3();
+        let below_m = (position_m - corner_m).dot(normal).min(0.0);
+        normal * (-weights[i] * below_m)
+    });
+    position_m + rises.sum::<DVec3>()
 }

@@ -138,7 +138,7 @@ impl<'a> Tile<'a> {
                 let mut rays = Rays {
                     shadows,
                     grating_picks: &mut self.grating_picks,
-                    rooms: &mut self.rooms,
+                    hit_buffers: &mut self.hit_buffers,
                 };
                 (
                     shaded.masked(self.picture),
@@ -197,7 +197,7 @@ impl<'a> Shaded<'_, 'a> {
 struct Rays<'s, 'a> {
     shadows: &'s Shadows<'a>,
     grating_picks: &'s mut Picks,
-    rooms: &'s mut [HitBuffers<'a>],
+    hit_buffers: &'s mut [HitBuffers<'a>],
 }
 
 impl<'a> Rays<'_, 'a> {
@@ -211,22 +211,24 @@ impl<'a> Rays<'_, 'a> {
         let Shaded { point, views, .. } = *shaded;
         let shadow_point = point.shadow_point(&picture.camera, views)?;
         let mut light = PointLight {
-            base: self.shadows.base(&shadow_point, &shaded.base, self.rooms),
+            base: self
+                .shadows
+                .base(&shadow_point, &shaded.base, self.hit_buffers),
             ..PointLight::default()
         };
         if let Some(picks) = picks
             && let Some(at) = point.scratched_point(&picture.camera, views)
             && picture.prepared.is_scratched(shaded.hit)
         {
-            light.scratches = self.shadows.by_picks(&at, picks, self.rooms);
+            light.scratches = self.shadows.by_picks(&at, picks, self.hit_buffers);
             // Exact to the bit if nothing is hidden.
             light.scratches.open = shaded.sums.radiance.into();
             light.scratches = light.scratches.for_samples(shaded.samples);
         }
         if picture.prepared.has_gratings(shaded.hit) {
-            let gratings = self
-                .shadows
-                .gratings(&shadow_point, self.grating_picks, self.rooms);
+            let gratings =
+                self.shadows
+                    .gratings(&shadow_point, self.grating_picks, self.hit_buffers);
             light.gratings = Some(gratings);
         }
         Some(light)

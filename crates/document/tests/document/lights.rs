@@ -228,7 +228,7 @@ fn a_disk_on_a_scratch_is_round() {
         let closed = |radius: f64, line: BandLine| {
             let corners = Disk { radius, ..disk }.corners();
             let directions: Vec<_> = corners.iter().map(|v| v.normalize()).collect();
-            let edges: Vec<_> = OutlineEdge::around(&directions).collect();
+            let edges: Vec<_> = OutlineEdge::of_outline(&directions).collect();
             let outline = Outline {
                 edges: &edges,
                 away: -axis,

@@ -100,7 +100,7 @@ impl Document {
         let Some(path) = self.path.clone() else {
             return Ok(());
         };
-        let text = reading::scene_text(self.base_dir.at(&path))?;
+        let text = reading::scene_text(self.base_dir.with_path(&path))?;
         let description = Self::read(&text, &path)?;
         self.edit("Reload", |d| *d = description);
         self.text = Some(text.into());
@@ -148,7 +148,7 @@ impl Document {
         if let (Ok(written), Some(since)) = (written, since)
             && written <= since
         {
-            self.text = reading::scene_text(self.base_dir.at(path))
+            self.text = reading::scene_text(self.base_dir.with_path(path))
                 .ok()
                 .map(Into::into);
         }
@@ -192,7 +192,7 @@ impl Document {
         }
         rebased.text = Some(rebased.write(path)?);
         rebased.path = Some(path.to_owned());
-        rebased.base_dir = self.base_dir.at(folder);
+        rebased.base_dir = self.base_dir.with_path(folder);
         rebased.was_saved();
         *self = rebased;
         Ok(())
@@ -207,7 +207,7 @@ impl Document {
         if let Some(original) = &self.text {
             text = layout::kept(original, description, text);
         }
-        write_atomically(self.base_dir.at(path), text.as_bytes())?;
+        write_atomically(self.base_dir.with_path(path), text.as_bytes())?;
         Ok(text.into())
     }
 

@@ -40,7 +40,7 @@ fn count_sizes() {
     // Other numbers follow from what was not made.
     if film.short == 0u || COUNTED == COUNTED_ENTRIES {
         sizes.needed[COUNTED] = max(sizes.needed[COUNTED], needed);
-        if film.short == 0u && needed > sizes.room[COUNTED] {
+        if film.short == 0u && needed > sizes.capacity[COUNTED] {
             film.short = min(frame.step, 1u) + 1u;
         }
     }

@@ -41,11 +41,11 @@ struct Sizes {
     blocks: vec3u,              // workgroups for entries that are sorted
     groups: vec3u,              // a workgroup for each group
     chunks: vec3u,              // and for each chunk of a list
-    room: vec3u,                // for so many entries, groups and chunks; the host's
+    capacity: vec3u,            // room for so many entries, groups and chunks; the host's
     needed: vec3u,              // the most of each since the host asked
 }
 
-/// Which number is counted: the place in `room` and `needed`.
+/// Which number is counted: the place in `capacity` and `needed`.
 const COUNTED_ENTRIES: u32 = 0u;
 const COUNTED_GROUPS: u32 = 1u;
 const COUNTED_CHUNKS: u32 = 2u;

@@ -1,6 +1,7 @@
 use super::*;
 use crate::headless;
 use crate::method::Method;
+use crate::pass_bindings::{EntryPoint, Project};
 use crate::pipeline_cache::PipelineCache;
 use crate::variant::Contents;
 
@@ -23,7 +24,8 @@ fn one_bad_order_spoils_all() {
         let mut orders = Orders::new(gpu, &layouts, &variant);
         for i in 0..6 {
             let entry_point = if bad == Some(i) { "nothing" } else { "project" };
-            orders.pass("project", &shaders::PROJECT, entry_point);
+            let entry_point = EntryPoint::<Project>::new(&shaders::PROJECT, entry_point);
+            orders.pass("project", entry_point);
         }
         gpu.block_on(orders.compile())
     };

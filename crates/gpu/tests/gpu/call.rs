@@ -11,12 +11,16 @@ static CUBE: Module = Module {
     source: "fn cube(a: f32) -> f32 { return a * a * a; }",
     needs: &[],
     bindings: &[],
+    entry_points: &[],
+    overrides: &[],
 };
 static FETCH: Module = Module {
     name: "fetch",
     source: "fn fetch(t: texture_2d_array<f32>, at: vec2i, layer: i32) -> vec4f { return textureLoad(t, at, layer, 0); }",
     needs: &[],
     bindings: &[],
+    entry_points: &[],
+    overrides: &[],
 };
 
 #[test]

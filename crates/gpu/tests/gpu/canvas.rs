@@ -77,7 +77,7 @@ fn a_canvas_holds_a_batch_of_samples_by_itself() {
         .unwrap();
     let mut canvas = gpu.block_on(renderer.canvas([97, 64], 40 * 97)).unwrap();
     let mut parts = Vec::new();
-    for batch in Batch::of(SAMPLES) {
+    for batch in Batch::split(SAMPLES) {
         let options = RenderOptions {
             batch: Some(batch),
             submission_px: 40 * 97,

@@ -82,7 +82,7 @@ pub(super) struct Single {
 }
 
 impl Single {
-    pub(crate) fn of(blocks: &Blocks) -> Self {
+    pub(crate) fn from_blocks(blocks: &Blocks) -> Self {
         let mut sums = Self::default();
         for member in blocks.iter().flatten().flatten() {
             match &member.residual {
@@ -124,7 +124,7 @@ impl AddAssign<&Residual> for Sums {
 }
 
 impl Sums {
-    fn of(channel: &[Member]) -> Self {
+    fn from_channel(channel: &[Member]) -> Self {
         let mut sums = Self::default();
         for residual in channel.iter().filter_map(|member| member.residual.as_ref()) {
             sums += residual;
@@ -153,7 +153,7 @@ fn variance_floor(blocks: &Blocks) -> f64 {
     let mut means: Vec<f64> = blocks
         .iter()
         .flatten()
-        .map(|channel| Sums::of(&channel))
+        .map(|channel| Sums::from_channel(&channel))
         .filter(|sums| sums.variance > 0.0)
         .map(|sums| sums.variance / sums.count)
         .collect();
@@ -173,7 +173,7 @@ pub(super) struct Pooled {
 }
 
 impl Pooled {
-    pub(crate) fn of(blocks: &Blocks) -> Self {
+    pub(crate) fn from_blocks(blocks: &Blocks) -> Self {
         let mut count = 0;
         let mut max_z = 0.0_f64;
         // Sums are taken over blocks, since a block's channels are not independent.
@@ -181,7 +181,7 @@ impl Pooled {
         for block in blocks.iter() {
             let (mut z2, mut channels) = (0.0, 0.0);
             for channel in &block {
-                let sums = Sums::of(channel);
+                let sums = Sums::from_channel(channel);
                 if sums.variance > 0.0 {
                     let z = sums.z();
                     z2 += z * z;
@@ -216,14 +216,14 @@ pub(super) struct Weighed {
 }
 
 impl Weighed {
-    pub(crate) fn of(blocks: &Blocks) -> Self {
+    pub(crate) fn from_blocks(blocks: &Blocks) -> Self {
         let floor = variance_floor(blocks);
         let mut of_channels = [Sums::default(); 3];
         // Weighed squares and variances of each block, and what the spread of the squares is at least.
         let mut of_blocks = Vec::new();
         let mut least_spread = 0.0;
         for block in blocks.iter() {
-            let whole = [0, 1, 2].map(|c| Sums::of(&block[c]));
+            let whole = [0, 1, 2].map(|c| Sums::from_channel(&block[c]));
             let (mut squares, mut variances) = (0.0, 0.0);
             for k in 0..block[0].len() {
                 let (mut variance, mut freedom) = (0.0, f64::INFINITY);
@@ -294,7 +294,7 @@ pub(super) fn share_without_noise(blocks: &Blocks) -> f64 {
     let mut differ = 0_usize;
     for block in blocks.iter() {
         for (c, channel) in block.iter().enumerate() {
-            if Sums::of(channel).variance > 0.0 {
+            if Sums::from_channel(channel).variance > 0.0 {
                 continue;
             }
             for member in channel {

@@ -249,7 +249,7 @@ fn compare_layer(
 ) -> LayerComparison {
     LayerComparison {
         layer,
-        difference: Difference::between(a.values, b.values, mask),
+        difference: Difference::compare(a.values, b.values, mask),
         relative_mse: relative_mse(a.values, b.values, mask),
         psnr: if psnr::is_displayed(layer) {
             psnr_displayed(a.values, b.values, display, mask)
@@ -257,8 +257,8 @@ fn compare_layer(
             psnr_of_values(a.values, b.values, mask)
         },
         flip: flip_of(size_px, layer, a.values, b.values, display, mask),
-        beyond_noise: BeyondNoise::between(a, b, mask),
-        z_test: ZTest::between(size_px, a, b, mask),
+        beyond_noise: BeyondNoise::compare(a, b, mask),
+        z_test: ZTest::compare(size_px, a, b, mask),
         error_map: error_map(size_px, a.values, b.values),
     }
 }

@@ -29,7 +29,7 @@ impl Difference {
     ///
     /// # Panics
     /// Panics if the lengths differ.
-    pub fn between<const N: usize>(
+    pub fn compare<const N: usize>(
         image: &[[f32; N]],
         reference: &[[f32; N]],
         mask: Option<&[bool]>,
@@ -80,7 +80,7 @@ impl Difference {
     }
 }
 
-/// [`Difference::between`] for one layer of two renders.
+/// [`Difference::compare`] for one layer of two renders.
 ///
 /// # Panics
 /// If the sizes differ.
@@ -94,5 +94,5 @@ pub fn layer_difference(
         image.size_px, reference.size_px,
         "images of different sizes"
     );
-    Difference::between(&image.layer(layer), &reference.layer(layer), mask)
+    Difference::compare(&image.layer(layer), &reference.layer(layer), mask)
 }

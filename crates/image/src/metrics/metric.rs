@@ -38,7 +38,7 @@ impl Metric {
     }
 
     /// The figure, where the layer has one.
-    pub fn of(self, layer: &LayerComparison) -> Option<f64> {
+    pub fn value(self, layer: &LayerComparison) -> Option<f64> {
         match self {
             Self::Rms => Some(layer.difference.rms),
             Self::RelativeRms => Some(layer.difference.relative_rms()),

@@ -27,7 +27,7 @@ impl BeyondNoise {
     ///
     /// # Panics
     /// Panics if the lengths differ.
-    pub fn between(image: &Estimate, reference: &Estimate, mask: Option<&[bool]>) -> Option<Self> {
+    pub fn compare(image: &Estimate, reference: &Estimate, mask: Option<&[bool]>) -> Option<Self> {
         assert_same_length(image, reference, mask);
         if image.variance.is_none() && reference.variance.is_none() {
             return None;
@@ -91,16 +91,16 @@ impl BeyondNoise {
 
     /// [`Self::rms`] over the reference's rms: 0 where there is no difference, infinite if only the reference is black.
     pub fn relative_rms(&self) -> f64 {
-        over(self.rms(), self.reference_rms)
+        ratio(self.rms(), self.reference_rms)
     }
 
     /// Interval around [`Self::relative_rms`] that lies `sigmas` standard errors apart from it on either side: 2 for 95 %.
     pub fn relative_rms_within(&self, sigmas: f64) -> [f64; 2] {
         self.rms_within(sigmas)
-            .map(|rms| over(rms, self.reference_rms))
+            .map(|rms| ratio(rms, self.reference_rms))
     }
 }
 
-fn over(rms: f64, reference_rms: f64) -> f64 {
+fn ratio(rms: f64, reference_rms: f64) -> f64 {
     if rms == 0.0 { 0.0 } else { rms / reference_rms }
 }

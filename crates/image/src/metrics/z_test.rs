@@ -81,7 +81,7 @@ pub struct ZTest {
     pub picture_z: f64,
     /// The share of values that differ by more than rounding although no pixel of their block has noise: 0.
     pub share_without_noise: f64,
-    /// Verdict from all of these; see [`ZTest::between`].
+    /// Verdict from all of these; see [`ZTest::compare`].
     pub verdict: Verdict,
 }
 
@@ -99,7 +99,7 @@ impl ZTest {
     ///
     /// # Panics
     /// If the lengths differ from each other or from the size.
-    pub fn between(
+    pub fn compare(
         size_px: [u32; 2],
         image: &Estimate,
         reference: &Estimate,
@@ -118,9 +118,9 @@ impl ZTest {
             reference,
             mask,
         };
-        let single = Single::of(&blocks);
-        let pooled = Pooled::of(&blocks);
-        let weighed = Weighed::of(&blocks);
+        let single = Single::from_blocks(&blocks);
+        let pooled = Pooled::from_blocks(&blocks);
+        let weighed = Weighed::from_blocks(&blocks);
         let mut test = Self {
             values: single.values,
             left_out: single.left_out,

@@ -30,8 +30,8 @@ impl File<'_> {
         layer.attributes.layer_position = self.at.into();
         let mut file = exr::prelude::Image::from_layer(layer);
         file.attributes.display_window = IntegerBounds::new(self.picture.0, self.picture.1);
-        file.attributes.chromaticities = self.primaries.map(|it| {
-            let [red, green, blue, white] = [0, 2, 4, 6].map(|i| Vec2(it[i], it[i + 1]));
+        file.attributes.chromaticities = self.primaries.map(|xy| {
+            let [red, green, blue, white] = [0, 2, 4, 6].map(|i| Vec2(xy[i], xy[i + 1]));
             attribute::Chromaticities {
                 red,
                 green,

@@ -10,18 +10,18 @@ use hairline_image::{Display, Image, Layer, ToneMap};
 fn known_differences() {
     let reference = [[3.0], [4.0], [0.0], [f32::NAN]];
     let image = [[3.3], [3.6], [0.0], [1.0]];
-    let d = Difference::between(&image, &reference, None);
+    let d = Difference::compare(&image, &reference, None);
     assert_eq!((d.pixels, d.not_finite), (4, 1));
     assert!((d.rms - (0.25_f64 / 3.0).sqrt()).abs() < 1e-6);
     assert!((d.relative_rms() - 0.1).abs() < 1e-6);
     assert!((d.max_abs - 0.4).abs() < 1e-6);
     assert!((d.mean - 2.3).abs() < 1e-6 && (d.reference_mean - 7.0 / 3.0).abs() < 1e-6);
-    let masked = Difference::between(&image, &reference, Some(&[false, false, true, false]));
+    let masked = Difference::compare(&image, &reference, Some(&[false, false, true, false]));
     assert_eq!(
         (masked.pixels, masked.not_finite, masked.relative_rms()),
         (1, 0, 0.0)
     );
-    let nothing = Difference::between(&image, &reference, Some(&[false; 4]));
+    let nothing = Difference::compare(&image, &reference, Some(&[false; 4]));
     assert_eq!(nothing, Difference::default());
 }
 
@@ -29,12 +29,12 @@ fn known_differences() {
 fn black_references() {
     let black = [[0.0; 3]; 2];
     assert_eq!(
-        Difference::between(&black, &black, None).relative_rms(),
+        Difference::compare(&black, &black, None).relative_rms(),
         0.0
     );
     let light = [[1.0; 3]; 2];
     assert_eq!(
-        Difference::between(&light, &black, None).relative_rms(),
+        Difference::compare(&light, &black, None).relative_rms(),
         f64::INFINITY
     );
 }

@@ -92,7 +92,7 @@ fn from_batches(
 }
 
 fn test(a: &Estimate, b: &Estimate) -> ZTest {
-    ZTest::between(SIZE_PX, a, b, None).unwrap()
+    ZTest::compare(SIZE_PX, a, b, None).unwrap()
 }
 
 #[test]
@@ -242,7 +242,7 @@ fn skewed_batches_are_explained() {
         let z = test(&noisy.estimate(), &exact);
         assert_eq!(z.verdict, Verdict::ExplainedByNoise, "{z:?}");
         assert!(z.left_out > 1000, "{z:?}");
-        let beyond = BeyondNoise::between(&noisy.estimate(), &exact, None).unwrap();
+        let beyond = BeyondNoise::compare(&noisy.estimate(), &exact, None).unwrap();
         assert!(
             beyond.mean_square.abs() < 4.0 * beyond.mean_square_error,
             "{beyond:?}"
@@ -277,7 +277,7 @@ fn what_is_left_beyond_the_noise() {
             }
             let reference =
                 from_batches(&truth, 2 * seed + 1, 8, |random| 1.0 + 0.3 * normal(random));
-            let b = BeyondNoise::between(&image.estimate(), &reference.estimate(), None).unwrap();
+            let b = BeyondNoise::compare(&image.estimate(), &reference.estimate(), None).unwrap();
             assert_eq!(b.values, 3 * PIXELS);
             let error = b.mean_square - (f64::from(bias) * reference_rms).powi(2);
             assert!(error.abs() < 4.0 * b.mean_square_error, "{b:?}");
@@ -305,15 +305,15 @@ fn what_is_left_beyond_the_noise() {
 fn what_is_unknown_is_left_out() {
     let truth = truth();
     let exact = Estimate::exact(&truth);
-    assert_eq!(ZTest::between(SIZE_PX, &exact, &exact, None), None);
-    assert_eq!(BeyondNoise::between(&exact, &exact, None), None);
+    assert_eq!(ZTest::compare(SIZE_PX, &exact, &exact, None), None);
+    assert_eq!(BeyondNoise::compare(&exact, &exact, None), None);
 
     let mut noisy = known_noise(&truth, 5);
     noisy.values[0] = [f32::NAN, f32::INFINITY, 1.0];
     noisy.variance[1] = [f32::NAN, f32::INFINITY, -1.0];
     let z = test(&noisy.estimate(), &exact);
     assert_eq!((z.values, z.left_out), (3 * PIXELS - 5, 5));
-    let beyond = BeyondNoise::between(&noisy.estimate(), &exact, None).unwrap();
+    let beyond = BeyondNoise::compare(&noisy.estimate(), &exact, None).unwrap();
     assert_eq!(beyond.values, z.values);
 
     // One batch is no estimate of a variance.
@@ -337,7 +337,7 @@ fn what_is_unknown_is_left_out() {
         .iter()
         .all(|figure| figure.is_finite())
     );
-    assert_eq!(BeyondNoise::between(&noisy.estimate(), &exact, None), None);
+    assert_eq!(BeyondNoise::compare(&noisy.estimate(), &exact, None), None);
 
     // A mask leaves a wrong region out.
     let mut noisy = known_noise(&truth, 6);
@@ -349,7 +349,7 @@ fn what_is_unknown_is_left_out() {
         test(&noisy.estimate(), &exact).verdict,
         Verdict::MoreThanNoise
     );
-    let z = ZTest::between(SIZE_PX, &noisy.estimate(), &exact, Some(&mask)).unwrap();
+    let z = ZTest::compare(SIZE_PX, &noisy.estimate(), &exact, Some(&mask)).unwrap();
     assert_eq!(z.verdict, Verdict::ExplainedByNoise, "{z:?}");
     assert_eq!(z.left_out, 0, "{z:?}");
 }

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::grow;
-use super::node::{LEAF_FIRST_BITS, Piece, SegmentTree, Straight, Tree};
+use super::node::{LEAF_FIRST_BITS, Piece, ScratchNode, SegmentTree, Straight, Tree};
 use crate::watch::Watch;
 
 /// Appends segments.
@@ -38,7 +38,33 @@ pub(crate) fn build_trees<S: Straight>(
     watch: &Watch,
 ) -> Option<SegmentTree<S>> {
     let counts: Vec<usize> = objects.iter().map(Vec::len).collect();
-    let sources: Vec<TreeSource<S>> = objects.into_iter().flatten().collect();
+    let sources = objects.into_iter().flatten().collect();
+    let (mut segments, places) = fill_segments(sources, last, watch)?;
+    let grown = grow_trees(&mut segments, places, watch)?;
+    let (nodes, trees) = join_nodes(counts, grown);
+    let mut end = 0;
+    let ranges = trees.iter().map(|own| {
+        let first = end;
+        end = own.last().map_or(first, |tree| tree.nodes.end);
+        first..end
+    });
+    Some(SegmentTree {
+        objects: ranges.collect(),
+        nodes,
+        segments,
+        trees,
+    })
+}
+
+/// The segments of a tree, and where it was grown before.
+type Place<'a, S> = (Range<u32>, Option<(&'a SegmentTree<S>, Tree)>);
+
+/// Fills in the segments of all trees, one after the other.
+fn fill_segments<'a, S: Straight>(
+    sources: Vec<TreeSource<S>>,
+    last: Option<&'a SegmentTree<S>>,
+    watch: &Watch,
+) -> Option<(Vec<S>, Vec<Place<'a, S>>)> {
     let most = sources.iter().map(|source| match source {
         TreeSource::New { most, .. } => *most,
         TreeSource::Kept(tree) => tree.segments.len(),
@@ -68,7 +94,18 @@ pub(crate) fn build_trees<S: Straight>(
         (watch.progress)(FILL_SHARE * end as f64 / most.max(1) as f64);
         places.push((first as u32..end as u32, kept));
     }
+    Some((segments, places))
+}
 
+/// Nodes of each tree, with its segments.
+type Grown<'a> = Vec<(Range<u32>, Vec<Piece<'a>>)>;
+
+/// Grows the new trees, each in its part of the segments, which come into the order of its leaves.
+fn grow_trees<'a, S: Straight>(
+    segments: &mut [S],
+    places: Vec<Place<'a, S>>,
+    watch: &Watch,
+) -> Option<Grown<'a>> {
     let (all, done) = (segments.len(), AtomicUsize::new(0));
     let goes_on = |count: usize| {
         let done = done.fetch_add(count, Ordering::Relaxed) + count;
@@ -76,7 +113,7 @@ pub(crate) fn build_trees<S: Straight>(
         (watch.progress)(share.min(1.0));
         !(watch.cancelled)()
     };
-    let mut rest = segments.as_mut_slice();
+    let mut rest = segments;
     let places: Vec<_> = places
         .into_iter()
         .map(|(place, kept)| {
@@ -85,7 +122,7 @@ pub(crate) fn build_trees<S: Straight>(
             (place, own, kept)
         })
         .collect();
-    let grown: Vec<(Range<u32>, Vec<Piece>)> = places
+    let grown = places
         .into_par_iter()
         .map(|(place, own, kept)| {
             let pieces = match kept {
@@ -102,35 +139,29 @@ pub(crate) fn build_trees<S: Straight>(
             (place, pieces)
         })
         .collect();
-    if (watch.cancelled)() {
-        return None;
-    }
+    (!(watch.cancelled)()).then_some(grown)
+}
 
+/// Joins the nodes of all trees: so many trees for each object.
+fn join_nodes(counts: Vec<usize>, grown: Grown) -> (Vec<ScratchNode>, Vec<Vec<Tree>>) {
     let pieces = grown.iter().flat_map(|(_, pieces)| pieces);
     let mut nodes = Vec::with_capacity(pieces.map(|piece| piece.nodes.len()).sum());
     let mut grown = grown.into_iter();
-    let (mut ranges, mut trees) = (Vec::new(), Vec::new());
-    for count in counts {
-        let first = nodes.len() as u32;
+    let trees = counts.into_iter().map(|count| {
         let own = grown.by_ref().take(count).map(|(segments, pieces)| {
             let first = nodes.len() as u32;
             for piece in pieces {
                 let by = (nodes.len() as u32).wrapping_sub(piece.first_node);
                 let own = piece.nodes.par_iter().with_min_len(COPY);
-                nodes.par_extend(own.map(|n| n.moved(by, piece.segments_by)));
+                nodes.par_extend(own.map(|node| node.moved(by, piece.segments_by)));
             }
             let nodes = first..nodes.len() as u32;
             Tree { nodes, segments }
         });
-        trees.push(own.collect());
-        ranges.push(first..nodes.len() as u32);
-    }
-    Some(SegmentTree {
-        nodes,
-        segments,
-        objects: ranges,
-        trees,
-    })
+        own.collect()
+    });
+    let trees = trees.collect();
+    (nodes, trees)
 }
 
 fn as_usize(range: &Range<u32>) -> Range<usize> {

@@ -67,7 +67,7 @@ fn grow_part<S: Straight>(
         || grow_part(left, first, goes_on),
         || grow_part(right, first + middle as u32, goes_on),
     );
-    Subtree::over(left, right)
+    Subtree::join(left, right)
 }
 
 impl Subtree {
@@ -86,7 +86,7 @@ impl Subtree {
     }
 
     /// Adds a node over two trees.
-    fn over(left: Self, right: Self) -> Self {
+    fn join(left: Self, right: Self) -> Self {
         let node_count = 1 + left.node_count + right.node_count;
         let above = ScratchNode {
             min_m: left.min_m.min(right.min_m),

@@ -266,7 +266,7 @@ pub fn band_lines(wo_t: f64, lowest: f64, highest: f64, stds: BandStds) -> BandL
     let table = gaussian();
     let seen = |std: f64| {
         let per_std = 1.0 / std;
-        table.between(lowest * per_std, highest * per_std)
+        table.integral(lowest * per_std, highest * per_std)
     };
     let share_below = table.cdf(lowest / stds.mean);
     let [red, green, blue] = stds.channels;

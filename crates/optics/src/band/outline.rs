@@ -38,7 +38,7 @@ impl OutlineEdge {
     }
 
     /// The edges of a polygon, from direction to direction and back to the first one.
-    pub fn around(directions: &[DVec3]) -> impl Iterator<Item = Self> {
+    pub fn of_outline(directions: &[DVec3]) -> impl Iterator<Item = Self> {
         // The number of edges is known, so that a vector can reserve room for them.
         let end = |i: usize| directions[if i + 1 < directions.len() { i + 1 } else { 0 }];
         (0..directions.len()).map(move |i| Self::new(directions[i], end(i)))

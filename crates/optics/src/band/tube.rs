@@ -222,7 +222,7 @@ mod tests {
                 let on_line = |radius: f64| {
                     let corners = corners(a, b, radius);
                     let directions: Vec<_> = corners.iter().map(|v| v.normalize()).collect();
-                    let edges: Vec<_> = OutlineEdge::around(&directions).collect();
+                    let edges: Vec<_> = OutlineEdge::of_outline(&directions).collect();
                     let outline = Outline {
                         edges: &edges,
                         away: tube_outline(a, b, radius).unwrap().away,

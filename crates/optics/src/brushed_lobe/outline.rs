@@ -55,7 +55,7 @@ impl OutlineAxis {
     }
 
     /// The unit vector along the outline.
-    fn along(&self) -> DVec2 {
+    fn direction(&self) -> DVec2 {
         DVec2::from_angle(0.5 * self.doubled.y.atan2(self.doubled.x))
     }
 
@@ -87,11 +87,11 @@ impl BrushedLobe {
         };
         let mut axis = OutlineAxis::NONE;
         self.for_each_edge(vertices, &mut |a, b| self.add_to_axis(&mut axis, a, b));
-        let sliced = self.sliced(axis.along(), axis.scale());
+        let sliced = self.sliced(axis.direction(), axis.scale());
         let mut range = [1.0_f64, -1.0_f64];
         sliced.for_each_edge(vertices, &mut |a, b| sliced.add_range(&mut range, a, b));
         let range = range.map(|place| place.clamp(-1.0, 1.0));
-        sliced.over(range, of, |x, add| {
+        sliced.sum_of_slices(range, of, |x, add| {
             sliced.for_each_edge(vertices, &mut |a, b| {
                 sliced.crossings(x, a, b, &mut |y, sign| add(y, sign * orientation));
             });

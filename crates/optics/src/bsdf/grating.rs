@@ -77,7 +77,7 @@ impl GratingLobe {
     ) -> Self {
         let farthest = (2e3 * row.pitch_um / WAVELENGTH_MIN_NM).floor() as i32;
         let most = farthest.clamp(1, MOST_ORDERS);
-        let rigorous = fine.as_ref().map(|fine| fine.of(row));
+        let rigorous = fine.as_ref().map(|fine| fine.rigorous(row));
         let drawn = |m| match &rigorous {
             Some(rigorous) => rigorous.energy(m, DRAWN_NM, [0.0; 2], 1.0),
             None => row.order_weight(m),
@@ -128,7 +128,7 @@ impl GratingLobe {
     }
 
     fn rigorous(&self) -> Option<RigorousGrating<'_>> {
-        self.fine.as_ref().map(|fine| fine.of(self.row))
+        self.fine.as_ref().map(|fine| fine.rigorous(self.row))
     }
 
     fn taken_nodes(&self) -> usize {
@@ -369,7 +369,7 @@ impl GratingLobe {
 }
 
 impl FineGrating {
-    fn of(&self, row: Grating) -> RigorousGrating<'_> {
+    fn rigorous(&self, row: Grating) -> RigorousGrating<'_> {
         RigorousGrating {
             row,
             efficiencies: &self.efficiencies,

@@ -158,9 +158,9 @@ impl LayerLobe {
             SpectralMode::Wavelength(nm) => {
                 let std = band_std(self.coherence_um, nm);
                 let factor = 1.0 / ((2.0 * PI).sqrt() * std * self.concentration_i0e);
-                let across = self.grooves.iter().map(|it| {
-                    let depth_nm = it.depth_nm * depth_share;
-                    it.part * (self.profile).density(it.width_um, depth_nm, nm, xi2.sqrt())
+                let across = self.grooves.iter().map(|groove| {
+                    let (width_um, depth_nm) = (groove.width_um, groove.depth_nm * depth_share);
+                    groove.part * (self.profile).density(width_um, depth_nm, nm, xi2.sqrt())
                 });
                 let across: f64 = across.sum();
                 DVec3::splat(self.share * across * band(1.0 / (std * std), factor))
@@ -312,7 +312,7 @@ fn tabulated(
         })
         .collect();
     let across: Vec<Across> = (kinds.iter())
-        .map(|(_, nm, it)| profile.across(it.width_um, *nm, &columns))
+        .map(|(_, nm, it)| profile.column_places(it.width_um, *nm, &columns))
         .collect();
     let row = |row: usize| {
         let depth_share = row as f64 / (ROWS - 1) as f64;
@@ -376,12 +376,10 @@ mod tests {
                         let across: f64 = layer
                             .grooves
                             .iter()
-                            .map(|it| {
-                                let slit = sinc(PI * it.width_um / 0.55 * q);
-                                it.part * phase_step_energy(it.depth_nm * 0.8, nm) * it.width_um
-                                    / 0.55
-                                    * slit
-                                    * slit
+                            .map(|groove| {
+                                let slit = sinc(PI * groove.width_um / 0.55 * q);
+                                let energy = phase_step_energy(groove.depth_nm * 0.8, nm);
+                                groove.part * energy * groove.width_um / 0.55 * slit * slit
                             })
                             .sum();
                         density * across * (-0.5 * t * t / (s * s)).exp() / ((2.0 * PI).sqrt() * s)

@@ -39,7 +39,7 @@ impl Profile {
     pub(super) fn density(&self, width_um: f64, depth_nm: f64, nm: f64, q: f64) -> f64 {
         let widths = width_um * 1e3 / nm;
         match &self.grid {
-            Some(grid) => widths * grid.at_depth(depth_nm / nm).at((widths * q).abs())[0],
+            Some(grid) => widths * grid.at_depth(depth_nm / nm).look_up((widths * q).abs())[0],
             None => {
                 let slit = sinc(PI * widths * q);
                 phase_step_energy(depth_nm, nm) * widths * slit * slit
@@ -48,7 +48,7 @@ impl Profile {
     }
 
     /// Values of q of a table's columns, as [`Self::add`] takes them.
-    pub(super) fn across(&self, width_um: f64, nm: f64, columns: &[f64]) -> Across {
+    pub(super) fn column_places(&self, width_um: f64, nm: f64, columns: &[f64]) -> Across {
         let widths = width_um * 1e3 / nm;
         let at = |q: &f64| match &self.grid {
             Some(_) => widths * q,
@@ -73,7 +73,7 @@ impl Profile {
             Some(grid) => {
                 let row = grid.at_depth(depth_nm / nm);
                 for (sum, u) in sums.iter_mut().zip(&across.columns) {
-                    *sum += weight * (across.widths * row.at(*u)[0]);
+                    *sum += weight * (across.widths * row.look_up(*u)[0]);
                 }
             }
             None => {

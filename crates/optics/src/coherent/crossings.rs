@@ -51,7 +51,7 @@ fn hidden_cells(pieces: &[GroovePiece], index: usize, coherence_um: f64) -> Vec<
         }
         let floor = floor.get_or_insert_with(|| rectangle(piece, FRAME * coherence_um));
         let sides = sides(other);
-        let common = floor.within(&sides);
+        let common = floor.clipped(&sides);
         if !(common.area() > least_area) {
             continue;
         }
@@ -63,7 +63,7 @@ fn hidden_cells(pieces: &[GroovePiece], index: usize, coherence_um: f64) -> Vec<
         };
         tile(&common, 1.0, &mut cells);
         for (at, earlier) in before.iter().enumerate() {
-            let mut parts = vec![common.within(earlier)];
+            let mut parts = vec![common.clipped(earlier)];
             for taken in &before[..at] {
                 parts = parts
                     .iter()

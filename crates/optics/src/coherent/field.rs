@@ -104,7 +104,7 @@ impl GrooveField {
             0.0
         };
         let scratches = self.amplitude(xi, cos_sum, wavelength_nm);
-        CoherentResponse::of(base, scratches, self.coherence_um)
+        CoherentResponse::from_amplitudes(base, scratches, self.coherence_um)
     }
 
     /// [`Self::amplitude`] at many wavelengths, into as many places of `out`, by series instead of error functions: off by
@@ -147,7 +147,7 @@ impl GrooveField {
                 } else {
                     0.0
                 };
-                *out = CoherentResponse::of(base, scratches, self.coherence_um);
+                *out = CoherentResponse::from_amplitudes(base, scratches, self.coherence_um);
             }
         }
     }
@@ -168,12 +168,12 @@ impl GrooveField {
         let mut sum = Complexes::ZERO;
         for strip in &self.strips {
             if let Some(amplitude) = strip.fourier(k_per_um, xi) {
-                sum = sum + steps.of(strip.depth_nm) * amplitude;
+                sum = sum + steps.step(strip.depth_nm) * amplitude;
             }
         }
         for floor in &self.hidden {
             let amplitude = sum_of_cells(&floor.cells, k_per_um, xi);
-            sum = sum - steps.of(floor.depth_nm) * amplitude;
+            sum = sum - steps.step(floor.depth_nm) * amplitude;
         }
         let scale = k_per_um * (self.coherence_um * self.coherence_um);
         Complexes {
@@ -271,7 +271,7 @@ struct PhaseSteps<const N: usize> {
 impl<const N: usize> PhaseSteps<N> {
     /// [`phase_step`] at each wavelength; the last depth's is kept.
     #[inline(always)]
-    fn of(&mut self, depth_nm: f64) -> Complexes<N> {
+    fn step(&mut self, depth_nm: f64) -> Complexes<N> {
         match self.last {
             Some((depth, step)) if depth == depth_nm => step,
             _ => {

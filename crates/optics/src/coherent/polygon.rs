@@ -17,7 +17,7 @@ pub(super) struct HalfPlane {
 }
 
 impl HalfPlane {
-    fn beyond(&self, at: DVec2) -> f64 {
+    fn signed_distance(&self, at: DVec2) -> f64 {
         self.normal.dot(at) - self.limit
     }
 
@@ -47,7 +47,10 @@ impl Polygon {
         let mut corners = Vec::with_capacity(self.corners.len() + 1);
         for (i, &to) in self.corners.iter().enumerate() {
             let from = self.corners[(i + self.corners.len() - 1) % self.corners.len()];
-            let (a, b) = (half_plane.beyond(from), half_plane.beyond(to));
+            let (a, b) = (
+                half_plane.signed_distance(from),
+                half_plane.signed_distance(to),
+            );
             if (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0) {
                 corners.push(from.lerp(to, a / (a - b)));
             }
@@ -62,7 +65,7 @@ impl Polygon {
     }
 
     /// Returns the part of the polygon in all half-planes.
-    pub(crate) fn within(&self, half_planes: &[HalfPlane]) -> Self {
+    pub(crate) fn clipped(&self, half_planes: &[HalfPlane]) -> Self {
         let mut rest = self.clone();
         for half_plane in half_planes {
             if rest.corners.is_empty() {

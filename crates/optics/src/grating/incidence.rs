@@ -12,7 +12,7 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Rows of a table by the component of the direction to the viewer across the grooves, over what the one along them leaves, from -1 to 1; and by the
 /// angle to the plane across them, from 0 to 90 degrees.
-pub const INCIDENCES: [usize; 2] = [64, 8];
+const INCIDENCES: [usize; 2] = [64, 8];
 
 const _: () = assert!(INCIDENCES[0] * INCIDENCES[1] == ROWS);
 
@@ -206,12 +206,12 @@ impl RigorousGrating<'_> {
         (0..3).for_each(|c| sums[COLUMNS - 1][c] = 0.5 * (by_grooves[c] - kept[c]).max(0.0));
     }
 
-    fn above(&self) -> f64 {
+    fn index_above(&self) -> f64 {
         self.cover.map_or(1.0, |cover| cover.ior)
     }
 
     fn flat(&self, cos_o: f64, nm: f64) -> f64 {
-        self.medium.reflectance(self.above(), cos_o, nm)
+        self.medium.reflectance(self.index_above(), cos_o, nm)
     }
 
     /// The part of the light in the mirror's direction of a flat surface that its outer face does not send.
@@ -239,7 +239,9 @@ impl RigorousGrating<'_> {
         let flat = self.flat(cos_o, nm);
         let sent = self.efficiencies.efficiency(order, nm, -across, along) / flat;
         // Waves are shorter in a cover.
-        let spread = self.row.kept_by_spread(self.above() * depth_share, nm);
+        let spread = self
+            .row
+            .kept_by_spread(self.index_above() * depth_share, nm);
         let fill = self.row.fill();
         let lost = 1.0 - spread;
         if order == 0 {
@@ -329,15 +331,15 @@ impl<'a> IncidenceRow<'a> {
 
     /// T at u = [`GRATING_WIDTH_UM`](super::GRATING_WIDTH_UM) q.
     #[inline]
-    pub fn at(&self, u_um: f64) -> [f64; 3] {
+    pub fn look_up(&self, u_um: f64) -> [f64; 3] {
         let [near, far] = if u_um < 0.0 { self.behind } else { self.ahead };
-        let (near, far) = (near.at(u_um), far.at(u_um));
+        let (near, far) = (near.look_up(u_um), far.look_up(u_um));
         std::array::from_fn(|c| near[c] + self.share * (far[c] - near[c]))
     }
 
     /// The energy that is missing in the mirror's direction.
     pub fn taken(&self) -> [f64; 3] {
-        let (low, high) = (self.at(f64::NEG_INFINITY), self.at(f64::INFINITY));
+        let (low, high) = (self.look_up(f64::NEG_INFINITY), self.look_up(f64::INFINITY));
         std::array::from_fn(|c| high[c] - low[c])
     }
 }
@@ -402,7 +404,7 @@ mod tests {
                 })) / f0[1]
             };
             let seen = IncidenceRow::new(&table, viewer);
-            let first = green(seen.at(2.0 * 2.04)) - green(seen.at(0.02));
+            let first = green(seen.look_up(2.0 * 2.04)) - green(seen.look_up(0.02));
             let taken = green(seen.taken());
             println!(
                 "{at:?}: sent {first:.4} of {:.4}, taken {taken:.4}, kept {:.4}",

@@ -81,7 +81,7 @@ fn narrow_grooves_send_what_the_full_wave_does() {
             let width_um = 2.0;
             let pairs = (0..12).map(|i| {
                 let q = 0.02 + 0.08 * f64::from(i);
-                let value = grid.at_depth(depth_nm / 550.0).at(width_um * q / 0.55)[0];
+                let value = grid.at_depth(depth_nm / 550.0).look_up(width_um * q / 0.55)[0];
                 (
                     value,
                     full_wave(section, width_um, depth_nm, q, 32.0, false),
@@ -111,7 +111,7 @@ fn wide_grooves_send_what_the_full_wave_does() {
             let (width_um, depth_nm) = (windows * sigma_um, 180.0);
             let pairs = (0..15).map(|i| {
                 let q = 0.001 + 0.0028 * f64::from(i);
-                let value = grid.at_depth(depth_nm / 550.0).at(width_um * q / 0.55)[0];
+                let value = grid.at_depth(depth_nm / 550.0).look_up(width_um * q / 0.55)[0];
                 (
                     value,
                     full_wave(section, width_um, depth_nm, q, sigma_um, true),
@@ -134,12 +134,12 @@ fn a_rectangle_is_a_slit() {
     let energy = 4.0 * (2.0 * PI * 0.3f64).sin().powi(2);
     let pairs = (0..900).map(|i| {
         let u = 0.0211 * f64::from(i);
-        (row.at(u)[0], energy * sinc(PI * u).powi(2))
+        (row.look_up(u)[0], energy * sinc(PI * u).powi(2))
     });
     assert!(relative_rms(pairs) < 1e-3);
     let all = [0.4, 3.0, 50.0, 200.0].map(|u| {
         let exact = energy * crate::diffraction::sinc_squared_integral(u, 1.0);
-        (row.at(u)[1], exact)
+        (row.look_up(u)[1], exact)
     });
     assert!(relative_rms(all) < 1e-3);
 }
@@ -174,8 +174,8 @@ fn wide_grooves_keep_the_energy() {
                 "{section:?} {windows}: {sent} {lost}"
             );
             // All of it lies within the grid's columns and their tail.
-            assert!((row.at(1e9)[1] / row.limit - 1.0).abs() < 1e-6);
-            assert!(row.at(END)[1] <= row.limit * (1.0 + 1e-3));
+            assert!((row.look_up(1e9)[1] / row.limit - 1.0).abs() < 1e-6);
+            assert!(row.look_up(END)[1] <= row.limit * (1.0 + 1e-3));
         }
     }
 }
@@ -197,7 +197,8 @@ fn the_table_of_a_section_is_its_integral() {
             let mut right = [0.0; 3];
             for sample in spectrum::samples() {
                 let row = grid.at_depth(depth / sample.wavelength_nm);
-                let [low, high] = [u, u + 0.05].map(|u| row.at(u * 1e3 / sample.wavelength_nm)[1]);
+                let [low, high] =
+                    [u, u + 0.05].map(|u| row.look_up(u * 1e3 / sample.wavelength_nm)[1]);
                 right = std::array::from_fn(|c| right[c] + sample.weight[c] * (high - low));
             }
             std::array::from_fn::<_, 3, _>(|c| (b[c] - a[c], right[c]))

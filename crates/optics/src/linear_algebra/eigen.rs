@@ -43,12 +43,12 @@ const LARGE: f64 = 1e100;
 #[inline(always)]
 fn eigen<S: Simd>(simd: S, schur: &Schur<S>) -> Eigen {
     let (size, rows) = (schur.size, &schur.rows);
-    let values: Vec<Complex64> = (0..size).map(|i| rows.at(i, i)).collect();
+    let values: Vec<Complex64> = (0..size).map(|i| rows.entry(i, i)).collect();
     let mut vectors = Rows::<S>::zeros(size, schur.adjoint);
     for i in (0..size).rev() {
         let mut sum = Rows::<S>::zeros(1, schur.adjoint);
         for j in i + 1..size {
-            add_product(simd, sum.row(0, j), rows.at(i, j), vectors.row(j, j));
+            add_product(simd, sum.row(0, j), rows.entry(i, j), vectors.row(j, j));
         }
         vectors.set(i, i, Complex64::ONE);
         for k in i + 1..size {
@@ -59,17 +59,17 @@ fn eigen<S: Simd>(simd: S, schur: &Schur<S>) -> Eigen {
             } else {
                 apart
             };
-            let value = sum.at(0, k) / apart;
+            let value = sum.entry(0, k) / apart;
             vectors.set(i, k, value);
             if value.l1_norm() > LARGE {
                 for j in i..=k {
-                    vectors.set(j, k, vectors.at(j, k) / LARGE);
+                    vectors.set(j, k, vectors.entry(j, k) / LARGE);
                 }
             }
         }
     }
-    let z = Matrix::from_fn(size, size, |i, j| rows.at(j, schur.adjoint + i).conj());
-    let vectors = &z * &Matrix::from_fn(size, size, |i, j| vectors.at(i, j));
+    let z = Matrix::from_fn(size, size, |i, j| rows.entry(j, schur.adjoint + i).conj());
+    let vectors = &z * &Matrix::from_fn(size, size, |i, j| vectors.entry(i, j));
     let mut squares = vec![0.0; size];
     for i in 0..size {
         for (square, v) in squares.iter_mut().zip(vectors.row(i)) {

@@ -106,7 +106,7 @@ fn forward<S: Simd>(simd: S, factors: &Strips, end: usize, panel: &mut [Row<S>])
         subtract(simd, factors, first, 0, known, panel);
         for i in first..factors.rows().min(first + STRIP) {
             for k in known..i.min(end) {
-                panel[i] = minus_product(simd, panel[i], factors.at(i, k), panel[k]);
+                panel[i] = minus_product(simd, panel[i], factors.entry(i, k), panel[k]);
             }
         }
     }
@@ -121,7 +121,7 @@ fn backward<S: Simd>(simd: S, lu: &Lu, panel: &mut [Row<S>]) {
         subtract(simd, &lu.factors, first, known, size, panel);
         for i in (first..known).rev() {
             for k in i + 1..known {
-                panel[i] = minus_product(simd, panel[i], lu.factors.at(i, k), panel[k]);
+                panel[i] = minus_product(simd, panel[i], lu.factors.entry(i, k), panel[k]);
             }
             panel[i] = product(simd, panel[i], lu.inverse_pivots[i]);
         }

@@ -51,7 +51,7 @@ impl Strips {
     }
 
     /// An element.
-    pub(crate) fn at(&self, i: usize, j: usize) -> Complex64 {
+    pub(crate) fn entry(&self, i: usize, j: usize) -> Complex64 {
         let place = self.place(i, j);
         Complex64::new(self.values[place], self.values[place + STRIP])
     }
@@ -65,7 +65,7 @@ impl Strips {
     /// Exchanges the first `columns` of two rows.
     pub(crate) fn swap_rows(&mut self, a: usize, b: usize, columns: usize) {
         for j in 0..columns {
-            let (in_a, in_b) = (self.at(a, j), self.at(b, j));
+            let (in_a, in_b) = (self.entry(a, j), self.entry(b, j));
             self.set(a, j, in_b);
             self.set(b, j, in_a);
         }

@@ -32,7 +32,7 @@ impl<S: Simd> Rows<S> {
 
     /// An element.
     #[inline(always)]
-    pub(crate) fn at(&self, i: usize, j: usize) -> Complex64 {
+    pub(crate) fn entry(&self, i: usize, j: usize) -> Complex64 {
         let vector = i * self.vectors + j / S::F64_LANES;
         element::<S>(&self.values, vector, j % S::F64_LANES)
     }
@@ -171,11 +171,11 @@ impl<S: Simd> Schur<S> {
     fn reflect(&mut self, simd: S, column: usize) {
         let (rows, next) = (&mut self.rows, column + 1);
         let below = next + 1..self.size;
-        let rest: f64 = below.map(|i| rows.at(i, column).norm_sqr()).sum();
+        let rest: f64 = below.map(|i| rows.entry(i, column).norm_sqr()).sum();
         if rest == 0.0 {
             return;
         }
-        let first = rows.at(next, column);
+        let first = rows.entry(next, column);
         let (length, norm) = (first.norm(), (first.norm_sqr() + rest).sqrt());
         let turn = if length == 0.0 {
             Complex64::ONE
@@ -183,7 +183,7 @@ impl<S: Simd> Schur<S> {
             first / length
         };
         // v, and its conjugate as a row.
-        let mut v: Vec<Complex64> = (next..self.size).map(|i| rows.at(i, column)).collect();
+        let mut v: Vec<Complex64> = (next..self.size).map(|i| rows.entry(i, column)).collect();
         v[0] += turn * norm;
         let mut row_v = Rows::<S>::zeros(2, self.adjoint);
         for (i, v) in v.iter().enumerate() {
@@ -228,7 +228,7 @@ impl<S: Simd> Schur<S> {
             }
             (steps, left) = (steps + 1, left - 1);
             let shift = if steps % UNUSUAL_SHIFT == 0 {
-                self.rows.at(end - 1, end - 1) + 0.75 * self.rows.at(end - 1, end - 2).norm()
+                self.rows.entry(end - 1, end - 1) + 0.75 * self.rows.entry(end - 1, end - 2).norm()
             } else {
                 self.shift(end)
             };
@@ -241,8 +241,8 @@ impl<S: Simd> Schur<S> {
     #[inline(always)]
     fn block_start(&mut self, end: usize) -> usize {
         for i in (1..end).rev() {
-            let beside = self.rows.at(i - 1, i - 1).l1_norm() + self.rows.at(i, i).l1_norm();
-            if self.rows.at(i, i - 1).l1_norm() <= f64::EPSILON * (beside + f64::EPSILON) {
+            let beside = self.rows.entry(i - 1, i - 1).l1_norm() + self.rows.entry(i, i).l1_norm();
+            if self.rows.entry(i, i - 1).l1_norm() <= f64::EPSILON * (beside + f64::EPSILON) {
                 self.rows.set(i, i - 1, Complex64::ZERO);
                 return i;
             }
@@ -253,7 +253,7 @@ impl<S: Simd> Schur<S> {
     /// J. H. Wilkinson's: the eigenvalue of the last two rows and columns of a block that is nearest to its last element.
     #[inline(always)]
     fn shift(&self, end: usize) -> Complex64 {
-        let at = |i: usize, j: usize| self.rows.at(end - i, end - j);
+        let at = |i: usize, j: usize| self.rows.entry(end - i, end - j);
         let half = 0.5 * (at(2, 2) - at(1, 1));
         let product = at(1, 2) * at(2, 1);
         let root = (half * half + product).sqrt();
@@ -275,12 +275,12 @@ impl<S: Simd> Schur<S> {
     fn step(&mut self, simd: S, from: usize, end: usize, shift: Complex64) {
         let rows = &mut self.rows;
         for i in from..end {
-            rows.set(i, i, rows.at(i, i) - shift);
+            rows.set(i, i, rows.entry(i, i) - shift);
         }
         let mut rotations = Vec::with_capacity(end - from);
-        let mut room = panel::<S>(self.adjoint);
+        let mut workspace = panel::<S>(self.adjoint);
         for k in from..end - 1 {
-            let rotation = Rotation::new(rows.at(k, k), rows.at(k + 1, k));
+            let rotation = Rotation::new(rows.entry(k, k), rows.entry(k + 1, k));
             let [upper, lower] = rows.two_rows(k, k);
             for (x, y) in upper.iter_mut().zip(lower) {
                 rotation.turn(simd, x, y);
@@ -297,11 +297,11 @@ impl<S: Simd> Schur<S> {
                 first,
                 column,
                 &rotations[column - from..],
-                &mut room,
+                &mut workspace,
             );
         }
         for i in from..end {
-            rows.set(i, i, rows.at(i, i) + shift);
+            rows.set(i, i, rows.entry(i, i) + shift);
         }
     }
 }
@@ -314,22 +314,23 @@ fn rotate_columns<S: Simd>(
     first: usize,
     from: usize,
     rotations: &[Rotation],
-    room: &mut [f64],
+    workspace: &mut [f64],
 ) {
     let lanes = S::F64_LANES;
     let skipped = from % lanes;
-    let room = &mut room[..(skipped + rotations.len() + 1).next_multiple_of(lanes) * 2 * lanes];
+    let workspace =
+        &mut workspace[..(skipped + rotations.len() + 1).next_multiple_of(lanes) * 2 * lanes];
     let block = matrix.values.chunks_exact_mut(matrix.vectors * 2 * lanes);
     for (l, row) in block.skip(first).take(lanes).enumerate() {
         let vectors = row[from / lanes * 2 * lanes..].chunks_exact(2 * lanes);
-        for (columns, vector) in room.chunks_exact_mut(2 * lanes * lanes).zip(vectors) {
+        for (columns, vector) in workspace.chunks_exact_mut(2 * lanes * lanes).zip(vectors) {
             for j in 0..lanes {
                 columns[2 * lanes * j + l] = vector[j];
                 columns[2 * lanes * j + l + lanes] = vector[j + lanes];
             }
         }
     }
-    let columns = &mut rows::<S>(room)[skipped..];
+    let columns = &mut rows::<S>(workspace)[skipped..];
     let mut x = columns[0];
     for (k, rotation) in rotations.iter().enumerate() {
         let mut y = columns[k + 1];
@@ -341,7 +342,7 @@ fn rotate_columns<S: Simd>(
     let block = matrix.values.chunks_exact_mut(matrix.vectors * 2 * lanes);
     for (l, row) in block.skip(first).take(lanes).enumerate() {
         let vectors = row[from / lanes * 2 * lanes..].chunks_exact_mut(2 * lanes);
-        for (columns, vector) in room.chunks_exact(2 * lanes * lanes).zip(vectors) {
+        for (columns, vector) in workspace.chunks_exact(2 * lanes * lanes).zip(vectors) {
             for j in 0..lanes {
                 vector[j] = columns[2 * lanes * j + l];
                 vector[j + lanes] = columns[2 * lanes * j + l + lanes];

@@ -163,7 +163,14 @@ impl Column {
     }
 
     /// Efficiency at a sampled cosine, for a component across the grooves from 0 to that cosine.
-    fn at(&self, pitch_um: f64, wavelength_nm: f64, cos: usize, across: f64, order: i32) -> f64 {
+    fn efficiency(
+        &self,
+        pitch_um: f64,
+        wavelength_nm: f64,
+        cos: usize,
+        across: f64,
+        order: i32,
+    ) -> f64 {
         let per_component = pitch_um * 1e3 / wavelength_nm * f64::from(self.per_order);
         let incidences = self.incidences(pitch_um, wavelength_nm);
         let mirror = if order == 0 { 1.0 } else { 0.0 };
@@ -245,7 +252,13 @@ impl Efficiencies {
 
     /// The share of unpolarised light that an order sends back. It comes from a direction with the components `across` and `along` the
     /// grooves; the one that it leaves in has `across` - order times wavelength over pitch with the same sign, as seen from the surface on the other side.
-    pub fn efficiency(&self, order: i32, wavelength_nm: f64, across: f64, along: f64) -> f64 {
+    pub(crate) fn efficiency(
+        &self,
+        order: i32,
+        wavelength_nm: f64,
+        across: f64,
+        along: f64,
+    ) -> f64 {
         let cos = (1.0 - along * along).max(0.0).sqrt();
         let order = if across < 0.0 { -order } else { order };
         let across = across.abs().min(cos);
@@ -267,21 +280,22 @@ impl Efficiencies {
     /// Efficiency over the reflectance of a flat surface, at a sampled cosine: a metal's colour is that of its own wavelength, and not of the one to
     /// which the cosine shifts it.
     fn over_flat(&self, cos: usize, order: i32, wavelength_nm: f64, across: f64) -> f64 {
-        let (low, share) = between(wavelength_nm);
+        let (low, share) = wavelength_step(wavelength_nm);
         let at = |i: usize| {
-            self.columns[i].at(self.pitch_um, sampled_nm(i), cos, across, order) / self.flat[i]
+            self.columns[i].efficiency(self.pitch_um, sampled_nm(i), cos, across, order)
+                / self.flat[i]
         };
         (1.0 - share) * at(low) + share * at(low + 1)
     }
 
     fn flat_at(&self, wavelength_nm: f64) -> f64 {
-        let (low, share) = between(wavelength_nm);
+        let (low, share) = wavelength_step(wavelength_nm);
         (1.0 - share) * self.flat[low] + share * self.flat[low + 1]
     }
 }
 
 /// The sampled wavelength below one, and how far it is from there to the next.
-fn between(wavelength_nm: f64) -> (usize, f64) {
+fn wavelength_step(wavelength_nm: f64) -> (usize, f64) {
     let place = ((wavelength_nm - FIRST_NM) / STEP_NM).clamp(0.0, (NM_COUNT - 1) as f64);
     let low = (place as usize).min(NM_COUNT - 2);
     (low, place - low as f64)

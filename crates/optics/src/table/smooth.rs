@@ -61,7 +61,7 @@ impl SmoothRow<'_> {
     /// T_c(u, d), by Hermite's cubic between columns. Odd in u.
     #[cold]
     #[inline(never)]
-    pub fn at(&self, u_um: f64) -> [f64; 3] {
+    pub fn look_up(&self, u_um: f64) -> [f64; 3] {
         let u = u_um.abs().min(1e300);
         let x = u / (u + U_HALF_UM) * (COLUMNS - 1) as f64;
         let column = (x as usize).min(COLUMNS - 2);
@@ -135,13 +135,13 @@ mod tests {
     fn its_slopes_are_those_of_the_spectrum() {
         let reflectance = |nm: f64| Metal::Gold.reflectance(1.0, nm);
         let table = ScratchTable::smooth(&GrooveShape::default(), reflectance);
-        let smooth = rms_errors(|u, depth| table.smooth_row(depth).unwrap().at(u));
+        let smooth = rms_errors(|u, depth| table.smooth_row(depth).unwrap().look_up(u));
         let rounded = rms_errors(|u, depth| table.scratch_table(u, depth));
         println!("derivatives by u and depth off by {smooth:?}, from texels by {rounded:?}");
         assert!(smooth.iter().all(|error| *error < 1e-5), "{smooth:?}");
         assert!(rounded.iter().all(|error| *error > 1e-3), "{rounded:?}");
         for depth in [0.0, 3.0, 777.0, 2000.0] {
-            let near = table.smooth_row(depth).unwrap().at(1.3);
+            let near = table.smooth_row(depth).unwrap().look_up(1.3);
             let rounded = table.scratch_table(1.3, depth);
             assert!((0..3).all(|c| (near[c] - rounded[c]).abs() < 2e-3));
         }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::sine_integral::SineIntegral;
 use glam::DVec3;
-use hairline_cpu::surface::surface_point;
+use hairline_cpu::surface::{SeenHit, surface_point};
 use hairline_fixtures::SceneFile;
 use hairline_scene::Scene;
 
@@ -35,9 +35,12 @@ fn middle(prepared: &Prepared, si: SineIntegral, change: impl Fn(&mut Published)
         .intersect(to_camera + DVec3::splat(1e-5), direction)
         .unwrap();
     let footprint = |_| [DVec3::X * 4e-5, DVec3::Y * 4e-5];
-    let position_m = to_camera + direction * hit.distance_m;
-    let tables = prepared.tables();
-    let point = surface_point(scene, tables, position_m, -direction, footprint, &hit);
+    let seen = SeenHit {
+        hit: &hit,
+        position_m: to_camera + direction * hit.distance_m,
+        to_viewer: -direction,
+    };
+    let point = surface_point(scene, prepared.tables(), &seen, footprint);
     let mut views = LightViews::new(scene);
     views.look_from(&point);
     let method = PublishedMethod {

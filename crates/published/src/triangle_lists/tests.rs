@@ -97,7 +97,7 @@ fn missed(scene: &Scene, index: &ScratchIndex, lists: &TriangleLists) -> (f64, u
         let mesh = &object.mesh;
         for _ in 0..20_000 {
             let triangle = random.random_range(0..mesh.triangles.len());
-            let listed: HashSet<u32> = lists.of(first + triangle).iter().copied().collect();
+            let listed: HashSet<u32> = lists.list(first + triangle).iter().copied().collect();
             // Corners and edges too.
             let (mut u, mut v): (f64, f64) =
                 (random.random_range(0.0..1.0), random.random_range(0.0..1.0));
@@ -165,7 +165,7 @@ fn no_point_misses_a_segment() {
     );
 
     // The test can fail.
-    let halved = TriangleLists::within(0.5 * REACH_STD as f64, &scene, &index);
+    let halved = TriangleLists::with_reach(0.5 * REACH_STD as f64, &scene, &index);
     let (greatest, count) = missed(&scene, &index, &halved);
     println!("half the reach: {count} missed, {greatest:.2} of a scratch the most");
     assert!(count > 100 && greatest > 0.05, "{count} {greatest}");
@@ -189,7 +189,7 @@ fn lists_hold_what_is_near() {
             .map(|c| c.distance(center))
             .into_iter()
             .fold(0.0, f32::max);
-        let list = lists.of(t);
+        let list = lists.list(t);
         empty += usize::from(list.is_empty());
         assert!(list.is_sorted_by(|a, b| a < b));
         for i in list {
@@ -204,7 +204,7 @@ fn lists_hold_what_is_near() {
     }
     assert!(empty > sphere.triangles.len() / 2);
     for t in sphere.triangles.len()..lists.starts.len() - 1 {
-        assert!(lists.of(t).is_empty());
+        assert!(lists.list(t).is_empty());
     }
 }
 

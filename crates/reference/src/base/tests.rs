@@ -29,7 +29,7 @@ fn reflectance(reflector: Reflector, alpha: f64) -> &'static Reflectance {
     if let Some((.., found)) = made.iter().find(|m| (&m.0, m.1) == (&reflector, alpha)) {
         return found;
     }
-    let new: &'static Reflectance = Box::leak(Box::new(Reflectance::at(
+    let new: &'static Reflectance = Box::leak(Box::new(Reflectance::with_roughness(
         Observer::eye(),
         reflector.clone(),
         &[alpha.sqrt()],

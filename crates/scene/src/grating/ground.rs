@@ -95,7 +95,7 @@ impl GrooveGround<'_> {
         axes_m: [DVec3; 2],
     ) -> GrooveCourse {
         let (_, edges) = self.uv(point_m);
-        let along = |step_m| self.along(field, point_m + step_m, normal, edges, axes_m);
+        let along = |step_m| self.direction(field, point_m + step_m, normal, edges, axes_m);
         let [u, v] = [DVec2::X, DVec2::Y].map(|of| {
             // Gradient in the triangle's plane: changes of the weights along each axis.
             let part = |axis: DVec3| {
@@ -119,7 +119,7 @@ impl GrooveGround<'_> {
     }
 
     /// The direction at a point of the plane; not a unit vector.
-    fn along(
+    fn direction(
         &self,
         field: &UvField,
         point_m: DVec3,

@@ -40,7 +40,7 @@ impl GrooveField {
                 direction: along,
                 center_m,
             } => {
-                let [first, second] = across(along);
+                let [first, second] = perpendicular_axes(along);
                 let parts = |v: DVec3| [v.dot(first), v.dot(second)];
                 Some([parts(point_m - center_m), parts(direction)])
             }
@@ -77,7 +77,7 @@ impl GrooveField {
             let per_m = course.level_per_m.dot(direction);
             return (per_m != 0.0).then_some([course.level, per_m]);
         };
-        let [first, second] = across(axis);
+        let [first, second] = perpendicular_axes(axis);
         let arm_m = point_m - center_m;
         let [x, y] = [first, second].map(|way| way.dot(arm_m));
         let radius_m = x.hypot(y).max(NO_DIRECTION_M);
@@ -99,7 +99,7 @@ impl GrooveField {
 }
 
 /// Two directions across one, at a right angle: the one follows the other counter-clockwise.
-fn across(axis: DVec3) -> [DVec3; 2] {
+fn perpendicular_axes(axis: DVec3) -> [DVec3; 2] {
     let axis = axis.normalize();
     let other = if axis.z.abs() < 0.9 {
         DVec3::Z

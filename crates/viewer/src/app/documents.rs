@@ -34,12 +34,12 @@ impl Viewer {
     pub(super) fn fulfil(&mut self, ctx: &egui::Context, wish: Wish) {
         let opened = match wish {
             Wish::New => {
-                let base_dir = self.work.document.base_dir().at("");
+                let base_dir = self.work.document.base_dir().with_path("");
                 super::read("new scene", EMPTY, base_dir).map_err(|error| error.to_string())
             }
             Wish::Example(i) => self.work.examples.open(i, &self.files.examples()),
             Wish::Open(path) => {
-                let path = self.work.document.base_dir().at(path);
+                let path = self.work.document.base_dir().with_path(path);
                 super::open(path).map_err(|error| error.to_string())
             }
             Wish::Quit => {

@@ -121,7 +121,7 @@ impl Viewer {
             "toml" => self.wish(ctx, Wish::Open(path.to_owned())),
             // One that holds a scene is one.
             _ if Description::is_model(path) => {
-                let file = self.work.document.base_dir().at(path);
+                let file = self.work.document.base_dir().with_path(path);
                 match gltf_scene::is_in(file) {
                     true => self.wish(ctx, Wish::Open(path.to_owned())),
                     false => self.probe(ctx, Purpose::AddModel, path),
@@ -152,7 +152,7 @@ impl Viewer {
     }
 
     fn probe(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {
-        let path = self.work.document.base_dir().at(absolute(path));
+        let path = self.work.document.base_dir().with_path(absolute(path));
         self.files.probe(purpose, path, ctx.clone());
     }
 

@@ -49,7 +49,7 @@ impl Figures {
 impl LayerFigures {
     fn of(picture: &Image, reference: &Image, layer: Layer, is_sampled: &[bool]) -> Self {
         let (values, right) = (picture.layer(layer), reference.layer(layer));
-        let difference = Difference::between(&values, &right, Some(is_sampled));
+        let difference = Difference::compare(&values, &right, Some(is_sampled));
         let variance = mean_variance(reference, layer);
         let values = 3.0 * reference.pixel_count() as f64;
         Self {

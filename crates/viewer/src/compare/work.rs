@@ -176,7 +176,7 @@ pub(super) fn run(
     let grooves = earlier.unwrap_or_else(|| Arc::new(groove_index::build(&built.scene)));
     lock(kept).0 = Some((Arc::downgrade(&built.scratches), Arc::clone(&grooves)));
     let (triangles, tables) = (Arc::clone(&built.triangles), Arc::clone(&built.tables));
-    let parts = SceneIndex::of(&built.scene, triangles, grooves, tables);
+    let parts = SceneIndex::from_parts(&built.scene, triangles, grooves, tables);
     let first = wanted.scene(FIRST_PX);
     let start = Instant::now();
     let Some(coarse) = one_round(&first, wanted.settings(), &parts, stop) else {

@@ -117,7 +117,7 @@ pub(super) fn steps(
 /// The batches that a finished picture adds up in: of a lens each has another point of it, as in `hairline render`; else they grow.
 fn batches(has_lens: bool) -> Vec<Batch> {
     match has_lens {
-        true => Batch::of(SHADOW_SAMPLES).collect(),
+        true => Batch::split(SHADOW_SAMPLES).collect(),
         false => Batch::growing(SHADOW_SAMPLES).collect(),
     }
 }

@@ -290,7 +290,7 @@ async fn frames(
     let mut painter = wish.open(built, &wish.scene(built, 0), wish.task()).await?;
     let backdrop = wish.description.backdrop(&wish.base_dir)?;
     let begin = |finish: &Finish| {
-        let (path, has_alpha) = (wish.base_dir.at(&wish.path), wish.is_transparent);
+        let (path, has_alpha) = (wish.base_dir.with_path(&wish.path), wish.is_transparent);
         Animation::begin(
             path,
             wish.size_px,
@@ -316,7 +316,7 @@ async fn frames(
     let mut views = ViewBuilder::default();
     for frame in 0..wish.frames() {
         // Before the work: the folder may have gone meanwhile.
-        let check = || Output::check(wish.base_dir.at(wish.frame_path(frame)));
+        let check = || Output::check(wish.base_dir.with_path(wish.frame_path(frame)));
         let output = (!wish.is_animation()).then(check).transpose()?;
         let turned = wish.build(&mut views, frame, stop)?;
         let scene = wish.scene(turned.as_ref().unwrap_or(built), frame);

@@ -30,7 +30,7 @@ impl Workspace {
             .world_from_object()
             .inverse();
         let mut bytes = Vec::new();
-        let path = self.document.base_dir().at(path);
+        let path = self.document.base_dir().with_path(path);
         write_scratches(object, scratches, &own_from_world, &mut bytes)
             .and_then(|()| write_atomically(path, &bytes).map_err(std::io::Error::other))
             .map_err(|error| error.to_string())?;

@@ -175,7 +175,7 @@ impl PolygonLight {
     }
 
     /// The distance at which a ray passes through the plane; infinite where it does not.
-    pub fn plane_m(&self, from: DVec3, direction: DVec3) -> f64 {
+    pub(crate) fn plane_m(&self, from: DVec3, direction: DVec3) -> f64 {
         let distance_m = self.height_m(from) / -direction.dot(self.normal);
         if distance_m > 0.0 {
             distance_m

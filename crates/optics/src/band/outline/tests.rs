@@ -43,7 +43,7 @@ fn an_outline_is_its_polygon() {
             away,
             facing,
         };
-        let edges: Vec<OutlineEdge> = OutlineEdge::around(&directions).collect();
+        let edges: Vec<OutlineEdge> = OutlineEdge::of_outline(&directions).collect();
         let outline = Outline {
             edges: &edges,
             away,

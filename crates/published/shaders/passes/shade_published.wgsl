@@ -1,13 +1,6 @@
 // Pass: base and scratches of a sample by the method of 2018, in place of shade_base and shade_scratches. Twin:
 // src/cpu.rs.
-// Needs: published_gather, published_base, film, pixel_point.
-
-@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
-@group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
-@group(3) @binding(2) var<storage, read_write> base_light: array<BaseLight>;
-// One chunk for each group.
-@group(3) @binding(3) var<storage, read_write> chunk_sums: array<ChunkSum>;
-@group(3) @binding(4) var<storage, read_write> film: Film;
+// Needs: other_method, published_gather, published_base, film, pixel_point.
 
 @compute @workgroup_size(8, 8)
 fn shade_published(
@@ -16,10 +9,10 @@ fn shade_published(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let group = workgroup.y * workgroups.x + workgroup.x;
-    if group >= frame.group_count || !group_has(group, lane) {
+    let at = group_sample(group, lane);
+    if at == NO_SAMPLE {
         return;
     }
-    let at = group_point(group, lane);
     let object = points[at].object;
     if object == 0u {
         return;
