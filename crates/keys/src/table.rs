@@ -114,7 +114,7 @@ pub fn expand(input: &DeriveInput, options: &Options, fields: &Fields) -> Result
 fn as_value(target: &TokenStream, options: &Options) -> Option<TokenStream> {
     let open = match &options.kinds {
         Some(_) => quote!(Table::of_kind(Self::KEYS, &Self::KINDS, value, key)?),
-        None => quote!(Table::of(Self::KEYS, value, key)?),
+        None => quote!(Table::read_entries(Self::KEYS, value, key)?),
     };
     let read = options.is_table.then(|| {
         quote! {

@@ -99,8 +99,9 @@ impl AreaLights {
         Self::with_textures(&scene.lights, &scene.textures)
     }
 
-    /// Any lights, in this order.
-    pub(crate) fn from_lights<'l>(lights: impl IntoIterator<Item = &'l Light>) -> Self {
+    /// Any lights without pictures, in this order.
+    #[cfg(test)]
+    fn from_lights<'l>(lights: impl IntoIterator<Item = &'l Light>) -> Self {
         Self::with_textures(lights, &Arc::default())
     }
 

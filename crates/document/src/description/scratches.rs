@@ -46,7 +46,7 @@ pub struct Scratches {
     /// Cross section of the grooves: `"rectangle"`, a flat floor, which shows the purest colours; `"v"`, two straight flanks, of a sharp point;
     /// `"round"`, of a grain or a stylus; `"shoulders"`, round with ridges beside it, which a blunt point pushes up in soft metal. Or the depths over
     /// `depth_nm` at equal steps from the middle to the rim, below 0 above the surface: `[1, 0.7, 0, -0.3, 0]`. Width is that of all of it.
-    #[key(text(PROFILES[0]).within(-1.0, 1.0).range_words("one of these names, or 2 to 64 numbers of ±1, not all 0").omitted())]
+    #[key(text(PROFILES[0]).in_range(-1.0, 1.0).range_words("one of these names, or 2 to 64 numbers of ±1, not all 0").omitted())]
     pub profile: Section,
     /// `pattern` and the keys that belong to it.
     #[flat]

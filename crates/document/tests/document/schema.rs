@@ -171,12 +171,13 @@ fn the_tables_of_the_documentation_are_those_of_the_schema() {
         places += 1;
     }
     text += rest;
-    let wanted = SECTIONS
-        .iter()
-        .map(|it| match (&it.keys()[..], it.kinds.choices) {
-            ([], _) | (_, []) => 1,
-            _ => 2,
-        });
+    let wanted =
+        SECTIONS.iter().map(
+            |section| match (&section.keys()[..], section.kinds.choices) {
+                ([], _) | (_, []) => 1,
+                _ => 2,
+            },
+        );
     assert_eq!(
         places,
         wanted.sum::<usize>(),
